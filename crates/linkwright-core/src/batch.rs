@@ -1,0 +1,345 @@
+//! Many machines of one structure: rows into lanes, lanes over threads. The only file that knows rayon.
+//!
+//! A row is one machine: the base parameters with some slots replaced. Rows that lanes cannot do to the
+//! accuracy asked for (a kink of the drive's characteristic inside the range of speed, no convergence) are
+//! done again one by one by [`crate::steady`], which also names the reason when there is no answer.
+
+use crate::cycle::{Machine, Turn};
+use crate::lanes::{Job, in_lanes};
+use crate::linkage::Motion;
+use crate::measures::{Extremes, Totals};
+use crate::plan::Plan;
+use crate::plane::Angle;
+use crate::real::Real;
+use crate::status::Status;
+use crate::steady::{Steady, steady};
+use rayon::prelude::*;
+
+/// Parameters that differ from row to row.
+#[derive(Clone, Copy, Debug)]
+pub struct Rows<'a> {
+    /// Parameters of every row, before replacement.
+    pub base: &'a [f64],
+    /// Which of them are replaced.
+    pub slots: &'a [usize],
+    /// Their values: slot by slot, each with one value a row.
+    pub values: &'a [f64],
+    /// How many rows.
+    pub n: usize,
+}
+
+impl Rows<'_> {
+    /// Parameters of one row.
+    pub fn row(&self, row: usize) -> Vec<f64> {
+        let mut q = self.base.to_vec();
+        for (i, &slot) in self.slots.iter().enumerate() {
+            q[slot] = self.values[i * self.n + row];
+        }
+        q
+    }
+
+    /// Parameters of `R::LANES` rows from `first` on; the last row is repeated past the end.
+    #[inline(always)]
+    fn lanes<R: Real>(&self, first: usize, q: &mut Vec<R>) {
+        q.clear();
+        q.extend(self.base.iter().map(|&x| R::splat(x)));
+        let mut padded = vec![0.0; R::LANES];
+        for (i, &slot) in self.slots.iter().enumerate() {
+            let column = &self.values[i * self.n..(i + 1) * self.n];
+            q[slot] = match column.get(first..first + R::LANES) {
+                Some(whole) => R::load(whole),
+                None => {
+                    for (lane, value) in padded.iter_mut().enumerate() {
+                        *value = column[(first + lane).min(self.n - 1)];
+                    }
+                    R::load(&padded)
+                }
+            };
+        }
+    }
+}
+
+/// Quantities of a row's steady motion, in the order of a result row.
+pub const QUANTITIES: usize = 13;
+
+/// Steps a turn in lanes: on smooth pieces of a quarter turn the speed is good to about 1e-8.
+const STEPS: usize = 20;
+
+/// Newton's relative tolerance in lanes.
+const TOLERANCE: f64 = 1e-12;
+
+/// Rows that a thread takes at once: enough to amortise its buffers, few enough to share the work evenly.
+const CHUNK: usize = 256;
+
+/// Measures of a turn as a row of numbers:
+/// speed min, max; acceleration min, max; period; multiplier; motor work, crank work, load work;
+/// torque mean, rms; crank angles of the speed's extremes.
+fn row_of<R: Real>(turn: &Turn<R>, e: &Extremes<R>, t: &Totals<R>) -> [R; QUANTITIES] {
+    [
+        e.speed_min.value,
+        e.speed_max.value,
+        e.acceleration_min.value,
+        e.acceleration_max.value,
+        t.period,
+        turn.multiplier,
+        t.motor_work,
+        t.crank_work,
+        t.load_work,
+        t.torque_mean,
+        t.torque_rms,
+        e.speed_min.phi,
+        e.speed_max.phi,
+    ]
+}
+
+/// The row of one machine.
+pub fn row_of_steady(s: &Steady) -> [f64; QUANTITIES] {
+    row_of(&s.turn, &s.extremes, &s.totals)
+}
+
+/// Steady motions of all rows: `out` is (rows, `QUANTITIES`). Returns a status for each row and the total
+/// number of turns swept.
+pub fn steady_rows(plan: &Plan, rows: &Rows<'_>, accuracy: f64, out: &mut [f64]) -> (Vec<Status>, u64) {
+    let mut status = vec![Status::Ok; rows.n];
+    let sweeps: u64 = status
+        .par_chunks_mut(CHUNK)
+        .zip(out.par_chunks_mut(CHUNK * QUANTITIES))
+        .enumerate()
+        .map(|(chunk, (status, out))| {
+            let first = chunk * CHUNK;
+            let swept = in_lanes(Chunk { plan, rows, first, status, out });
+            swept + retry(plan, rows, first, accuracy, status, out)
+        })
+        .sum();
+    (status, sweeps)
+}
+
+/// A piece of the batch: `out` holds the rows one after the other, `QUANTITIES` numbers each.
+struct Chunk<'a> {
+    plan: &'a Plan,
+    rows: &'a Rows<'a>,
+    first: usize,
+    status: &'a mut [Status],
+    out: &'a mut [f64],
+}
+
+impl Job for Chunk<'_> {
+    type Output = u64;
+
+    #[inline(always)]
+    fn run<R: Real>(self) -> u64 {
+        let mut m = Motion::new(&self.plan.mechanism);
+        let mut q = Vec::new();
+        let mut sweeps = 0;
+        let mut lane = vec![0.0; R::LANES];
+        for (block, status) in self.status.chunks_mut(R::LANES).enumerate() {
+            let at = block * R::LANES;
+            self.rows.lanes::<R>(self.first + at, &mut q);
+            let machine = Machine { plan: self.plan, q: &q };
+            let breaks = R::outline(
+                #[inline(always)]
+                || machine.breaks(&[], &mut m),
+            );
+            let mut turn = R::outline(
+                #[inline(always)]
+                || Turn::tabulate(&machine, &breaks, STEPS, &mut m),
+            );
+            R::outline(
+                #[inline(always)]
+                || turn.start_from_balance(&machine),
+            );
+            R::outline(
+                #[inline(always)]
+                || turn.solve(&machine, TOLERANCE),
+            );
+            let extremes = R::outline(
+                #[inline(always)]
+                || turn.extremes(&machine, &mut m),
+            );
+            let totals = R::outline(
+                #[inline(always)]
+                || turn.totals(&machine),
+            );
+            sweeps += u64::from(turn.sweeps) * status.len() as u64;
+            for (k, quantity) in row_of(&turn, &extremes, &totals).into_iter().enumerate() {
+                quantity.store(&mut lane);
+                for i in 0..status.len() {
+                    self.out[(at + i) * QUANTITIES + k] = lane[i];
+                }
+            }
+            // One lane that does not converge keeps the others' correction from being known: all are tried
+            // again one by one, which is rare.
+            if turn.correction > 1e-6 {
+                status.fill(Status::Inaccurate);
+            }
+        }
+        sweeps
+    }
+}
+
+/// Does the rows again, one by one, that lanes could not do. Returns the turns swept.
+fn retry(
+    plan: &Plan,
+    rows: &Rows<'_>,
+    first: usize,
+    accuracy: f64,
+    status: &mut [Status],
+    out: &mut [f64],
+) -> u64 {
+    let mut sweeps = 0;
+    for (i, (status, row)) in status.iter_mut().zip(out.chunks_exact_mut(QUANTITIES)).enumerate() {
+        let q = rows.row(first + i);
+        let passes_kink = || plan.speed_kinks(&q).iter().any(|&s| row[0] < s && s < row[1]);
+        let is_good = row.iter().all(|x| x.is_finite()) && row[0] > 0.0;
+        if *status == Status::Ok && is_good && !passes_kink() {
+            continue;
+        }
+        match steady(plan, &q, accuracy) {
+            Ok(found) => {
+                row.copy_from_slice(&row_of_steady(&found));
+                *status = Status::Ok;
+                sweeps += u64::from(found.sweeps);
+            }
+            Err(reason) => {
+                row.fill(f64::NAN);
+                *status = reason;
+            }
+        }
+    }
+    sweeps
+}
+
+/// What is asked of a motion at every angle.
+#[derive(Clone, Copy, Debug)]
+pub enum Channel {
+    /// Position, first and second transfer function of a point: x, y, x′, y′, x″, y″.
+    Point(usize),
+    /// Direction of a link as cos ψ, sin ψ, and ψ′, ψ″.
+    Link(usize),
+    /// A slide's s, s′, s″.
+    Slide(usize),
+}
+
+impl Channel {
+    /// How many numbers it gives at each angle.
+    pub fn width(self) -> usize {
+        match self {
+            Channel::Point(_) => 6,
+            Channel::Link(_) => 4,
+            Channel::Slide(_) => 3,
+        }
+    }
+}
+
+/// Motions of all rows at the same angles. `out` is (rows, numbers, angles), contiguous.
+pub fn motions(plan: &Plan, rows: &Rows<'_>, phi: &[f64], channels: &[Channel], out: &mut [f64]) {
+    let width: usize = channels.iter().map(|c| c.width()).sum();
+    let size = width * phi.len();
+    if size == 0 {
+        return;
+    }
+    let (sin, cos): (Vec<f64>, Vec<f64>) = phi.iter().map(|phi| phi.sin_cos()).unzip();
+    // About 64 kB of output a task: large against the cost of handing it over.
+    let at_once = (8192 / size).max(1);
+    out.par_chunks_mut(size * at_once).enumerate().for_each(|(task, out)| {
+        in_lanes(MotionJob { plan, rows, first: task * at_once, phi, sin: &sin, cos: &cos, channels, out });
+    });
+}
+
+struct MotionJob<'a> {
+    plan: &'a Plan,
+    rows: &'a Rows<'a>,
+    first: usize,
+    phi: &'a [f64],
+    sin: &'a [f64],
+    cos: &'a [f64],
+    channels: &'a [Channel],
+    out: &'a mut [f64],
+}
+
+impl Job for MotionJob<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let n = self.phi.len();
+        let size = n * self.channels.iter().map(|c| c.width()).sum::<usize>();
+        let mut m = Motion::new(&self.plan.mechanism);
+        let mut rest = Motion::new(&self.plan.mechanism);
+        let MotionJob { plan, rows, first, phi, sin, cos, channels, out } = self;
+        for (i, out) in out.chunks_exact_mut(size).enumerate() {
+            let row = rows.row(first + i);
+            let q: Vec<R> = row.iter().map(|&x| R::splat(x)).collect();
+            let whole = n / R::LANES * R::LANES;
+            for at in (0..whole).step_by(R::LANES) {
+                let angle =
+                    Angle { phi: R::load(&phi[at..]), sin: R::load(&sin[at..]), cos: R::load(&cos[at..]) };
+                plan.mechanism.place::<R, 2>(&q, angle, &mut m);
+                store(&m, channels, n, &mut out[at..]);
+            }
+            // The angles that do not fill all lanes.
+            for at in whole..n {
+                let angle = Angle { phi: phi[at], sin: sin[at], cos: cos[at] };
+                plan.mechanism.place::<f64, 2>(&row, angle, &mut rest);
+                store(&rest, channels, n, &mut out[at..]);
+            }
+        }
+    }
+}
+
+/// Writes all channels at one angle, numbers `n` apart.
+#[inline(always)]
+fn store<R: Real>(m: &Motion<R>, channels: &[Channel], n: usize, out: &mut [f64]) {
+    let mut at = 0;
+    let mut put = |value: R| {
+        value.store(&mut out[at..]);
+        at += n;
+    };
+    for channel in channels {
+        match *channel {
+            Channel::Point(i) => {
+                let place = &m.points[i];
+                for v in [place.p, place.d1, place.d2] {
+                    put(v.x);
+                    put(v.y);
+                }
+            }
+            Channel::Link(i) => {
+                let link = &m.links[i];
+                for value in [link.e.x, link.e.y, link.d1, link.d2] {
+                    put(value);
+                }
+            }
+            Channel::Slide(i) => {
+                let slide = &m.slides[i];
+                for value in [slide.s, slide.d1, slide.d2] {
+                    put(value);
+                }
+            }
+        }
+    }
+}
+
+/// Smallest radicand of each dyad at each angle: where one is negative the mechanism does not close.
+/// `out` is (dyads, angles).
+pub fn gaps(plan: &Plan, q: &[f64], phi: &[f64], out: &mut [f64]) {
+    let mut m = Motion::new(&plan.mechanism);
+    for (i, &phi_i) in phi.iter().enumerate() {
+        plan.mechanism.place::<f64, 1>(q, Angle::new(phi_i), &mut m);
+        for (k, gap) in m.gaps.iter().enumerate() {
+            out[k * phi.len() + i] = *gap;
+        }
+    }
+}
+
+/// J, J′, load, dry and viscous torque coefficients at each angle. `out` is (5, angles).
+pub fn reductions(plan: &Plan, q: &[f64], phi: &[f64], sense: f64, out: &mut [f64]) {
+    let mut m = Motion::new(&plan.mechanism);
+    let n = phi.len();
+    for (i, &phi_i) in phi.iter().enumerate() {
+        let r = plan.reduce::<f64, 2>(q, Angle::new(phi_i), sense, &mut m);
+        for (k, value) in [r.J, r.J_d1, r.load, r.dry, r.viscous].into_iter().enumerate() {
+            out[k * n + i] = value;
+        }
+    }
+}

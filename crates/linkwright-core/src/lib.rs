@@ -1,0 +1,45 @@
+//! Kernels of Linkwright: a planar mechanism driven by a crank, reduced to the crank, and its motion.
+//!
+//! In the order of the computation:
+//!
+//! | module | answers |
+//! | --- | --- |
+//! | [`real`], [`lanes`], [`dual`] | what a number is: scalar, SIMD lanes, value with derivative |
+//! | [`plane`], [`table`] | vectors and motions in the plane; tables |
+//! | [`plan`], [`error`] | a machine's structure as it crosses the border |
+//! | [`linkage`] | positions and transfer functions of points, links and slides |
+//! | [`reduce`] | J_red(φ) and M_red(φ) of bodies and loads |
+//! | [`drive`] | motor, gearbox: torque on the crank over speed |
+//! | [`gauss`] | collocation of order 8 |
+//! | [`kinks`] | where the reduced machine is not smooth |
+//! | [`cycle`] | steady motion on one mesh, in any lanes |
+//! | [`measures`] | extremes, work, torque of a turn |
+//! | [`steady`] | steady motion of one machine to a wanted accuracy |
+//! | [`rk`], [`transient`] | motion in time from given angle and speed, with its events |
+//! | [`batch`] | many machines: lanes and threads |
+//! | [`status`] | why a machine has no answer |
+//!
+//! Everything is SI: m, kg, s, rad, N, N m, J. φ is the crank angle, counter-clockwise positive.
+
+// Fields of enum variants and of plain records are named as in the equations beside them.
+#![allow(missing_docs)]
+
+pub mod batch;
+pub mod cycle;
+pub mod drive;
+pub mod dual;
+pub mod error;
+pub mod gauss;
+pub mod kinks;
+pub mod lanes;
+pub mod linkage;
+pub mod measures;
+pub mod plan;
+pub mod plane;
+pub mod real;
+pub mod reduce;
+pub mod rk;
+pub mod status;
+pub mod steady;
+pub mod table;
+pub mod transient;

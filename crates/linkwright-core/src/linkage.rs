@@ -1,0 +1,236 @@
+//! The mechanism as a program: one operation per element, in build order.
+//!
+//! Each element places points and turns links from those before it, with exact first and (where asked)
+//! second transfer functions. A further kind of element is one more function and one more arm here.
+//!
+//! Source of the method: Assur groups solved in closed form, e.g. Artobolevsky, *Theory of Mechanisms and
+//! Machines*, chapters 4–5; the derivatives follow by differentiating the loop equations written at each
+//! function. A group that cannot be assembled gives NaN from its square root; its [`Motion::gaps`] entry,
+//! the radicand, says by how much.
+
+use crate::plane::{Angle, Heading, Place, Slide, Vec2};
+use crate::real::Real;
+
+/// Index of a number in the machine's list of parameters.
+pub type Slot = usize;
+
+/// One element of a mechanism. Point, link and slide fields are indices into [`Motion`].
+#[derive(Clone, Copy, Debug)]
+pub enum Element {
+    /// A point of the ground.
+    Fixed { point: usize, x: Slot, y: Slot },
+    /// A crank turning with φ + phase about `pivot`; `cos`, `sin` are those of the phase.
+    Crank { pin: usize, link: usize, pivot: usize, radius: Slot, cos: Slot, sin: Slot },
+    /// A connecting rod from `pin` to a slider on a straight guide: the dyad RRP.
+    SliderRod(SliderRod),
+    /// A coupler from `pin` and a rocker from `pivot`, joined at `joint`: the dyad RRR.
+    Rocker(Rocker),
+    /// A point fixed on a link, `along` it from its start and `across` to the left.
+    RigidPoint { point: usize, link: usize, origin: usize, along: Slot, across: Slot },
+}
+
+/// Fields of the dyad RRP. The guide has direction (`cos`, `sin`) and passes `offset` to the left of point
+/// `through`; `sign` is +1 or −1 for the slider on the positive or negative side of the pin's foot.
+#[derive(Clone, Copy, Debug)]
+pub struct SliderRod {
+    pub point: usize,
+    pub link: usize,
+    pub slide: usize,
+    pub gap: usize,
+    pub pin: usize,
+    pub through: usize,
+    pub rod: Slot,
+    /// 1/rod.
+    pub inverse_rod: Slot,
+    pub offset: Slot,
+    pub cos: Slot,
+    pub sin: Slot,
+    pub sign: Slot,
+}
+
+/// Fields of the dyad RRR; `sign` is +1 or −1 for the joint to the left or right of the line pin → pivot.
+#[derive(Clone, Copy, Debug)]
+pub struct Rocker {
+    pub joint: usize,
+    pub coupler_link: usize,
+    pub rocker_link: usize,
+    pub gap: usize,
+    pub pin: usize,
+    pub pivot: usize,
+    pub coupler: Slot,
+    pub rocker: Slot,
+    /// 1/coupler.
+    pub inverse_coupler: Slot,
+    /// 1/rocker.
+    pub inverse_rocker: Slot,
+    pub sign: Slot,
+}
+
+/// The elements in build order, and how many points, links, slides and dyads they make.
+#[derive(Clone, Debug, Default)]
+pub struct Mechanism {
+    pub elements: Vec<Element>,
+    pub n_points: usize,
+    pub n_links: usize,
+    pub n_slides: usize,
+    pub n_gaps: usize,
+}
+
+/// Everything that moves, at one crank angle (or one per lane).
+#[derive(Clone, Debug)]
+pub struct Motion<R> {
+    pub points: Vec<Place<R>>,
+    pub links: Vec<Heading<R>>,
+    pub slides: Vec<Slide<R>>,
+    /// Radicand of each dyad's assembly \[m²\]: negative where it does not close.
+    pub gaps: Vec<R>,
+}
+
+impl<R: Real> Motion<R> {
+    /// Room for the motion of a mechanism.
+    pub fn new(mechanism: &Mechanism) -> Self {
+        let zero = R::splat(0.0);
+        Motion {
+            points: vec![Place::fixed(Vec2::zero()); mechanism.n_points],
+            links: vec![Heading { e: Vec2::zero(), d1: zero, d2: zero }; mechanism.n_links],
+            slides: vec![Slide { s: zero, d1: zero, d2: zero }; mechanism.n_slides],
+            gaps: vec![zero; mechanism.n_gaps],
+        }
+    }
+}
+
+impl Mechanism {
+    /// Places everything at the given crank angle. `ORDER` is 1 or 2: the highest derivative wanted
+    /// (second derivatives stay zero at order 1). `q` are the machine's parameters.
+    #[inline(always)]
+    pub fn place<R: Real, const ORDER: u8>(&self, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
+        for element in &self.elements {
+            match *element {
+                Element::Fixed { point, x, y } => m.points[point] = Place::fixed(Vec2::new(q[x], q[y])),
+                Element::Crank { pin, link, pivot, radius, cos, sin } => {
+                    let heading = crank_heading(q[cos], q[sin], angle);
+                    m.links[link] = heading;
+                    m.points[pin] = on_link::<R, ORDER>(m.points[pivot], heading, q[radius], R::splat(0.0));
+                }
+                Element::SliderRod(ref e) => slider_rod::<R, ORDER>(e, q, m),
+                Element::Rocker(ref e) => rocker::<R, ORDER>(e, q, m),
+                Element::RigidPoint { point, link, origin, along, across } => {
+                    m.points[point] =
+                        on_link::<R, ORDER>(m.points[origin], m.links[link], q[along], q[across]);
+                }
+            }
+        }
+    }
+}
+
+/// ψ = φ + phase, so ψ′ = 1 and ψ″ = 0.
+#[inline(always)]
+fn crank_heading<R: Real>(cos: R, sin: R, angle: Angle<R>) -> Heading<R> {
+    let e = Vec2::new(angle.cos * cos - angle.sin * sin, angle.sin * cos + angle.cos * sin);
+    Heading { e, d1: R::splat(1.0), d2: R::splat(0.0) }
+}
+
+/// A point of a link: p = o + a, p′ = o′ + ψ′ a⊥, p″ = o″ + ψ″ a⊥ − ψ′² a, with a = along·e + across·e⊥.
+#[inline(always)]
+pub fn on_link<R: Real, const ORDER: u8>(
+    origin: Place<R>,
+    link: Heading<R>,
+    along: R,
+    across: R,
+) -> Place<R> {
+    let a = (link.e * along).plus(link.e.left(), across);
+    let normal = a.left();
+    let mut place = Place { p: origin.p + a, d1: origin.d1.plus(normal, link.d1), d2: Vec2::zero() };
+    if ORDER > 1 {
+        place.d2 = origin.d2.plus(normal, link.d2).plus(a, -(link.d1.squared()));
+    }
+    place
+}
+
+/// Dyad RRP. With t along and n to the left of the guide, G its foot and B the pin:
+///
+/// ```text
+/// h = n·(B − G)        distance of the pin from the guide
+/// w = √(l² − h²)       s = t·(B − G) ± w        the slider
+/// w′ = −h h′/w         w″ = −(h′² + h h″ + w′²)/w
+/// sin β = −h/l         β′ = −h′/(±w)             β″ = −(h″ − h′ w′/w)/(±w)
+/// ```
+#[inline(always)]
+fn slider_rod<R: Real, const ORDER: u8>(e: &SliderRod, q: &[R], m: &mut Motion<R>) {
+    let (pin, through) = (m.points[e.pin], m.points[e.through]);
+    let (rod, sign) = (q[e.rod], q[e.sign]);
+    let t = Vec2::new(q[e.cos], q[e.sin]);
+    let n = t.left();
+    let foot = through.p.plus(n, q[e.offset]);
+    let from_foot = pin.p - foot;
+
+    let (h, h1) = (n.dot(from_foot), n.dot(pin.d1));
+    let gap = rod.squared() - h.squared();
+    let w = gap.sqrt();
+    let inverse_w = w.recip();
+    let w1 = -(h * h1 * inverse_w);
+    let s = t.dot(from_foot) + sign * w;
+    let s1 = t.dot(pin.d1) + sign * w1;
+    let inverse_cos = sign * inverse_w;
+    let beta1 = -(h1 * inverse_cos);
+
+    let mut slide = Slide { s, d1: s1, d2: R::splat(0.0) };
+    let mut heading = Heading { e: Vec2::zero(), d1: beta1, d2: R::splat(0.0) };
+    let point = foot.plus(t, s);
+    heading.e = (point - pin.p) * q[e.inverse_rod];
+    if ORDER > 1 {
+        let h2 = n.dot(pin.d2);
+        let w2 = -((h1.squared() + h * h2 + w1.squared()) * inverse_w);
+        slide.d2 = t.dot(pin.d2) + sign * w2;
+        heading.d2 = -((h2 - h1 * w1 * inverse_w) * inverse_cos);
+    }
+    m.gaps[e.gap] = gap;
+    m.links[e.link] = heading;
+    m.points[e.point] = Place { p: point, d1: t * slide.d1, d2: t * slide.d2 };
+    m.slides[e.slide] = slide;
+}
+
+/// Dyad RRR between pin A and pivot D, u = D − A, coupler a, rocker b, joint C:
+///
+/// ```text
+/// C = A + [(u² + a² − b²) u ± S u⊥] / (2u²),   S = √(4a²u² − (u² + a² − b²)²)
+/// e = (C − A)/a,  f = (C − D)/b,  κ = e × f = ±S/(2ab)
+/// a κ ψ_a′ = u′·f             b κ ψ_b′ = u′·e
+/// a κ ψ_a″ = w·f              b κ ψ_b″ = w·e,     w = u″ + a ψ_a′² e − b ψ_b′² f
+/// ```
+#[inline(always)]
+fn rocker<R: Real, const ORDER: u8>(g: &Rocker, q: &[R], m: &mut Motion<R>) {
+    let (pin, pivot) = (m.points[g.pin], m.points[g.pivot]);
+    let (a, b, sign) = (q[g.coupler], q[g.rocker], q[g.sign]);
+    let u = pivot.p - pin.p;
+    let u1 = pivot.d1 - pin.d1;
+    let u_squared = u.dot(u);
+    let projected = u_squared + (a - b) * (a + b);
+    let gap = (a.squared() * 4.0).mul_add(u_squared, -(projected.squared()));
+    let S = gap.sqrt();
+
+    let half_inverse = (u_squared + u_squared).recip();
+    let arm = (u * (projected * half_inverse)).plus(u.left(), sign * S * half_inverse);
+    let joint = pin.p + arm;
+    let (inverse_a, inverse_b) = (q[g.inverse_coupler], q[g.inverse_rocker]);
+    let e = arm * inverse_a;
+    let f = (arm - u) * inverse_b;
+    let inverse_S = sign * (S.recip() * 2.0);
+    // 1/(aκ) and 1/(bκ)
+    let (to_a, to_b) = (b * inverse_S, a * inverse_S);
+    let (psi_a1, psi_b1) = (u1.dot(f) * to_a, u1.dot(e) * to_b);
+
+    let mut coupler = Heading { e, d1: psi_a1, d2: R::splat(0.0) };
+    let mut arm_b = Heading { e: f, d1: psi_b1, d2: R::splat(0.0) };
+    let mut place = Place { p: joint, d1: pin.d1.plus(arm.left(), psi_a1), d2: Vec2::zero() };
+    if ORDER > 1 {
+        let w = (pivot.d2 - pin.d2).plus(e, a * psi_a1.squared()).plus(f, -(b * psi_b1.squared()));
+        coupler.d2 = w.dot(f) * to_a;
+        arm_b.d2 = w.dot(e) * to_b;
+        place.d2 = pin.d2.plus(arm.left(), coupler.d2).plus(arm, -(psi_a1.squared()));
+    }
+    m.gaps[g.gap] = gap;
+    m.links[g.coupler_link] = coupler;
+    m.links[g.rocker_link] = arm_b;
+    m.points[g.joint] = place;
+}

@@ -1,0 +1,302 @@
+//! A machine's structure as it crosses the border: small integer tables, decoded and checked once.
+//!
+//! A plan says *what* is there and in which slot of the parameter list each number is found; the numbers
+//! come separately, so that a batch of machines shares one plan. The rows are described at each `decode_*`.
+
+use crate::drive::{Drive, Motor, Span};
+use crate::error::PlanError;
+use crate::linkage::{Element, Mechanism, Rocker, SliderRod};
+use crate::reduce::{Body, Load};
+use crate::table::Table;
+
+/// What a machine consists of.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    pub mechanism: Mechanism,
+    pub bodies: Vec<Body>,
+    pub loads: Vec<Load>,
+    pub drive: Drive,
+    pub tables: Vec<Table>,
+    /// How many parameters the plan refers to.
+    pub n_parameters: usize,
+}
+
+/// The integer tables of a plan, row by row, and the knots of its tables end to end.
+#[derive(Clone, Copy, Debug)]
+pub struct Encoded<'a> {
+    /// Numbers of parameters, points, links, slides and dyads.
+    pub sizes: &'a [i32],
+    /// Rows of 13.
+    pub elements: &'a [i32],
+    /// Rows of 8.
+    pub bodies: &'a [i32],
+    /// Rows of 8.
+    pub loads: &'a [i32],
+    /// Motor kind, four slots, five slots of the drive line, then rows of 6 for the spans of the curve.
+    pub drive: &'a [i32],
+    /// Start of each table in the knots, and the end of the last.
+    pub table_starts: &'a [i32],
+    pub table_x: &'a [f64],
+    pub table_y: &'a [f64],
+}
+
+const ELEMENT_WIDTH: usize = 13;
+const ROW_WIDTH: usize = 8;
+const SPAN_WIDTH: usize = 6;
+const DRIVE_HEAD: usize = 10;
+
+/// Bounds that every index of a plan is checked against.
+struct Bounds {
+    parameters: usize,
+    points: usize,
+    links: usize,
+    slides: usize,
+    gaps: usize,
+    tables: usize,
+}
+
+fn index(value: i32, bound: usize, what: &'static str) -> Result<usize, PlanError> {
+    usize::try_from(value).ok().filter(|&i| i < bound).ok_or(PlanError::Index { what, value, bound })
+}
+
+impl Bounds {
+    fn slot(&self, value: i32) -> Result<usize, PlanError> {
+        index(value, self.parameters, "parameter")
+    }
+    fn point(&self, value: i32) -> Result<usize, PlanError> {
+        index(value, self.points, "point")
+    }
+    fn link(&self, value: i32) -> Result<usize, PlanError> {
+        index(value, self.links, "link")
+    }
+    fn slide(&self, value: i32) -> Result<usize, PlanError> {
+        index(value, self.slides, "slide")
+    }
+    fn gap(&self, value: i32) -> Result<usize, PlanError> {
+        index(value, self.gaps, "dyad")
+    }
+    fn table(&self, value: i32) -> Result<usize, PlanError> {
+        index(value, self.tables, "table")
+    }
+}
+
+impl Plan {
+    /// Decodes and checks every index.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first row that does not make sense.
+    pub fn decode(code: &Encoded<'_>) -> Result<Plan, PlanError> {
+        let &[parameters, points, links, slides, gaps] = code.sizes else {
+            return Err(PlanError::Length { what: "sizes", found: code.sizes.len(), expected: 5 });
+        };
+        let tables = decode_tables(code)?;
+        let size = |value, what| index(value, i32::MAX as usize, what);
+        let bounds = Bounds {
+            parameters: size(parameters, "parameter")?,
+            points: size(points, "point")?,
+            links: size(links, "link")?,
+            slides: size(slides, "slide")?,
+            gaps: size(gaps, "dyad")?,
+            tables: tables.len(),
+        };
+        let elements = rows(code.elements, ELEMENT_WIDTH, "elements")?
+            .map(|row| decode_element(row, &bounds))
+            .collect::<Result<_, _>>()?;
+        let bodies = rows(code.bodies, ROW_WIDTH, "bodies")?
+            .map(|row| decode_body(row, &bounds))
+            .collect::<Result<_, _>>()?;
+        let (mut loads, mut speed_loads) = (Vec::new(), Vec::new());
+        for row in rows(code.loads, ROW_WIDTH, "loads")? {
+            match row[0] {
+                LOAD_TORQUE_SPEED => speed_loads.push(bounds.table(row[1])?),
+                _ => loads.push(decode_load(row, &bounds)?),
+            }
+        }
+        Ok(Plan {
+            mechanism: Mechanism {
+                elements,
+                n_points: bounds.points,
+                n_links: bounds.links,
+                n_slides: bounds.slides,
+                n_gaps: bounds.gaps,
+            },
+            bodies,
+            loads,
+            drive: decode_drive(code.drive, speed_loads, &bounds)?,
+            tables,
+            n_parameters: bounds.parameters,
+        })
+    }
+}
+
+/// A load that depends on speed alone belongs to the drive, not to the reduction.
+const LOAD_TORQUE_SPEED: i32 = 12;
+
+fn rows<'a>(
+    flat: &'a [i32],
+    width: usize,
+    what: &'static str,
+) -> Result<std::slice::ChunksExact<'a, i32>, PlanError> {
+    let rows = flat.chunks_exact(width);
+    if rows.remainder().is_empty() {
+        Ok(rows)
+    } else {
+        Err(PlanError::Length { what, found: flat.len(), expected: flat.len().next_multiple_of(width) })
+    }
+}
+
+fn decode_tables(code: &Encoded<'_>) -> Result<Vec<Table>, PlanError> {
+    let starts: Vec<usize> = code
+        .table_starts
+        .iter()
+        .map(|&start| index(start, code.table_x.len() + 1, "table start"))
+        .collect::<Result<_, _>>()?;
+    let table = |(number, range): (usize, &[usize])| {
+        let (x, y) = (code.table_x.get(range[0]..range[1]), code.table_y.get(range[0]..range[1]));
+        x.zip(y).and_then(|(x, y)| Table::new(x, y)).ok_or(PlanError::Table { number })
+    };
+    starts.windows(2).enumerate().map(table).collect()
+}
+
+/// `0 fixed: point x y` · `1 crank: pin link pivot radius cos sin` ·
+/// `2 slider: point link slide gap pin through rod 1/rod offset cos sin sign` ·
+/// `3 rocker: joint coupler rocker gap pin pivot coupler rocker 1/coupler 1/rocker sign` ·
+/// `4 rigid point: point link origin along across`
+fn decode_element(row: &[i32], b: &Bounds) -> Result<Element, PlanError> {
+    Ok(match row[0] {
+        0 => Element::Fixed { point: b.point(row[1])?, x: b.slot(row[2])?, y: b.slot(row[3])? },
+        1 => Element::Crank {
+            pin: b.point(row[1])?,
+            link: b.link(row[2])?,
+            pivot: b.point(row[3])?,
+            radius: b.slot(row[4])?,
+            cos: b.slot(row[5])?,
+            sin: b.slot(row[6])?,
+        },
+        2 => Element::SliderRod(SliderRod {
+            point: b.point(row[1])?,
+            link: b.link(row[2])?,
+            slide: b.slide(row[3])?,
+            gap: b.gap(row[4])?,
+            pin: b.point(row[5])?,
+            through: b.point(row[6])?,
+            rod: b.slot(row[7])?,
+            inverse_rod: b.slot(row[8])?,
+            offset: b.slot(row[9])?,
+            cos: b.slot(row[10])?,
+            sin: b.slot(row[11])?,
+            sign: b.slot(row[12])?,
+        }),
+        3 => Element::Rocker(Rocker {
+            joint: b.point(row[1])?,
+            coupler_link: b.link(row[2])?,
+            rocker_link: b.link(row[3])?,
+            gap: b.gap(row[4])?,
+            pin: b.point(row[5])?,
+            pivot: b.point(row[6])?,
+            coupler: b.slot(row[7])?,
+            rocker: b.slot(row[8])?,
+            inverse_coupler: b.slot(row[9])?,
+            inverse_rocker: b.slot(row[10])?,
+            sign: b.slot(row[11])?,
+        }),
+        4 => Element::RigidPoint {
+            point: b.point(row[1])?,
+            link: b.link(row[2])?,
+            origin: b.point(row[3])?,
+            along: b.slot(row[4])?,
+            across: b.slot(row[5])?,
+        },
+        kind => return Err(PlanError::Kind { what: "element", kind }),
+    })
+}
+
+/// `0 mass: point mass` · `1 link: link origin along across mass inertia`
+fn decode_body(row: &[i32], b: &Bounds) -> Result<Body, PlanError> {
+    Ok(match row[0] {
+        0 => Body::Point { point: b.point(row[1])?, mass: b.slot(row[2])? },
+        1 => Body::Link {
+            link: b.link(row[1])?,
+            origin: b.point(row[2])?,
+            along: b.slot(row[3])?,
+            across: b.slot(row[4])?,
+            mass: b.slot(row[5])?,
+            inertia: b.slot(row[6])?,
+        },
+        kind => return Err(PlanError::Kind { what: "body", kind }),
+    })
+}
+
+/// `0–2 dry: slide|point|link size` · `3–5 viscous: slide|point|link damping` · `6 force: point x y` ·
+/// `7 torque: link torque` · `8 gravity: x y` · `9 spring: from to stiffness free_length` ·
+/// `10 force over position: slide forward back` · `11 torque over angle: table` ·
+/// `12 torque over speed: table` · `13 dry on the crank: torque`
+fn decode_load(row: &[i32], b: &Bounds) -> Result<Load, PlanError> {
+    Ok(match row[0] {
+        0 => Load::DrySlide { slide: b.slide(row[1])?, force: b.slot(row[2])? },
+        1 => Load::DryPoint { point: b.point(row[1])?, force: b.slot(row[2])? },
+        2 => Load::DryLink { link: b.link(row[1])?, torque: b.slot(row[2])? },
+        3 => Load::ViscousSlide { slide: b.slide(row[1])?, damping: b.slot(row[2])? },
+        4 => Load::ViscousPoint { point: b.point(row[1])?, damping: b.slot(row[2])? },
+        5 => Load::ViscousLink { link: b.link(row[1])?, damping: b.slot(row[2])? },
+        6 => Load::Force { point: b.point(row[1])?, x: b.slot(row[2])?, y: b.slot(row[3])? },
+        7 => Load::Torque { link: b.link(row[1])?, torque: b.slot(row[2])? },
+        8 => Load::Gravity { x: b.slot(row[1])?, y: b.slot(row[2])? },
+        9 => Load::Spring {
+            from: b.point(row[1])?,
+            to: b.point(row[2])?,
+            stiffness: b.slot(row[3])?,
+            free_length: b.slot(row[4])?,
+        },
+        10 => {
+            Load::ForcePosition { slide: b.slide(row[1])?, forward: b.table(row[2])?, back: b.table(row[3])? }
+        }
+        11 => Load::TorqueAngle { table: b.table(row[1])? },
+        13 => Load::DryCrank { torque: b.slot(row[1])? },
+        kind => return Err(PlanError::Kind { what: "load", kind }),
+    })
+}
+
+/// Motor `0 off` · `1 constant: torque` · `2 line: torque 1/speed` ·
+/// `3 induction: 1/synchronous torque slip resistance` · `4 table: table`, padded to five entries; then slots
+/// of ratio, forward, reverse, inertia, starting speed; then spans `x0 y0 x1 y1 1/(x1−x0) is_level`.
+fn decode_drive(code: &[i32], speed_loads: Vec<usize>, b: &Bounds) -> Result<Drive, PlanError> {
+    if code.len() < DRIVE_HEAD {
+        return Err(PlanError::Length { what: "drive", found: code.len(), expected: DRIVE_HEAD });
+    }
+    let spans = rows(&code[DRIVE_HEAD..], SPAN_WIDTH, "spans")?
+        .map(|row| {
+            Ok(Span {
+                x0: b.slot(row[0])?,
+                y0: b.slot(row[1])?,
+                x1: b.slot(row[2])?,
+                y1: b.slot(row[3])?,
+                inverse_width: b.slot(row[4])?,
+                is_level: row[5] != 0,
+            })
+        })
+        .collect::<Result<_, PlanError>>()?;
+    let motor = match code[0] {
+        0 => Motor::Off,
+        1 => Motor::Constant { torque: b.slot(code[1])? },
+        2 => Motor::Line { torque: b.slot(code[1])?, inverse_speed: b.slot(code[2])? },
+        3 => Motor::Induction {
+            inverse_synchronous: b.slot(code[1])?,
+            torque: b.slot(code[2])?,
+            slip: b.slot(code[3])?,
+            resistance: b.slot(code[4])?,
+            spans,
+        },
+        4 => Motor::Table { table: b.table(code[1])? },
+        kind => return Err(PlanError::Kind { what: "motor", kind }),
+    };
+    Ok(Drive {
+        motor,
+        ratio: b.slot(code[5])?,
+        forward: b.slot(code[6])?,
+        reverse: b.slot(code[7])?,
+        inertia: b.slot(code[8])?,
+        speed_start: b.slot(code[9])?,
+        speed_loads,
+    })
+}

@@ -1,0 +1,136 @@
+//! What a kernel may do with a number.
+//!
+//! Every kernel of this crate is written once, generic over [`Real`]. With `f64` it is the truth that
+//! anyone can check; with SIMD lanes ([`crate::lanes`]) it does many crank angles or many machines at
+//! once; with [`crate::dual::Dual`] it carries an exact derivative along.
+//!
+//! There are no masks: a choice is [`Real::select_lt`], so a lane that goes wrong (NaN) stays alone.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A real number, or a bundle of them that is worked on together.
+pub trait Real:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+{
+    /// How many plain numbers the bundle holds.
+    const LANES: usize;
+
+    /// The same number in every lane.
+    fn splat(x: f64) -> Self;
+    /// Reads `LANES` numbers from the start of a slice.
+    fn load(from: &[f64]) -> Self;
+    /// Writes `LANES` numbers to the start of a slice.
+    fn store(self, to: &mut [f64]);
+    /// `self · b + c`; fused where the machine has it, so lanes and scalar may differ by an ulp.
+    fn mul_add(self, b: Self, c: Self) -> Self;
+    /// Square root; NaN for a negative number, which is how a linkage that does not close shows itself.
+    fn sqrt(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// `(sin, cos)`, to about an ulp for |x| < 1e5.
+    fn sin_cos(self) -> (Self, Self);
+    /// Lane by lane: `below` where `self < limit`, else `other` (also where `self` is NaN).
+    fn select_lt(self, limit: Self, below: Self, other: Self) -> Self;
+    /// Applies a scalar function `x ↦ (value, slope)` lane by lane; only tables need it.
+    fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self;
+    /// Largest lane; NaN in a lane is passed over.
+    fn max_lane(self) -> f64;
+    /// Runs `f` as a function of its own, compiled for the same instruction set. Cuts kernels at their
+    /// natural joints: one body of many thousand instructions would no longer be optimised well.
+    fn outline<T>(f: impl FnOnce() -> T) -> T;
+
+    /// The larger of the two, lane by lane.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.select_lt(other, other, self)
+    }
+
+    /// The smaller of the two, lane by lane.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        other.select_lt(self, other, self)
+    }
+
+    /// The square.
+    #[inline(always)]
+    fn squared(self) -> Self {
+        self * self
+    }
+
+    /// One over it.
+    #[inline(always)]
+    fn recip(self) -> Self {
+        Self::splat(1.0) / self
+    }
+}
+
+/// A kind of number that plain ones of kind `R` can be turned into as constants: `R` itself or a dual.
+pub trait Lift<R>: Real {
+    /// The constant.
+    fn lift(constant: R) -> Self;
+}
+
+impl<R: Real> Lift<R> for R {
+    #[inline(always)]
+    fn lift(constant: R) -> Self {
+        constant
+    }
+}
+
+impl Real for f64 {
+    const LANES: usize = 1;
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        from[0]
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        to[0] = self;
+    }
+    // Not `f64::mul_add`: without FMA in the build target that is a call into libm.
+    #[inline(always)]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        f64::sin_cos(self)
+    }
+    #[inline(always)]
+    fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
+        if self < limit { below } else { other }
+    }
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
+        f(self).0
+    }
+    #[inline(always)]
+    fn max_lane(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn outline<T>(f: impl FnOnce() -> T) -> T {
+        f()
+    }
+}

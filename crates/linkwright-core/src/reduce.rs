@@ -1,0 +1,209 @@
+//! Reduction to the crank: all masses and loads of a mechanism as functions of the crank angle.
+//!
+//! ```text
+//! J_red(φ) = J₀ + Σ m |p′|² + J ψ′²          J′_red = 2 Σ m p′·p″ + J ψ′ ψ″
+//! M_red(φ) = Σ F·p′ + Σ M ψ′                 (virtual work)
+//! ```
+//!
+//! Source: e.g. Artobolevsky, *Theory of Mechanisms and Machines*, ch. 15 (reduced mass and force);
+//! paper 1, equations (5) and (10), for the slider-crank with rod.
+
+use crate::linkage::{Motion, Slot, on_link};
+use crate::plan::Plan;
+use crate::plane::{Angle, Vec2};
+use crate::real::Real;
+
+/// A body: a mass at a point, or a link with its centre of mass `along`, `across` from the link's start.
+#[derive(Clone, Copy, Debug)]
+pub enum Body {
+    Point { point: usize, mass: Slot },
+    Link { link: usize, origin: usize, along: Slot, across: Slot, mass: Slot, inertia: Slot },
+}
+
+/// A load. `Dry*` have a constant size and oppose the motion; `Viscous*` are proportional to speed.
+#[derive(Clone, Copy, Debug)]
+pub enum Load {
+    DrySlide {
+        slide: usize,
+        force: Slot,
+    },
+    DryPoint {
+        point: usize,
+        force: Slot,
+    },
+    DryLink {
+        link: usize,
+        torque: Slot,
+    },
+    DryCrank {
+        torque: Slot,
+    },
+    ViscousSlide {
+        slide: usize,
+        damping: Slot,
+    },
+    ViscousPoint {
+        point: usize,
+        damping: Slot,
+    },
+    ViscousLink {
+        link: usize,
+        damping: Slot,
+    },
+    /// A force fixed in direction and size.
+    Force {
+        point: usize,
+        x: Slot,
+        y: Slot,
+    },
+    /// A torque on a link, counter-clockwise positive.
+    Torque {
+        link: usize,
+        torque: Slot,
+    },
+    /// Weight of every body; `x`, `y` is the acceleration of free fall.
+    Gravity {
+        x: Slot,
+        y: Slot,
+    },
+    Spring {
+        from: usize,
+        to: usize,
+        stiffness: Slot,
+        free_length: Slot,
+    },
+    /// Force opposing the motion of a slide by tables over its position, one for each direction.
+    ForcePosition {
+        slide: usize,
+        forward: usize,
+        back: usize,
+    },
+    /// Torque on the crankshaft opposing positive rotation by a periodic table over φ.
+    TorqueAngle {
+        table: usize,
+    },
+}
+
+/// The machine reduced to the crank at one angle. The resisting torque at speed ω is
+/// `load + sense·dry + viscous·ω`, with `sense` the direction of rotation.
+#[derive(Clone, Copy, Debug)]
+pub struct Reduction<R> {
+    /// J_red \[kg m²\], motor and gearbox included.
+    pub J: R,
+    /// dJ_red/dφ \[kg m²/rad\]; zero at order 1.
+    pub J_d1: R,
+    /// Resisting torque of loads that do not ask for the direction \[N m\].
+    pub load: R,
+    /// Resisting torque of dry loads, not negative when they are true resistances \[N m\].
+    pub dry: R,
+    /// Viscous coefficient \[N m s/rad\].
+    pub viscous: R,
+}
+
+impl Plan {
+    /// Places the mechanism and reduces it. `sense` is +1 or −1, the direction of rotation, which decides
+    /// between the forward and the back table of a force over position.
+    #[inline(always)]
+    pub fn reduce<R: Real, const ORDER: u8>(
+        &self,
+        q: &[R],
+        angle: Angle<R>,
+        sense: f64,
+        m: &mut Motion<R>,
+    ) -> Reduction<R> {
+        self.mechanism.place::<R, ORDER>(q, angle, m);
+        let zero = R::splat(0.0);
+        let mut r = Reduction { J: q[self.drive.inertia], J_d1: zero, load: zero, dry: zero, viscous: zero };
+        let mut gravity = Vec2::zero();
+        for load in &self.loads {
+            if let Load::Gravity { x, y } = *load {
+                gravity = gravity + Vec2::new(q[x], q[y]);
+            }
+        }
+        for body in &self.bodies {
+            add_body::<R, ORDER>(body, q, gravity, m, &mut r);
+        }
+        for load in &self.loads {
+            self.add_load(load, q, angle, sense, m, &mut r);
+        }
+        r
+    }
+
+    #[inline(always)]
+    fn add_load<R: Real>(
+        &self,
+        load: &Load,
+        q: &[R],
+        angle: Angle<R>,
+        sense: f64,
+        m: &Motion<R>,
+        r: &mut Reduction<R>,
+    ) {
+        match *load {
+            Load::Gravity { .. } => {}
+            Load::DrySlide { slide, force } => r.dry = m.slides[slide].d1.abs().mul_add(q[force], r.dry),
+            Load::DryPoint { point, force } => {
+                let d1 = m.points[point].d1;
+                r.dry = d1.dot(d1).sqrt().mul_add(q[force], r.dry);
+            }
+            Load::DryLink { link, torque } => r.dry = m.links[link].d1.abs().mul_add(q[torque], r.dry),
+            Load::DryCrank { torque } => r.dry = r.dry + q[torque],
+            Load::ViscousSlide { slide, damping } => {
+                r.viscous = m.slides[slide].d1.squared().mul_add(q[damping], r.viscous);
+            }
+            Load::ViscousPoint { point, damping } => {
+                let d1 = m.points[point].d1;
+                r.viscous = d1.dot(d1).mul_add(q[damping], r.viscous);
+            }
+            Load::ViscousLink { link, damping } => {
+                r.viscous = m.links[link].d1.squared().mul_add(q[damping], r.viscous);
+            }
+            Load::Force { point, x, y } => {
+                r.load = r.load - m.points[point].d1.dot(Vec2::new(q[x], q[y]));
+            }
+            Load::Torque { link, torque } => r.load = r.load - m.links[link].d1 * q[torque],
+            Load::Spring { from, to, stiffness, free_length } => {
+                let u = m.points[to].p - m.points[from].p;
+                let length = u.dot(u).sqrt();
+                let length1 = u.dot(m.points[to].d1 - m.points[from].d1) / length;
+                r.load = (length - q[free_length]).mul_add(q[stiffness] * length1, r.load);
+            }
+            Load::ForcePosition { slide, forward, back } => {
+                let slide = m.slides[slide];
+                let ahead = slide.s.map(|s| self.tables[forward].held(s));
+                let behind = slide.s.map(|s| self.tables[back].held(s));
+                let force = (slide.d1 * sense).select_lt(R::splat(0.0), behind, ahead);
+                r.dry = slide.d1.abs().mul_add(force, r.dry);
+            }
+            Load::TorqueAngle { table } => {
+                r.load = r.load + angle.phi.map(|phi| self.tables[table].periodic(phi));
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn add_body<R: Real, const ORDER: u8>(
+    body: &Body,
+    q: &[R],
+    gravity: Vec2<R>,
+    m: &Motion<R>,
+    r: &mut Reduction<R>,
+) {
+    let (place, mass) = match *body {
+        Body::Point { point, mass } => (m.points[point], q[mass]),
+        Body::Link { link, origin, along, across, mass, inertia } => {
+            let heading = m.links[link];
+            r.J = heading.d1.squared().mul_add(q[inertia], r.J);
+            if ORDER > 1 {
+                r.J_d1 = (heading.d1 * heading.d2 * 2.0).mul_add(q[inertia], r.J_d1);
+            }
+            (on_link::<R, ORDER>(m.points[origin], heading, q[along], q[across]), q[mass])
+        }
+    };
+    r.J = place.d1.dot(place.d1).mul_add(mass, r.J);
+    if ORDER > 1 {
+        r.J_d1 = (place.d1.dot(place.d2) * 2.0).mul_add(mass, r.J_d1);
+    }
+    r.load = r.load - place.d1.dot(gravity) * mass;
+}

@@ -1,0 +1,342 @@
+//! Motion in time from a given angle and speed: run-up, run-down, anything not yet steady.
+//!
+//! ```text
+//! dφ/dt = ω,   dω/dt = ε = [M_d(ω) − M_r(φ, ω) − ½ J′(φ) ω²] / J(φ)
+//! ```
+//!
+//! by [`crate::rk`] with these events met exactly by the end of a step: kinks over the angle (dead centres
+//! under dry friction, knots of tables), speeds at which the drive's characteristic has a kink, standstill.
+//! At standstill the dry loads decide: what is left of the drive's torque must exceed them to move on.
+
+use crate::cycle::Machine;
+use crate::linkage::Motion;
+use crate::plan::Plan;
+use crate::plane::Angle;
+use crate::rk::{Trial, next_factor, try_step};
+use crate::steady::crossing;
+use std::f64::consts::TAU;
+
+/// What to follow.
+#[derive(Clone, Copy, Debug)]
+pub struct Start {
+    /// Crank angle at the start \[rad\].
+    pub phi: f64,
+    /// Speed at the start \[rad/s\], not negative.
+    pub omega: f64,
+    /// Longest time \[s\].
+    pub duration: f64,
+    /// Most turns of the crank.
+    pub turns: f64,
+    /// Relative accuracy of a step.
+    pub accuracy: f64,
+}
+
+/// How the motion ended; the numbers are what crosses the border.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum End {
+    /// The time is over.
+    Time = 0,
+    /// The turns are done.
+    Turns = 1,
+    /// At rest, and the drive cannot overcome the resistance.
+    DoesNotStart = 2,
+    /// At rest, and the loads drive the machine backwards.
+    StartsBackwards = 3,
+    /// Came to rest on the way and stays there.
+    Stall = 4,
+    /// Came to rest on the way and is driven backwards.
+    Reversal = 5,
+    /// A dyad does not close at the angle reached.
+    DoesNotClose = 6,
+    /// Too many steps, or steps too small, for the accuracy.
+    Inaccurate = 7,
+}
+
+/// The motion at the ends of the steps.
+#[derive(Clone, Debug)]
+pub struct Trajectory {
+    pub t: Vec<f64>,
+    pub phi: Vec<f64>,
+    pub omega: Vec<f64>,
+    pub epsilon: Vec<f64>,
+    pub end: End,
+    /// Drive's torque at the crank where the motion ended \[N m\].
+    pub drive_torque: f64,
+    /// Torque the loads need there to be overcome \[N m\].
+    pub load_torque: f64,
+    /// Evaluations of the machine.
+    pub evaluations: usize,
+}
+
+/// Steps after which the motion is given up: a run-up of a thousand turns takes a tenth of them.
+const STEPS_MAX: usize = 400_000;
+
+/// How close a landing on an angle must be \[rad\].
+const LANDING: f64 = 1e-13;
+
+type Y = [f64; 2];
+
+struct Follower<'a> {
+    machine: Machine<'a, f64>,
+    motion: Motion<f64>,
+    evaluations: usize,
+}
+
+impl Follower<'_> {
+    /// (ω, ε)
+    fn derivative(&mut self, y: &Y) -> Y {
+        let Machine { plan, q } = self.machine;
+        self.evaluations += 1;
+        let [phi, omega] = *y;
+        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut self.motion);
+        let resisting = r.load + r.dry + r.viscous * omega;
+        let net = plan.drive_torque(q, omega) - resisting - 0.5 * r.J_d1 * omega * omega;
+        [omega, net / r.J]
+    }
+
+    /// Drive's and needed torque at standstill, and which way the machine goes from there: +1, 0 or −1.
+    fn balance_at_rest(&mut self, phi: f64) -> (f64, f64, i8) {
+        let Machine { plan, q } = self.machine;
+        let ahead = plan.reduce::<f64, 1>(q, Angle::new(phi), 1.0, &mut self.motion);
+        let back = plan.reduce::<f64, 1>(q, Angle::new(phi), -1.0, &mut self.motion);
+        let drive = plan.drive_torque(q, 0.0);
+        let free = drive - ahead.load;
+        let way = if free > ahead.dry {
+            1
+        } else if free < -back.dry {
+            -1
+        } else {
+            0
+        };
+        (drive, ahead.load + ahead.dry, way)
+    }
+}
+
+/// Follows the motion until time, turns or an event end it.
+pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
+    let machine = Machine { plan, q };
+    let mut motion = Motion::new(&plan.mechanism);
+    let kinks: Vec<f64> = machine.breaks(&[], &mut motion);
+    let mut follower = Follower { machine, motion, evaluations: 0 };
+    let mut path = Path::new(plan, q, start, kinks);
+    path.run(&mut follower);
+    path.finish(&mut follower)
+}
+
+struct Path {
+    trajectory: Trajectory,
+    kinks: Vec<f64>,
+    speeds: Vec<f64>,
+    last_angle: f64,
+    last_time: f64,
+    accuracy: f64,
+    speed_scale: f64,
+}
+
+/// A step that was accepted, and whether it ended at standstill.
+struct Accepted {
+    h: f64,
+    y: Y,
+    error: f64,
+    at_rest: bool,
+}
+
+impl Path {
+    fn new(plan: &Plan, q: &[f64], start: &Start, kinks: Vec<f64>) -> Self {
+        let trajectory = Trajectory {
+            t: vec![0.0],
+            phi: vec![start.phi],
+            omega: vec![start.omega],
+            epsilon: Vec::new(),
+            end: End::Time,
+            drive_torque: f64::NAN,
+            load_torque: f64::NAN,
+            evaluations: 0,
+        };
+        Path {
+            trajectory,
+            kinks,
+            speeds: plan.speed_kinks(q),
+            last_angle: start.phi + start.turns * TAU,
+            last_time: start.duration,
+            accuracy: start.accuracy,
+            speed_scale: q[plan.drive.speed_start].max(start.omega),
+        }
+    }
+
+    fn now(&self) -> (f64, Y) {
+        let path = &self.trajectory;
+        let last = path.t.len() - 1;
+        (path.t[last], [path.phi[last], path.omega[last]])
+    }
+
+    fn run(&mut self, follower: &mut Follower<'_>) {
+        let (_, y) = self.now();
+        if y[1] <= 0.0 {
+            let way = follower.balance_at_rest(y[0]).2;
+            if way != 1 {
+                self.trajectory.end = if way == 0 { End::DoesNotStart } else { End::StartsBackwards };
+                return;
+            }
+        }
+        // A hundredth of a radian at working speed: small against any feature, soon grown tenfold.
+        let mut h = 0.01 / self.speed_scale;
+        let mut k0 = follower.derivative(&y);
+        for _ in 0..STEPS_MAX {
+            self.trajectory.epsilon.push(k0[1]);
+            let (t, y) = self.now();
+            if let Some(end) = self.is_over(t, &y, &k0) {
+                self.trajectory.end = end;
+                return;
+            }
+            let Some(step) = self.step(follower, (t, &y, &k0), h) else {
+                self.trajectory.end = End::Inaccurate;
+                return;
+            };
+            // A step cut short by an event says nothing about the length the next may have.
+            let grown = step.h * next_factor(step.error);
+            h = if step.h < h { h.min(10.0 * grown).max(grown) } else { grown };
+            self.trajectory.t.push(t + step.h);
+            self.trajectory.phi.push(step.y[0]);
+            self.trajectory.omega.push(step.y[1]);
+            k0 = follower.derivative(&step.y);
+            if step.at_rest {
+                self.trajectory.epsilon.push(k0[1]);
+                if self.stays_at_rest(follower, step.y[0]) {
+                    return;
+                }
+                self.trajectory.epsilon.pop();
+            }
+        }
+        self.trajectory.end = End::Inaccurate;
+    }
+
+    fn is_over(&self, t: f64, y: &Y, k0: &Y) -> Option<End> {
+        if k0[1].is_nan() {
+            Some(End::DoesNotClose)
+        } else if t >= self.last_time {
+            Some(End::Time)
+        } else if y[0] >= self.last_angle - LANDING {
+            Some(End::Turns)
+        } else {
+            None
+        }
+    }
+
+    /// At standstill on the way: ends the motion unless the drive takes it on.
+    fn stays_at_rest(&mut self, follower: &mut Follower<'_>, phi: f64) -> bool {
+        let way = follower.balance_at_rest(phi).2;
+        if way < 1 {
+            self.trajectory.end = if way < 0 { End::Reversal } else { End::Stall };
+        }
+        way < 1
+    }
+
+    /// The next accepted step from `from`, of length at most `h`.
+    fn step(&self, follower: &mut Follower<'_>, from: (f64, &Y, &Y), mut h: f64) -> Option<Accepted> {
+        let (t, y, k0) = from;
+        let target = self.next_angle(y[0]);
+        let rest = self.last_time - t;
+        let scale = |n: usize, size: f64| {
+            if n == 0 { self.accuracy } else { self.accuracy * (size + 0.01 * self.speed_scale) }
+        };
+        let mut derivative = |_t: f64, y: &Y| follower.derivative(y);
+        let mut attempt = |h: f64| try_step(&mut derivative, from, h, &scale);
+        // Forty halvings to a tenth reach any length that still changes t.
+        for _ in 0..40 {
+            let landing = time_to(target - y[0], y[1], k0[1]);
+            let aims = landing <= h && landing <= rest;
+            h = h.min(rest).min(landing);
+            let mut trial = attempt(h);
+            if !(trial.error <= 1.0) {
+                h *= next_factor(trial.error).min(0.5);
+                continue;
+            }
+            if trial.y[0] > target || aims {
+                (trial, h) = land(&mut attempt, trial, h, target);
+            }
+            let cut = self.first_speed_event(&mut attempt, y[1], &trial, h);
+            let Some((shorter, speed)) = cut else {
+                return Some(Accepted { h, y: trial.y, error: trial.error, at_rest: false });
+            };
+            let mut trial = attempt(shorter);
+            trial.y[1] = speed;
+            return Some(Accepted { h: shorter, y: trial.y, error: trial.error, at_rest: speed == 0.0 });
+        }
+        None
+    }
+
+    /// The next angle at which a step must end.
+    fn next_angle(&self, phi: f64) -> f64 {
+        let turn = (phi / TAU).floor() * TAU;
+        let after = |base: f64| {
+            self.kinks.iter().map(move |kink| base + kink).find(|&angle| angle > phi + 10.0 * LANDING)
+        };
+        let kink = after(turn).or_else(|| after(turn + TAU)).unwrap_or(f64::INFINITY);
+        kink.min(self.last_angle)
+    }
+
+    /// The earliest time in the step at which the speed passes a kink of the drive or zero, and that speed.
+    fn first_speed_event(
+        &self,
+        attempt: &mut impl FnMut(f64) -> Trial<2>,
+        omega: f64,
+        trial: &Trial<2>,
+        h: f64,
+    ) -> Option<(f64, f64)> {
+        let mut first: Option<(f64, f64)> = None;
+        let is_past = |speed: f64| {
+            // A step that starts on the speed itself, to rounding, is not passing it.
+            let apart = (omega - speed).abs() > 1e-11 * self.speed_scale;
+            apart && (omega - speed) * (trial.y[1] - speed) < 0.0
+        };
+        for speed in self.speeds.iter().copied().chain([0.0]).filter(|&speed| is_past(speed)) {
+            let excess = |x: f64| attempt(x).y[1] - speed;
+            let at = crossing(excess, h, omega - speed, trial.y[1] - speed);
+            if first.is_none_or(|(earliest, _)| at < earliest) {
+                first = Some((at, speed));
+            }
+        }
+        first
+    }
+
+    fn finish(mut self, follower: &mut Follower<'_>) -> Trajectory {
+        let (_, y) = self.now();
+        let path = &mut self.trajectory;
+        if path.epsilon.len() < path.t.len() {
+            path.epsilon.push(follower.derivative(&y)[1]);
+        }
+        (path.drive_torque, path.load_torque, _) = follower.balance_at_rest(y[0]);
+        path.evaluations = follower.evaluations;
+        self.trajectory
+    }
+}
+
+/// Time to turn by `angle` at speed ω and acceleration ε; infinite if it is not reached.
+fn time_to(angle: f64, omega: f64, epsilon: f64) -> f64 {
+    let root = omega * omega + 2.0 * epsilon * angle;
+    if root < 0.0 {
+        return f64::INFINITY;
+    }
+    let speed = omega + root.sqrt();
+    if speed > 0.0 { 2.0 * angle / speed } else { f64::INFINITY }
+}
+
+/// Newton on the length of the step until it ends on the target angle.
+fn land(
+    attempt: &mut impl FnMut(f64) -> Trial<2>,
+    mut trial: Trial<2>,
+    mut h: f64,
+    target: f64,
+) -> (Trial<2>, f64) {
+    for _ in 0..6 {
+        let miss = target - trial.y[0];
+        if miss.abs() <= LANDING || trial.y[1] <= 0.0 {
+            break;
+        }
+        h += miss / trial.y[1];
+        trial = attempt(h);
+    }
+    (trial, h)
+}

@@ -1,0 +1,16 @@
+//! The core's errors as Python's.
+
+use linkwright_core::error::PlanError;
+use pyo3::PyErr;
+use pyo3::exceptions::{PyIndexError, PyValueError};
+
+/// A plan that contradicts itself: an index out of range, or a value that makes no sense.
+pub(crate) fn plan_error(error: PlanError) -> PyErr {
+    let text = error.to_string();
+    match error {
+        PlanError::Index { .. } => PyIndexError::new_err(text),
+        PlanError::Length { .. } | PlanError::Kind { .. } | PlanError::Table { .. } => {
+            PyValueError::new_err(text)
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! `linkwright._core`: converts arrays, lets the interpreter lock go, calls the core, converts back.
+//! There is no arithmetic here.
+// The functions' arguments are the border itself; each is described in `_core.pyi`.
+#![allow(missing_docs, clippy::too_many_arguments)]
+
+mod arrays;
+mod errors;
+
+use arrays::{as_indices, channels, column};
+use errors::plan_error;
+use linkwright_core::batch::{self, QUANTITIES, Rows};
+use linkwright_core::drive::Motor;
+use linkwright_core::lanes::in_lanes;
+use linkwright_core::plan::{Encoded, Plan as CorePlan};
+use linkwright_core::steady::{ReadCurves, steady};
+use linkwright_core::transient::{Start, follow};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+type Ints<'py> = PyReadonlyArray1<'py, i32>;
+type Floats<'py> = PyReadonlyArray1<'py, f64>;
+
+/// A machine's structure, decoded and checked.
+#[pyclass(frozen, module = "linkwright._core")]
+struct Plan(CorePlan);
+
+#[pymethods]
+impl Plan {
+    #[new]
+    fn new(
+        sizes: Ints<'_>,
+        elements: Ints<'_>,
+        bodies: Ints<'_>,
+        loads: Ints<'_>,
+        drive: Ints<'_>,
+        table_starts: Ints<'_>,
+        table_x: Floats<'_>,
+        table_y: Floats<'_>,
+    ) -> PyResult<Self> {
+        let code = Encoded {
+            sizes: sizes.as_slice()?,
+            elements: elements.as_slice()?,
+            bodies: bodies.as_slice()?,
+            loads: loads.as_slice()?,
+            drive: drive.as_slice()?,
+            table_starts: table_starts.as_slice()?,
+            table_x: table_x.as_slice()?,
+            table_y: table_y.as_slice()?,
+        };
+        CorePlan::decode(&code).map(Plan).map_err(plan_error)
+    }
+}
+
+impl Plan {
+    fn parameters<'a>(&self, q: &'a Floats<'_>) -> PyResult<&'a [f64]> {
+        let q = q.as_slice()?;
+        let n = self.0.n_parameters;
+        if q.len() == n {
+            Ok(q)
+        } else {
+            Err(PyValueError::new_err(format!("{} parameters given, the plan has {n}", q.len())))
+        }
+    }
+}
+
+#[pyfunction]
+fn steady_state<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    q: Floats<'_>,
+    accuracy: f64,
+    phi: Floats<'_>,
+) -> PyResult<(u8, Option<Bound<'py, PyArray1<f64>>>, Option<Bound<'py, PyArray2<f64>>>)> {
+    let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
+    let solved = py.detach(|| {
+        let found = steady(&plan.0, q, accuracy)?;
+        let curves = in_lanes(ReadCurves { plan: &plan.0, q, turn: &found.turn, phi });
+        Ok((found, curves))
+    });
+    let (found, curves) = match solved {
+        Ok(solved) => solved,
+        Err(status) => {
+            let status: linkwright_core::status::Status = status;
+            return Ok((status as u8, None, None));
+        }
+    };
+    let mut scalars = batch::row_of_steady(&found).to_vec();
+    scalars.extend([
+        found.extremes.acceleration_min.phi,
+        found.extremes.acceleration_max.phi,
+        found.difference,
+        f64::from(found.sweeps),
+        found.turn.steps.len() as f64,
+    ]);
+    let rows = [
+        &curves.time,
+        &curves.omega,
+        &curves.epsilon,
+        &curves.motor_torque,
+        &curves.drive_torque,
+        &curves.load_torque,
+        &curves.J,
+    ];
+    let table = PyArray2::<f64>::zeros(py, [rows.len(), phi.len()], false);
+    {
+        let mut to = table.readwrite();
+        for (to, from) in to.as_slice_mut()?.chunks_exact_mut(phi.len()).zip(rows) {
+            to.copy_from_slice(from);
+        }
+    }
+    Ok((0, Some(PyArray1::from_vec(py, scalars)), Some(table)))
+}
+
+#[pyfunction]
+fn steady_rows<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    q: Floats<'_>,
+    slots: Ints<'_>,
+    values: PyReadonlyArray2<'_, f64>,
+    accuracy: f64,
+) -> PyResult<(Bound<'py, PyArray1<u8>>, Bound<'py, PyArray2<f64>>, u64)> {
+    let n = values.as_array().ncols();
+    let slots = as_indices(slots.as_slice()?, plan.0.n_parameters)?;
+    let rows = Rows { base: plan.parameters(&q)?, slots: &slots, values: values.as_slice()?, n };
+    let out = PyArray2::<f64>::zeros(py, [n, QUANTITIES], false);
+    let (status, turns) = {
+        let mut to = out.readwrite();
+        let to = to.as_slice_mut()?;
+        py.detach(|| batch::steady_rows(&plan.0, &rows, accuracy, to))
+    };
+    let status: Vec<u8> = status.into_iter().map(|s| s as u8).collect();
+    Ok((PyArray1::from_vec(py, status), out, turns))
+}
+
+#[pyfunction]
+fn motions(
+    py: Python<'_>,
+    plan: &Plan,
+    q: Floats<'_>,
+    slots: Ints<'_>,
+    values: PyReadonlyArray2<'_, f64>,
+    phi: Floats<'_>,
+    what: PyReadonlyArray2<'_, i32>,
+    mut out: PyReadwriteArray1<'_, f64>,
+) -> PyResult<()> {
+    let n = values.as_array().ncols();
+    let slots = as_indices(slots.as_slice()?, plan.0.n_parameters)?;
+    let rows = Rows { base: plan.parameters(&q)?, slots: &slots, values: values.as_slice()?, n };
+    let channels = channels(what.as_slice()?, &plan.0)?;
+    let (phi, out) = (phi.as_slice()?, out.as_slice_mut()?);
+    let size = n * phi.len() * channels.iter().map(|c| c.width()).sum::<usize>();
+    if out.len() != size {
+        return Err(PyValueError::new_err(format!("out holds {} numbers, {size} are needed", out.len())));
+    }
+    py.detach(|| batch::motions(&plan.0, &rows, phi, &channels, out));
+    Ok(())
+}
+
+#[pyfunction]
+fn gaps<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    q: Floats<'_>,
+    phi: Floats<'_>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
+    let out = PyArray2::<f64>::zeros(py, [plan.0.mechanism.n_gaps, phi.len()], false);
+    batch::gaps(&plan.0, q, phi, out.readwrite().as_slice_mut()?);
+    Ok(out)
+}
+
+#[pyfunction]
+fn reductions<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    q: Floats<'_>,
+    phi: Floats<'_>,
+    sense: f64,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
+    let out = PyArray2::<f64>::zeros(py, [5, phi.len()], false);
+    batch::reductions(&plan.0, q, phi, sense, out.readwrite().as_slice_mut()?);
+    Ok(out)
+}
+
+#[pyfunction]
+fn motor_torques<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    q: Floats<'_>,
+    omega: Floats<'_>,
+) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+    let q = plan.parameters(&q)?;
+    let torque = |&omega: &f64| plan.0.motor_torque(q, omega);
+    let motor: Vec<f64> = omega.as_slice()?.iter().map(torque).collect();
+    let crank = motor.iter().map(|&torque| plan.0.geared_torque(q, torque)).collect();
+    Ok((PyArray1::from_vec(py, motor), PyArray1::from_vec(py, crank)))
+}
+
+/// A transient's end, its numbers and its curves.
+type Followed<'py> = (u8, [f64; 2], usize, Vec<Bound<'py, PyArray1<f64>>>);
+
+#[pyfunction]
+fn transient<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    q: Floats<'_>,
+    phi: f64,
+    omega: f64,
+    duration: f64,
+    turns: f64,
+    accuracy: f64,
+) -> PyResult<Followed<'py>> {
+    let q = plan.parameters(&q)?;
+    let start = Start { phi, omega, duration, turns, accuracy };
+    let path = py.detach(|| follow(&plan.0, q, &start));
+    let curves = [path.t, path.phi, path.omega, path.epsilon].map(|list| column(py, list));
+    let torques = [path.drive_torque, path.load_torque];
+    Ok((path.end as u8, torques, path.evaluations, curves.into()))
+}
+
+#[pyfunction]
+fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let q = plan.parameters(&q)?;
+    let machine = linkwright_core::cycle::Machine { plan: &plan.0, q };
+    let mut motion = linkwright_core::linkage::Motion::new(&plan.0.mechanism);
+    Ok(column(py, machine.breaks(&[], &mut motion)))
+}
+
+#[pyfunction]
+fn has_motor(plan: &Plan) -> bool {
+    !matches!(plan.0.drive.motor, Motor::Off)
+}
+
+#[pymodule(gil_used = false)]
+mod _core {
+    #[pymodule_export]
+    use super::{
+        Plan, gaps, has_motor, kinks, motions, motor_torques, reductions, steady_rows, steady_state,
+        transient,
+    };
+}

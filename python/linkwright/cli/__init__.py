@@ -1,0 +1,63 @@
+"""The command line, ``linkwright COMMAND …``: one command a file.
+
+A module of a command is imported at every start, so it imports what it computes with inside its function.
+To add a command, write its file and put its function into `COMMANDS`.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from io import TextIOWrapper
+from typing import Annotated, Any
+
+import typer
+
+from linkwright.cli.check import check
+from linkwright.cli.common import reports_errors
+from linkwright.cli.new import new
+from linkwright.cli.schema import schema
+
+# In the order of the help.
+COMMANDS: tuple[Callable[..., Any], ...] = (check, new, schema)
+
+
+def _version(wanted: bool) -> None:
+    """Print the version and end."""
+    if wanted:
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            typer.echo(f"linkwright {version('linkwright')}")
+        except PackageNotFoundError:
+            typer.echo("linkwright, run from its source without being installed")
+        raise typer.Exit
+
+
+Version = Annotated[
+    bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and end.")
+]
+
+
+def _top(version: Version = False) -> None:
+    """Computes how machines move: from the motor through gearbox and shaft to the mechanism and its work."""
+
+
+def application() -> typer.Typer:
+    """The command line with all its commands."""
+    # Plain help: the boxes of rich cost more time than the whole of `check`.
+    app = typer.Typer(
+        add_completion=False, no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False
+    )
+    app.callback()(_top)
+    for command in COMMANDS:
+        app.command()(reports_errors(command))
+    return app
+
+
+def main() -> None:
+    """Run the command line, for the console script."""
+    # Names may hold letters that the terminal has not; they are no reason to fail.
+    if isinstance(sys.stdout, TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")
+    application()()

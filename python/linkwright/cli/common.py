@@ -1,0 +1,97 @@
+"""What the commands share: options, and the way from an error to a message and an exit code.
+
+| exit code | means |
+| --- | --- |
+| 0 | done |
+| 1 | the machine cannot do it: it does not close, does not start |
+| 2 | the input is wrong |
+| 130 | interrupted from the keyboard |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+from typing import Annotated, ParamSpec, TypeVar
+
+import typer
+
+from linkwright.errors import InputError, LinkwrightError
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+# What a shell reports for a program that was interrupted.
+_INTERRUPTED = 130
+
+File = Annotated[Path, typer.Argument(metavar="FILE", help="The machine file.", show_default=False)]
+Sets = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="PATH=VALUE",
+        help="Override an entry of the file, such as drive.gearbox.ratio=10 or "
+        'mechanism.cranks.A2.phase="80 deg". May be given again.',
+        show_default=False,
+    ),
+]
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON object in SI, and nothing else.")]
+Out = Annotated[Path | None, typer.Option("--out", metavar="PATH", help="Write there.", show_default=False)]
+Force = Annotated[bool, typer.Option("--force", help="Replace a file that exists.")]
+
+
+def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
+    """Let a command end with a message on standard error and its exit code, without a traceback.
+
+    Parameters
+    ----------
+    command : callable
+        A command; errors that this package does not raise on purpose pass through.
+
+    Returns
+    -------
+    callable
+        The same command.
+    """
+
+    @wraps(command)
+    def run(*args: P.args, **kwargs: P.kwargs) -> R:
+        try:
+            return command(*args, **kwargs)
+        except LinkwrightError as error:
+            typer.echo(error, err=True)
+            raise typer.Exit(error.exit_code) from None
+        except KeyboardInterrupt:
+            raise typer.Exit(_INTERRUPTED) from None
+
+    return run
+
+
+def put(text: str, out: Path | None, *, force: bool = False) -> None:
+    """Print a text, or write it to a file.
+
+    Parameters
+    ----------
+    text : str
+        What to put; ends in a line break.
+    out : path or None
+        The file; None for standard output.
+    force : bool
+        Replace a file that exists.
+
+    Raises
+    ------
+    InputError
+        The file exists, or cannot be written.
+    """
+    if out is None:
+        typer.echo(text, nl=False)
+        return
+    try:
+        with out.open("w" if force else "x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError:
+        raise InputError(f"{out}: exists already; --force replaces it") from None
+    except OSError as error:
+        raise InputError(f"{out}: cannot be written ({error.strerror or error})") from None

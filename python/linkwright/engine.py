@@ -1,0 +1,462 @@
+"""From a machine's description to the arrays of the core, and back. The only module that uses `_core`.
+
+A `Compiled` machine is a plan (what is there, as small integer tables) and a list of parameters (the
+numbers). An entry of the description that holds an array over many machines becomes a parameter that varies
+from row to row: one description serves a single machine and a batch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright import _core
+from linkwright.errors import MachineError, Problem, ShapeError
+from linkwright.machine import (
+    Body,
+    ConstantForce,
+    ConstantSpeedMotor,
+    ConstantTorque,
+    ConstantTorqueMotor,
+    Crank,
+    DcMotor,
+    Drive,
+    DryFriction,
+    ForcePosition,
+    Gravity,
+    InductionMotor,
+    Machine,
+    Rocker,
+    Slider,
+    Spring,
+    TableMotor,
+    TorqueAngle,
+    TorqueSpeed,
+    ViscousFriction,
+)
+
+Floats = NDArray[np.float64]
+
+# Crank speed from which steady motion is sought when nothing in the machine suggests one [rad/s].
+_SPEED_UNKNOWN = 10.0
+
+_ELEMENT_WIDTH = 13
+_ROW_WIDTH = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """A machine in the core's terms.
+
+    Attributes
+    ----------
+    plan : _core.Plan
+        Its structure.
+    parameters : ndarray, shape (n_parameters,)
+        Its numbers in SI; of the first row where they vary.
+    slots : ndarray of int32, shape (k,)
+        Which parameters vary from row to row.
+    values : ndarray, shape (k, n)
+        Their values over n rows; n is 1 for a single machine.
+    points, links, slides : dict of str to int
+        Index of each point, link and slide by name.
+    dyads : tuple of str
+        Names of the elements that must close.
+    """
+
+    plan: _core.Plan
+    parameters: Floats
+    slots: NDArray[np.int32]
+    values: Floats
+    points: dict[str, int]
+    links: dict[str, int]
+    slides: dict[str, int]
+    dyads: tuple[str, ...]
+
+    @property
+    def n_rows(self) -> int:
+        """How many machines."""
+        return int(self.values.shape[1])
+
+    def gaps(self, angles: Floats) -> Floats:
+        """Radicand of each dyad at crank angles, (dyads, n) [m²]; negative where it does not close."""
+        return _core.gaps(self.plan, self.parameters, angles)
+
+    def kinks(self) -> Floats:
+        """Crank angles from 0 to 2π [rad] between which everything is smooth."""
+        return _core.kinks(self.plan, self.parameters)
+
+    def reductions(self, angles: Floats, sense: float = 1.0) -> Floats:
+        """J, dJ/dφ, load torque, dry torque, viscous coefficient at crank angles, (5, n) in SI."""
+        return _core.reductions(self.plan, self.parameters, angles, sense)
+
+    def motor_torques(self, speeds: ArrayLike) -> tuple[Floats, Floats]:
+        """Torque at the motor's shaft and at the crank [N m] at crank speeds [rad/s]."""
+        at = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
+        return _core.motor_torques(self.plan, self.parameters, at)
+
+    def transient(
+        self, start: tuple[float, float], duration: float, turns: float, accuracy: float
+    ) -> tuple[int, tuple[float, float], int, list[Floats]]:
+        """Motion in time from angle [rad] and speed [rad/s]; see `_core.transient`."""
+        return _core.transient(self.plan, self.parameters, *start, duration, turns, accuracy)
+
+    def steady(self, angles: Floats, accuracy: float) -> tuple[int, Floats | None, Floats | None]:
+        """Steady motion with curves at crank angles in [0, 2π]; see `_core.steady_state`."""
+        return _core.steady_state(self.plan, self.parameters, accuracy, angles)
+
+    def steady_rows(self, accuracy: float) -> tuple[NDArray[np.uint8], Floats, int]:
+        """Steady motion of every row; see `_core.steady_rows`."""
+        return _core.steady_rows(self.plan, self.parameters, self.slots, self.values, accuracy)
+
+    def motions(self, angles: Floats, what: Sequence[tuple[int, int]], out: Floats) -> None:
+        """Motions of every row; see `_core.motions`."""
+        channels = _ints([list(row) for row in what]).reshape(-1, 2)
+        _core.motions(self.plan, self.parameters, self.slots, self.values, angles, channels, out)
+
+
+def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False) -> Compiled:
+    """Translate a description.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; entries may be arrays of one common length.
+    motor : bool
+        Whether the motor is on. Its inertia counts in any case.
+    brake : bool
+        Whether the brake is applied.
+
+    Returns
+    -------
+    Compiled
+        Plan and parameters.
+
+    Raises
+    ------
+    ShapeError
+        Arrays of different length, or an array in a table.
+    """
+    translator = _Translator(machine)
+    translator.mechanism()
+    translator.bodies()
+    translator.loads(brake=brake)
+    translator.drive(motor=motor)
+    return translator.result()
+
+
+class _Translator:
+    """Collects parameters and rows while it walks through a description."""
+
+    def __init__(self, machine: Machine) -> None:
+        self.machine = machine
+        self.parameters: list[Any] = []
+        self.points: dict[str, int] = {}
+        self.links: dict[str, int] = {}
+        self.slides: dict[str, int] = {}
+        self.dyads: list[str] = []
+        self.elements: list[list[int]] = []
+        self.body_rows: list[list[int]] = []
+        self.load_rows: list[list[int]] = []
+        self.drive_row: list[int] = []
+        self.tables: list[tuple[Sequence[float], Sequence[float]]] = []
+        # Start point of each link, the origin being known even where an element bears its name.
+        self.starts: dict[str, int] = {}
+        self.origin = -1
+
+    def slot(self, value: Any) -> int:
+        """Adds a parameter."""
+        self.parameters.append(value)
+        return len(self.parameters) - 1
+
+    def table(self, x: Sequence[Any], y: Sequence[Any]) -> int:
+        """Adds a table."""
+        if any(np.ndim(value) for value in (*x, *y)):
+            raise ShapeError("the points of a table cannot vary from machine to machine in a batch")
+        self.tables.append((x, y))
+        return len(self.tables) - 1
+
+    def _point(self, name: str) -> int:
+        return self.points.setdefault(name, len(self.points))
+
+    def _link(self, name: str, start: int) -> int:
+        self.starts[name] = start
+        return self.links.setdefault(name, len(self.links))
+
+    def _dyad(self, name: str) -> int:
+        self.dyads.append(name)
+        return len(self.dyads) - 1
+
+    # -- mechanism ---------------------------------------------------------------------------------------
+
+    def mechanism(self) -> None:
+        """Fixed points first, then the moving elements in build order."""
+        mechanism = self.machine.mechanism
+        self.origin = self._fixed("", 0.0, 0.0)
+        for name, point in mechanism.fixed_points().items():
+            self._fixed(name, point.x, point.y)
+        for name in mechanism.build_order():
+            if name in mechanism.cranks:
+                self._crank(name, mechanism.cranks[name])
+            elif name in mechanism.sliders:
+                self._slider(name, mechanism.sliders[name])
+            elif name in mechanism.rockers:
+                self._rocker(name, mechanism.rockers[name])
+            else:
+                part = mechanism.rigid_points[name]
+                link, start = self.links[part.link], self.starts[part.link]
+                place = [self.slot(part.along), self.slot(part.across)]
+                self.elements.append([4, self._point(name), link, start, *place])
+        # The hidden origin has served: nobody can ask for it by name.
+        self.points.pop("")
+
+    def _fixed(self, name: str, x: Any, y: Any) -> int:
+        point = self._point(name)
+        self.elements.append([0, point, self.slot(x), self.slot(y)])
+        return point
+
+    def _fixed_or_origin(self, name: str | None) -> int:
+        return self.origin if name is None else self.points[name]
+
+    def _crank(self, name: str, crank: Crank) -> None:
+        pivot = self._fixed_or_origin(crank.pivot)
+        numbers = (crank.radius, np.cos(crank.phase), np.sin(crank.phase))
+        row = [1, self._point(name), self._link(name, pivot), pivot]
+        self.elements.append(row + [self.slot(value) for value in numbers])
+
+    def _slider(self, name: str, slider: Slider) -> None:
+        pin = self.points[slider.crank]
+        driver = self.machine.mechanism.cranks.get(slider.crank)
+        through = self._fixed_or_origin(slider.through or (driver.pivot if driver else None))
+        slide = self.slides.setdefault(name, len(self.slides))
+        row = [2, self._point(name), self._link(f"{name}.rod", pin), slide, self._dyad(name), pin, through]
+        sign = 1.0 if slider.assembly == "positive" else -1.0
+        direction = (np.cos(slider.angle), np.sin(slider.angle))
+        numbers = (slider.rod, 1.0 / slider.rod, slider.offset, *direction, sign)
+        self.elements.append(row + [self.slot(value) for value in numbers])
+
+    def _rocker(self, name: str, rocker: Rocker) -> None:
+        pin, pivot = self.points[rocker.crank], self.points[rocker.pivot]
+        links = [self._link(f"{name}.coupler", pin), self._link(f"{name}.rocker", pivot)]
+        sign = 1.0 if rocker.assembly == "left" else -1.0
+        numbers = (rocker.coupler, rocker.rocker, 1.0 / rocker.coupler, 1.0 / rocker.rocker, sign)
+        row = [3, self._point(name), *links, self._dyad(name), pin, pivot]
+        self.elements.append(row + [self.slot(value) for value in numbers])
+
+    # -- bodies ------------------------------------------------------------------------------------------
+
+    def bodies(self) -> None:
+        """Masses on links and on points."""
+        lengths = {name: link.length for name, link in self.machine.mechanism.links().items()}
+        for name, body in self.machine.bodies.items():
+            carrier = body.on or name
+            if carrier in self.links:
+                place = [self.links[carrier], self.starts[carrier]]
+                numbers = link_body(body, lengths[carrier])
+                self.body_rows.append([1, *place, *(self.slot(value) for value in numbers)])
+            else:
+                self.body_rows.append([0, self.points[carrier], self.slot(body.mass)])
+
+    # -- loads -------------------------------------------------------------------------------------------
+
+    def loads(self, *, brake: bool) -> None:
+        """Forces and torques; a brake resists on the crankshaft."""
+        for load in self.machine.loads.values():
+            self.load_rows.append(self._load(load))
+        drive = self.machine.drive
+        if brake and drive and drive.brake:
+            ratio = drive.gearbox.ratio if drive.brake.on == "motor" else 1.0
+            self.load_rows.append([13, self.slot(drive.brake.torque * ratio)])
+
+    def _load(self, load: Any) -> list[int]:
+        match load:
+            case DryFriction():
+                return self._against_motion(0, load.on, load.force, load.torque)
+            case ViscousFriction():
+                return self._against_motion(3, load.on, load.damping, load.damping_torsional)
+            case ConstantForce():
+                return [6, self.points[load.on], *self._vector(load.force, load.direction)]
+            case ConstantTorque():
+                return [7, self.links[load.on], self.slot(load.torque)]
+            case Gravity():
+                return [8, *self._vector(load.acceleration, load.direction)]
+            case Spring():
+                ends = [self.points[end] for end in load.between]
+                return [9, *ends, self.slot(load.stiffness), self.slot(load.free_length)]
+            case ForcePosition():
+                back = load.return_ or (0.0,) * len(load.position)
+                tables = [self.table(load.position, load.forward), self.table(load.position, back)]
+                return [10, self.slides[load.on], *tables]
+            case TorqueAngle():
+                return [11, self.table(*_one_turn(load.angle, load.torque))]
+            case TorqueSpeed():
+                return [12, self.table(load.speed, load.torque)]
+        raise TypeError(f"no translation for {type(load).__name__}")
+
+    def _against_motion(self, kind: int, on: str, on_point: Any, on_link: Any) -> list[int]:
+        """Resistance on a slide, a point or a link: three kinds in a row."""
+        if on_link is not None:
+            return [kind + 2, self.links[on], self.slot(on_link)]
+        if on in self.slides:
+            return [kind, self.slides[on], self.slot(on_point)]
+        return [kind + 1, self.points[on], self.slot(on_point)]
+
+    def _vector(self, size: Any, direction: Any) -> list[int]:
+        return [self.slot(size * np.cos(direction)), self.slot(size * np.sin(direction))]
+
+    # -- drive -------------------------------------------------------------------------------------------
+
+    def drive(self, *, motor: bool) -> None:
+        """Motor, gearbox, and the inertia that turns with the crank."""
+        drive = self.machine.drive or Drive()
+        kind, spans = self._motor(drive.motor) if motor else ([0], [])
+        gearbox = drive.gearbox
+        numbers = (
+            gearbox.ratio,
+            gearbox.efficiency,
+            reverse_factor(drive),
+            drive_inertia(drive),
+            speed_guess(drive),
+        )
+        head = [*kind, *[0] * (5 - len(kind))]
+        self.drive_row = [*head, *(self.slot(value) for value in numbers), *spans]
+
+    def _motor(self, motor: Any) -> tuple[list[int], list[int]]:
+        match motor:
+            case ConstantTorqueMotor():
+                return [1, self.slot(motor.torque)], []
+            case DcMotor():
+                return [2, self.slot(motor.torque_stall), self.slot(1.0 / motor.speed_no_load)], []
+            case InductionMotor():
+                slip = 1.0 - motor.speed_breakdown / motor.speed_synchronous
+                numbers = (
+                    1.0 / motor.speed_synchronous,
+                    motor.torque_breakdown,
+                    slip,
+                    motor.resistance_ratio,
+                )
+                return [3, *(self.slot(value) for value in numbers)], self._spans(motor)
+            case TableMotor():
+                return [4, self.table(motor.speed, motor.torque)], []
+        # No motor, or one of constant speed: nothing that answers to the load.
+        return [0], []
+
+    def _spans(self, motor: InductionMotor) -> list[int]:
+        """The curve below breakdown: start, pull-up if there is one, breakdown."""
+        if motor.torque_start is None:
+            return []
+        knots = [(0.0, motor.torque_start), (motor.speed_breakdown, motor.torque_breakdown)]
+        if motor.torque_pull_up is not None:
+            knots.insert(1, (motor.speed_pull_up, motor.torque_pull_up))
+        spans: list[int] = []
+        for nth, (left, right) in enumerate(zip(knots, knots[1:], strict=False)):
+            numbers = (*left, *right, 1.0 / (right[0] - left[0]))
+            spans += [self.slot(value) for value in numbers] + [int(nth > 0)]
+        return spans
+
+    # -- result ------------------------------------------------------------------------------------------
+
+    def result(self) -> Compiled:
+        """Plan and parameters as arrays."""
+        # The hidden origin has no name but has its place.
+        sizes = [len(self.parameters), len(self.points) + 1, len(self.links), len(self.slides)]
+        starts = np.cumsum([0, *(len(x) for x, _ in self.tables)])
+        plan = _core.Plan(
+            _ints([*sizes, len(self.dyads)]),
+            _rows(self.elements, _ELEMENT_WIDTH),
+            _rows(self.body_rows, _ROW_WIDTH),
+            _rows(self.load_rows, _ROW_WIDTH),
+            _ints(self.drive_row),
+            _ints(starts),
+            np.array([value for x, _ in self.tables for value in x], dtype=np.float64),
+            np.array([value for _, y in self.tables for value in y], dtype=np.float64),
+        )
+        parameters, slots, values = _columns(self.parameters)
+        return Compiled(
+            plan, parameters, slots, values, self.points, self.links, self.slides, tuple(self.dyads)
+        )
+
+
+def link_body(body: Body, length: Any) -> tuple[Any, Any, Any, Any]:
+    """Place of the centre of mass along and across the link [m], mass [kg], inertia about it [kg m²].
+
+    Without a place the centre is in the middle; without an inertia the body is a uniform slender rod,
+    m l²/12.
+    """
+    mass = body.mass_per_length * length if body.mass_per_length is not None else body.mass or 0.0
+    along = 0.5 * length if body.along is None else body.along
+    inertia = mass * length**2 / 12 if body.inertia is None else body.inertia
+    return along, body.across, mass, inertia
+
+
+def reverse_factor(drive: Drive) -> Any:
+    """Factor on motor torque times ratio while the load drives the motor."""
+    gearbox = drive.gearbox
+    if gearbox.reverse is None:
+        return 1.0 / gearbox.efficiency
+    return gearbox.efficiency if isinstance(gearbox.reverse, str) else gearbox.reverse
+
+
+def drive_inertia(drive: Drive) -> Any:
+    """Inertia of all that turns at the motor's speed or the crank's, at the crank [kg m²]."""
+    at_motor = (drive.motor.inertia if drive.motor else 0.0) + drive.gearbox.inertia
+    at_motor = at_motor + (drive.coupling.inertia if drive.coupling else 0.0)
+    at_crank: Any = 0.0
+    for part in (drive.flywheel, drive.brake):
+        if part is not None and part.on == "motor":
+            at_motor = at_motor + part.inertia
+        elif part is not None:
+            at_crank = at_crank + part.inertia
+    return at_motor * drive.gearbox.ratio**2 + at_crank
+
+
+def speed_guess(drive: Drive) -> Any:
+    """Crank speed without load, as far as the motor has one; else the design speed [rad/s]."""
+    match drive.motor:
+        case InductionMotor(speed_synchronous=speed) if speed is not None:
+            return speed / drive.gearbox.ratio
+        case DcMotor(speed_no_load=speed) | ConstantSpeedMotor(speed=speed):
+            return speed / drive.gearbox.ratio
+        case TableMotor(speed=speeds, torque=torques):
+            driving = [speed for speed, torque in zip(speeds, torques, strict=True) if torque > 0]
+            return max([*driving, 0.1 * speeds[-1]]) / drive.gearbox.ratio
+    return drive.speed or _SPEED_UNKNOWN
+
+
+def _one_turn(angles: Sequence[float], torques: Sequence[float]) -> tuple[Sequence[float], Sequence[float]]:
+    """A table without the repetition of its first point at the end of the turn."""
+    closes = angles[-1] - angles[0] >= 2 * np.pi * (1 - 1e-9)
+    return (angles[:-1], torques[:-1]) if closes else (angles, torques)
+
+
+def _ints(values: ArrayLike) -> NDArray[np.int32]:
+    return np.asarray(values, dtype=np.int32)
+
+
+def _rows(rows: list[list[int]], width: int) -> NDArray[np.int32]:
+    return _ints([value for row in rows for value in (*row, *[0] * (width - len(row)))])
+
+
+def _columns(parameters: list[Any]) -> tuple[Floats, NDArray[np.int32], Floats]:
+    """First row of all parameters; which vary; their values (k, n)."""
+    varying = [slot for slot, value in enumerate(parameters) if np.ndim(value)]
+    columns = [np.asarray(parameters[slot], dtype=np.float64) for slot in varying]
+    lengths = {column.shape for column in columns}
+    if len(lengths) > 1 or any(column.ndim != 1 for column in columns):
+        raise ShapeError(f"arrays of one length are needed, found shapes {sorted(lengths)}")
+    first = [np.ravel(value)[0] if np.ndim(value) else value for value in parameters]
+    values = np.ascontiguousarray(columns) if columns else np.empty((0, 1))
+    return np.array(first, dtype=np.float64), _ints(varying), values
+
+
+def vary(machine: Machine, entries: dict[str, ArrayLike], replace: Callable[..., Machine]) -> Machine:
+    """The machine with arrays for some entries, after a check that they are finite numbers."""
+    arrays = {address: np.asarray(value, dtype=np.float64) for address, value in entries.items()}
+    for address, array in arrays.items():
+        if not np.isfinite(array).all():
+            raise MachineError([Problem(address, "NaN or infinite values", "finite numbers")])
+    return replace(machine, arrays)

@@ -1,0 +1,164 @@
+"""What can go wrong, in two families: the input is wrong, or the machine cannot do it.
+
+| error | family | says |
+| --- | --- | --- |
+| `UnitError` | input | a number or a text is not the quantity that was asked for |
+| `MachineError` | input | a description contradicts itself; lists every problem |
+| `MachineFileError` | input | the same for a file: with file and line |
+| `ShapeError` | input | arrays do not fit together |
+| `AssemblyError` | finding | the links do not close |
+| `StartError` | finding | the drive does not start, stalls or runs backwards |
+| `SteadyStateError` | finding | there is no periodic motion |
+| `ConvergenceError` | finding | a method did not reach the accuracy asked for |
+
+An input error means exit code 2 of the command line, a finding exit code 1. Nothing here needs the
+compiled core.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import ClassVar
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One thing that is wrong in the input: where it is, what is there, what belongs there.
+
+    Attributes
+    ----------
+    key : str
+        Address of the entry, such as ``mechanism.cranks.A2.phase``.
+    found : str
+        What stands there, as the user wrote it.
+    expected : str
+        What belongs there.
+    remedy : str
+        What to change; empty if ``expected`` says it already.
+    path : str
+        The file, or the override (``--set …``) that brought the entry in.
+    line : int or None
+        Line in the file, counted from 1.
+    """
+
+    key: str = ""
+    found: str = ""
+    expected: str = ""
+    remedy: str = ""
+    path: str = ""
+    line: int | None = None
+
+    @property
+    def place(self) -> str:
+        """File, line and key on one line."""
+        where = f"{self.path}:{self.line}" if self.path and self.line else self.path
+        return ": ".join(part for part in (where, self.key) if part)
+
+    def __str__(self) -> str:
+        """A block of up to four lines."""
+        rows = (("found", self.found), ("expected", self.expected), ("remedy", self.remedy))
+        body = [f"  {name + ':':<10}{text}" for name, text in rows if text]
+        return "\n".join([self.place, *body] if self.place else body)
+
+
+class LinkwrightError(Exception):
+    """Any error that this package raises on purpose."""
+
+    exit_code: ClassVar[int] = 1
+
+
+class InputError(LinkwrightError):
+    """What was given is wrong; nothing was computed."""
+
+    exit_code: ClassVar[int] = 2
+
+
+class FindingError(LinkwrightError):
+    """The input is sound, and the answer is that the machine cannot do it."""
+
+    exit_code: ClassVar[int] = 1
+
+
+class UnitError(InputError):
+    """A value is not the quantity that was asked for; ``problem`` says what was."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(problem)
+        self.problem = problem
+
+
+class MachineError(InputError):
+    """A description contradicts itself; ``problems`` lists all that was found wrong."""
+
+    def __init__(self, problems: Iterable[Problem]) -> None:
+        self.problems: list[Problem] = list(problems)
+        super().__init__(self.problems)
+
+    def __str__(self) -> str:
+        """All problems, one block each."""
+        return "\n\n".join(str(problem) for problem in self.problems)
+
+
+class MachineFileError(MachineError):
+    """A machine file cannot be read, or describes no machine; the problems have a file and a line."""
+
+
+class ShapeError(InputError):
+    """Arrays do not fit together."""
+
+
+class AssemblyError(FindingError):
+    """The links do not close at some crank angle.
+
+    Parameters
+    ----------
+    message : str
+        One sentence with the numbers and the remedy.
+    element : str
+        Name of the element that does not close.
+    crank_angle : float or None
+        Crank angle at which it does not [rad].
+    gap : float or None
+        Length that is missing [m].
+    """
+
+    def __init__(
+        self, message: str, *, element: str = "", crank_angle: float | None = None, gap: float | None = None
+    ) -> None:
+        super().__init__(message)
+        self.element = element
+        self.crank_angle = crank_angle
+        self.gap = gap
+
+
+class StartError(FindingError):
+    """The machine does not start, stalls on the way, or is driven backwards."""
+
+
+class SteadyStateError(FindingError):
+    """There is no periodic motion; the message says what the drive lacks."""
+
+
+class ConvergenceError(FindingError):
+    """A method stopped before it reached the accuracy asked for.
+
+    Parameters
+    ----------
+    message : str
+        One sentence with the numbers and the remedy.
+    method : str
+        What was being solved.
+    iterations : int or None
+        How many were made.
+    residual : float or None
+        How far off the last value was, in the unit that the message names.
+    """
+
+    def __init__(
+        self, message: str, *, method: str = "", iterations: int | None = None, residual: float | None = None
+    ) -> None:
+        super().__init__(message)
+        self.method = method
+        self.iterations = iterations
+        self.residual = residual

@@ -1,0 +1,18 @@
+"""Machine files: TOML in and out, with problems told by file, line and key.
+
+| module | does |
+| --- | --- |
+| `read` | text → overrides → checked machine |
+| `overrides` | ``PATH=VALUE`` into the tables of a file |
+| `lines` | where each key stands |
+| `write` | machine → text that reads back equal |
+| `schema` | JSON Schema for editors |
+| `templates` | files to start from |
+"""
+
+from linkwright.files.read import loads, read
+from linkwright.files.schema import schema
+from linkwright.files.templates import template, templates
+from linkwright.files.write import dumps, write
+
+__all__ = ["dumps", "loads", "read", "schema", "template", "templates", "write"]

@@ -1,0 +1,195 @@
+"""Read a machine file: TOML in, a checked machine in SI out, or all problems with file, line and key."""
+
+from __future__ import annotations
+
+import os
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from linkwright.errors import MachineError, MachineFileError, Problem
+from linkwright.files.lines import key_lines, line_of
+from linkwright.files.overrides import Override, apply, parse_all
+from linkwright.machine.machine import FORMAT, Machine
+from linkwright.machine.text import split
+from linkwright.units import show
+
+# A machine file has a few kB. A thousand times that is some other file.
+_LARGEST = 4_000_000
+_TOO_LARGE = f"a machine file: a few kB of text, at most {_LARGEST // 1_000_000} MB"
+
+Overrides = Sequence[str] | Mapping[str, Any]
+
+# What each override brought in.
+Places = Sequence[tuple[tuple[str, ...], Override]]
+
+_LINE_IN_MESSAGE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
+
+
+def read(path: str | os.PathLike[str], overrides: Overrides = ()) -> Machine:
+    """Read a machine file.
+
+    Parameters
+    ----------
+    path : path
+        A TOML file.
+    overrides : sequence of str or Mapping
+        Entries that replace or add to those of the file: texts ``PATH=VALUE``, or path → value.
+
+    Returns
+    -------
+    Machine
+        Checked, in SI.
+
+    Raises
+    ------
+    MachineFileError
+        The file cannot be read or describes no machine; all problems are listed.
+    InputError
+        An override is malformed.
+    """
+    return loads(_text(Path(path)), overrides, path=str(path))
+
+
+def loads(text: str, overrides: Overrides = (), *, path: str = "") -> Machine:
+    """Read a machine from a TOML text.
+
+    Parameters
+    ----------
+    text : str
+        What a machine file holds.
+    overrides : sequence of str or Mapping
+        As for `read`.
+    path : str
+        Name of the text in messages.
+
+    Returns
+    -------
+    Machine
+        Checked, in SI.
+
+    Raises
+    ------
+    MachineFileError
+        The text describes no machine; all problems are listed.
+    InputError
+        An override is malformed.
+    """
+    tables = _tables(text, path)
+    _check_format(tables, path, text)
+    places = [(apply(tables, change), change) for change in parse_all(overrides)]
+    try:
+        return Machine.model_validate(tables)
+    except MachineError as error:
+        raise MachineFileError(_located(error.problems, text, path, places)) from None
+
+
+def _text(path: Path) -> str:
+    """The text of a file, or the problem with it."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(_LARGEST + 1)
+    except IsADirectoryError:
+        raise _unreadable(path, "a directory") from None
+    except FileNotFoundError:
+        raise _unreadable(path, "no such file", _similar(path)) from None
+    except PermissionError:
+        raise _unreadable(path, "a file without permission to read it") from None
+    except (OSError, ValueError) as error:
+        raise _unreadable(path, f"a file that cannot be read ({error})") from None
+    return _decoded(path, data)
+
+
+def _decoded(path: Path, data: bytes) -> str:
+    """The bytes of a file as text."""
+    if len(data) > _LARGEST:
+        raise _unreadable(path, f"more than {_LARGEST // 1_000_000} MB", expected=_TOO_LARGE)
+    try:
+        # Editors on Windows may put a mark in front of the text.
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        found = f"no UTF-8 text (byte {error.start + 1})"
+        raise _unreadable(path, found, "save the file as UTF-8") from None
+    if not text.strip():
+        remedy = 'start from a template: "linkwright new --list" names them'
+        raise _unreadable(path, "an empty file", remedy)
+    return text
+
+
+def _unreadable(
+    path: Path, found: str, remedy: str = "", expected: str = "a machine file"
+) -> MachineFileError:
+    return MachineFileError([Problem(found=found, expected=expected, remedy=remedy, path=str(path))])
+
+
+def _similar(path: Path) -> str:
+    """A file beside the missing one with a similar name."""
+    from linkwright.machine.base import close_match
+
+    try:
+        names = [each.name for each in path.parent.glob("*.toml")]
+    except OSError:
+        return ""
+    return close_match(path.name, names)
+
+
+def _tables(text: str, path: str) -> dict[str, Any]:
+    """The tables of a TOML text, or the problem with its syntax."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise MachineFileError([_syntax(str(error), text, path)]) from None
+    except RecursionError:
+        found = "brackets within brackets, too deep to read"
+        raise MachineFileError([Problem(found=found, expected="a machine file", path=path)]) from None
+
+
+def _syntax(message: str, text: str, path: str) -> Problem:
+    """A fault in the TOML, with its line."""
+    match = _LINE_IN_MESSAGE.search(message)
+    words = _LINE_IN_MESSAGE.sub("", message)
+    line = int(match[1]) if match and match[1] else text.rstrip().count("\n") + 1
+    column = f" (column {match[2]})" if match and match[2] else " (end of the file)"
+    lines = text.splitlines()
+    found = show(lines[line - 1].strip()) if line <= len(lines) else "the end of the file"
+    return Problem(found=found, expected=f"TOML; {words}{column}", path=path, line=line)
+
+
+def _check_format(tables: dict[str, Any], path: str, text: str) -> None:
+    """Refuse another version of the format before anything else is said about it."""
+    version = tables.get("format", FORMAT)
+    if isinstance(version, int) and not isinstance(version, bool) and version == FORMAT:
+        return
+    line = line_of(key_lines(text), ("format",))
+    remedy = "a newer Linkwright may read it" if isinstance(version, int) and version > FORMAT else ""
+    expected = f"{FORMAT}, the format that this version reads"
+    raise MachineFileError([Problem("format", show(version), expected, remedy, path, line)])
+
+
+def _located(problems: Sequence[Problem], text: str, path: str, places: Places) -> list[Problem]:
+    """The problems in the order of the file, each with its line or with the override that brought it in."""
+    lines = key_lines(text)
+    found = [_placed(each, lines, path, places) for each in problems]
+    return sorted(found, key=lambda each: (each.line is None, each.line or 0))
+
+
+def _placed(
+    problem: Problem,
+    lines: dict[tuple[str, ...], int],
+    path: str,
+    places: Places,
+) -> Problem:
+    """One problem with its place."""
+    key = split(problem.key) if problem.key else ()
+    change = next((each for place, each in places if _touches(place, key, lines)), None)
+    if change is not None:
+        return replace(problem, path=str(change))
+    return replace(problem, path=path, line=line_of(lines, key))
+
+
+def _touches(place: tuple[str, ...], key: tuple[str, ...], lines: dict[tuple[str, ...], int]) -> bool:
+    """Whether an override brought in the entry of a problem, a part of it, or its table."""
+    return key[: len(place)] == place or (place[: len(key)] == key and key not in lines)

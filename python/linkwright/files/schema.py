@@ -1,0 +1,42 @@
+"""JSON Schema of a machine file, for editors that complete and check while one writes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def schema() -> dict[str, Any]:
+    """JSON Schema of a machine file as it is written, with texts that carry units.
+
+    Returns
+    -------
+    dict
+        A schema of the draft 2020-12. References between elements, and entries that belong together, are
+        checked by `read` alone.
+    """
+    from linkwright.machine.machine import Machine
+
+    title = {"title": "Linkwright machine file", "description": "A machine; bare numbers are SI."}
+    made: dict[str, Any] = _tidy(Machine.model_json_schema(by_alias=True, mode="validation"))
+    return {"$schema": _DIALECT} | made | title
+
+
+def _tidy(node: Any) -> Any:
+    """Leave out what a TOML file cannot hold (null) and titles that repeat their key."""
+    if isinstance(node, list):
+        return [_tidy(each) for each in node if each != {"type": "null"}]
+    if not isinstance(node, dict):
+        return node
+    kept = {key: _tidy(value) for key, value in node.items() if not _idle(key, value)}
+    alternatives = kept.get("anyOf", ())
+    if len(alternatives) == 1:
+        del kept["anyOf"]
+        return alternatives[0] | kept
+    return kept
+
+
+def _idle(key: str, value: Any) -> bool:
+    """Whether an entry of the schema says nothing; a property may itself be called title or default."""
+    return (key == "title" and isinstance(value, str)) or (key == "default" and value is None)

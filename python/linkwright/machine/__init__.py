@@ -1,0 +1,89 @@
+"""What a machine is: frozen descriptions in SI, checked, without any analysis.
+
+| module | holds |
+| --- | --- |
+| `machine` | `Machine`: drive, mechanism, bodies, loads, run-up |
+| `drive` | gearbox, coupling, flywheel, brake |
+| `motor` | the kinds of motor, and how their entries follow from one another |
+| `catalogue` | published motors |
+| `mechanism` | cranks, sliders, rockers, rigid points |
+| `body`, `load` | masses; forces and torques |
+| `curve` | curves given by points |
+| `outline` | names in a mechanism: what refers to what, in which order it is built |
+| `address`, `text` | entries by address |
+| `base`, `plain` | what all descriptions share; reading checked and raw ones alike |
+| `schema_walk`, `problems` | what belongs where; errors in the words of the file |
+"""
+
+from linkwright.machine.address import addresses, get, kind, replace
+from linkwright.machine.body import Body
+from linkwright.machine.catalogue import CatalogueMotor, motor, motors
+from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
+from linkwright.machine.load import (
+    AnyLoad,
+    ConstantForce,
+    ConstantTorque,
+    DryFriction,
+    ForcePosition,
+    Gravity,
+    Load,
+    Spring,
+    TorqueAngle,
+    TorqueSpeed,
+    ViscousFriction,
+)
+from linkwright.machine.machine import FORMAT, Machine, RunUp
+from linkwright.machine.mechanism import Crank, FixedPoint, Link, Mechanism, RigidPoint, Rocker, Slider
+from linkwright.machine.motor import (
+    AnyMotor,
+    ConstantSpeedMotor,
+    ConstantTorqueMotor,
+    DcMotor,
+    InductionMotor,
+    Motor,
+    TableMotor,
+)
+
+__all__ = [
+    "FORMAT",
+    "AnyLoad",
+    "AnyMotor",
+    "Body",
+    "Brake",
+    "CatalogueMotor",
+    "ConstantForce",
+    "ConstantSpeedMotor",
+    "ConstantTorque",
+    "ConstantTorqueMotor",
+    "Coupling",
+    "Crank",
+    "DcMotor",
+    "Drive",
+    "DryFriction",
+    "FixedPoint",
+    "Flywheel",
+    "ForcePosition",
+    "Gearbox",
+    "Gravity",
+    "InductionMotor",
+    "Link",
+    "Load",
+    "Machine",
+    "Mechanism",
+    "Motor",
+    "RigidPoint",
+    "Rocker",
+    "RunUp",
+    "Slider",
+    "Spring",
+    "TableMotor",
+    "TorqueAngle",
+    "TorqueSpeed",
+    "ViscousFriction",
+    "addresses",
+    "get",
+    "kind",
+    "motor",
+    "motors",
+    "replace",
+]

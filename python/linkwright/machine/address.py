@@ -1,0 +1,181 @@
+"""Addresses of entries: read, list and exchange the numbers of a machine by address.
+
+An exchange is not checked, and the new value may be an array: that is how a batch describes many machines
+at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from linkwright.errors import MachineError, Problem
+from linkwright.machine.base import Description, suggestion
+from linkwright.machine.machine import Machine
+from linkwright.machine.plain import field_names, keys, look
+from linkwright.machine.schema_walk import annotation_at, mark_of
+from linkwright.machine.text import join, split
+from linkwright.units import Kind
+
+
+def addresses(machine: Machine) -> dict[str, float]:
+    """All numbers of a machine.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    dict of str to float
+        Address → value in SI. The values of a list have addresses of their own, ``loads.press.forward.0``.
+    """
+    return {join(place): value for place, value in _numbers(machine, ()) if place != ("format",)}
+
+
+def get(machine: Machine, address: str) -> Any:
+    """The entry at an address.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    address : str
+        Such as ``mechanism.cranks.A2.phase``.
+
+    Returns
+    -------
+    object
+        The value in SI, or the part of the description that has this address.
+
+    Raises
+    ------
+    MachineError
+        There is no such entry.
+    """
+    node: Any = machine
+    for key in known_place(machine, address):
+        node = look(node, key)
+    return node
+
+
+def kind(machine: Machine, address: str) -> Kind | None:
+    """The quantity that stands at an address.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    address : str
+        Address of an entry.
+
+    Returns
+    -------
+    Kind or None
+        Its kind with unit; None if the entry is no quantity.
+
+    Raises
+    ------
+    MachineError
+        There is no such entry.
+    """
+    mark = mark_of(annotation_at(Machine, known_place(machine, address), machine))
+    return mark.kind if mark else None
+
+
+def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
+    """Copy of a machine with some entries exchanged, unchecked.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; it stays as it is.
+    entries : Mapping
+        Address → new value in SI, a number or an array over many machines.
+
+    Returns
+    -------
+    Machine
+        The copy. What a motor derives from its given entries is derived anew.
+
+    Raises
+    ------
+    MachineError
+        An address does not exist; the remedy names close ones.
+    """
+    tree: dict[str, Any] = {}
+    for address, value in entries.items():
+        place = known_place(machine, address)
+        branch = tree
+        for key in place[:-1]:
+            branch = branch.setdefault(key, {})
+        branch[place[-1]] = _Leaf(value)
+    changed: Machine = _rebuilt(machine, tree)
+    return changed
+
+
+def resolve(node: object, address: str) -> tuple[str, ...]:
+    """The keys that an address means, where a key with points in it need not stand in quotes.
+
+    Parameters
+    ----------
+    node : object
+        A description, checked or raw.
+    address : str
+        ``bodies.cart1.rod.mass`` finds the key ``cart1.rod``, if there is one.
+
+    Returns
+    -------
+    tuple of str
+        Keys from the top down; keys that do not exist are taken as they are written.
+    """
+    parts = split(address)
+    found: list[str] = []
+    while parts:
+        known = keys(node)
+        n = next((n for n in range(len(parts), 1, -1) if ".".join(parts[:n]) in known), 1)
+        key = ".".join(parts[:n])
+        found.append(key)
+        node, parts = look(node, key), parts[n:]
+    return tuple(found)
+
+
+def known_place(machine: Machine, address: str) -> tuple[str, ...]:
+    """The keys that an address means; an error if there is no such entry."""
+    place = resolve(machine, address)
+    node: Any = machine
+    for key in place:
+        if key not in keys(node):
+            remedy = suggestion(join(place), addresses(machine))
+            raise MachineError([Problem(address, "no such entry", "the address of an entry", remedy)])
+        node = look(node, key)
+    return place
+
+
+class _Leaf:
+    """A new value, which may itself be a dictionary or an array."""
+
+    def __init__(self, value: Any) -> None:
+        self.value = value
+
+
+def _rebuilt(node: Any, tree: dict[str, Any] | _Leaf) -> Any:
+    """The node with new values in it; the parts between are copied, the others shared."""
+    if isinstance(tree, _Leaf):
+        return tree.value
+    new = {key: _rebuilt(look(node, key), below) for key, below in tree.items()}
+    if isinstance(node, Description):
+        names = field_names(type(node))
+        return node.with_entries({names[key]: value for key, value in new.items()})
+    if isinstance(node, tuple):
+        return tuple(new.get(str(place), value) for place, value in enumerate(node))
+    return {**node, **new}
+
+
+def _numbers(node: object, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], float]]:
+    """All numbers below a node."""
+    if isinstance(node, int | float) and not isinstance(node, bool):
+        yield place, node
+    for key in keys(node):
+        yield from _numbers(look(node, key), (*place, key))

@@ -1,0 +1,52 @@
+"""Curves given by points: an argument that increases, and a value at each point."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import pairwise
+
+from pydantic import BaseModel
+from pydantic_core import InitErrorDetails
+
+from linkwright.machine.base import fault
+
+
+def curve_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iterator[InitErrorDetails]:
+    """What is wrong with a curve.
+
+    Parameters
+    ----------
+    owner : BaseModel
+        The description that holds the points.
+    argument : str
+        Field with the arguments, which must increase.
+    values : iterable of str
+        Fields with one value per argument; a field that is None is left out.
+
+    Yields
+    ------
+    InitErrorDetails
+        Too few points, arguments that do not increase, lists of different length.
+    """
+    points: tuple[float, ...] = getattr(owner, argument)
+    if len(points) < 2:
+        yield fault(argument, found=_values(len(points)), expected="at least 2 values")
+    for place, (before, here) in enumerate(pairwise(points), start=1):
+        if here <= before:
+            yield fault(argument, place, found=here, expected=f"more than {before:.6g}, the value before it")
+    yield from _length_faults(owner, argument, values)
+
+
+def _length_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iterator[InitErrorDetails]:
+    """Lists that have not as many values as there are arguments."""
+    n = len(getattr(owner, argument))
+    for name in values:
+        field = type(owner).model_fields[name]
+        listed = getattr(owner, name)
+        if listed is not None and len(listed) != n:
+            key = field.alias or name
+            yield fault(key, found=_values(len(listed)), expected=f"{_values(n)}, one for each {argument}")
+
+
+def _values(n: int) -> str:
+    return "1 value" if n == 1 else f"{n} values"

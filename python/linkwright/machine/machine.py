@@ -1,0 +1,88 @@
+"""The machine: drive, mechanism, bodies, loads, and how it is run up."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BaseModel, Field, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic_core import InitErrorDetails
+
+from linkwright.errors import MachineError
+from linkwright.machine.base import Description, faults_of, raise_faults
+from linkwright.machine.body import Body, body_faults
+from linkwright.machine.drive import Drive
+from linkwright.machine.load import AnyLoad, load_faults
+from linkwright.machine.mechanism import Mechanism
+from linkwright.machine.outline import Outline
+from linkwright.machine.plain import look
+from linkwright.machine.problems import problems
+from linkwright.units import INSIDE_ONE, RATIO, SPEED, Angle, Quantity, not_negative, positive
+
+# The format that this version reads and writes.
+FORMAT = 1
+
+
+class RunUp(Description):
+    """How the run-up starts, and when it counts as done."""
+
+    angle_start: Angle = Field(0.0, description="Crank angle at the start.")
+    speed_start: Annotated[float, not_negative(SPEED)] = Field(
+        0.0, description="Speed of the crankshaft at the start."
+    )
+    settled: Annotated[float, Quantity(RATIO, INSIDE_ONE)] = Field(
+        0.01, description="Difference from the steady speed at which the run-up is done, over that speed."
+    )
+    turns_max: Annotated[float, positive(RATIO)] = Field(
+        200.0, description="Turns of the crankshaft after which the attempt ends."
+    )
+
+
+class Machine(Description):
+    """A machine, complete: everything that an analysis needs to know, in SI.
+
+    Raises
+    ------
+    MachineError
+        Something is wrong; all problems are listed, each with its key.
+    """
+
+    format: Literal[1] = Field(description="Version of the file format.")
+    name: str = Field(description="What the machine is.")
+    description: str = Field("", description="More about it.")
+    source: str = Field("", description="Where the numbers are from.")
+    drive: Drive | None = Field(None, description="What turns the crankshaft.")
+    mechanism: Mechanism = Field(description="What the crankshaft moves.")
+    bodies: dict[str, Body] = Field(default_factory=dict, description="Masses by name.")
+    loads: dict[str, AnyLoad] = Field(default_factory=dict, description="Forces and torques by name.")
+    run_up: RunUp = Field(default_factory=RunUp, description="How the run-up starts and ends.")
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Collect wrong values and wrong names, and report them in the words of the field."""
+        try:
+            return cls._checked(data, handler)
+        except ValidationError as error:
+            raise MachineError(problems(error, cls, data)) from None
+
+    @classmethod
+    def _checked(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """The machine, or all faults in one error."""
+        try:
+            machine = handler(data)
+        except ValidationError as error:
+            raise_faults(cls.__name__, [*faults_of(error), *_reference_faults(data)])
+            raise
+        raise_faults(cls.__name__, _reference_faults(machine))
+        return machine
+
+
+def _reference_faults(machine: object) -> list[InitErrorDetails]:
+    """Bodies and loads that refer to nothing; nothing to say if there is no mechanism to refer to."""
+    mechanism = look(machine, "mechanism")
+    if not isinstance(mechanism, BaseModel | Mapping):
+        return []
+    outline = Outline.of(mechanism)
+    bodies, loads = look(machine, "bodies"), look(machine, "loads")
+    return [*body_faults(outline, bodies), *load_faults(outline, loads)]

@@ -1,0 +1,39 @@
+"""Look into a description that may be a checked model or the raw tables of a file.
+
+Names that refer to nothing should be reported together with wrong values, so the references of a file are
+checked even where its tables could not be turned into models. Both are read through these two functions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import BaseModel
+
+
+def field_names(model: type[BaseModel]) -> dict[str, str]:
+    """Key in a file → name of the field; they differ only where the key is a word of Python."""
+    return {field.alias or name: name for name, field in model.model_fields.items()}
+
+
+def keys(node: object) -> tuple[str, ...]:
+    """The keys of a table, of a model, or the places of a list; nothing for a value."""
+    if isinstance(node, BaseModel):
+        return tuple(field_names(type(node)))
+    if isinstance(node, Mapping):
+        return tuple(key for key in node if isinstance(key, str))
+    if isinstance(node, list | tuple):
+        return tuple(str(place) for place in range(len(node)))
+    return ()
+
+
+def look(node: object, key: str) -> Any:
+    """The entry under a key; None if there is none."""
+    if isinstance(node, BaseModel):
+        return getattr(node, field_names(type(node)).get(key, ""), None)
+    if isinstance(node, Mapping):
+        return node.get(key)
+    if isinstance(node, list | tuple):
+        return node[int(key)] if key in keys(node) else None
+    return None

@@ -1,0 +1,97 @@
+"""Errors of pydantic, told in the words of the file: which key, what is there, what belongs there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from linkwright.errors import Problem
+from linkwright.machine.base import close_match
+from linkwright.machine.plain import field_names, look
+from linkwright.machine.schema_walk import annotation_at, kinds_at, model_of, words_of
+from linkwright.machine.text import join
+from linkwright.units import show
+
+# Where a table has a `kind`, pydantic puts that kind into the place of an error: its position there.
+_KIND_IN_PLACE = {"loads": 2, "drive": 2}
+
+
+def problems(error: ValidationError, model: type[BaseModel], data: object) -> list[Problem]:
+    """All problems that an error holds.
+
+    Parameters
+    ----------
+    error : ValidationError
+        What pydantic and our own checks found.
+    model : type
+        The model that was to be made.
+    data : object
+        What it was to be made of.
+
+    Returns
+    -------
+    list of Problem
+        Without file and line, each once.
+    """
+    found = (_problem(each, model, data) for each in error.errors(include_url=False))
+    return list(dict.fromkeys(found))
+
+
+def _problem(error: ErrorDetails, model: type[BaseModel], data: object) -> Problem:
+    """One problem in words."""
+    place = _place(error["loc"])
+    context: dict[str, Any] = error.get("ctx") or {}
+    match error["type"]:
+        case "problem":
+            key, remedy = join(place), context["remedy"]
+            return Problem(key, _as_written(place, data, context["found"]), context["expected"], remedy)
+        case "extra_forbidden":
+            return _unknown_key(place, model, data)
+        case "union_tag_invalid" | "union_tag_not_found":
+            return _wrong_kind((*place, "kind"), model, data)
+        case "missing":
+            return Problem(join(place), "nothing", words_of(annotation_at(model, place, data)))
+    return Problem(join(place), show(error["input"]), words_of(annotation_at(model, place, data)))
+
+
+def _place(location: Iterable[str | int]) -> tuple[str, ...]:
+    """The keys from the top down, without pydantic's own marks between them."""
+    parts = [str(part) for part in location if part != "[key]"]
+    kind = _KIND_IN_PLACE.get(parts[0], 0) if parts else 0
+    if kind and len(parts) > kind and (parts[0] == "loads" or parts[1] == "motor"):
+        del parts[kind]
+    return tuple(parts)
+
+
+def _as_written(place: Sequence[str], data: object, found: str) -> str:
+    """The value at a place as the user wrote it; else what the check found."""
+    for key in place:
+        data = look(data, key)
+    written = isinstance(data, str | int | float)
+    return show(data) if written else found
+
+
+def _unknown_key(place: tuple[str, ...], model: type[BaseModel], data: object) -> Problem:
+    """A key that its table does not have."""
+    table = data
+    for key in place[:-1]:
+        table = look(table, key)
+    owner = model_of(annotation_at(model, place[:-1], data), table)
+    known = list(field_names(owner)) if owner else []
+    expected = "one of " + ", ".join(known)
+    return Problem(join(place), "an unknown key", expected, close_match(place[-1], known) or "remove it")
+
+
+def _wrong_kind(place: tuple[str, ...], model: type[BaseModel], data: object) -> Problem:
+    """A table whose kind is missing or unknown."""
+    known = kinds_at(annotation_at(model, place[:-1], data))
+    found = data
+    for key in place:
+        found = look(found, key)
+    expected = "one of " + ", ".join(f'"{each}"' for each in known)
+    if found is None:
+        return Problem(join(place), "nothing", expected)
+    return Problem(join(place), show(found), expected, close_match(str(found), known))

@@ -1,0 +1,150 @@
+"""The command line: messages on standard error, exit codes, no traceback for wrong input."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import typer
+from typer.testing import CliRunner, Result
+
+from linkwright.cli import application
+from linkwright.cli.common import reports_errors
+from linkwright.errors import StartError
+from linkwright.files import loads, templates
+
+ROOT = Path(__file__).parents[2]
+TWO_CARTS = ROOT / "machines" / "roller_two_carts.toml"
+
+
+def run(*arguments: str | Path) -> Result:
+    """Run the command line in this process."""
+    return CliRunner().invoke(application(), [str(each) for each in arguments])
+
+
+def test_check_says_what_is_in_the_file() -> None:
+    done = run("check", TWO_CARTS)
+    assert done.exit_code == 0
+    assert done.stdout.startswith("OK")
+    for word in ("cart1.rod", "induction, 11 kW, ratio 9.8", "rolling1 (dry)"):
+        assert word in done.stdout
+
+
+def test_check_tells_all_problems_on_standard_error(tmp_path: Path) -> None:
+    path = tmp_path / "bad.toml"
+    path.write_text("format = 1\nname = 3\n[mechanism.cranks.A]\nradius = '1 kg'\n")
+    done = run("check", path)
+    assert done.exit_code == 2
+    assert done.stdout == ""
+    assert f"{path}:2: name" in done.stderr
+    assert f"{path}:4: mechanism.cranks.A.radius" in done.stderr
+
+
+def test_set_is_checked_like_the_file() -> None:
+    assert run("check", TWO_CARTS, "--set", "drive.gearbox.ratio=10", "--set", "name=x").exit_code == 0
+    done = run("check", TWO_CARTS, "--set", "drive.gearbox.ratio=-10")
+    assert done.exit_code == 2
+    assert "--set drive.gearbox.ratio=-10" in done.stderr
+    assert run("check", TWO_CARTS, "--set", "ratio").exit_code == 2
+
+
+@pytest.mark.parametrize("arguments", [["check"], ["nonsense"], ["check", "a", "b"], ["check", "--what"]])
+def test_wrong_usage(arguments: list[str]) -> None:
+    assert run(*arguments).exit_code == 2
+
+
+@pytest.mark.parametrize("name", templates())
+def test_new_writes_a_sound_file(name: str, tmp_path: Path) -> None:
+    assert loads(run("new", name).stdout) == loads(run("new", name).stdout)
+    out = tmp_path / "machine.toml"
+    assert run("new", name, "--out", out).exit_code == 0
+    assert run("check", out).exit_code == 0
+
+
+def test_new_replaces_nothing_unasked(tmp_path: Path) -> None:
+    out = tmp_path / "machine.toml"
+    out.write_text("mine")
+    done = run("new", "press", "--out", out)
+    assert done.exit_code == 2
+    assert "--force" in done.stderr
+    assert out.read_text() == "mine"
+    assert run("new", "press", "--out", out, "--force").exit_code == 0
+    assert out.read_text() != "mine"
+
+
+def test_new_names_its_templates() -> None:
+    for done in (run("new", "--list"), run("new")):
+        assert done.exit_code == 0
+        assert all(name in done.stdout for name in templates())
+    unknown = run("new", "pres")
+    assert unknown.exit_code == 2
+    assert '"press"' in unknown.stderr
+
+
+def test_out_in_a_folder_that_does_not_exist(tmp_path: Path) -> None:
+    done = run("new", "press", "--out", tmp_path / "no" / "x.toml")
+    assert done.exit_code == 2
+    assert "cannot be written" in done.stderr
+
+
+def test_schema_is_json() -> None:
+    assert json.loads(run("schema").stdout)["title"] == "Linkwright machine file"
+
+
+def test_a_finding_is_exit_code_1_and_an_interrupt_130() -> None:
+    app = typer.Typer()
+
+    @app.command()
+    @reports_errors
+    def stall(interrupt: bool = False) -> None:
+        raise KeyboardInterrupt if interrupt else StartError("the drive does not start")
+
+    done = CliRunner().invoke(app, [])
+    assert done.exit_code == 1
+    assert done.stderr == "the drive does not start\n"
+    assert CliRunner().invoke(app, ["--interrupt"]).exit_code == 130
+
+
+def program(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    """Run the command line as a program of its own."""
+    command = [sys.executable, "-m", "linkwright.cli", *map(str, arguments)]
+    path = os.pathsep.join([str(ROOT / "python"), os.environ.get("PYTHONPATH", "")])
+    environment = os.environ | {"PYTHONPATH": path}
+    return subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+
+
+def test_what_is_no_machine_file(tmp_path: Path) -> None:
+    garbage = tmp_path / "garbage.toml"
+    garbage.write_bytes(os.urandom(10_000_000))
+    empty = tmp_path / "empty.toml"
+    empty.touch()
+    for path in (garbage, empty, tmp_path, tmp_path / "missing.toml"):
+        done = program("check", path)
+        assert done.returncode == 2
+        assert done.stdout == ""
+        assert str(path) in done.stderr
+        assert "Traceback" not in done.stderr
+
+
+def test_letters_that_the_terminal_has_not(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("PYTHONIOENCODING", "ascii")
+    path = tmp_path / "машина.toml"
+    path.write_text("format = 1\nname = 'Візок'\n[mechanism.cranks.A]\nradius = 1\n", encoding="utf-8")
+    assert program("check", path).returncode == 0
+    done = program("check", path, "--set", "mechanism.rockers.Ж.crank=Ж")
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+
+
+def test_help_loads_nothing_heavy() -> None:
+    code = (
+        "import sys\nfrom linkwright.cli import application\napplication()\n"
+        "heavy = {'numpy', 'pint', 'pydantic', 'rich', 'tomlkit', 'matplotlib'} & set(sys.modules)\n"
+        "assert not heavy, heavy"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+    assert "check" in program("--help").stdout

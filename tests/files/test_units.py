@@ -1,0 +1,146 @@
+"""Units: every built-in spelling agrees with pint; texts and numbers give SI; nonsense gives a message."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import subprocess
+import sys
+from typing import Any
+
+import pint
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from linkwright import units
+from linkwright.errors import UnitError
+
+REGISTRY: pint.UnitRegistry[Any] = pint.UnitRegistry()
+REGISTRY.define("@alias turn = rev")
+SPELLINGS = [(text, f, d) for d, row in units.COMMON.items() for text, f in row.items()]
+
+
+@pytest.mark.parametrize(("text", "factor", "dimension"), SPELLINGS, ids=[each[0] for each in SPELLINGS])
+def test_common_spellings_agree_with_pint(text: str, factor: float, dimension: units.Dimension) -> None:
+    parsed = REGISTRY.parse_units(text.replace("%", "percent"))
+    theirs, base = REGISTRY.get_base_units(parsed)
+    # Some of pint's factors are products of rounded ones.
+    assert factor == pytest.approx(float(theirs), rel=1e-14)
+    powers = {str(name): power for name, power in base._units.items()}
+    ours = zip(("meter", "kilogram", "second", "radian"), dimension, strict=True)
+    assert powers == {name: power for name, power in ours if power}
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "value"),
+    [
+        ("0.2 m", units.LENGTH, 0.2),
+        ("20cm", units.LENGTH, 0.2),
+        (" 1e3 kg ", units.MASS, 1000.0),
+        ("−5 mm", units.LENGTH, -0.005),
+        (".5 µm", units.LENGTH, 0.5e-6),
+        ("90 deg", units.ANGLE, math.pi / 2),
+        ("90°", units.ANGLE, math.pi / 2),
+        ("1 turn", units.ANGLE, 2 * math.pi),
+        ("1000 rpm", units.SPEED, 1000 * 2 * math.pi / 60),
+        ("2 rev/s", units.SPEED, 4 * math.pi),
+        ("5.5 kW", units.POWER, 5500.0),
+        ("48.4 kg m^2", units.INERTIA, 48.4),
+        ("48.4 kg·m²", units.INERTIA, 48.4),
+        ("48.4 kg*m**2", units.INERTIA, 48.4),
+        ("3 N·m", units.TORQUE, 3.0),
+        ("3 N*m", units.TORQUE, 3.0),
+        ("3 N m/rad", units.TORSIONAL_STIFFNESS, 3.0),
+        ("3 N m", units.TORSIONAL_STIFFNESS, 3.0),
+        ("9.81 m s⁻²", units.ACCELERATION, 9.81),
+        ("90 %", units.RATIO, 0.9),
+        ("0.9", units.RATIO, 0.9),
+        # Spellings that only pint knows.
+        ("2 inch", units.LENGTH, 0.0508),
+        ("1 metre", units.LENGTH, 1.0),
+        ("10 N/(m s)", units.STIFFNESS, None),
+        ("10 kg/(m s^2)", units.STIFFNESS, None),
+        ("10 newton/meter", units.STIFFNESS, 10.0),
+        ("1 W h", units.ENERGY, 3600.0),
+        (3, units.FORCE, 3.0),
+    ],
+)
+def test_texts_give_si(text: object, kind: units.Kind, value: float | None) -> None:
+    if value is None:
+        with pytest.raises(UnitError):
+            units.parse(text, kind)
+    else:
+        assert units.parse(text, kind) == pytest.approx(value, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("value", "kind", "word"),
+    [
+        ("0.2 kg", units.LENGTH, "unit of mass"),
+        ("0.2", units.LENGTH, '0.2 m"'),
+        ("0,2 m", units.LENGTH, "point"),
+        ("", units.LENGTH, "a length"),
+        ("m", units.LENGTH, "a length"),
+        ("1 m m", units.LENGTH, "something else"),
+        ("1 kg m2", units.INERTIA, "m^2"),
+        ("1 wobble", units.LENGTH, "not a known unit"),
+        ("1 N/m s", units.STIFFNESS, "two ways"),
+        ("50 Hz", units.SPEED, "turns or radians"),
+        ("3000 1/min", units.SPEED, "turns or radians"),
+        ("1 rad", units.RATIO, "unit of angle"),
+        ("1", units.ANGLE, "rad"),
+        ("1e999 m", units.LENGTH, "finite"),
+        ("1e308 km", units.LENGTH, "finite"),
+        ("nan m", units.LENGTH, "a length"),
+        ("20 degC", units.LENGTH, "not a known unit"),
+        ("1 m**99999", units.LENGTH, ""),
+        ("1 " + "m" * 5000, units.LENGTH, ""),
+        ("1 __import__('os')", units.LENGTH, "not a known unit"),
+        (True, units.LENGTH, "true"),
+        (math.nan, units.LENGTH, "finite"),
+        (math.inf, units.LENGTH, "finite"),
+        (10**400, units.LENGTH, "too large"),
+        (None, units.LENGTH, "a length"),
+        ([1], units.LENGTH, "a length"),
+    ],
+)
+def test_nonsense_gives_a_message(value: object, kind: units.Kind, word: str) -> None:
+    with pytest.raises(UnitError) as caught:
+        units.parse(value, kind)
+    assert word in str(caught.value)
+    assert kind.noun in str(caught.value)
+
+
+@given(st.text(max_size=30))
+def test_any_text_is_a_number_or_a_unit_error(text: str) -> None:
+    with contextlib.suppress(UnitError):
+        assert math.isfinite(units.parse(text, units.LENGTH))
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False), st.sampled_from(units.KINDS))
+def test_si_texts_read_back_as_the_same_float(value: float, kind: units.Kind) -> None:
+    assert units.parse(units.to_text(value, kind), kind) == value
+
+
+@pytest.mark.parametrize("kind", units.KINDS, ids=lambda kind: kind.noun)
+def test_examples_and_units_of_the_kinds_are_valid(kind: units.Kind) -> None:
+    units.parse(kind.example, kind)
+    assert units.parse(f"1 {kind.unit}".strip(), kind) == 1.0
+
+
+def test_lists() -> None:
+    for value in (["0 m", "10 cm"], [0, 0.1], (0, "0.1 m"), "0, 10 cm", "0 10 cm", "0; 10 cm"):
+        assert units.parse_list(value, units.LENGTH) == pytest.approx([0.0, 0.1])
+    for value in ("0, x", {"a": 1}, 3, None, [[1]], "0, 1"):
+        with pytest.raises(UnitError):
+            units.parse_list(value, units.LENGTH)
+
+
+def test_common_spellings_do_not_load_pint() -> None:
+    code = (
+        "import sys\nfrom linkwright import units\n"
+        "units.parse('48.4 kg·m²', units.INERTIA), units.parse('90 deg', units.ANGLE)\n"
+        "assert not {'pint', 'numpy'} & set(sys.modules)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)

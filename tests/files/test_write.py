@@ -1,0 +1,55 @@
+"""What is written reads back as the same machine."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from linkwright.errors import InputError
+from linkwright.files import dumps, loads, read, template, templates, write
+from linkwright.machine import Machine, replace
+
+TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
+
+
+@pytest.mark.parametrize("name", templates())
+def test_round_trip(name: str) -> None:
+    machine = loads(template(name))
+    assert loads(dumps(machine)) == machine
+
+
+def test_through_a_file(tmp_path: Path) -> None:
+    machine = read(TWO_CARTS)
+    write(machine, tmp_path / "copy.toml")
+    assert read(tmp_path / "copy.toml") == machine
+
+
+@given(phase=st.floats(-10, 10), ratio=st.floats(1e-3, 1e3), name=st.text(max_size=20))
+def test_every_float_survives(phase: float, ratio: float, name: str) -> None:
+    changes = {"mechanism.cranks.A2.phase": phase, "drive.gearbox.ratio": ratio, "name": name}
+    machine = replace(read(TWO_CARTS), changes)
+    if "\x00" not in name and all(math.isfinite(each) for each in (phase, ratio)):
+        assert loads(dumps(machine)) == machine
+
+
+def test_only_what_was_given_is_written() -> None:
+    text = dumps(loads(template("compressor")))
+    assert "speed_breakdown" not in text
+    assert "run_up" not in text
+
+
+def test_many_machines_are_not_one_file() -> None:
+    many = replace(read(TWO_CARTS), {"mechanism.cranks.A2.phase": object()})
+    with pytest.raises(InputError, match=r"mechanism\.cranks\.A2\.phase"):
+        dumps(many)
+
+
+def test_a_machine_made_in_python_is_written() -> None:
+    machine = Machine.model_validate(
+        {"format": 1, "name": "x", "mechanism": {"cranks": {"A": {"radius": "5 cm"}}}}
+    )
+    assert loads(dumps(machine)) == machine
