@@ -1,1 +1,76 @@
-"""Computes how machines move: from the motor through gearbox and shaft to the mechanism and its work."""
+"""Linkwright: how machines move, from the motor through gearbox and shaft to the mechanism and its work.
+
+>>> import linkwright as lw
+>>> machine = lw.read("machines/roller_two_carts.toml")
+>>> motion = lw.steady_state(machine)
+>>> round(motion.unevenness, 4)
+0.085
+
+Public names are loaded when they are first used, so that importing the package costs little.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+# Public name → module that holds it.
+_HOME = {
+    "Machine": "machine",
+    "addresses": "machine",
+    "get": "machine",
+    "motors": "machine",
+    "replace": "machine",
+    "read": "files",
+    "loads": "files",
+    "write": "files",
+    "closure": "analysis.closure",
+    "kinematics": "analysis.kinematics",
+    "motions": "analysis.kinematics",
+    "reduction": "analysis.reduction",
+    "constant_energy": "analysis.constant_energy",
+    "steady_state": "analysis.steady_state",
+    "transient": "analysis.transient",
+    "run_up": "analysis.run_up",
+    "run_down": "analysis.run_down",
+    "step_method": "analysis.step_method",
+    "steady_states": "sweep.batch",
+}
+
+__all__ = ["__version__", *_HOME]  # noqa: PLE0604
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name on first use."""
+    if name not in _HOME:
+        raise AttributeError(f"module 'linkwright' has no attribute {name!r}")
+    value = getattr(import_module(f"linkwright.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """Public names, loaded or not."""
+    return sorted(__all__)
+
+
+if TYPE_CHECKING:
+    from linkwright.analysis.closure import closure as closure
+    from linkwright.analysis.constant_energy import constant_energy as constant_energy
+    from linkwright.analysis.kinematics import kinematics as kinematics
+    from linkwright.analysis.kinematics import motions as motions
+    from linkwright.analysis.reduction import reduction as reduction
+    from linkwright.analysis.run_down import run_down as run_down
+    from linkwright.analysis.run_up import run_up as run_up
+    from linkwright.analysis.steady_state import steady_state as steady_state
+    from linkwright.analysis.step_method import step_method as step_method
+    from linkwright.analysis.transient import transient as transient
+    from linkwright.files import loads as loads
+    from linkwright.files import read as read
+    from linkwright.files import write as write
+    from linkwright.machine import Machine as Machine
+    from linkwright.machine import addresses as addresses
+    from linkwright.machine import get as get
+    from linkwright.machine import motors as motors
+    from linkwright.machine import replace as replace
+    from linkwright.sweep.batch import steady_states as steady_states

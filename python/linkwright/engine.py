@@ -66,6 +66,12 @@ class Compiled:
         Index of each point, link and slide by name.
     dyads : tuple of str
         Names of the elements that must close.
+    speed_guess : float
+        Crank speed from which steady motion is sought [rad/s].
+    gear_factors : tuple of float
+        Ratio, and the factor on torque times ratio while the motor drives and while the load does.
+    speed_tables : tuple
+        Tables of resisting torque over crank speed.
     """
 
     plan: _core.Plan
@@ -76,6 +82,9 @@ class Compiled:
     links: dict[str, int]
     slides: dict[str, int]
     dyads: tuple[str, ...]
+    speed_guess: float
+    gear_factors: tuple[float, float, float]
+    speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
 
     @property
     def n_rows(self) -> int:
@@ -98,6 +107,16 @@ class Compiled:
         """Torque at the motor's shaft and at the crank [N m] at crank speeds [rad/s]."""
         at = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
         return _core.motor_torques(self.plan, self.parameters, at)
+
+    def speed_load(self, speeds: ArrayLike) -> Floats:
+        """Resisting torque of the loads over speed at crank speeds [N m]."""
+        at = np.asarray(speeds, dtype=np.float64)
+        return sum((np.interp(at, x, y) for x, y in self.speed_tables), np.zeros_like(at))
+
+    def motor_torque_for(self, torque_drive: Floats) -> Floats:
+        """Torque at the motor's shaft that gives a torque at the crank [N m]."""
+        ratio, forward, reverse = self.gear_factors
+        return torque_drive / (ratio * np.where(torque_drive < 0, reverse, forward))
 
     def transient(
         self, start: tuple[float, float], duration: float, turns: float, accuracy: float
@@ -376,8 +395,19 @@ class _Translator:
             np.array([value for _, y in self.tables for value in y], dtype=np.float64),
         )
         parameters, slots, values = _columns(self.parameters)
+        ratio, forward, reverse, _, guess = (float(parameters[slot]) for slot in self.drive_row[5:10])
         return Compiled(
-            plan, parameters, slots, values, self.points, self.links, self.slides, tuple(self.dyads)
+            plan=plan,
+            parameters=parameters,
+            slots=slots,
+            values=values,
+            points=self.points,
+            links=self.links,
+            slides=self.slides,
+            dyads=tuple(self.dyads),
+            speed_guess=guess,
+            gear_factors=(ratio, forward, reverse),
+            speed_tables=tuple(self.tables[row[1]] for row in self.load_rows if row[0] == 12),
         )
 
 

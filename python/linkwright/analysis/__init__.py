@@ -1,0 +1,15 @@
+"""Analyses: from a machine to a result, one question a module.
+
+| module | answers |
+| --- | --- |
+| `closure` | at which crank angles does the mechanism close? |
+| `kinematics` | how do points, links and slides move? |
+| `reduction` | what inertia and what load does the crank feel? |
+| `constant_energy` | how unevenly would it turn without motor and load? |
+| `steady_state` | how does it turn in the long run? |
+| `transient` | how does it move from here on? |
+| `run_up` | does it start, and how long does that take? |
+| `run_down` | how long until it stands? |
+| `step_method` | what does the published step method give instead? |
+| `result` | scalars, curves and tables of a result |
+"""

@@ -1,0 +1,203 @@
+"""Motion of points, links and slides over the crank angle, with first and second transfer functions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.analysis.closure import require_full_turn
+from linkwright.engine import Compiled, compile_machine
+from linkwright.errors import MachineError, Problem, ShapeError
+from linkwright.machine import Machine
+
+Floats = NDArray[np.float64]
+
+# What the core gives for a point, a link and a slide: how many numbers at each angle.
+_WIDTHS = {"points": 6, "links": 4, "slides": 3}
+
+
+@dataclass(frozen=True)
+class PointMotion:
+    """A point over the crank angle; arrays (n, 2) for one machine, (rows, n, 2) for a batch.
+
+    Attributes
+    ----------
+    position : ndarray
+        [m].
+    d1, d2 : ndarray
+        First and second derivative by the crank angle [m/rad, m/rad²].
+    """
+
+    position: Floats
+    d1: Floats
+    d2: Floats
+
+
+@dataclass(frozen=True)
+class LinkMotion:
+    """A link over the crank angle; arrays (n,) for one machine, (rows, n) for a batch.
+
+    Attributes
+    ----------
+    angle : ndarray
+        Direction of the link, continuous over the angles [rad].
+    d1, d2 : ndarray
+        First and second derivative by the crank angle [–].
+    """
+
+    angle: Floats
+    d1: Floats
+    d2: Floats
+
+
+@dataclass(frozen=True)
+class SlideMotion:
+    """A slider along its guide; arrays (n,) for one machine, (rows, n) for a batch.
+
+    Attributes
+    ----------
+    position : ndarray
+        Along the guide from the foot of its through point [m].
+    d1, d2 : ndarray
+        First and second derivative by the crank angle [m/rad, m/rad²].
+    """
+
+    position: Floats
+    d1: Floats
+    d2: Floats
+
+
+@dataclass(frozen=True)
+class Kinematics:
+    """Motion of a mechanism over given crank angles.
+
+    Attributes
+    ----------
+    angles : ndarray, shape (n,)
+        Crank angles [rad].
+    points, links, slides : dict
+        `PointMotion`, `LinkMotion`, `SlideMotion` by name.
+    """
+
+    angles: Floats
+    points: dict[str, PointMotion]
+    links: dict[str, LinkMotion]
+    slides: dict[str, SlideMotion]
+
+
+def kinematics(machine: Machine, angles: ArrayLike | None = None) -> Kinematics:
+    r"""Motion of every point, link and slide over the crank angle.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine. Entries may be arrays over many machines; results then have a row for each.
+    angles : array_like, shape (n,), optional
+        Crank angles [rad]; without them a turn by single degrees.
+
+    Returns
+    -------
+    Kinematics
+        Positions and derivatives by the crank angle φ. Velocity is :math:`p' \omega`, acceleration
+        :math:`p'' \omega^2 + p' \varepsilon`.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close at one of the angles.
+
+    Notes
+    -----
+    Derivatives are exact. Angles count counter-clockwise from x; signs in ``docs/signs.md``.
+    """
+    compiled = compile_machine(machine)
+    phi = np.linspace(0, 2 * np.pi, 361) if angles is None else np.ascontiguousarray(angles, dtype=np.float64)
+    names = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
+    what = [(part, name) for part, known in names.items() for name in known]
+    out = motion_arrays(compiled, phi, what)
+    if np.isnan(out).any():
+        require_full_turn(compiled, machine)
+    single = compiled.n_rows == 1 and not len(compiled.slots)
+    table = out[0] if single else out
+    return _collect(phi, table, what)
+
+
+def _collect(phi: Floats, table: Floats, what: list[tuple[str, str]]) -> Kinematics:
+    """Rows of the core's table by name."""
+    found = Kinematics(phi, {}, {}, {})
+    at = 0
+    for part, name in what:
+        rows = np.moveaxis(table[..., at : at + _WIDTHS[part], :], -2, 0)
+        at += _WIDTHS[part]
+        if part == "points":
+            pairs = [np.stack((rows[i], rows[i + 1]), axis=-1) for i in (0, 2, 4)]
+            found.points[name] = PointMotion(*pairs)
+        elif part == "links":
+            angle = np.unwrap(np.arctan2(rows[1], rows[0]))
+            found.links[name] = LinkMotion(angle, rows[2], rows[3])
+        else:
+            found.slides[name] = SlideMotion(*rows)
+    return found
+
+
+def motions(
+    machine: Machine,
+    angles: ArrayLike,
+    *,
+    points: Iterable[str] = (),
+    links: Iterable[str] = (),
+    slides: Iterable[str] = (),
+    out: Floats | None = None,
+) -> Floats:
+    """Motions of one or many machines as one array, at the speed of the core.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; entries may be arrays over many machines (`linkwright.replace`).
+    angles : array_like, shape (n,)
+        Crank angles [rad].
+    points, links, slides : iterable of str
+        What is wanted. A point gives six numbers: x, y, x′, y′, x″, y″. A link gives four: cos ψ, sin ψ,
+        ψ′, ψ″. A slide gives three: s, s′, s″.
+    out : ndarray, optional
+        Array of the result's shape to write into; saves making a new one each time.
+
+    Returns
+    -------
+    ndarray, shape (rows, numbers, n)
+        In the order asked for, points first; NaN where a machine does not close.
+
+    Raises
+    ------
+    MachineError
+        A name that does not exist.
+    ShapeError
+        ``out`` does not fit.
+    """
+    compiled = compile_machine(machine)
+    asked: Mapping[str, Iterable[str]] = {"points": points, "links": links, "slides": slides}
+    what = [(part, name) for part, names in asked.items() for name in names]
+    return motion_arrays(compiled, np.ascontiguousarray(angles, dtype=np.float64), what, out)
+
+
+def motion_arrays(
+    compiled: Compiled, angles: Floats, what: list[tuple[str, str]], out: Floats | None = None
+) -> Floats:
+    """`motions` of a compiled machine; ``what`` holds pairs of part and name."""
+    known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
+    for part, name in what:
+        if name not in known[part]:
+            expected = f"one of {', '.join(known[part])}"
+            raise MachineError([Problem(part, name, expected)])
+    shape = (compiled.n_rows, sum(_WIDTHS[part] for part, _ in what), len(angles))
+    if out is None:
+        out = np.empty(shape)
+    if out.shape != shape or out.dtype != np.float64 or not out.flags.c_contiguous:
+        raise ShapeError(f"out must be a contiguous array of floats of shape {shape}, found {out.shape}")
+    kinds = list(_WIDTHS)
+    compiled.motions(angles, [(kinds.index(part), known[part][name]) for part, name in what], out.reshape(-1))
+    return out

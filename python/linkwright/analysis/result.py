@@ -1,0 +1,72 @@
+"""What every result can do: give its scalars and curves by name, and a table."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+class Result:
+    """Base of the frozen results of analyses: dataclasses of SI scalars and arrays.
+
+    Arrays whose length is that of the first array are the result's curves.
+    """
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Scalars by name, with ``curves`` also the arrays as lists.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether arrays are included.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and lists, ready for JSON.
+        """
+        found: dict[str, Any] = {}
+        for name, value in self._entries().items():
+            if isinstance(value, np.ndarray):
+                if curves:
+                    found[name] = value.tolist()
+            elif isinstance(value, np.generic):
+                found[name] = value.item()
+            elif value is None or isinstance(value, bool | int | float | str):
+                found[name] = value
+        return found
+
+    def to_frame(self) -> pd.DataFrame:
+        """The curves as a table, one column each.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Columns by name, SI.
+
+        Raises
+        ------
+        ImportError
+            pandas is not installed (``pip install linkwright[frame]``).
+        """
+        import pandas as pd
+
+        return pd.DataFrame(self.curves())
+
+    def curves(self) -> dict[str, np.ndarray]:
+        """The arrays of common length by name."""
+        arrays = {name: value for name, value in self._entries().items() if isinstance(value, np.ndarray)}
+        length = len(next(iter(arrays.values()))) if arrays else 0
+        return {name: value for name, value in arrays.items() if value.shape == (length,)}
+
+    def _entries(self) -> dict[str, Any]:
+        """Fields and properties in the order of their definition."""
+        names = [field.name for field in fields(self) if not field.name.startswith("_")]  # type: ignore[arg-type]
+        for kind in reversed(type(self).__mro__):
+            names += [name for name, member in vars(kind).items() if isinstance(member, property)]
+        return {name: getattr(self, name) for name in dict.fromkeys(names)}

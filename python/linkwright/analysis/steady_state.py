@@ -1,0 +1,342 @@
+r"""Steady motion: the periodic solution of the machine's energy equation, and its measures.
+
+.. math:: \frac{dE}{d\varphi} = M_d(\omega) - M_r(\varphi,\omega), \qquad \omega = \sqrt{2E/J(\varphi)}
+
+The solution is found by Newton on the turn-to-turn map, not by waiting for transients; the core says how
+(`linkwright-core`, module `cycle`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.analysis.closure import require_full_turn, turn_angles
+from linkwright.analysis.result import Result
+from linkwright.engine import Compiled, compile_machine
+from linkwright.errors import ConvergenceError, InputError, SteadyStateError
+from linkwright.machine import ConstantSpeedMotor, Machine
+
+Floats = NDArray[np.float64]
+
+# Statuses of the core (`linkwright-core`, module `status`).
+_DOES_NOT_CLOSE, _NO_STEADY_MOTION = 1, 2
+
+# Speeds at which it is looked whether the drive can balance the mean load at all.
+_SPEEDS = 400
+
+
+@dataclass(frozen=True)
+class SteadyState(Result):
+    """One turn of steady motion.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n + 1,)
+        0 to 2π [rad].
+    time : ndarray
+        From the start of the turn [s].
+    speed, acceleration : ndarray
+        Of the crank [rad/s, rad/s²].
+    torque_motor : ndarray
+        At the motor's shaft [N m].
+    torque_drive, torque_load : ndarray
+        Driving and resisting torque at the crank [N m].
+    power_motor : ndarray
+        At the motor's shaft [W].
+    inertia_reduced : ndarray
+        [kg m²].
+    speed_min, speed_max, acceleration_min, acceleration_max : float
+        Exact extremes, not those of the curves.
+    speed_min_angle, speed_max_angle, acceleration_min_angle, acceleration_max_angle : float
+        Crank angles where they are [rad].
+    period : float
+        Duration of a turn [s].
+    multiplier : float
+        What is left of a small disturbance of the speed after one turn, as a share; the motion is stable if
+        it is below 1 in size.
+    energy_motor, energy_drive, energy_load : float
+        Work in a turn at the motor's shaft, at the crank, and taken by the loads [J].
+    torque_motor_mean, torque_motor_rms : float
+        Over time [N m].
+    accuracy : float
+        Relative difference between the last two meshes; the error of the finer is a hundredth of it or less.
+    sweeps, steps : int
+        Newton sweeps over the turn in all, and steps of the finest mesh.
+    method : str
+        ``"collocation"`` or ``"constant speed"``.
+    """
+
+    crank_angle: Floats
+    time: Floats
+    speed: Floats
+    acceleration: Floats
+    torque_motor: Floats
+    torque_drive: Floats
+    torque_load: Floats
+    power_motor: Floats
+    inertia_reduced: Floats
+    speed_min: float
+    speed_max: float
+    acceleration_min: float
+    acceleration_max: float
+    speed_min_angle: float
+    speed_max_angle: float
+    acceleration_min_angle: float
+    acceleration_max_angle: float
+    period: float
+    multiplier: float
+    energy_motor: float
+    energy_drive: float
+    energy_load: float
+    torque_motor_mean: float
+    torque_motor_rms: float
+    accuracy: float
+    sweeps: int
+    steps: int
+    method: str = "collocation"
+
+    @property
+    def speed_mean_extremes(self) -> float:
+        """(ω_max + ω_min)/2 [rad/s]."""
+        return 0.5 * (self.speed_max + self.speed_min)
+
+    @property
+    def speed_mean_time(self) -> float:
+        """2π/period [rad/s]."""
+        return 2 * np.pi / self.period
+
+    @property
+    def unevenness(self) -> float:
+        """δ = (ω_max − ω_min)/ω_m with the mean of the extremes [–], paper 1 (13)."""
+        return (self.speed_max - self.speed_min) / self.speed_mean_extremes
+
+    @property
+    def dynamism(self) -> float:
+        """H = |ε|_max/ω_m² with the mean of the extremes [–], paper 1 (14)."""
+        return self._steepest / self.speed_mean_extremes**2
+
+    @property
+    def motion_coefficient(self) -> float:
+        """k_p = δ² + H with the mean of the extremes [–], paper 1 (15)."""
+        return self.unevenness**2 + self.dynamism
+
+    @property
+    def unevenness_time(self) -> float:
+        """δ with the mean over time [–]."""
+        return (self.speed_max - self.speed_min) / self.speed_mean_time
+
+    @property
+    def dynamism_time(self) -> float:
+        """H with the mean over time [–]."""
+        return self._steepest / self.speed_mean_time**2
+
+    @property
+    def motion_coefficient_time(self) -> float:
+        """k_p with the mean over time [–]."""
+        return self.unevenness_time**2 + self.dynamism_time
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether a small disturbance dies away."""
+        return abs(self.multiplier) < 1
+
+    @property
+    def power_motor_mean(self) -> float:
+        """Mean power at the motor's shaft [W]."""
+        return self.energy_motor / self.period
+
+    @property
+    def power_motor_max(self) -> float:
+        """Greatest power at the motor's shaft, at the angles of the curves [W]."""
+        return float(self.power_motor.max())
+
+    @property
+    def torque_motor_max(self) -> float:
+        """Greatest torque at the motor's shaft, at the angles of the curves [N m]."""
+        return float(self.torque_motor.max())
+
+    @property
+    def torque_motor_min(self) -> float:
+        """Least torque at the motor's shaft; negative where the load drives the motor [N m]."""
+        return float(self.torque_motor.min())
+
+    @property
+    def efficiency(self) -> float | None:
+        """Work taken by the loads over work of the motor [–]; None without any work of the motor."""
+        return self.energy_load / self.energy_motor if self.energy_motor > 0 else None
+
+    @property
+    def _steepest(self) -> float:
+        return max(abs(self.acceleration_min), abs(self.acceleration_max))
+
+
+def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> SteadyState:
+    """Find the steady motion.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine, with a motor.
+    accuracy : float
+        Relative accuracy of speed and period, down to 1e-12.
+    n : int
+        Intervals of the turn for the curves; extremes and integrals do not depend on it.
+
+    Returns
+    -------
+    SteadyState
+        One turn from φ = 0.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close all round.
+    SteadyStateError
+        There is no periodic motion; says what the drive lacks.
+    ConvergenceError
+        The accuracy was not reached.
+    InputError
+        The machine has no motor.
+
+    Notes
+    -----
+    With a motor of constant speed nothing is solved: the drive's torque is what the motion needs.
+
+    References
+    ----------
+    .. [1] Paper 1, equation (1) for the motion, (13)–(15) for the measures.
+    """
+    if machine.drive is None or machine.drive.motor is None:
+        raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
+    if not 1e-13 <= accuracy <= 1e-2:
+        raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
+    compiled = compile_machine(machine)
+    require_full_turn(compiled, machine)
+    phi = turn_angles(n)
+    if isinstance(machine.drive.motor, ConstantSpeedMotor):
+        return _at_constant_speed(machine, compiled, phi)
+    status, scalars, curves = compiled.steady(phi, accuracy)
+    if scalars is None or curves is None:
+        raise _failure(status, compiled, machine, accuracy)
+    return _from_core(scalars, curves, phi, machine.drive.gearbox.ratio)
+
+
+def _from_core(scalars: Floats, curves: Floats, phi: Floats, ratio: float) -> SteadyState:
+    """The core's numbers by name; their order is that of `linkwright-core`, module `batch`."""
+    time, speed, acceleration, torque_motor, torque_drive, torque_load, inertia = curves
+    low, high, drop, rise, period, multiplier, motor, drive, load, mean, rms, *places = map(float, scalars)
+    low_at, high_at, drop_at, rise_at, difference, sweeps, steps = places
+    return SteadyState(
+        crank_angle=phi,
+        time=time,
+        speed=speed,
+        acceleration=acceleration,
+        torque_motor=torque_motor,
+        torque_drive=torque_drive,
+        torque_load=torque_load,
+        power_motor=torque_motor * speed * ratio,
+        inertia_reduced=inertia,
+        speed_min=low,
+        speed_max=high,
+        acceleration_min=drop,
+        acceleration_max=rise,
+        speed_min_angle=low_at,
+        speed_max_angle=high_at,
+        acceleration_min_angle=drop_at,
+        acceleration_max_angle=rise_at,
+        period=period,
+        multiplier=multiplier,
+        energy_motor=motor,
+        energy_drive=drive,
+        energy_load=load,
+        torque_motor_mean=mean,
+        torque_motor_rms=rms,
+        accuracy=difference,
+        sweeps=int(sweeps),
+        steps=int(steps),
+    )
+
+
+def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> SteadyState:
+    """The turn of a machine whose motor keeps its speed: its torque is what the motion needs."""
+    drive = machine.drive
+    assert drive is not None
+    assert isinstance(drive.motor, ConstantSpeedMotor)
+    ratio = drive.gearbox.ratio
+    omega = drive.motor.speed / ratio
+    J, J_d1, load, dry, viscous = compiled.reductions(phi)
+    torque_load = load + dry + viscous * omega + compiled.speed_load(omega)
+    torque_drive = torque_load + 0.5 * J_d1 * omega**2
+    torque_motor = compiled.motor_torque_for(torque_drive)
+    period = 2 * np.pi / omega
+    still = dict.fromkeys(("speed_min_angle", "speed_max_angle"), 0.0)
+    still |= dict.fromkeys(("acceleration_min", "acceleration_max"), 0.0)
+    still |= dict.fromkeys(("acceleration_min_angle", "acceleration_max_angle", "accuracy", "multiplier"), 0.0)
+    return SteadyState(
+        crank_angle=phi,
+        time=phi / omega,
+        speed=np.full_like(phi, omega),
+        acceleration=np.zeros_like(phi),
+        torque_motor=torque_motor,
+        torque_drive=torque_drive,
+        torque_load=torque_load,
+        power_motor=torque_motor * omega * ratio,
+        inertia_reduced=J,
+        speed_min=omega,
+        speed_max=omega,
+        period=period,
+        energy_motor=float(np.trapezoid(torque_motor * ratio, phi)),
+        energy_drive=float(np.trapezoid(torque_drive, phi)),
+        energy_load=float(np.trapezoid(torque_load, phi)),
+        torque_motor_mean=float(np.trapezoid(torque_motor, phi) / (2 * np.pi)),
+        torque_motor_rms=float(np.sqrt(np.trapezoid(torque_motor**2, phi) / (2 * np.pi))),
+        sweeps=0,
+        steps=0,
+        method="constant speed",
+        **still,
+    )
+
+
+def _failure(status: int, compiled: Compiled, machine: Machine, accuracy: float) -> Exception:
+    """The error for a status of the core, with numbers."""
+    if status == _DOES_NOT_CLOSE:
+        require_full_turn(compiled, machine)
+        return SteadyStateError("the mechanism does not close at some crank angle between those looked at")
+    if status == _NO_STEADY_MOTION:
+        return SteadyStateError(_what_lacks(compiled))
+    return ConvergenceError(
+        f"steady motion was not found to a relative accuracy of {accuracy:g} with 12288 steps a turn; "
+        "ask for less, or look for a mechanism that nearly locks",
+        method="collocation",
+        iterations=12288,
+    )
+
+
+def _what_lacks(compiled: Compiled) -> str:
+    """Why there may be no periodic motion: the drive against the mean load."""
+    from linkwright.analysis.reduction import mean_over_turn
+
+    load, viscous = mean_over_turn(compiled)
+    top = 1.5 * compiled.speed_guess
+    omega = np.linspace(0.0, top, _SPEEDS + 1)[1:]
+    drive = compiled.motor_torques(omega)[1]
+    resisting = load + viscous * omega + compiled.speed_load(omega)
+    best = int(np.argmax(drive - resisting))
+    if drive[best] < resisting[best]:
+        return (
+            f"no steady motion: at best, at {omega[best]:.4g} rad/s, the drive gives {drive[best]:.4g} N m at "
+            f"the crank and the mean load needs {resisting[best]:.4g} N m; choose a larger motor or ratio"
+        )
+    if (drive > resisting).all():
+        return (
+            f"no steady motion: up to {top:.4g} rad/s the drive gives more than the mean load takes "
+            f"({drive[-1]:.4g} against {resisting[-1]:.4g} N m), so the machine speeds up without end; "
+            "add a load that grows with speed or a motor whose torque falls with it"
+        )
+    return (
+        "no steady motion: the drive balances the mean load, but not the turn's peaks: the machine comes to "
+        "rest within the turn; add a flywheel or choose a larger motor"
+    )

@@ -1,0 +1,185 @@
+"""Motion in time from a given angle and speed, and how it ended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.analysis.closure import require_full_turn
+from linkwright.analysis.result import Result
+from linkwright.engine import compile_machine
+from linkwright.errors import ConvergenceError, InputError
+from linkwright.machine import ConstantSpeedMotor, Machine
+
+Floats = NDArray[np.float64]
+
+
+class End(IntEnum):
+    """How a motion ended; numbers of `linkwright-core`, module `transient`."""
+
+    TIME = 0
+    TURNS = 1
+    DOES_NOT_START = 2
+    STARTS_BACKWARDS = 3
+    STALL = 4
+    REVERSAL = 5
+    DOES_NOT_CLOSE = 6
+    INACCURATE = 7
+
+
+@dataclass(frozen=True)
+class Transient(Result):
+    """A motion in time, at the ends of the solver's steps.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        [s].
+    crank_angle : ndarray
+        Counted on over the turns [rad].
+    speed, acceleration : ndarray
+        Of the crank [rad/s, rad/s²].
+    end : End
+        How it ended.
+    torque_drive_end, torque_load_end : float
+        At the last angle and at rest: what the drive gives at the crank, and what the loads need [N m].
+    evaluations : int
+        How often the machine was evaluated.
+    """
+
+    time: Floats
+    crank_angle: Floats
+    speed: Floats
+    acceleration: Floats
+    end: End
+    torque_drive_end: float
+    torque_load_end: float
+    evaluations: int
+
+    @property
+    def turns(self) -> float:
+        """Turns of the crank from start to end [–]."""
+        return float(self.crank_angle[-1] - self.crank_angle[0]) / (2 * np.pi)
+
+    @property
+    def came_to_rest(self) -> bool:
+        """Whether the machine never moved or came to rest."""
+        return self.end in (End.DOES_NOT_START, End.STARTS_BACKWARDS, End.STALL, End.REVERSAL)
+
+    def at(self, time: ArrayLike) -> tuple[Floats, Floats]:
+        """Crank angle and speed at given times.
+
+        Parameters
+        ----------
+        time : array_like
+            Times between the first and the last [s].
+
+        Returns
+        -------
+        tuple of ndarray
+            Angle [rad] and speed [rad/s], by the quintic through angle, speed and acceleration at both ends
+            of each step.
+        """
+        t = np.asarray(time, dtype=np.float64)
+        k = np.clip(np.searchsorted(self.time, t, side="right") - 1, 0, len(self.time) - 2)
+        h = self.time[k + 1] - self.time[k]
+        z = (t - self.time[k]) / h
+        values = [(self.crank_angle[i], self.speed[i] * h, self.acceleration[i] * h**2) for i in (k, k + 1)]
+        return _quintic(z, *values[0], *values[1]), _quintic_slope(z, *values[0], *values[1]) / h
+
+
+def _quintic_coefficients(
+    p0: Floats, v0: Floats, a0: Floats, p1: Floats, v1: Floats, a1: Floats
+) -> tuple[Floats, ...]:
+    """Powers 0 to 5 of the quintic with value, slope and bend at 0 and 1."""
+    rise, gain, bend = p1 - p0 - v0 - a0 / 2, v1 - v0 - a0, a1 - a0
+    return (
+        p0,
+        v0,
+        a0 / 2,
+        10 * rise - 4 * gain + bend / 2,
+        -15 * rise + 7 * gain - bend,
+        6 * rise - 3 * gain + bend / 2,
+    )
+
+
+def _quintic(z: Floats, *ends: Floats) -> Floats:
+    value = np.zeros_like(z)
+    for c in reversed(_quintic_coefficients(*ends)):
+        value = value * z + c
+    return value
+
+
+def _quintic_slope(z: Floats, *ends: Floats) -> Floats:
+    slope = np.zeros_like(z)
+    for power, c in reversed(list(enumerate(_quintic_coefficients(*ends)))[1:]):
+        slope = slope * z + power * c
+    return slope
+
+
+def transient(
+    machine: Machine,
+    *,
+    angle: float = 0.0,
+    speed: float = 0.0,
+    duration: float = np.inf,
+    turns: float = np.inf,
+    accuracy: float = 1e-8,
+    motor: bool = True,
+    brake: bool = False,
+) -> Transient:
+    """Follow the motion in time.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    angle, speed : float
+        Crank angle [rad] and speed [rad/s] at the start; the speed is not negative.
+    duration : float
+        Longest time [s].
+    turns : float
+        Most turns of the crank; one of the two must be finite.
+    accuracy : float
+        Relative accuracy of a step.
+    motor, brake : bool
+        Whether the motor is on and the brake applied.
+
+    Returns
+    -------
+    Transient
+        The motion until time or turns are over, or the machine comes to rest.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close all round.
+    ConvergenceError
+        The accuracy cannot be kept.
+    InputError
+        Neither duration nor turns is finite, or the motor is one of constant speed.
+
+    References
+    ----------
+    .. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5 (DOP853).
+    """
+    if not (np.isfinite(duration) or np.isfinite(turns)) or not duration > 0 or not turns > 0:
+        raise InputError("a positive, finite duration [s] or number of turns is needed")
+    if not (np.isfinite(speed) and speed >= 0 and np.isfinite(angle)):
+        raise InputError(f"a speed of {speed:g} rad/s at {angle:g} rad: expected numbers, the speed not negative")
+    if motor and machine.drive and isinstance(machine.drive.motor, ConstantSpeedMotor):
+        raise InputError("a motor of constant speed has no run-up: it turns at its speed under any load")
+    compiled = compile_machine(machine, motor=motor, brake=brake)
+    require_full_turn(compiled, machine)
+    end, torques, evaluations, curves = compiled.transient((angle, speed), duration, turns, accuracy)
+    if end == End.INACCURATE:
+        raise ConvergenceError(
+            f"the motion was given up at {curves[0][-1]:.6g} s: steps became too small or too many for an "
+            f"accuracy of {accuracy:g}",
+            method="DOP853",
+            iterations=len(curves[0]),
+        )
+    return Transient(*curves, End(end), *torques, evaluations)

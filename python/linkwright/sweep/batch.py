@@ -1,0 +1,176 @@
+"""Steady motion of thousands to millions of machines that differ in some entries."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.engine import compile_machine
+from linkwright.errors import InputError, MachineError, Problem, ShapeError
+from linkwright.machine import ConstantSpeedMotor, Machine, get, replace
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Floats = NDArray[np.float64]
+
+# Sentences for the statuses of the core.
+STATUS = {
+    0: "solved",
+    1: "the mechanism does not close all round",
+    2: "no steady motion: the drive cannot keep the machine turning",
+    3: "the accuracy was not reached",
+}
+
+
+@dataclass(frozen=True)
+class SteadyStates:
+    """Steady motion of ``n`` machines; every array has shape (n,), NaN where there is no answer.
+
+    Attributes
+    ----------
+    entries : dict of str to ndarray
+        What was varied, by address.
+    status : ndarray of uint8
+        0 where solved; else a key of `linkwright.sweep.batch.STATUS`.
+    speed_min, speed_max : ndarray
+        [rad/s].
+    acceleration_min, acceleration_max : ndarray
+        [rad/s²].
+    period : ndarray
+        [s].
+    multiplier : ndarray
+        What is left of a disturbance after a turn [–].
+    energy_motor, energy_drive, energy_load : ndarray
+        Work in a turn [J].
+    torque_motor_mean, torque_motor_rms : ndarray
+        At the motor's shaft, over time [N m].
+    turns_swept : int
+        Turns that the solver went through in all.
+    """
+
+    entries: dict[str, Floats]
+    status: NDArray[np.uint8]
+    speed_min: Floats
+    speed_max: Floats
+    acceleration_min: Floats
+    acceleration_max: Floats
+    period: Floats
+    multiplier: Floats
+    energy_motor: Floats
+    energy_drive: Floats
+    energy_load: Floats
+    torque_motor_mean: Floats
+    torque_motor_rms: Floats
+    turns_swept: int
+
+    @property
+    def speed_mean_extremes(self) -> Floats:
+        """(ω_max + ω_min)/2 [rad/s]."""
+        return 0.5 * (self.speed_max + self.speed_min)
+
+    @property
+    def speed_mean_time(self) -> Floats:
+        """2π/period [rad/s]."""
+        return 2 * np.pi / self.period
+
+    @property
+    def unevenness(self) -> Floats:
+        """δ with the mean of the extremes [–]."""
+        return (self.speed_max - self.speed_min) / self.speed_mean_extremes
+
+    @property
+    def dynamism(self) -> Floats:
+        """H with the mean of the extremes [–]."""
+        steepest = np.maximum(np.abs(self.acceleration_min), np.abs(self.acceleration_max))
+        return steepest / self.speed_mean_extremes**2
+
+    @property
+    def motion_coefficient(self) -> Floats:
+        """k_p = δ² + H [–]."""
+        return self.unevenness**2 + self.dynamism
+
+    def to_frame(self) -> pd.DataFrame:
+        """Entries and results as a table, a row for each machine (needs pandas)."""
+        import pandas as pd
+
+        names = ["speed_min", "speed_max", "acceleration_min", "acceleration_max", "period", "multiplier"]
+        names += ["energy_motor", "energy_drive", "energy_load", "torque_motor_mean", "torque_motor_rms"]
+        names += ["unevenness", "dynamism", "motion_coefficient"]
+        columns = {name: getattr(self, name) for name in names}
+        return pd.DataFrame({**self.entries, **columns, "status": self.status})
+
+
+def steady_states(
+    machine: Machine, entries: Mapping[str, ArrayLike], *, accuracy: float = 1e-8
+) -> SteadyStates:
+    """Steady motion of many machines that differ from one in some entries.
+
+    Parameters
+    ----------
+    machine : Machine
+        What all have in common.
+    entries : mapping
+        Address of an entry → its values, all of one length [SI], such as
+        ``{"mechanism.cranks.A2.phase": np.linspace(0, np.pi, 1000)}``. A single number counts for all.
+    accuracy : float
+        Relative accuracy for machines that must be solved one by one. Machines on smooth characteristics
+        are solved in lanes with a fixed mesh, whose speeds are good to about 1e-7.
+
+    Returns
+    -------
+    SteadyStates
+        One row a machine, in the order of the arrays.
+
+    Raises
+    ------
+    MachineError
+        An address does not exist, or a value is not possible there.
+    ShapeError
+        Arrays of different lengths.
+    InputError
+        The machine has no motor, or one of constant speed.
+    """
+    if machine.drive is None or machine.drive.motor is None:
+        raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
+    if isinstance(machine.drive.motor, ConstantSpeedMotor):
+        raise InputError("a motor of constant speed has the same speed in every machine")
+    arrays = _columns(machine, entries)
+    compiled = compile_machine(replace(machine, arrays))
+    if not len(compiled.slots):
+        raise InputError("none of the entries has an effect on the motion")
+    status, table, turns = compiled.steady_rows(accuracy)
+    return SteadyStates(arrays, status, *np.ascontiguousarray(table.T)[:11], turns_swept=turns)
+
+
+def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:
+    """The values as arrays of one length, each possible at its address."""
+    arrays = {address: np.atleast_1d(np.asarray(value, float)) for address, value in entries.items()}
+    lengths = {array.shape for array in arrays.values()} - {(1,)}
+    if not arrays or len(lengths) > 1 or any(len(shape) != 1 for shape in lengths):
+        raise ShapeError(f"arrays of one length are needed, found shapes {sorted(lengths)}")
+    shape = lengths.pop() if lengths else (1,)
+    for address, array in arrays.items():
+        _check(machine, address, array)
+    return {address: np.ascontiguousarray(np.broadcast_to(array, shape)) for address, array in arrays.items()}
+
+
+def _check(machine: Machine, address: str, array: Floats) -> None:
+    """Raise unless the smallest and the largest value are possible at the address.
+
+    Bounds of entries are intervals, so what holds for the extremes holds between them.
+    """
+    get(machine, address)
+    if not np.isfinite(array).all():
+        raise MachineError([Problem(address, "NaN or infinite values", "finite numbers")])
+    for value in (array.min(), array.max()):
+        Machine.model_validate(_plain(replace(machine, {address: float(value)})))
+
+
+def _plain(machine: Machine) -> dict[str, object]:
+    """The machine as the tables of a file."""
+    return machine.model_dump(by_alias=True, exclude_unset=True)
