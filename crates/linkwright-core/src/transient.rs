@@ -249,7 +249,7 @@ impl Path {
             let aims = landing <= h && landing <= rest;
             h = h.min(rest).min(landing);
             let mut trial = attempt(h);
-            if !(trial.error <= 1.0) {
+            if trial.error.is_nan() || trial.error > 1.0 {
                 h *= next_factor(trial.error).min(0.5);
                 continue;
             }

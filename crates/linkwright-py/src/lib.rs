@@ -64,6 +64,15 @@ impl Plan {
     }
 }
 
+type Curve<'py> = Bound<'py, PyArray1<f64>>;
+type Table<'py> = Bound<'py, PyArray2<f64>>;
+/// Status, scalars, curves.
+type Solved<'py> = (u8, Option<Curve<'py>>, Option<Table<'py>>);
+/// Status and scalars of every row, and turns swept.
+type SolvedRows<'py> = (Bound<'py, PyArray1<u8>>, Table<'py>, u64);
+/// How it ended, torques there, evaluations, and t, φ, ω, ε.
+type Followed<'py> = (u8, [f64; 2], usize, Vec<Curve<'py>>);
+
 #[pyfunction]
 fn steady_state<'py>(
     py: Python<'py>,
@@ -71,7 +80,7 @@ fn steady_state<'py>(
     q: Floats<'_>,
     accuracy: f64,
     phi: Floats<'_>,
-) -> PyResult<(u8, Option<Bound<'py, PyArray1<f64>>>, Option<Bound<'py, PyArray2<f64>>>)> {
+) -> PyResult<Solved<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let solved = py.detach(|| {
         let found = steady(&plan.0, q, accuracy)?;
@@ -120,7 +129,7 @@ fn steady_rows<'py>(
     slots: Ints<'_>,
     values: PyReadonlyArray2<'_, f64>,
     accuracy: f64,
-) -> PyResult<(Bound<'py, PyArray1<u8>>, Bound<'py, PyArray2<f64>>, u64)> {
+) -> PyResult<SolvedRows<'py>> {
     let n = values.as_array().ncols();
     let slots = as_indices(slots.as_slice()?, plan.0.n_parameters)?;
     let rows = Rows { base: plan.parameters(&q)?, slots: &slots, values: values.as_slice()?, n };
@@ -159,12 +168,7 @@ fn motions(
 }
 
 #[pyfunction]
-fn gaps<'py>(
-    py: Python<'py>,
-    plan: &Plan,
-    q: Floats<'_>,
-    phi: Floats<'_>,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
+fn gaps<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>, phi: Floats<'_>) -> PyResult<Table<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let out = PyArray2::<f64>::zeros(py, [plan.0.mechanism.n_gaps, phi.len()], false);
     batch::gaps(&plan.0, q, phi, out.readwrite().as_slice_mut()?);
@@ -178,7 +182,7 @@ fn reductions<'py>(
     q: Floats<'_>,
     phi: Floats<'_>,
     sense: f64,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
+) -> PyResult<Table<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let out = PyArray2::<f64>::zeros(py, [5, phi.len()], false);
     batch::reductions(&plan.0, q, phi, sense, out.readwrite().as_slice_mut()?);
@@ -191,16 +195,13 @@ fn motor_torques<'py>(
     plan: &Plan,
     q: Floats<'_>,
     omega: Floats<'_>,
-) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+) -> PyResult<(Curve<'py>, Curve<'py>)> {
     let q = plan.parameters(&q)?;
     let torque = |&omega: &f64| plan.0.motor_torque(q, omega);
     let motor: Vec<f64> = omega.as_slice()?.iter().map(torque).collect();
     let crank = motor.iter().map(|&torque| plan.0.geared_torque(q, torque)).collect();
     Ok((PyArray1::from_vec(py, motor), PyArray1::from_vec(py, crank)))
 }
-
-/// A transient's end, its numbers and its curves.
-type Followed<'py> = (u8, [f64; 2], usize, Vec<Bound<'py, PyArray1<f64>>>);
 
 #[pyfunction]
 fn transient<'py>(
@@ -222,7 +223,7 @@ fn transient<'py>(
 }
 
 #[pyfunction]
-fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Curve<'py>> {
     let q = plan.parameters(&q)?;
     let machine = linkwright_core::cycle::Machine { plan: &plan.0, q };
     let mut motion = linkwright_core::linkage::Motion::new(&plan.0.mechanism);

@@ -66,7 +66,7 @@ class Result:
 
     def _entries(self) -> dict[str, Any]:
         """Fields and properties in the order of their definition."""
-        names = [field.name for field in fields(self) if not field.name.startswith("_")]  # type: ignore[arg-type]
+        names = [field.name for field in fields(self)]  # type: ignore[arg-type]
         for kind in reversed(type(self).__mro__):
             names += [name for name, member in vars(kind).items() if isinstance(member, property)]
-        return {name: getattr(self, name) for name in dict.fromkeys(names)}
+        return {name: getattr(self, name) for name in dict.fromkeys(names) if not name.startswith("_")}

@@ -16,10 +16,11 @@ import typer
 from linkwright.cli.check import check
 from linkwright.cli.common import reports_errors
 from linkwright.cli.new import new
+from linkwright.cli.run import run
 from linkwright.cli.schema import schema
 
 # In the order of the help.
-COMMANDS: tuple[Callable[..., Any], ...] = (check, new, schema)
+COMMANDS: tuple[Callable[..., Any], ...] = (run, check, new, schema)
 
 
 def _version(wanted: bool) -> None:

@@ -1,0 +1,74 @@
+# Everything that is done with this repository. `make test` is what CI runs.
+#
+#   make demo    virtual environment, build, run the main example, say where the report lies
+#   make test    lint and all tests
+#   make lint    formatting, clippy, ruff, types
+#   make bench   the product against what a user would use instead
+#   make docs    the documentation as pages in site/
+
+SHELL := /bin/bash
+VENV := .venv
+BIN := $(VENV)/bin
+PYTHON ?= python3
+# The compiled module lands in the package's folder; this file says when it was built.
+BUILT := $(VENV)/built
+TOOLS := $(VENV)/tools
+RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
+
+export VIRTUAL_ENV := $(CURDIR)/$(VENV)
+export PATH := $(CURDIR)/$(BIN):$(PATH)
+
+.PHONY: demo build test lint rust-test python-test bench docs clean
+
+demo: build
+	$(BIN)/linkwright run machines/roller_two_carts.toml --out out/roller_two_carts
+	@echo
+	@echo "The report: $(CURDIR)/out/roller_two_carts/report.html"
+
+build: $(BUILT)
+
+$(VENV)/bin/python:
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed")'
+	$(PYTHON) -m venv $(VENV)
+
+# What the package needs to run and to be built, at pinned versions.
+$(VENV)/needs: constraints.txt pyproject.toml | $(VENV)/bin/python
+	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt 'maturin>=1.9,<2'
+	touch $@
+
+$(BUILT): $(VENV)/needs $(RUST)
+	PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/maturin develop --release --locked -q
+	touch $@
+
+# What tests and lint need besides.
+$(TOOLS): $(BUILT)
+	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt -e '.[dev]' --no-build-isolation
+	touch $@
+
+test: lint rust-test python-test
+
+lint: $(TOOLS)
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --locked -- -D warnings
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/python -m mypy.stubtest linkwright._core --ignore-disjoint-bases
+
+rust-test:
+	cargo test --workspace --locked
+
+python-test: $(TOOLS)
+	$(BIN)/python -m pytest
+
+bench: $(TOOLS)
+	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt -e '.[bench]' --no-build-isolation
+	$(BIN)/python benches/run.py
+
+docs: $(TOOLS)
+	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt -e '.[docs]' --no-build-isolation
+	$(BIN)/mkdocs build --strict
+	cargo doc --no-deps -p linkwright-core --locked
+
+clean:
+	rm -rf $(VENV) target out site python/linkwright/*.so

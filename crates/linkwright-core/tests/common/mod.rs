@@ -1,0 +1,242 @@
+//! Machines for the tests, built as a plan with its parameters.
+#![allow(dead_code, unreachable_pub)]
+
+use linkwright_core::drive::{Drive, Motor, Span};
+use linkwright_core::linkage::{Element, Mechanism, Rocker, SliderRod};
+use linkwright_core::plan::Plan;
+use linkwright_core::reduce::{Body, Load};
+use linkwright_core::table::Table;
+
+/// A plan and the numbers that go with it.
+pub struct Built {
+    pub plan: Plan,
+    pub q: Vec<f64>,
+}
+
+/// Collects elements and numbers.
+pub struct Builder {
+    mechanism: Mechanism,
+    bodies: Vec<Body>,
+    loads: Vec<Load>,
+    tables: Vec<Table>,
+    q: Vec<f64>,
+}
+
+impl Builder {
+    /// Starts with the origin as point 0.
+    pub fn new() -> Self {
+        let mut b = Builder {
+            mechanism: Mechanism::default(),
+            bodies: Vec::new(),
+            loads: Vec::new(),
+            tables: Vec::new(),
+            q: Vec::new(),
+        };
+        b.fixed(0.0, 0.0);
+        b
+    }
+
+    pub fn number(&mut self, x: f64) -> usize {
+        self.q.push(x);
+        self.q.len() - 1
+    }
+
+    fn point(&mut self) -> usize {
+        self.mechanism.n_points += 1;
+        self.mechanism.n_points - 1
+    }
+
+    fn link(&mut self) -> usize {
+        self.mechanism.n_links += 1;
+        self.mechanism.n_links - 1
+    }
+
+    fn gap(&mut self) -> usize {
+        self.mechanism.n_gaps += 1;
+        self.mechanism.n_gaps - 1
+    }
+
+    pub fn fixed(&mut self, x: f64, y: f64) -> usize {
+        let (point, x, y) = (self.point(), self.number(x), self.number(y));
+        self.mechanism.elements.push(Element::Fixed { point, x, y });
+        point
+    }
+
+    /// Pin and link of a crank about point 0.
+    pub fn crank(&mut self, radius: f64, phase: f64) -> (usize, usize) {
+        let (pin, link) = (self.point(), self.link());
+        let (radius, cos, sin) = (self.number(radius), self.number(phase.cos()), self.number(phase.sin()));
+        self.mechanism.elements.push(Element::Crank { pin, link, pivot: 0, radius, cos, sin });
+        (pin, link)
+    }
+
+    /// Point, link and slide of a slider.
+    pub fn slider(&mut self, pin: usize, rod: f64, offset: f64, angle: f64, sign: f64) -> [usize; 3] {
+        let (point, link, gap) = (self.point(), self.link(), self.gap());
+        let slide = self.mechanism.n_slides;
+        self.mechanism.n_slides += 1;
+        let element = SliderRod {
+            point,
+            link,
+            slide,
+            gap,
+            pin,
+            through: 0,
+            rod: self.number(rod),
+            inverse_rod: self.number(1.0 / rod),
+            offset: self.number(offset),
+            cos: self.number(angle.cos()),
+            sin: self.number(angle.sin()),
+            sign: self.number(sign),
+        };
+        self.mechanism.elements.push(Element::SliderRod(element));
+        [point, link, slide]
+    }
+
+    /// Joint, coupler and rocker of a dyad RRR.
+    pub fn rocker(&mut self, pin: usize, pivot: usize, coupler: f64, rocker: f64, sign: f64) -> [usize; 3] {
+        let (joint, coupler_link, rocker_link, gap) = (self.point(), self.link(), self.link(), self.gap());
+        let element = Rocker {
+            joint,
+            coupler_link,
+            rocker_link,
+            gap,
+            pin,
+            pivot,
+            coupler: self.number(coupler),
+            rocker: self.number(rocker),
+            inverse_coupler: self.number(1.0 / coupler),
+            inverse_rocker: self.number(1.0 / rocker),
+            sign: self.number(sign),
+        };
+        self.mechanism.elements.push(Element::Rocker(element));
+        [joint, coupler_link, rocker_link]
+    }
+
+    pub fn rigid_point(&mut self, link: usize, origin: usize, along: f64, across: f64) -> usize {
+        let (point, along, across) = (self.point(), self.number(along), self.number(across));
+        self.mechanism.elements.push(Element::RigidPoint { point, link, origin, along, across });
+        point
+    }
+
+    pub fn mass(&mut self, point: usize, mass: f64) {
+        let mass = self.number(mass);
+        self.bodies.push(Body::Point { point, mass });
+    }
+
+    pub fn rod(&mut self, link: usize, origin: usize, length: f64, mass: f64) {
+        let (along, across) = (self.number(length / 2.0), self.number(0.0));
+        let (mass, inertia) = (self.number(mass), self.number(mass * length * length / 12.0));
+        self.bodies.push(Body::Link { link, origin, along, across, mass, inertia });
+    }
+
+    pub fn dry_slide(&mut self, slide: usize, force: f64) {
+        let force = self.number(force);
+        self.loads.push(Load::DrySlide { slide, force });
+    }
+
+    pub fn load(&mut self, load: Load) {
+        self.loads.push(load);
+    }
+
+    pub fn gravity(&mut self, g: f64) {
+        let (x, y) = (self.number(0.0), self.number(-g));
+        self.loads.push(Load::Gravity { x, y });
+    }
+
+    pub fn table(&mut self, x: &[f64], y: &[f64]) -> usize {
+        self.tables.push(Table::new(x, y).expect("a sound table"));
+        self.tables.len() - 1
+    }
+
+    /// `factors`: ratio, forward, reverse, inertia on the crank, starting speed.
+    pub fn finish(mut self, motor: Motor, factors: [f64; 5]) -> Built {
+        let [ratio, forward, reverse, inertia, speed_start] = factors.map(|x| self.number(x));
+        let drive = Drive { motor, ratio, forward, reverse, inertia, speed_start, speed_loads: vec![] };
+        let plan = Plan {
+            mechanism: self.mechanism,
+            bodies: self.bodies,
+            loads: self.loads,
+            drive,
+            tables: self.tables,
+            n_parameters: self.q.len(),
+        };
+        Built { plan, q: self.q }
+    }
+
+    /// Motor of paper 1 with its start, by the catalogue curve.
+    pub fn paper_motor(&mut self) -> Motor {
+        let (synchronous, breakdown) = (104.72, 94.95);
+        let [x0, y0, x1, y1, inverse_width] =
+            [0.0, 129.24, breakdown, 215.4, 1.0 / breakdown].map(|x| self.number(x));
+        Motor::Induction {
+            inverse_synchronous: self.number(1.0 / synchronous),
+            torque: self.number(215.4),
+            slip: self.number(1.0 - breakdown / synchronous),
+            resistance: self.number(0.0),
+            spans: vec![Span { x0, y0, x1, y1, inverse_width, is_level: false }],
+        }
+    }
+}
+
+/// The two-cart drive of paper 1 with the given phase of the second crank and reverse factor.
+pub fn two_carts(phase: f64, reverse: f64) -> Built {
+    let mut b = Builder::new();
+    for phase in [0.0, phase] {
+        let (pin, _) = b.crank(0.2, phase);
+        let [point, link, slide] = b.slider(pin, 0.8, 0.0, 0.0, 1.0);
+        b.mass(point, 1000.0);
+        b.rod(link, pin, 0.8, 64.0);
+        b.dry_slide(slide, 3562.0);
+    }
+    b.gravity(9.81);
+    let motor = b.paper_motor();
+    b.finish(motor, [9.8, 0.9, reverse, 0.504 * 9.8 * 9.8, 104.72 / 9.8])
+}
+
+/// Reproducible random numbers (SplitMix64).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^= z >> 31;
+        low + (high - low) * (z >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A machine with an inclined, offset slider, a crank-rocker with a coupler point, and all kinds of bodies.
+pub fn mixed(random: &mut Random) -> Built {
+    let mut b = Builder::new();
+    let (pin, crank) = b.crank(random.between(0.08, 0.12), random.between(-3.0, 3.0));
+    let [slider, rod, slide] = b.slider(
+        pin,
+        random.between(0.4, 0.6),
+        random.between(-0.1, 0.1),
+        random.between(-3.0, 3.0),
+        if random.between(0.0, 1.0) < 0.5 { 1.0 } else { -1.0 },
+    );
+    let pivot = b.fixed(random.between(0.38, 0.42), random.between(-0.1, 0.1));
+    let side = if random.between(0.0, 1.0) < 0.5 { 1.0 } else { -1.0 };
+    let [joint, coupler, rocker] =
+        b.rocker(pin, pivot, random.between(0.36, 0.4), random.between(0.26, 0.3), side);
+    let tip = b.rigid_point(coupler, pin, 0.2, random.between(-0.2, 0.2));
+    b.mass(slider, 20.0);
+    b.mass(tip, 3.0);
+    b.mass(joint, 1.0);
+    b.rod(rod, pin, 0.5, 4.0);
+    b.rod(rocker, pivot, 0.28, 5.0);
+    b.rod(crank, 0, 0.1, 2.0);
+    b.dry_slide(slide, random.between(100.0, 400.0));
+    let [torque, damping, stiffness, length] =
+        [random.between(1.0, 5.0), 30.0, random.between(100.0, 900.0), 0.3].map(|x| b.number(x));
+    b.load(Load::DryLink { link: rocker, torque });
+    b.load(Load::ViscousPoint { point: tip, damping });
+    b.load(Load::Spring { from: joint, to: 0, stiffness, free_length: length });
+    b.gravity(9.81);
+    let (torque, inverse_speed) = (b.number(100.0), b.number(1.0 / 300.0));
+    b.finish(Motor::Line { torque, inverse_speed }, [10.0, 0.9, 0.9, 5.0, 30.0])
+}

@@ -1,0 +1,280 @@
+//! Steady motion and motion in time: laws of energy, closed forms, promised accuracy, batch against single.
+
+mod common;
+
+use common::{Builder, Built, Random, mixed, two_carts};
+use linkwright_core::batch::{QUANTITIES, Rows, row_of_steady, steady_rows};
+use linkwright_core::cycle::Machine;
+use linkwright_core::drive::Motor;
+use linkwright_core::linkage::Motion;
+use linkwright_core::reduce::Load;
+use linkwright_core::status::Status;
+use linkwright_core::steady::steady;
+use linkwright_core::transient::{End, Start, follow};
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+const FOREVER: f64 = 1e9;
+
+fn from_rest(duration: f64, turns: f64) -> Start {
+    Start { phi: 0.0, omega: 0.0, duration, turns, accuracy: 1e-10 }
+}
+
+/// Published data of two carts: ω = 9.919…10.799 rad/s, δ = 0.0850, H = 0.1254 (recomputation, method 1).
+#[test]
+fn two_carts_move_as_recomputed() {
+    let built = two_carts(FRAC_PI_2, 0.9);
+    let found = steady(&built.plan, &built.q, 1e-12).expect("steady motion");
+    let e = &found.extremes;
+    let mean = 0.5 * (e.speed_min.value + e.speed_max.value);
+    let delta = (e.speed_max.value - e.speed_min.value) / mean;
+    let h = e.acceleration_max.value.max(-e.acceleration_min.value) / mean.powi(2);
+    assert!((e.speed_min.value - 9.919).abs() < 5e-4, "ω_min {}", e.speed_min.value);
+    assert!((e.speed_max.value - 10.799).abs() < 5e-4, "ω_max {}", e.speed_max.value);
+    assert!((delta - 0.0850).abs() < 5e-5, "δ {delta}");
+    assert!((h - 0.1254).abs() < 5e-5, "H {h}");
+}
+
+/// Over a turn of steady motion the drive's work at the crank is the loads' work.
+#[test]
+fn work_over_a_turn_is_balanced() {
+    let mut random = Random(5);
+    for _ in 0..30 {
+        let built = mixed(&mut random);
+        let found = steady(&built.plan, &built.q, 1e-11).expect("steady motion");
+        let (given, taken) = (found.totals.crank_work, found.totals.load_work);
+        assert!((given / taken - 1.0).abs() < 1e-10, "{given} J given, {taken} J taken");
+    }
+}
+
+/// The accuracy asked for is kept, for every decade down to 1e-12.
+#[test]
+fn accuracy_is_kept() {
+    let mut random = Random(9);
+    let machines = [two_carts(1.2, 0.9), two_carts(0.4, 1.0 / 0.9), mixed(&mut random), mixed(&mut random)];
+    for built in &machines {
+        let exact = steady(&built.plan, &built.q, 1e-14).expect("steady motion");
+        for decade in 4..=12 {
+            let accuracy = 10_f64.powi(-decade);
+            let found = steady(&built.plan, &built.q, accuracy).expect("steady motion");
+            let numbers = |s| {
+                let row = row_of_steady(s);
+                [row[0], row[1], row[4]]
+            };
+            for (found, exact) in numbers(&found).into_iter().zip(numbers(&exact)) {
+                let error = (found / exact - 1.0).abs();
+                assert!(error <= accuracy, "asked for {accuracy:e}, got {error:e}");
+            }
+        }
+    }
+}
+
+/// Newton's sweeps and the mesh: the work for two carts at 1e-10, pinned so that more work is noticed.
+#[test]
+fn work_of_the_search_is_as_before() {
+    let built = two_carts(FRAC_PI_2, 0.9);
+    let found = steady(&built.plan, &built.q, 1e-10).expect("steady motion");
+    assert_eq!((found.sweeps, found.turn.steps.len()), (10, 48), "sweeps and steps");
+}
+
+/// Steady motion is what a long run-up ends in, and the multiplier is how a disturbance shrinks.
+#[test]
+fn run_up_ends_in_steady_motion() {
+    let mut b = Builder::new();
+    let (pin, _) = b.crank(0.2, 0.0);
+    let [point, link, slide] = b.slider(pin, 0.8, 0.05, 0.3, 1.0);
+    b.mass(point, 300.0);
+    b.rod(link, pin, 0.8, 40.0);
+    b.dry_slide(slide, 900.0);
+    b.gravity(9.81);
+    let (torque, inverse_speed) = (b.number(80.0), b.number(1.0 / 120.0));
+    let built = b.finish(Motor::Line { torque, inverse_speed }, [10.0, 0.9, 0.9, 60.0, 12.0]);
+    let cycle = steady(&built.plan, &built.q, 1e-12).expect("steady motion");
+    let machine = Machine { plan: &built.plan, q: &built.q };
+    let mut m = Motion::new(&built.plan.mechanism);
+    let omega = machine.state(0.0, cycle.turn.steps[0].E, &mut m).omega;
+
+    let run_up = follow(&built.plan, &built.q, &from_rest(FOREVER, 40.0));
+    assert_eq!(run_up.end, End::Turns, "how it ended");
+    let last = *run_up.omega.last().expect("a motion");
+    // 40 turns leave nothing of the start; 1e-10 a step over a thousand steps.
+    assert!((last / omega - 1.0).abs() < 1e-8, "{last} rad/s after the run-up, {omega} in steady motion");
+
+    let disturbed = |by: f64| {
+        let start = Start { phi: 0.0, omega: omega + by, duration: FOREVER, turns: 1.0, accuracy: 1e-12 };
+        *follow(&built.plan, &built.q, &start).omega.last().expect("a motion")
+    };
+    let shrinks = (disturbed(1e-3) - disturbed(-1e-3)) / 2e-3;
+    let multiplier = cycle.turn.multiplier;
+    // Central difference of a smooth map: error of order (1e-3)².
+    assert!((shrinks - multiplier).abs() < 1e-5, "{shrinks} measured, {multiplier} predicted");
+}
+
+/// Without drive and load the kinetic energy ½ J ω² stays.
+#[test]
+fn free_motion_keeps_its_energy() {
+    let mut b = Builder::new();
+    let (pin, crank) = b.crank(0.1, 0.4);
+    let [point, link, _] = b.slider(pin, 0.35, 0.02, 0.2, -1.0);
+    let pivot = b.fixed(0.4, 0.0);
+    let [_, _, rocker] = b.rocker(pin, pivot, 0.38, 0.3, 1.0);
+    b.mass(point, 12.0);
+    b.rod(link, pin, 0.35, 3.0);
+    b.rod(rocker, pivot, 0.3, 4.0);
+    b.rod(crank, 0, 0.1, 1.0);
+    let built = b.finish(Motor::Off, [1.0, 1.0, 1.0, 0.3, 20.0]);
+    let start = Start { phi: 0.3, omega: 20.0, duration: FOREVER, turns: 50.0, accuracy: 1e-12 };
+    let path = follow(&built.plan, &built.q, &start);
+    let machine = Machine { plan: &built.plan, q: &built.q };
+    let mut m = Motion::new(&built.plan.mechanism);
+    let mut energy = |i: usize| 0.5 * machine.state(path.phi[i], 1.0, &mut m).J * path.omega[i].powi(2);
+    let (first, last) = (energy(0), energy(path.t.len() - 1));
+    // 1e-12 a step over some thousand steps.
+    assert!((last / first - 1.0).abs() < 1e-9, "{first} J became {last} J");
+}
+
+/// Constant torque on a flywheel: ω = M t/J, φ = M t²/(2J).
+#[test]
+fn flywheel_under_constant_torque_has_its_closed_form() {
+    let mut b = Builder::new();
+    b.crank(0.1, 0.0);
+    let torque = b.number(12.0);
+    let built = b.finish(Motor::Constant { torque }, [5.0, 0.8, 1.0, 3.0, 10.0]);
+    let path = follow(&built.plan, &built.q, &from_rest(2.5, FOREVER));
+    let (epsilon, t) = (12.0 * 5.0 * 0.8 / 3.0, 2.5);
+    let n = path.t.len() - 1;
+    assert!((path.t[n] - t).abs() < 1e-15, "ends at {}", path.t[n]);
+    assert!((path.omega[n] / (epsilon * t) - 1.0).abs() < 1e-12, "ω = {}", path.omega[n]);
+    assert!((path.phi[n] / (0.5 * epsilon * t * t) - 1.0).abs() < 1e-12, "φ = {}", path.phi[n]);
+}
+
+/// Run-down under dry friction on the crank: stops after ω²J/(2M) radians, and stays.
+#[test]
+fn dry_brake_stops_after_its_closed_form() {
+    let mut b = Builder::new();
+    b.crank(0.1, 0.0);
+    let torque = b.number(7.0);
+    b.load(Load::DryCrank { torque });
+    let built = b.finish(Motor::Off, [1.0, 1.0, 1.0, 2.0, 10.0]);
+    let start = Start { phi: 0.0, omega: 9.0, duration: FOREVER, turns: FOREVER, accuracy: 1e-10 };
+    let path = follow(&built.plan, &built.q, &start);
+    let angle = 9.0_f64.powi(2) * 2.0 / (2.0 * 7.0);
+    assert_eq!(path.end, End::Stall, "how it ended");
+    let last = *path.phi.last().expect("a motion");
+    assert!((last / angle - 1.0).abs() < 1e-10, "stops after {last}, not {angle} rad");
+}
+
+/// A hanging crank too heavy for its motor: does not start, falls back, or stalls on the way up.
+#[test]
+fn standstill_is_told() {
+    let lifted = |torque: f64, friction: f64, phi: f64| {
+        let mut b = Builder::new();
+        let (pin, _) = b.crank(1.0, 0.0);
+        b.mass(pin, 10.0);
+        b.gravity(10.0);
+        let torque = b.number(torque);
+        let friction = b.number(friction);
+        b.load(Load::DryCrank { torque: friction });
+        let built = b.finish(Motor::Constant { torque }, [1.0, 1.0, 1.0, 1.0, 5.0]);
+        follow(&built.plan, &built.q, &Start { phi, ..from_rest(FOREVER, 3.0) })
+    };
+    // The weight needs 100 N m · cos φ.
+    assert_eq!(lifted(90.0, 20.0, 0.0).end, End::DoesNotStart, "held by friction");
+    assert_eq!(lifted(70.0, 20.0, 0.0).end, End::StartsBackwards, "pulled back");
+    assert_eq!(lifted(60.0, 50.0, -FRAC_PI_2).end, End::Stall, "comes to rest and is held");
+    assert_eq!(lifted(30.0, 5.0, -FRAC_PI_2).end, End::Reversal, "comes to rest and falls back");
+    let there = lifted(90.0, 20.0, 0.0);
+    assert!((there.drive_torque - 90.0).abs() < 1e-12, "drive {}", there.drive_torque);
+    assert!((there.load_torque - 120.0).abs() < 1e-12, "load {}", there.load_torque);
+    assert_eq!(lifted(150.0, 20.0, 0.0).end, End::Turns, "strong enough");
+}
+
+/// A swing that comes to rest where it says: energy from the bottom, (M − T) φ = m g r (1 − cos φ).
+#[test]
+fn reversal_is_where_the_energy_is_used_up() {
+    let mut b = Builder::new();
+    let (pin, _) = b.crank(1.0, 0.0);
+    b.mass(pin, 10.0);
+    b.gravity(10.0);
+    let torque = b.number(25.0);
+    let built = b.finish(Motor::Constant { torque }, [1.0, 1.0, 1.0, 0.5, 5.0]);
+    let path = follow(&built.plan, &built.q, &Start { phi: -FRAC_PI_2, ..from_rest(FOREVER, 3.0) });
+    let swing = path.phi.last().expect("a motion") + FRAC_PI_2;
+    let excess = 25.0 * swing - 100.0 * (1.0 - swing.cos());
+    assert!(excess.abs() < 1e-8, "{excess} J left at {swing} rad");
+}
+
+/// A machine that the motor cannot keep turning has no steady motion.
+#[test]
+fn too_small_a_motor_has_no_steady_motion() {
+    let mut b = Builder::new();
+    let (pin, _) = b.crank(0.2, 0.0);
+    let [point, _, slide] = b.slider(pin, 0.8, 0.0, 0.0, 1.0);
+    b.mass(point, 100.0);
+    b.dry_slide(slide, 5000.0);
+    let (torque, inverse_speed) = (b.number(10.0), b.number(1.0 / 100.0));
+    let built = b.finish(Motor::Line { torque, inverse_speed }, [10.0, 1.0, 1.0, 10.0, 10.0]);
+    assert_eq!(steady(&built.plan, &built.q, 1e-8).err(), Some(Status::NoSteadyMotion), "status");
+}
+
+/// A batch in lanes and threads gives what the single search gives, also where the motor's curve has a kink.
+#[test]
+fn batch_is_the_single_machine() {
+    for reverse in [0.9, 1.0 / 0.9] {
+        let built = two_carts(FRAC_PI_2, reverse);
+        let n = 300;
+        // The second crank's phase (cos, sin), from 60° to 120°.
+        let phase = |i: usize| TAU / 6.0 + TAU / 6.0 * i as f64 / n as f64;
+        let at = |x: f64| built.q.iter().rposition(|&q| (q - x).abs() < 1e-15).expect("a parameter");
+        let (cos, sin) = (at(FRAC_PI_2.cos()), at(1.0).min(at(FRAC_PI_2.cos()) + 1));
+        let values: Vec<f64> = (0..n).map(|i| phase(i).cos()).chain((0..n).map(|i| phase(i).sin())).collect();
+        let rows = Rows { base: &built.q, slots: &[cos, sin], values: &values, n };
+        let mut out = vec![0.0; n * QUANTITIES];
+        let (status, _) = steady_rows(&built.plan, &rows, 1e-10, &mut out);
+        assert!(status.iter().all(|&s| s == Status::Ok), "all solved");
+        for row in (0..n).step_by(7) {
+            let exact = row_of_steady(&steady(&built.plan, &rows.row(row), 1e-12).expect("steady"));
+            for k in 0..11 {
+                let scale = exact[k].abs().max(if k == 5 { 1.0 } else { 1e-12 });
+                let error = (out[row * QUANTITIES + k] - exact[k]).abs() / scale;
+                // 20 steps a turn: speeds to 1e-8, accelerations to 1e-7, the multiplier to 1e-6.
+                assert!(error < 1e-6, "row {row}, number {k}: off by {error:e}");
+            }
+        }
+    }
+}
+
+/// The same bits for any number of threads.
+#[test]
+fn threads_do_not_change_the_answer() {
+    let built = two_carts(1.1, 0.9);
+    let n = 700;
+    let values: Vec<f64> = (0..n).map(|i| 900.0 + i as f64).collect();
+    let slot = built.q.iter().position(|&q| q == 1000.0).expect("the first cart's mass");
+    let rows = Rows { base: &built.q, slots: &[slot], values: &values, n };
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let mut out = vec![0.0; n * QUANTITIES];
+        pool.install(|| steady_rows(&built.plan, &rows, 1e-9, &mut out));
+        out
+    };
+    assert_eq!(run(1), run(2), "one and two threads");
+}
+
+/// Scaling lengths by k at equal masses scales J by k², and the time of a free turn not at all.
+#[test]
+fn inertia_scales_with_the_square_of_length() {
+    let size = |k: f64| {
+        let mut b = Builder::new();
+        let (pin, _) = b.crank(0.2 * k, 0.0);
+        let [point, link, _] = b.slider(pin, 0.7 * k, 0.1 * k, 0.0, 1.0);
+        b.mass(point, 10.0);
+        b.rod(link, pin, 0.7 * k, 6.0);
+        b.finish(Motor::Off, [1.0, 1.0, 1.0, 0.0, 1.0])
+    };
+    let J = |built: &Built| {
+        let machine = Machine { plan: &built.plan, q: &built.q };
+        machine.state(0.7, 1.0, &mut Motion::new(&built.plan.mechanism)).J
+    };
+    let (one, three) = (J(&size(1.0)), J(&size(3.0)));
+    assert!((three / one - 9.0).abs() < 1e-13, "ratio {}", three / one);
+}

@@ -1,0 +1,211 @@
+"""A study: every analysis that a machine allows, what it cannot do, and what its designer should know.
+
+| order | analysis | needs |
+| --- | --- | --- |
+| 1 | `reduction`, `constant_energy` | a mechanism that closes all round |
+| 2 | `steady_state` | a motor |
+| 3 | `run_up` | steady motion to settle to |
+| 4 | `run_down` | a brake, and steady motion to begin with |
+
+What fails becomes a finding, and the study goes on with what does not depend on it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from linkwright.analysis.cautions import cautions
+from linkwright.analysis.constant_energy import ConstantEnergy, constant_energy_of
+from linkwright.analysis.reduction import Reduction, reduction
+from linkwright.analysis.result import Result
+from linkwright.analysis.run_down import RunDown, run_down
+from linkwright.analysis.run_up import RunUp, run_up, start_of
+from linkwright.analysis.steady_state import SteadyState, steady_state
+from linkwright.analysis.step_method import StepMotion, step_method
+from linkwright.analysis.transient import Transient, transient
+from linkwright.errors import FindingError
+from linkwright.machine import ConstantSpeedMotor, Machine
+
+T = TypeVar("T")
+
+# Intervals of the turn for all curves, a quarter of a degree: what the constant-energy limit and the run-up
+# ask of the curves that they are given.
+_INTERVALS = 1440
+
+# A run-up that failed is followed again for its curve alone: no line shows more than this.
+_ATTEMPT_ACCURACY = 1e-6
+
+
+@dataclass(frozen=True)
+class Study:
+    """All that is known about a machine.
+
+    Attributes
+    ----------
+    machine : Machine
+        The machine.
+    reduction, constant_energy, steady_state, run_up, run_down, step_method : Result or None
+        Results by analysis; None where there is none.
+    attempt : Transient or None
+        The motion from the start to the stall, where the run-up fails on the way.
+    findings : tuple of str
+        What the machine cannot do, in sentences.
+    warnings : tuple of str
+        What its designer should know, in sentences.
+    """
+
+    machine: Machine
+    reduction: Reduction | None = None
+    constant_energy: ConstantEnergy | None = None
+    steady_state: SteadyState | None = None
+    run_up: RunUp | None = None
+    run_down: RunDown | None = None
+    step_method: StepMotion | None = None
+    attempt: Transient | None = None
+    findings: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+    def results(self) -> dict[str, Result]:
+        """The results that there are, by analysis."""
+        names = ("reduction", "constant_energy", "steady_state", "step_method", "run_up", "run_down")
+        found = {name: getattr(self, name) for name in names}
+        return {name: result for name, result in found.items() if result is not None}
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Name, results, findings and warnings, ready for JSON.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether arrays are included.
+
+        Returns
+        -------
+        dict
+            SI numbers under the names of the results' attributes; None in place of a number that is not
+            finite. The findings stand first among the warnings too.
+        """
+        results = {name: result.to_dict(curves=curves) for name, result in self.results().items()}
+        return {
+            "machine": self.machine.name,
+            "results": _finite(results),
+            "findings": list(self.findings),
+            "warnings": [*self.findings, *self.warnings],
+        }
+
+
+def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = None) -> Study:
+    """Study a machine: reduction, steady motion, run-up, and run-down if there is a brake.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; motor, bodies and loads may be missing.
+    accuracy : float
+        Relative accuracy of the steady speed, 1e-13 to 1e-2.
+    step : float, optional
+        Step of the crank angle [rad] for the step method beside the exact solution; without it, none.
+
+    Returns
+    -------
+    Study
+        What could be computed, and findings in place of what could not.
+
+    Raises
+    ------
+    InputError
+        The accuracy or the step makes no sense.
+    """
+    found = _Findings()
+    reduced = found.of(reduction, machine, n=_INTERVALS)
+    if reduced is None:
+        return Study(machine, findings=found.sentences())
+    limit = constant_energy_of(reduced)
+    if not _has_motor(machine):
+        return Study(machine, reduced, limit, warnings=cautions(machine, reduced, None))
+    steady = found.of(steady_state, machine, accuracy=accuracy, n=_INTERVALS)
+    started, attempt = _run_up(machine, steady, found)
+    stopped = found.of(run_down, machine, steady=steady) if steady and _has_brake(machine) else None
+    stepped = found.of(step_method, machine, step=step) if step is not None else None
+    return Study(
+        machine,
+        reduced,
+        limit,
+        steady,
+        started,
+        stopped,
+        stepped,
+        attempt,
+        found.sentences(),
+        cautions(machine, reduced, steady),
+    )
+
+
+@dataclass
+class _Findings:
+    """Collects the sentences of what cannot be done."""
+
+    errors: list[FindingError] = field(default_factory=list)
+
+    def of(self, analysis: Callable[..., T], *args: Any, **options: Any) -> T | None:
+        """The result of an analysis; None, and a finding, if there is none."""
+        try:
+            return analysis(*args, **options)
+        except FindingError as error:
+            self.errors.append(error)
+            return None
+
+    def sentences(self) -> tuple[str, ...]:
+        """One each, in their order; with a capital and a full stop."""
+        return tuple(dict.fromkeys(sentence(str(error)) for error in self.errors))
+
+
+def sentence(text: str) -> str:
+    """The text with a capital and a full stop."""
+    return f"{text[:1].upper()}{text[1:]}".rstrip(".") + "."
+
+
+def _run_up(
+    machine: Machine, steady: SteadyState | None, found: _Findings
+) -> tuple[RunUp | None, Transient | None]:
+    """The run-up, or how far it comes."""
+    if _keeps_speed(machine):
+        return None, None
+    if steady is None:
+        # Without steady motion nothing says when it has run up, but it may be that it cannot even start.
+        found.of(start_of, machine)
+        return None, _attempt(machine)
+    started = found.of(run_up, machine, steady=steady)
+    return started, None if started else _attempt(machine)
+
+
+def _attempt(machine: Machine) -> Transient | None:
+    """The motion from the start to the stall; None if it never moves or cannot be followed."""
+    options = machine.run_up
+    start = {"angle": options.angle_start, "speed": options.speed_start, "turns": options.turns_max}
+    motion = _Findings().of(transient, machine, accuracy=_ATTEMPT_ACCURACY, **start)
+    return motion if motion is not None and motion.turns > 0 else None
+
+
+def _has_motor(machine: Machine) -> bool:
+    return machine.drive is not None and machine.drive.motor is not None
+
+
+def _has_brake(machine: Machine) -> bool:
+    return machine.drive is not None and machine.drive.brake is not None
+
+
+def _keeps_speed(machine: Machine) -> bool:
+    return machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor)
+
+
+def _finite(value: Any) -> Any:
+    """The same tree with None in place of numbers that JSON does not know."""
+    if isinstance(value, Mapping):
+        return {key: _finite(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [_finite(each) for each in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,260 @@
+r"""Whether a motor suffices: each check with its number and its limit.
+
+| check | asks |
+| --- | --- |
+| `speed` | does the crank turn at the design speed when the motor turns at its rated one? |
+| `rated_power` | is the rated power the required one, with a reserve? |
+| `starting_torque` | does it move the machine from its start angle? |
+| `starting_torque_worst` | and from the worst crank angle? |
+| `run_up` | does the machine reach its steady motion? |
+| `torque_rms` | does the motor stay cool: is the effective torque at most the rated one? |
+| `torque_peak` | does it keep a reserve to the breakdown torque if the voltage drops? |
+
+The torques are those of the exact steady motion, not of a mean load.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from linkwright.analysis.reduction import reduction_of
+from linkwright.analysis.run_up import RunUp, run_up
+from linkwright.analysis.steady_state import SteadyState, steady_state
+from linkwright.engine import compile_machine
+from linkwright.errors import FindingError
+from linkwright.machine import CatalogueMotor, InductionMotor, Machine
+from linkwright.sizing.power import RequiredPower
+
+# Share of the design speed by which the crank's speed at the rated point may differ from it. Gearboxes come in
+# ratios 12 % apart (series R20), so a suitable one is within half of that; 10 % keeps a file's own ratio.
+SPEED_BAND = 0.10
+
+# Torque goes with the square of the voltage: with 10 % less of it 0.9² = 0.81 of the breakdown torque is left.
+# Handbooks of electric drives give 0.8 to 0.85.
+PEAK_SHARE = 0.9**2
+
+# Intervals of the turn over which greatest torques are looked for: the largest of 1440 samples of a smooth
+# curve misses its peak by some 1e-5.
+_ANGLES = 1440
+
+_RATING = ("speed", "rated_power")
+_START = ("starting_torque", "run_up")
+_TORQUE = ("starting_torque_worst", "torque_rms", "torque_peak")
+
+# Which checks decide, by the way of choosing.
+DECISIVE = {"power": _RATING + _START, "all": _RATING + _START + _TORQUE}
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check.
+
+    Attributes
+    ----------
+    name : str
+        Of the check.
+    value, limit : float or None
+        What was found and what it is compared with [``unit``].
+    unit : str
+        Unit of both.
+    passed : bool or None
+        None if it cannot be told.
+    at_most : bool
+        Whether the value must be at most the limit, not at least.
+    note : str
+        Why it cannot be told, what it rests on, or how it failed.
+    """
+
+    name: str
+    value: float | None
+    limit: float | None
+    unit: str
+    passed: bool | None
+    at_most: bool = False
+    note: str = ""
+
+    @property
+    def utilisation(self) -> float | None:
+        """Share of what is allowed that is used; above 1 the check fails [–]."""
+        if self.value is None or self.limit is None or not self.value > 0 or not self.limit > 0:
+            return None
+        return self.value / self.limit if self.at_most else self.limit / self.value
+
+    @property
+    def words(self) -> str:
+        """The check in one line."""
+        title = self.name.replace("_", " ")
+        if self.value is None or self.limit is None:
+            return f"{title}: {self.note}"
+        sign = "≤" if self.at_most else "≥"
+        short = "" if self.passed else f" fails, {_times(self.utilisation)}"
+        text = f"{title} {self.value:.4g} {sign} {self.limit:.4g} {self.unit}{short}"
+        return f"{text} ({self.note})" if self.note else text
+
+    def to_dict(self) -> dict[str, Any]:
+        """Its entries, ready for JSON."""
+        names = ("name", "value", "limit", "unit", "passed", "utilisation", "note")
+        return {name: getattr(self, name) for name in names}
+
+
+def _times(share: float | None) -> str:
+    return "no torque" if share is None else f"{share:.2f} times what is allowed"
+
+
+@dataclass(frozen=True)
+class Checked:
+    """All checks of a machine with its motor, and the analyses that they rest on.
+
+    Attributes
+    ----------
+    checks : tuple of Check
+        In the order of `DECISIVE`.
+    steady : SteadyState or None
+        None if there is no steady motion.
+    run_up : RunUp or None
+        None if the machine does not run up.
+    """
+
+    checks: tuple[Check, ...]
+    steady: SteadyState | None = None
+    run_up: RunUp | None = None
+
+
+def rating_checks(
+    known: CatalogueMotor, ratio: float, required: RequiredPower, reserve: float
+) -> tuple[Check, ...]:
+    """Check what the rating of a motor tells by itself: speed and power.
+
+    Parameters
+    ----------
+    known : CatalogueMotor
+        The type.
+    ratio : float
+        Of the gearbox [–].
+    required : RequiredPower
+        Power and design speed.
+    reserve : float
+        Rated power over required power that is asked for [–].
+
+    Returns
+    -------
+    tuple of Check
+        ``speed`` and ``rated_power``.
+    """
+    speed = known.speed_rated / ratio
+    suits = abs(speed / required.speed - 1) <= SPEED_BAND
+    note = "" if suits else f"a ratio of {known.speed_rated / required.speed:.4g} would suit"
+    need = required.power * reserve
+    return (
+        _speed_check(speed, required.speed, suits, note),
+        Check("rated_power", known.power_rated, need, "W", known.power_rated >= need),
+    )
+
+
+def _speed_check(speed: float, wanted: float, suits: bool, note: str) -> Check:
+    """The speed against the nearer end of the band about the design speed."""
+    fast = speed > wanted
+    limit = wanted * (1 + SPEED_BAND if fast else 1 - SPEED_BAND)
+    return Check("speed", speed, limit, "rad/s", suits, at_most=fast, note=note)
+
+
+def motion_checks(machine: Machine) -> Checked:
+    """Check what only the machine's motion tells: start, run-up, heat and overload.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine with an induction motor in it.
+
+    Returns
+    -------
+    Checked
+        The checks, with steady motion and run-up.
+
+    Notes
+    -----
+    Where the catalogue gives no starting torque, Kloss's formula holds down to standstill. It gives less than
+    real motors have, so a start by it is sure and a failure to start proves nothing.
+
+    References
+    ----------
+    .. [1] Effective torque and overload: any handbook of electric drives, choice of motors for varying load.
+    """
+    assert machine.drive is not None
+    motor = machine.drive.motor
+    assert isinstance(motor, InductionMotor)
+    by_kloss = motor.torque_start is None
+    starts = _start_checks(machine, by_kloss)
+    try:
+        steady = steady_state(machine, n=_ANGLES)
+    except FindingError as error:
+        lost = tuple(Check(name, None, None, "", False, note=str(error)) for name in DECISIVE["all"][3:])
+        return Checked((starts[0], lost[0], starts[1], *lost[2:]))
+    up, check = _run_up_check(machine, steady, by_kloss)
+    return Checked((starts[0], check, starts[1], *torque_checks(motor, steady)), steady, up)
+
+
+def torque_checks(motor: InductionMotor, steady: SteadyState) -> tuple[Check, Check]:
+    """Check the torque of steady motion against the rated and the breakdown torque.
+
+    Parameters
+    ----------
+    motor : InductionMotor
+        The motor.
+    steady : SteadyState
+        Its steady motion.
+
+    Returns
+    -------
+    tuple of Check
+        ``torque_rms`` and ``torque_peak``.
+    """
+    peak = max(steady.torque_motor_max, -steady.torque_motor_min)
+    rms = _at_most("torque_rms", steady.torque_motor_rms, motor.torque_rated, "no rated torque")
+    limit = PEAK_SHARE * motor.torque_breakdown if motor.torque_breakdown else None
+    return rms, _at_most("torque_peak", peak, limit, "no breakdown torque")
+
+
+def _at_most(name: str, value: float, limit: float | None, lacking: str) -> Check:
+    if limit is None:
+        return Check(name, value, None, "N m", None, note=f"cannot be told: {lacking}")
+    return Check(name, value, limit, "N m", value <= limit, at_most=True)
+
+
+def _start_checks(machine: Machine, by_kloss: bool) -> tuple[Check, Check]:
+    """Torque of the drive at standstill against the load at the start angle and at the worst angle."""
+    compiled = compile_machine(machine)
+    drive = float(compiled.motor_torques(0.0)[1][0])
+    still = float(np.sum(compiled.speed_load(0.0)))
+    at = np.array([machine.run_up.angle_start])
+    _, _, load, dry, _ = compiled.reductions(at)
+    worst = reduction_of(compiled, _ANGLES).torque_load_max
+    here = _start("starting_torque", drive, float(load[0] + dry[0]) + still, by_kloss)
+    return here, _start("starting_torque_worst", drive, worst + still, by_kloss)
+
+
+def _start(name: str, drive: float, load: float, by_kloss: bool) -> Check:
+    passed, note = _unsure(drive > load, by_kloss)
+    return Check(name, drive, load, "N m", passed, note=note)
+
+
+def _unsure(passed: bool, by_kloss: bool) -> tuple[bool | None, str]:
+    """A start by Kloss's formula: sure if it succeeds, not checkable if it fails."""
+    if not by_kloss:
+        return passed, ""
+    note = "the catalogue gives no starting torque, Kloss's formula is used"
+    return (True, note) if passed else (None, f"not checkable: {note}")
+
+
+def _run_up_check(machine: Machine, steady: SteadyState, by_kloss: bool) -> tuple[RunUp | None, Check]:
+    """Whether the machine reaches its steady motion."""
+    try:
+        up = run_up(machine, steady=steady)
+    except FindingError as error:
+        passed, note = _unsure(False, by_kloss)
+        return None, Check("run_up", None, None, "s", passed, note=note or str(error))
+    note = f"{up.time:.3g} s, {up.turns:.3g} turns"
+    return up, Check("run_up", up.time, None, "s", True, note=note)

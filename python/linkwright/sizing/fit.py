@@ -1,0 +1,78 @@
+"""The machine with a motor or a flywheel put in; the rest of its description stays as it was given."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from linkwright.machine import CatalogueMotor, Machine
+
+
+def with_motor(
+    machine: Machine, known: CatalogueMotor, *, inertia: float, ratio: float, note: str = ""
+) -> Machine:
+    """Put a motor of the catalogue into a machine.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    known : CatalogueMotor
+        The type.
+    inertia : float
+        Of its rotor [kg m²].
+    ratio : float
+        Of the gearbox [–].
+    note : str
+        A sentence to add to the machine's description.
+
+    Returns
+    -------
+    Machine
+        The new machine, checked.
+
+    Raises
+    ------
+    MachineError
+        The catalogue gives no characteristic for the type.
+    """
+    tables = _tables(machine)
+    drive = tables.setdefault("drive", {})
+    drive["motor"] = {"kind": "induction", "catalogue": known.type, "inertia": inertia}
+    drive["gearbox"] = {**drive.get("gearbox", {}), "ratio": ratio}
+    return _made(tables, note)
+
+
+def with_flywheel(machine: Machine, inertia: float, *, note: str = "") -> Machine:
+    """Put a flywheel on the crankshaft, in place of any that the machine has.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    inertia : float
+        Of the flywheel [kg m²]; 0 leaves it out.
+    note : str
+        A sentence to add to the machine's description.
+
+    Returns
+    -------
+    Machine
+        The new machine, checked.
+    """
+    tables = _tables(machine)
+    drive = tables.setdefault("drive", {})
+    drive.pop("flywheel", None)
+    if inertia > 0:
+        drive["flywheel"] = {"inertia": inertia, "on": "crank"}
+    return _made(tables, note)
+
+
+def _tables(machine: Machine) -> dict[str, Any]:
+    """The machine as the tables of a file."""
+    return machine.model_dump(by_alias=True, exclude_unset=True)
+
+
+def _made(tables: dict[str, Any], note: str) -> Machine:
+    if note:
+        tables["description"] = " ".join(text for text in (tables.get("description"), note) if text)
+    return Machine.model_validate(tables)

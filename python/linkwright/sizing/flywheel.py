@@ -1,0 +1,278 @@
+r"""The flywheel that keeps the speed within a wanted unevenness.
+
+The classical estimate (Mertsalov) keeps the driving torque at its mean and the speed in the inertia's terms
+at its mean,
+
+.. math::
+
+    \Delta A(\varphi) = \int_0^\varphi (\bar M_r - M_r)\,d\varphi - \tfrac12 J_\mathrm{red}(\varphi)\,\omega_m^2,
+    \qquad J_f + J_0 = \frac{\Delta A_\max - \Delta A_\min}{\delta\,\omega_m^2}
+
+with :math:`J_0` the inertia that turns with the crank already. The answer is not this estimate: it is the root
+of δ(J_f) − δ over the exact steady motion, which the estimate only starts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.analysis.reduction import reduction_of
+from linkwright.analysis.result import Result
+from linkwright.analysis.run_up import RunUp, run_up
+from linkwright.analysis.steady_state import SteadyState, steady_state
+from linkwright.engine import compile_machine, drive_inertia
+from linkwright.errors import ConvergenceError, FindingError, InputError, SteadyStateError
+from linkwright.machine import ConstantSpeedMotor, Machine
+from linkwright.sizing.fit import with_flywheel
+
+# Relative accuracy of the flywheel's unevenness; four digits better than anything it is compared with.
+_CLOSE = 1e-9
+
+# Doublings of the bracket before the search is given up: beyond 2^40 of the estimate nothing is a flywheel.
+_DOUBLINGS = 40
+
+_ITERATIONS = 60
+
+
+@dataclass(frozen=True)
+class FlywheelChoice(Result):
+    """A flywheel on the crankshaft.
+
+    Attributes
+    ----------
+    inertia : float
+        J_f [kg m²]; 0 if none is needed.
+    unevenness_wanted, unevenness : float
+        δ asked for, and δ of the machine with the flywheel, analysed again [–].
+    unevenness_without : float or None
+        δ without any flywheel; None if there is no steady motion then.
+    inertia_estimate : float
+        J_f by the classical estimate; not below 0 [kg m²].
+    excess_work : float
+        Largest excess of work in a turn, of the estimate [J].
+    run_up_time, run_up_time_without : float or None
+        Run-up with and without it [s]; None if the machine does not run up.
+    iterations : int
+        Steady motions that were solved.
+    warnings : tuple of str
+        What it costs.
+    machine : Machine
+        The machine with it.
+    steady : SteadyState
+        Its steady motion.
+    run_up : RunUp or None
+        Its run-up.
+    """
+
+    inertia: float
+    unevenness_wanted: float
+    unevenness: float
+    unevenness_without: float | None
+    inertia_estimate: float
+    excess_work: float
+    run_up_time: float | None
+    run_up_time_without: float | None
+    iterations: int
+    warnings: tuple[str, ...]
+    machine: Machine
+    steady: SteadyState
+    run_up: RunUp | None
+
+
+def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
+    """Find the flywheel on the crankshaft that gives a wanted unevenness.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine, with a motor. A flywheel that it has is taken off first.
+    unevenness : float
+        δ, with the mean of the extremes [–].
+
+    Returns
+    -------
+    FlywheelChoice
+        The smallest flywheel, verified, beside the classical estimate.
+
+    Raises
+    ------
+    InputError
+        The unevenness is not between 0 and 2, or the machine has no motor.
+    AssemblyError
+        The mechanism does not close all round.
+    SteadyStateError
+        There is no steady motion whatever the flywheel.
+    ConvergenceError
+        No flywheel was found.
+
+    Notes
+    -----
+    1/δ grows almost linearly with J_f, so its root is found by regula falsi in a few steps.
+
+    References
+    ----------
+    .. [1] Artobolevsky, Theory of Mechanisms and Machines: flywheel by Mertsalov's method.
+    """
+    if not 0 < unevenness < 2:
+        raise InputError(f"unevenness {unevenness:g}: expected a number between 0 and 2, such as 0.05")
+    if machine.drive is None or machine.drive.motor is None:
+        raise InputError(f"{machine.name}: a flywheel is sized for a motor; add [drive.motor]")
+    bare = with_flywheel(machine, 0.0)
+    without = _unevenness(bare)
+    needed = without is None or without > unevenness
+    estimate, work = classical_flywheel(bare, unevenness)
+    inertia, iterations = _searched(bare, unevenness, max(estimate, 0.0)) if needed else (0.0, 1)
+    return _verified(bare, unevenness, without, inertia, (max(estimate, 0.0), work), iterations)
+
+
+def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, float]:
+    """Estimate a flywheel by Mertsalov's method.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine without a flywheel.
+    unevenness : float
+        δ [–].
+
+    Returns
+    -------
+    tuple of float
+        Inertia on the crankshaft [kg m²], negative if none is needed; largest excess work ΔA [J].
+
+    Notes
+    -----
+    ω_m is the design speed, or the speed without load where none is given. By trapezoids over 1440 intervals.
+
+    References
+    ----------
+    .. [1] Artobolevsky, Theory of Mechanisms and Machines: flywheel by Mertsalov's method.
+    """
+    assert machine.drive is not None
+    compiled = compile_machine(machine)
+    reduced = reduction_of(compiled, 1440)
+    omega_m = machine.drive.speed or compiled.speed_guess
+    M_r = reduced.torque_load + reduced.viscous * omega_m
+    phi = reduced.crank_angle
+    surplus = np.trapezoid(M_r, phi) / (2 * np.pi) - M_r
+    A = np.concatenate([[0.0], np.cumsum(0.5 * (surplus[1:] + surplus[:-1]) * np.diff(phi))])
+    dA = A - 0.5 * reduced.inertia_reduced * omega_m**2
+    work = float(dA.max() - dA.min())
+    return work / (unevenness * omega_m**2) - float(drive_inertia(machine.drive)), work
+
+
+def _unevenness(machine: Machine) -> float | None:
+    """δ of steady motion; None if there is none."""
+    try:
+        return _steady(machine).unevenness
+    except SteadyStateError:
+        return None
+
+
+def _steady(machine: Machine) -> SteadyState:
+    return steady_state(machine, accuracy=1e-11, n=720)
+
+
+def _searched(bare: Machine, wanted: float, guess: float) -> tuple[float, int]:
+    """The flywheel whose 1/δ is the wanted one, and how many steady motions it took."""
+    count = 0
+
+    def lacking(inertia: float) -> float:
+        nonlocal count
+        count += 1
+        found = _unevenness(with_flywheel(bare, inertia))
+        # Without steady motion the unevenness counts as infinite.
+        return (1 / found if found else 0.0) - 1 / wanted
+
+    assert bare.drive is not None
+    least = 1e-3 * float(drive_inertia(bare.drive)) or 1e-3
+    high = max(guess, least)
+    for _ in range(_DOUBLINGS):
+        if lacking(high) > 0:
+            return _root(lacking, 0.0, high, _CLOSE / wanted), count
+        high *= 2
+    # With whatever flywheel: either there is no steady motion, and the error says why, or δ does not fall.
+    _steady(with_flywheel(bare, high))
+    raise ConvergenceError(f"no flywheel up to {high:.3g} kg m² brings the unevenness to {wanted:g}")
+
+
+def _root(f: Callable[[float], float], low: float, high: float, close: float) -> float:
+    """Root of an increasing function by regula falsi, Illinois variant.
+
+    References
+    ----------
+    .. [1] Dowell, Jarratt, A modified regula falsi method, BIT 11 (1971) 168–174.
+    """
+    f_low, f_high = f(low), f(high)
+    side = 0
+    for _ in range(_ITERATIONS):
+        x = (low * f_high - high * f_low) / (f_high - f_low)
+        value = f(x)
+        if abs(value) <= close:
+            return x
+        if value > 0:
+            high, f_high = x, value
+            f_low = 0.5 * f_low if side > 0 else f_low
+            side = 1
+        else:
+            low, f_low = x, value
+            f_high = 0.5 * f_high if side < 0 else f_high
+            side = -1
+    raise ConvergenceError("the flywheel was not found", method="regula falsi", iterations=_ITERATIONS)
+
+
+def _verified(
+    bare: Machine,
+    wanted: float,
+    without: float | None,
+    inertia: float,
+    classical: tuple[float, float],
+    iterations: int,
+) -> FlywheelChoice:
+    """The result, with the machine analysed anew."""
+    note = f"Flywheel for an unevenness of {wanted:g} by linkwright size." if inertia > 0 else ""
+    machine = with_flywheel(bare, inertia, note=note)
+    steady = _steady(machine)
+    up = _run_up(machine, steady)
+    up_without = _run_up(bare) if inertia > 0 else up
+    times = (up.time if up else None, up_without.time if up_without else None)
+    return FlywheelChoice(
+        inertia=inertia,
+        unevenness_wanted=wanted,
+        unevenness=steady.unevenness,
+        unevenness_without=without,
+        inertia_estimate=classical[0],
+        excess_work=classical[1],
+        run_up_time=times[0],
+        run_up_time_without=times[1],
+        iterations=iterations,
+        warnings=tuple(_costs(inertia, *times)),
+        machine=machine,
+        steady=steady,
+        run_up=up,
+    )
+
+
+def _run_up(machine: Machine, steady: SteadyState | None = None) -> RunUp | None:
+    """The run-up; None if it fails, or if the motor has none."""
+    assert machine.drive is not None
+    if isinstance(machine.drive.motor, ConstantSpeedMotor):
+        return None
+    try:
+        return run_up(machine, steady=steady)
+    except FindingError:
+        return None
+
+
+def _costs(inertia: float, time: float | None, before: float | None) -> list[str]:
+    """What the flywheel does to the run-up, in a sentence."""
+    if inertia == 0:
+        return []
+    if time is None:
+        return [f"with the flywheel of {inertia:.4g} kg m² the machine does not run up"]
+    if before is None:
+        return [f"the run-up takes {time:.3g} s; without the flywheel the machine does not run up"]
+    return [f"the flywheel lengthens the run-up from {before:.3g} s to {time:.3g} s"]

@@ -1,0 +1,59 @@
+r"""Inertia of a rotor of which the catalogue says nothing, by similarity with one that is known.
+
+Similar machines at equal shear stress in the air gap have torque as the cube of their size and inertia as its
+fifth power, so
+
+.. math:: J = J_1 (M_n/M_{n1})^{5/3}
+
+It is an estimate: types of one frame share their diameter and differ in length, for which J grows as M only.
+"""
+
+from __future__ import annotations
+
+from linkwright.machine import CatalogueMotor, motor
+
+# The only type of the catalogue whose inertia is printed: 0.138 kg m² at 107.7 N m (paper 1, worked case).
+KNOWN = "4A160S6U3 (method 1)"
+
+_EXPONENT = 5 / 3
+
+
+def rotor_inertia(known: CatalogueMotor) -> tuple[float, bool]:
+    """Inertia of a type's rotor, and whether it is an estimate.
+
+    Parameters
+    ----------
+    known : CatalogueMotor
+        A type of the catalogue.
+
+    Returns
+    -------
+    tuple of (float, bool)
+        J [kg m²]; False if the catalogue gives it, True if it is estimated from the rated torque.
+    """
+    if known.inertia is not None:
+        return known.inertia, False
+    return estimated_inertia(known.torque_rated), True
+
+
+def estimated_inertia(torque_rated: float) -> float:
+    """Estimate the inertia of a rotor from the rated torque of its motor.
+
+    Parameters
+    ----------
+    torque_rated : float
+        M_n [N m].
+
+    Returns
+    -------
+    float
+        J [kg m²], by similarity with `KNOWN`.
+
+    Examples
+    --------
+    >>> round(estimated_inertia(107.7), 3)
+    0.138
+    """
+    like = motor(KNOWN)
+    assert like.inertia is not None
+    return like.inertia * (torque_rated / like.torque_rated) ** _EXPONENT

@@ -1,0 +1,338 @@
+"""The smallest motor of the catalogue that will do, chosen by checks and verified by analysing the machine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from linkwright.analysis.run_up import RunUp
+from linkwright.analysis.steady_state import SteadyState
+from linkwright.errors import InputError, MachineError
+from linkwright.machine import CatalogueMotor, InductionMotor, Machine, motors
+from linkwright.machine import motor as catalogue_motor
+from linkwright.sizing.checks import DECISIVE, Check, Checked, motion_checks, rating_checks
+from linkwright.sizing.fit import with_motor
+from linkwright.sizing.inertia import KNOWN, rotor_inertia
+from linkwright.sizing.power import RequiredPower, required_power
+
+By = Literal["all", "power"]
+Track = Callable[[Sequence[CatalogueMotor]], Iterable[CatalogueMotor]]
+
+ESTIMATE = f"estimated from {KNOWN} by similarity, J as M_rated^(5/3)"
+
+# How far an estimated inertia may be off: types of one frame differ in length only, so that J goes as M and not
+# as M^(5/3); over the range of torques of a series that is a factor of about two.
+_DOUBT = 2.0
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One motor and what speaks for and against it.
+
+    Attributes
+    ----------
+    type : str
+        Name in the catalogue.
+    known : CatalogueMotor
+        What the catalogue gives.
+    ratio : float
+        Of the gearbox it would have [–].
+    inertia : float
+        Of the rotor [kg m²].
+    inertia_estimated : bool
+        Whether that is an estimate.
+    checks : tuple of Check
+        Those made; a motor whose rating does not suit is not analysed further.
+    decisive : tuple of str
+        Names of the checks that it must pass.
+    machine : Machine or None
+        The machine with it; None if the catalogue gives no characteristic.
+    steady, run_up : SteadyState, RunUp or None
+        Analyses of that machine, where they succeed.
+    """
+
+    type: str
+    known: CatalogueMotor
+    ratio: float
+    inertia: float
+    inertia_estimated: bool
+    checks: tuple[Check, ...]
+    decisive: tuple[str, ...]
+    machine: Machine | None = None
+    steady: SteadyState | None = None
+    run_up: RunUp | None = None
+
+    @property
+    def failed(self) -> tuple[Check, ...]:
+        """Decisive checks that fail or cannot be made."""
+        return tuple(check for check in self.checks if check.name in self.decisive and not check.passed)
+
+    @property
+    def passes(self) -> bool:
+        """Whether all decisive checks were made and are passed."""
+        return not self.failed and {check.name for check in self.checks} >= set(self.decisive)
+
+    @property
+    def reason(self) -> str:
+        """Why it is refused; empty if it passes."""
+        return "; ".join(check.words for check in self.failed)
+
+    @property
+    def worst(self) -> float:
+        """Greatest utilisation among the decisive checks; infinite where one has no number [–]."""
+        shares = [check.utilisation for check in self.failed]
+        return max((float("inf") if share is None else share for share in shares), default=0.0)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Its entries, ready for JSON."""
+        return {
+            "type": self.type,
+            "power_rated": self.known.power_rated,
+            "torque_rated": self.known.torque_rated,
+            "ratio": self.ratio,
+            "inertia": self.inertia,
+            "inertia_estimated": self.inertia_estimated,
+            "passes": self.passes,
+            "reason": self.reason,
+            "checks": [check.to_dict() for check in self.checks],
+            "steady_state": self.steady.to_dict() if self.steady else None,
+            "run_up": self.run_up.to_dict() if self.run_up else None,
+        }
+
+
+@dataclass(frozen=True)
+class MotorChoice:
+    """The choice of a motor.
+
+    Attributes
+    ----------
+    required : RequiredPower
+        The power that the loads take.
+    reserve : float
+        Rated power over required power that was asked for [–].
+    by : str
+        ``"all"`` checks, or ``"power"`` and start alone.
+    candidates : tuple of Candidate
+        All types of the catalogue, those that pass first, then by rated power.
+    chosen : Candidate or None
+        The smallest that passes.
+    present : tuple of Check
+        The checks of the motor that the machine has; empty if it has none of this kind.
+    warnings : tuple of str
+        What the choice rests on.
+    """
+
+    required: RequiredPower
+    reserve: float
+    by: By
+    candidates: tuple[Candidate, ...]
+    chosen: Candidate | None
+    present: tuple[Check, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def reason(self) -> str:
+        """Why this one, or by how much the best of the catalogue falls short."""
+        if self.chosen is None:
+            return self._shortfall()
+        rule = "passes all checks" if self.by == "all" else "suffices by power and starts the machine"
+        power = self.chosen.known.power_rated / 1e3
+        return f"{self.chosen.type}, {power:.4g} kW, is the smallest motor of the catalogue that {rule}"
+
+    def _shortfall(self) -> str:
+        """What the least bad candidate lacks."""
+        need = self.required.power * self.reserve / 1e3
+        best = min(self.candidates, key=lambda each: (each.worst, -each.known.power_rated))
+        return (
+            f"no motor of the catalogue suffices: {need:.4g} kW are needed; the nearest, {best.type} "
+            f"({best.known.power_rated / 1e3:.4g} kW), is refused: {best.reason}"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Its entries, ready for JSON."""
+        return {
+            "chosen": self.chosen.to_dict() if self.chosen else None,
+            "reason": self.reason,
+            "by": self.by,
+            "power_reserve": self.reserve,
+            "present": [check.to_dict() for check in self.present],
+            "considered": [each.to_dict() for each in self.candidates if each is not self.chosen],
+        }
+
+
+def choose_motor(
+    machine: Machine,
+    *,
+    reserve: float = 1.1,
+    by: By = "all",
+    free_ratio: bool = False,
+    inertias: Mapping[str, float] | None = None,
+    track: Track = iter,
+) -> MotorChoice:
+    """Choose the smallest motor of the catalogue that will do.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine, with ``drive.speed``; its own motor, if it has one, does not count.
+    reserve : float
+        Rated power over required power that is asked for [–].
+    by : str
+        ``"all"``: every check decides. ``"power"``: rated power and start alone, as is often done.
+    free_ratio : bool
+        Give each motor the ratio that suits it, rated speed over design speed, not the machine's own. So it
+        is done in any case if the machine has no gearbox.
+    inertias : mapping, optional
+        Type → inertia of its rotor [kg m²], where it is known better than the catalogue does.
+    track : callable, optional
+        Takes the types and gives them back one by one, to show how far it is.
+
+    Returns
+    -------
+    MotorChoice
+        The motor, the machine with it and its analyses, and why the others are refused.
+
+    Raises
+    ------
+    InputError
+        No design speed, no load to size for, a reserve that is not positive, an unknown type.
+    AssemblyError
+        The mechanism does not close all round.
+
+    References
+    ----------
+    .. [1] Paper 1: required power, then a motor of the catalogue.
+    """
+    required = required_power(machine)
+    if not required.power > 0:
+        raise InputError(f"the mean load is {required.torque_load_mean:.4g} N m: there is no motor to size for it")
+    if not reserve > 0:
+        raise InputError(f"power reserve {reserve:g}: expected a number greater than 0, such as 1.1")
+    given = own_inertia(machine) | {catalogue_motor(type).type: J for type, J in (inertias or {}).items()}
+    judge = _Judge(machine, required, reserve, by, free_ratio or not _has_ratio(machine), given)
+    found = sorted((judge.candidate(known) for known in track(motors())), key=_rank)
+    chosen = found[0] if found[0].passes else None
+    present = present_checks(machine, required, reserve)
+    return MotorChoice(required, reserve, by, tuple(found), chosen, present, tuple(judge.doubts(chosen)))
+
+
+def own_inertia(machine: Machine) -> dict[str, float]:
+    """The rotor's inertia that the machine gives for a type of the catalogue, by type."""
+    motor = machine.drive.motor if machine.drive else None
+    if isinstance(motor, InductionMotor) and motor.catalogue and "inertia" in motor.model_fields_set:
+        return {motor.catalogue: motor.inertia}
+    return {}
+
+
+def present_checks(machine: Machine, required: RequiredPower, reserve: float) -> tuple[Check, ...]:
+    """The checks of the motor that the machine has.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    required : RequiredPower
+        Its required power.
+    reserve : float
+        As for `choose_motor`.
+
+    Returns
+    -------
+    tuple of Check
+        Empty without an induction motor whose rated point is known.
+    """
+    motor = machine.drive.motor if machine.drive else None
+    if not isinstance(motor, InductionMotor) or None in (motor.power_rated, motor.speed_rated):
+        return ()
+    assert machine.drive is not None
+    assert motor.power_rated is not None
+    assert motor.speed_rated is not None
+    rated = CatalogueMotor("", "", 0, 0.0, motor.power_rated, motor.speed_rated, motor.torque_rated or 0.0)
+    rating = rating_checks(rated, machine.drive.gearbox.ratio, required, reserve)
+    return (*rating, *motion_checks(machine).checks)
+
+
+def _has_ratio(machine: Machine) -> bool:
+    return machine.drive is not None and "ratio" in machine.drive.gearbox.model_fields_set
+
+
+def _rank(each: Candidate) -> tuple[bool, float, str]:
+    """Those that pass first, then the smaller ones."""
+    return not each.passes, each.known.power_rated, each.type
+
+
+@dataclass(frozen=True)
+class _Judge:
+    """Judges one type after another for one machine."""
+
+    machine: Machine
+    required: RequiredPower
+    reserve: float
+    by: By
+    free_ratio: bool
+    inertias: Mapping[str, float]
+
+    def candidate(self, known: CatalogueMotor) -> Candidate:
+        """One type with its checks; its motion is analysed only if its rating suits."""
+        assert self.machine.drive is not None
+        free = known.speed_rated / self.required.speed
+        ratio = free if self.free_ratio else self.machine.drive.gearbox.ratio
+        rating = rating_checks(known, ratio, self.required, self.reserve)
+        estimate, estimated = rotor_inertia(known)
+        inertia = self.inertias.get(known.type, estimate)
+        estimated = estimated and known.type not in self.inertias
+        fitted, done = self._analysed(known, inertia, ratio, estimated, rating)
+        return Candidate(
+            type=known.type,
+            known=known,
+            ratio=ratio,
+            inertia=inertia,
+            inertia_estimated=estimated,
+            checks=(*rating, *done.checks),
+            decisive=DECISIVE[self.by],
+            machine=fitted,
+            steady=done.steady,
+            run_up=done.run_up,
+        )
+
+    def _analysed(
+        self,
+        known: CatalogueMotor,
+        inertia: float,
+        ratio: float,
+        estimated: bool,
+        rating: tuple[Check, ...],
+    ) -> tuple[Machine | None, Checked]:
+        """The machine with the motor and its checks, as far as the rating and the catalogue let it."""
+        if known.torque_breakdown is None:
+            note = "not checkable: the catalogue gives no breakdown torque"
+            return None, Checked((Check("torque_peak", None, None, "N m", None, note=note),))
+        note = f"Motor {known.type} by linkwright size"
+        note += f"; the inertia of its rotor is {ESTIMATE}." if estimated else "."
+        try:
+            fitted = with_motor(self.machine, known, inertia=inertia, ratio=ratio, note=note)
+        except MachineError as error:
+            lines = "; ".join(problem.expected for problem in error.problems)
+            return None, Checked((Check("torque_peak", None, None, "N m", None, note=f"not checkable: {lines}"),))
+        if not all(check.passed for check in rating):
+            return fitted, Checked(())
+        return fitted, motion_checks(fitted)
+
+    def doubts(self, chosen: Candidate | None) -> list[str]:
+        """What the choice rests on without being known."""
+        if chosen is None or not chosen.inertia_estimated:
+            return []
+        words = f"the inertia of the rotor of {chosen.type}, {chosen.inertia:.3g} kg m², is {ESTIMATE}"
+        lost = [name for factor in (1 / _DOUBT, _DOUBT) for name in self._lost(chosen, factor)]
+        if lost:
+            names = ", ".join(dict.fromkeys(lost)).replace("_", " ")
+            return [f"{words}; with half or twice of it the motor does not pass: {names}"]
+        return [f"{words}; with half or twice of it the motor passes too"]
+
+    def _lost(self, chosen: Candidate, factor: float) -> list[str]:
+        """Decisive checks that fail with another inertia."""
+        inertia = chosen.inertia * factor
+        fitted = with_motor(self.machine, chosen.known, inertia=inertia, ratio=chosen.ratio)
+        checks = motion_checks(fitted).checks
+        return [check.name for check in checks if check.name in chosen.decisive and not check.passed]

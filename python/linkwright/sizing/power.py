@@ -1,0 +1,87 @@
+r"""The power that the motor must have at the design speed.
+
+.. math:: P = \bar M_r\,\omega / \eta
+
+Source: paper 1, the step before the choice of the motor.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.analysis.closure import require_full_turn
+from linkwright.analysis.reduction import mean_over_turn
+from linkwright.analysis.result import Result
+from linkwright.engine import compile_machine
+from linkwright.errors import InputError
+from linkwright.machine import Machine
+
+
+@dataclass(frozen=True)
+class RequiredPower(Result):
+    """Power at the motor's shaft that the loads take at the design speed.
+
+    Attributes
+    ----------
+    power : float
+        P [W]; negative if the loads drive the machine.
+    torque_load_mean : float
+        Mean resisting torque over the crank angle at that speed, viscous and speed loads included [N m].
+    speed : float
+        Design speed of the crank [rad/s].
+    efficiency : float
+        Of the gearbox [–].
+    formula, source : str
+        What was computed, and where it is from.
+    """
+
+    power: float
+    torque_load_mean: float
+    speed: float
+    efficiency: float
+    formula: str = "P = M_load_mean · ω / η"
+    source: str = "paper 1, required power before the choice of the motor"
+
+
+def required_power(machine: Machine) -> RequiredPower:
+    r"""Find the power that the loads take at the design speed, at the motor's shaft.
+
+    .. math:: P = \bigl(\bar M_r + \bar B\,\omega + M_\omega(\omega)\bigr)\,\omega / \eta
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine, with ``drive.speed``; a motor is not needed.
+
+    Returns
+    -------
+    RequiredPower
+        The power [W], with what it follows from.
+
+    Raises
+    ------
+    InputError
+        The machine has no design speed.
+    AssemblyError
+        The mechanism does not close all round.
+
+    Notes
+    -----
+    The mean is over the crank angle, as if the crank turned evenly. :math:`\bar B` is the mean viscous
+    coefficient, :math:`M_\omega` the loads given over speed.
+
+    References
+    ----------
+    .. [1] Paper 1: P = M_0 ω/(10³ η), in kW.
+    """
+    drive = machine.drive
+    if drive is None or drive.speed is None:
+        raise InputError(f'{machine.name}: sizing needs the design speed; add speed = "… rad/s" to [drive]')
+    compiled = compile_machine(machine, motor=False)
+    require_full_turn(compiled, machine)
+    load, viscous = mean_over_turn(compiled)
+    torque = load + viscous * drive.speed + float(np.sum(compiled.speed_load(drive.speed)))
+    efficiency = drive.gearbox.efficiency
+    return RequiredPower(torque * drive.speed / efficiency, torque, drive.speed, efficiency)
