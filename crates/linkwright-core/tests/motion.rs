@@ -6,7 +6,7 @@ use common::{Builder, Built, Random, mixed, two_carts};
 use linkwright_core::batch::{QUANTITIES, Rows, row_of_steady, steady_rows};
 use linkwright_core::cycle::Machine;
 use linkwright_core::drive::Motor;
-use linkwright_core::linkage::Motion;
+use linkwright_core::linkage::{Element, Motion};
 use linkwright_core::reduce::Load;
 use linkwright_core::status::Status;
 use linkwright_core::steady::steady;
@@ -224,8 +224,11 @@ fn batch_is_the_single_machine() {
         let n = 300;
         // The second crank's phase (cos, sin), from 60° to 120°.
         let phase = |i: usize| TAU / 6.0 + TAU / 6.0 * i as f64 / n as f64;
-        let at = |x: f64| built.q.iter().rposition(|&q| (q - x).abs() < 1e-15).expect("a parameter");
-        let (cos, sin) = (at(FRAC_PI_2.cos()), at(1.0).min(at(FRAC_PI_2.cos()) + 1));
+        let cranks = built.plan.mechanism.elements.iter().filter_map(|element| match element {
+            Element::Crank { cos, sin, .. } => Some((*cos, *sin)),
+            _ => None,
+        });
+        let (cos, sin) = cranks.last().expect("two cranks");
         let values: Vec<f64> = (0..n).map(|i| phase(i).cos()).chain((0..n).map(|i| phase(i).sin())).collect();
         let rows = Rows { base: &built.q, slots: &[cos, sin], values: &values, n };
         let mut out = vec![0.0; n * QUANTITIES];
