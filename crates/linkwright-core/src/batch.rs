@@ -128,13 +128,14 @@ impl Job for Chunk<'_> {
 
     #[inline(always)]
     fn run<R: Real>(self) -> u64 {
-        let mut m = Motion::new(&self.plan.mechanism);
-        let mut q = Vec::new();
+        let mut q: Vec<R> = self.rows.base.iter().map(|&x| R::splat(x)).collect();
+        let mut m = Motion::new(&self.plan.mechanism, &q);
         let mut sweeps = 0;
         let mut lane = vec![0.0; R::LANES];
         for (block, status) in self.status.chunks_mut(R::LANES).enumerate() {
             let at = block * R::LANES;
             self.rows.lanes::<R>(self.first + at, &mut q);
+            m.ground(&self.plan.mechanism, &q);
             let machine = Machine { plan: self.plan, q: &q };
             let breaks = R::outline(
                 #[inline(always)]
@@ -231,22 +232,74 @@ impl Channel {
     }
 }
 
+/// Numbers of output that a task should write: large against the cost of handing it over.
+const TASK: usize = 8192;
+
 /// Motions of all rows at the same angles. `out` is (rows, numbers, angles), contiguous.
 pub fn motions(plan: &Plan, rows: &Rows<'_>, phi: &[f64], channels: &[Channel], out: &mut [f64]) {
+    let n = phi.len();
     let width: usize = channels.iter().map(|c| c.width()).sum();
-    let size = width * phi.len();
-    if size == 0 {
+    if n == 0 || width == 0 {
         return;
     }
-    let (sin, cos): (Vec<f64>, Vec<f64>) = phi.iter().map(|phi| phi.sin_cos()).unzip();
-    // About 64 kB of output a task: large against the cost of handing it over.
-    let at_once = (8192 / size).max(1);
-    out.par_chunks_mut(size * at_once).enumerate().for_each(|(task, out)| {
-        in_lanes(MotionJob { plan, rows, first: task * at_once, phi, sin: &sin, cos: &cos, channels, out });
-    });
+    let (mut sin, mut cos) = (vec![0.0; n], vec![0.0; n]);
+    in_lanes(SinCos { phi, sin: &mut sin, cos: &mut cos });
+    let job = |first, at: std::ops::Range<usize>, out| {
+        let (phi, sin, cos) = (&phi[at.clone()], &sin[at.clone()], &cos[at]);
+        in_lanes(MotionJob { plan, rows, first, phi, sin, cos, channels, out });
+    };
+    if rows.n == 1 {
+        // One machine: each task takes a piece of the turn.
+        let piece = (TASK / width).next_multiple_of(64);
+        let mut pieces: Vec<Vec<&mut [f64]>> = (0..n.div_ceil(piece)).map(|_| Vec::new()).collect();
+        for list in out.chunks_exact_mut(n) {
+            for (piece, part) in pieces.iter_mut().zip(list.chunks_mut(piece)) {
+                piece.push(part);
+            }
+        }
+        let task = |(k, out): (usize, Vec<&mut [f64]>)| {
+            job(0, k * piece..(k * piece + out[0].len()), vec![out]);
+        };
+        if pieces.len() == 1 {
+            // Waking threads would take longer than doing it.
+            pieces.into_iter().enumerate().for_each(task);
+        } else {
+            pieces.into_par_iter().enumerate().for_each(task);
+        }
+    } else {
+        let at_once = (TASK / (width * n)).max(1);
+        out.par_chunks_mut(width * n * at_once).enumerate().for_each(|(k, out)| {
+            let lists = out.chunks_exact_mut(width * n).map(|row| row.chunks_exact_mut(n).collect());
+            job(k * at_once, 0..n, lists.collect());
+        });
+    }
 }
 
-struct MotionJob<'a> {
+struct SinCos<'a> {
+    phi: &'a [f64],
+    sin: &'a mut [f64],
+    cos: &'a mut [f64],
+}
+
+impl Job for SinCos<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let whole = self.phi.len() / R::LANES * R::LANES;
+        for at in (0..whole).step_by(R::LANES) {
+            let (s, c) = R::load(&self.phi[at..]).sin_cos();
+            s.store(&mut self.sin[at..]);
+            c.store(&mut self.cos[at..]);
+        }
+        for at in whole..self.phi.len() {
+            (self.sin[at], self.cos[at]) = self.phi[at].sin_cos();
+        }
+    }
+}
+
+/// Rows from `first` on at some angles; `out` holds one list a number for every row.
+struct MotionJob<'a, 'b> {
     plan: &'a Plan,
     rows: &'a Rows<'a>,
     first: usize,
@@ -254,66 +307,70 @@ struct MotionJob<'a> {
     sin: &'a [f64],
     cos: &'a [f64],
     channels: &'a [Channel],
-    out: &'a mut [f64],
+    out: Vec<Vec<&'b mut [f64]>>,
 }
 
-impl Job for MotionJob<'_> {
+impl Job for MotionJob<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Real>(self) {
         let n = self.phi.len();
-        let size = n * self.channels.iter().map(|c| c.width()).sum::<usize>();
-        let mut m = Motion::new(&self.plan.mechanism);
-        let mut rest = Motion::new(&self.plan.mechanism);
         let MotionJob { plan, rows, first, phi, sin, cos, channels, out } = self;
-        for (i, out) in out.chunks_exact_mut(size).enumerate() {
-            let row = rows.row(first + i);
-            let q: Vec<R> = row.iter().map(|&x| R::splat(x)).collect();
+        let mut row = rows.base.to_vec();
+        let mut q: Vec<R> = row.iter().map(|&x| R::splat(x)).collect();
+        let mut m = Motion::new(&plan.mechanism, &q);
+        let mut rest = Motion::new(&plan.mechanism, &row);
+        for (i, mut out) in out.into_iter().enumerate() {
+            for (k, &slot) in rows.slots.iter().enumerate() {
+                row[slot] = rows.values[k * rows.n + first + i];
+                q[slot] = R::splat(row[slot]);
+            }
+            m.ground(&plan.mechanism, &q);
+            rest.ground(&plan.mechanism, &row);
             let whole = n / R::LANES * R::LANES;
             for at in (0..whole).step_by(R::LANES) {
                 let angle =
                     Angle { phi: R::load(&phi[at..]), sin: R::load(&sin[at..]), cos: R::load(&cos[at..]) };
                 plan.mechanism.place::<R, 2>(&q, angle, &mut m);
-                store(&m, channels, n, &mut out[at..]);
+                store(&m, channels, at, &mut out);
             }
             // The angles that do not fill all lanes.
             for at in whole..n {
                 let angle = Angle { phi: phi[at], sin: sin[at], cos: cos[at] };
                 plan.mechanism.place::<f64, 2>(&row, angle, &mut rest);
-                store(&rest, channels, n, &mut out[at..]);
+                store(&rest, channels, at, &mut out);
             }
         }
     }
 }
 
-/// Writes all channels at one angle, numbers `n` apart.
+/// Writes all channels at one angle (or one a lane), a number to each list.
 #[inline(always)]
-fn store<R: Real>(m: &Motion<R>, channels: &[Channel], n: usize, out: &mut [f64]) {
-    let mut at = 0;
-    let mut put = |value: R| {
-        value.store(&mut out[at..]);
-        at += n;
-    };
+fn store<R: Real>(m: &Motion<R>, channels: &[Channel], at: usize, out: &mut [&mut [f64]]) {
+    let mut list = 0;
     for channel in channels {
         match *channel {
             Channel::Point(i) => {
                 let place = &m.points[i];
                 for v in [place.p, place.d1, place.d2] {
-                    put(v.x);
-                    put(v.y);
+                    v.x.store(&mut out[list][at..]);
+                    v.y.store(&mut out[list + 1][at..]);
+                    list += 2;
                 }
             }
             Channel::Link(i) => {
                 let link = &m.links[i];
                 for value in [link.e.x, link.e.y, link.d1, link.d2] {
-                    put(value);
+                    value.store(&mut out[list][at..]);
+                    list += 1;
                 }
             }
             Channel::Slide(i) => {
                 let slide = &m.slides[i];
                 for value in [slide.s, slide.d1, slide.d2] {
-                    put(value);
+                    value.store(&mut out[list][at..]);
+                    list += 1;
                 }
             }
         }
@@ -323,7 +380,7 @@ fn store<R: Real>(m: &Motion<R>, channels: &[Channel], n: usize, out: &mut [f64]
 /// Smallest radicand of each dyad at each angle: where one is negative the mechanism does not close.
 /// `out` is (dyads, angles).
 pub fn gaps(plan: &Plan, q: &[f64], phi: &[f64], out: &mut [f64]) {
-    let mut m = Motion::new(&plan.mechanism);
+    let mut m = Motion::new(&plan.mechanism, q);
     for (i, &phi_i) in phi.iter().enumerate() {
         plan.mechanism.place::<f64, 1>(q, Angle::new(phi_i), &mut m);
         for (k, gap) in m.gaps.iter().enumerate() {
@@ -334,7 +391,7 @@ pub fn gaps(plan: &Plan, q: &[f64], phi: &[f64], out: &mut [f64]) {
 
 /// J, J′, load, dry and viscous torque coefficients at each angle. `out` is (5, angles).
 pub fn reductions(plan: &Plan, q: &[f64], phi: &[f64], sense: f64, out: &mut [f64]) {
-    let mut m = Motion::new(&plan.mechanism);
+    let mut m = Motion::new(&plan.mechanism, q);
     let n = phi.len();
     for (i, &phi_i) in phi.iter().enumerate() {
         let r = plan.reduce::<f64, 2>(q, Angle::new(phi_i), sense, &mut m);

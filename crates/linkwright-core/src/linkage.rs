@@ -14,12 +14,18 @@ use crate::real::Real;
 /// Index of a number in the machine's list of parameters.
 pub type Slot = usize;
 
+/// A point of the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed {
+    pub point: usize,
+    pub x: Slot,
+    pub y: Slot,
+}
+
 /// One element of a mechanism. Point, link and slide fields are indices into [`Motion`].
 #[derive(Clone, Copy, Debug)]
 pub enum Element {
-    /// A point of the ground.
-    Fixed { point: usize, x: Slot, y: Slot },
-    /// A crank turning with φ + phase about `pivot`; `cos`, `sin` are those of the phase.
+    /// A crank turning with φ + phase about the point `pivot` of the ground; `cos`, `sin` are those of the phase.
     Crank { pin: usize, link: usize, pivot: usize, radius: Slot, cos: Slot, sin: Slot },
     /// A connecting rod from `pin` to a slider on a straight guide: the dyad RRP.
     SliderRod(SliderRod),
@@ -66,9 +72,10 @@ pub struct Rocker {
     pub sign: Slot,
 }
 
-/// The elements in build order, and how many points, links, slides and dyads they make.
+/// Points of the ground, the elements in build order, and how many points, links, slides and dyads they make.
 #[derive(Clone, Debug, Default)]
 pub struct Mechanism {
+    pub ground: Vec<Fixed>,
     pub elements: Vec<Element>,
     pub n_points: usize,
     pub n_links: usize,
@@ -87,14 +94,24 @@ pub struct Motion<R> {
 }
 
 impl<R: Real> Motion<R> {
-    /// Room for the motion of a mechanism.
-    pub fn new(mechanism: &Mechanism) -> Self {
+    /// Room for the motion of a mechanism with parameters `q`; the points of the ground are in place.
+    pub fn new(mechanism: &Mechanism, q: &[R]) -> Self {
         let zero = R::splat(0.0);
-        Motion {
+        let mut motion = Motion {
             points: vec![Place::fixed(Vec2::zero()); mechanism.n_points],
             links: vec![Heading { e: Vec2::zero(), d1: zero, d2: zero }; mechanism.n_links],
             slides: vec![Slide { s: zero, d1: zero, d2: zero }; mechanism.n_slides],
             gaps: vec![zero; mechanism.n_gaps],
+        };
+        motion.ground(mechanism, q);
+        motion
+    }
+
+    /// Puts the points of the ground in place, for other parameters.
+    #[inline(always)]
+    pub fn ground(&mut self, mechanism: &Mechanism, q: &[R]) {
+        for fixed in &mechanism.ground {
+            self.points[fixed.point] = Place::fixed(Vec2::new(q[fixed.x], q[fixed.y]));
         }
     }
 }
@@ -106,11 +123,12 @@ impl Mechanism {
     pub fn place<R: Real, const ORDER: u8>(&self, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
         for element in &self.elements {
             match *element {
-                Element::Fixed { point, x, y } => m.points[point] = Place::fixed(Vec2::new(q[x], q[y])),
                 Element::Crank { pin, link, pivot, radius, cos, sin } => {
                     let heading = crank_heading(q[cos], q[sin], angle);
+                    let arm = heading.e * q[radius];
+                    let p = m.points[pivot].p + arm;
+                    m.points[pin] = Place { p, d1: arm.left(), d2: arm * R::splat(-1.0) };
                     m.links[link] = heading;
-                    m.points[pin] = on_link::<R, ORDER>(m.points[pivot], heading, q[radius], R::splat(0.0));
                 }
                 Element::SliderRod(ref e) => slider_rod::<R, ORDER>(e, q, m),
                 Element::Rocker(ref e) => rocker::<R, ORDER>(e, q, m),

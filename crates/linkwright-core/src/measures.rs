@@ -279,10 +279,14 @@ impl<R: Real> Turn<R> {
         let mut best = Extreme { value: lowest, phi: R::splat(0.0) };
         let mut seen: [R; ROUNDS] = [R::splat(-1.0); ROUNDS];
         let range = range_of(samples, quantity);
+        let peaks = R::outline(
+            #[inline(always)]
+            || peaks_of(samples, quantity),
+        );
         for round in 0..ROUNDS {
             let promise = R::outline(
                 #[inline(always)]
-                || self.promise(samples, quantity, &seen),
+                || self.promise(samples, &peaks, quantity, &seen),
             );
             let worth = best.value - range * DOUBT;
             // In lanes the round is run while any lane has a step worth looking into.
@@ -305,7 +309,13 @@ impl<R: Real> Turn<R> {
 
     /// The most promising step of those not seen yet.
     #[inline(always)]
-    fn promise(&self, samples: &Samples<R>, quantity: Quantity, seen: &[R; ROUNDS]) -> Promise<R> {
+    fn promise(
+        &self,
+        samples: &Samples<R>,
+        peaks: &[(R, R)],
+        quantity: Quantity,
+        seen: &[R; ROUNDS],
+    ) -> Promise<R> {
         let lowest = R::splat(f64::NEG_INFINITY);
         let zero = R::splat(0.0);
         let samples_of_none = [zero; N];
@@ -324,7 +334,7 @@ impl<R: Real> Turn<R> {
             for i in 0..N {
                 y[i] = quantity.of(sample[i]);
             }
-            let (mut value, at) = peak_of_step(&y);
+            let (mut value, at) = peaks[k];
             for &other in seen {
                 // Lanes that have looked into this step pass over it.
                 value = (index - other).abs().select_lt(R::splat(0.5), lowest, value);
@@ -383,6 +393,20 @@ fn speed_and_gain<R: Real>(row: &Row<R>, E: R, net: R) -> (R, R) {
     let omega = row.root * E.sqrt();
     let inverse = row.root.squared() * 0.5;
     (omega, (net - row.J_d1 * omega.squared() * 0.5) * inverse)
+}
+
+/// [`peak_of_step`] of every step.
+#[inline(always)]
+fn peaks_of<R: Real>(samples: &Samples<R>, quantity: Quantity) -> Vec<(R, R)> {
+    let mut peaks = Vec::with_capacity(samples.len());
+    for sample in samples {
+        let mut y = [sample[0].0; N];
+        for i in 0..N {
+            y[i] = quantity.of(sample[i]);
+        }
+        peaks.push(peak_of_step(&y));
+    }
+    peaks
 }
 
 /// Largest minus smallest sample.

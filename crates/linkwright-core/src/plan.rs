@@ -5,7 +5,7 @@
 
 use crate::drive::{Drive, Motor, Span};
 use crate::error::PlanError;
-use crate::linkage::{Element, Mechanism, Rocker, SliderRod};
+use crate::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod};
 use crate::reduce::{Body, Load};
 use crate::table::Table;
 
@@ -99,9 +99,13 @@ impl Plan {
             gaps: size(gaps, "dyad")?,
             tables: tables.len(),
         };
-        let elements = rows(code.elements, ELEMENT_WIDTH, "elements")?
-            .map(|row| decode_element(row, &bounds))
-            .collect::<Result<_, _>>()?;
+        let (mut ground, mut elements) = (Vec::new(), Vec::new());
+        for row in rows(code.elements, ELEMENT_WIDTH, "elements")? {
+            match row[0] {
+                FIXED_POINT => ground.push(decode_fixed(row, &bounds)?),
+                _ => elements.push(decode_element(row, &bounds)?),
+            }
+        }
         let bodies = rows(code.bodies, ROW_WIDTH, "bodies")?
             .map(|row| decode_body(row, &bounds))
             .collect::<Result<_, _>>()?;
@@ -114,6 +118,7 @@ impl Plan {
         }
         Ok(Plan {
             mechanism: Mechanism {
+                ground,
                 elements,
                 n_points: bounds.points,
                 n_links: bounds.links,
@@ -128,6 +133,9 @@ impl Plan {
         })
     }
 }
+
+/// A point of the ground does not move: it is put in place once.
+const FIXED_POINT: i32 = 0;
 
 /// A load that depends on speed alone belongs to the drive, not to the reduction.
 const LOAD_TORQUE_SPEED: i32 = 12;
@@ -158,13 +166,17 @@ fn decode_tables(code: &Encoded<'_>) -> Result<Vec<Table>, PlanError> {
     starts.windows(2).enumerate().map(table).collect()
 }
 
-/// `0 fixed: point x y` · `1 crank: pin link pivot radius cos sin` ·
+/// `0 fixed: point x y`
+fn decode_fixed(row: &[i32], b: &Bounds) -> Result<Fixed, PlanError> {
+    Ok(Fixed { point: b.point(row[1])?, x: b.slot(row[2])?, y: b.slot(row[3])? })
+}
+
+/// `1 crank: pin link pivot radius cos sin` ·
 /// `2 slider: point link slide gap pin through rod 1/rod offset cos sin sign` ·
 /// `3 rocker: joint coupler rocker gap pin pivot coupler rocker 1/coupler 1/rocker sign` ·
 /// `4 rigid point: point link origin along across`
 fn decode_element(row: &[i32], b: &Bounds) -> Result<Element, PlanError> {
     Ok(match row[0] {
-        0 => Element::Fixed { point: b.point(row[1])?, x: b.slot(row[2])?, y: b.slot(row[3])? },
         1 => Element::Crank {
             pin: b.point(row[1])?,
             link: b.link(row[2])?,

@@ -10,10 +10,8 @@ use crate::lanes::Job;
 use crate::linkage::Motion;
 use crate::measures::{Extremes, Totals};
 use crate::plan::Plan;
-use crate::plane::Angle;
 use crate::real::Real;
 use crate::status::Status;
-use std::f64::consts::TAU;
 
 /// Steps of the first mesh.
 const FIRST: usize = 24;
@@ -49,16 +47,16 @@ pub struct Steady {
 /// does not suffice.
 pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Status> {
     let machine = Machine { plan, q };
-    let mut m = Motion::new(&plan.mechanism);
-    if closes_all_round(plan, q, &mut m).is_some() {
-        return Err(Status::DoesNotClose);
-    }
+    let mut m = Motion::new(&plan.mechanism, q);
     let accuracy = accuracy.max(ROUNDING);
     let speeds = plan.speed_kinks(q);
     let (mut crossings, mut before, mut sweeps, mut n) = (Vec::new(), None, 0, FIRST);
     while n <= FINEST {
         let breaks = machine.breaks(&crossings, &mut m);
         let mut turn = Turn::tabulate(&machine, &breaks, n, &mut m);
+        if !turn.closes() {
+            return Err(Status::DoesNotClose);
+        }
         turn.start_from_balance(&machine);
         turn.solve(&machine, accuracy * 1e-2);
         sweeps += turn.sweeps;
@@ -83,20 +81,12 @@ fn relative_difference(a: (f64, f64), b: (f64, f64)) -> f64 {
     ((a.0 - b.0) / a.0).abs().max(((a.1 - b.1) / a.1).abs())
 }
 
-/// The first of 720 angles at which some dyad does not close, with the dyad.
-pub fn closes_all_round(plan: &Plan, q: &[f64], m: &mut Motion<f64>) -> Option<(f64, usize)> {
-    const ANGLES: usize = 720;
-    if plan.mechanism.n_gaps == 0 {
-        return None;
-    }
-    (0..ANGLES).map(|i| i as f64 * TAU / ANGLES as f64).find_map(|phi| {
-        plan.mechanism.place::<f64, 1>(q, Angle::new(phi), m);
-        let open = m.gaps.iter().position(|gap| gap.is_nan() || *gap < 0.0)?;
-        Some((phi, open))
-    })
-}
-
 impl Turn<f64> {
+    /// Whether every dyad closes at every stage.
+    fn closes(&self) -> bool {
+        self.steps.iter().all(|step| step.rows.iter().all(|row| !row.root.is_nan()))
+    }
+
     /// Whether Newton converged to a real motion.
     pub fn is_solved(&self) -> bool {
         self.correction.is_finite()
@@ -183,7 +173,7 @@ impl Job for ReadCurves<'_> {
     fn run<R: Real>(self) -> Curves {
         let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
         let machine = Machine { plan: self.plan, q: &q };
-        let mut m = Motion::new(&self.plan.mechanism);
+        let mut m = Motion::new(&self.plan.mechanism, &q);
         let times = self.times();
         let mut curves = Curves::default();
         let n = R::LANES;

@@ -9,7 +9,7 @@ use linkwright_core::linkage::Motion;
 use linkwright_core::plane::Angle;
 
 fn place(built: &Built, phi: f64) -> Motion<f64> {
-    let mut motion = Motion::new(&built.plan.mechanism);
+    let mut motion = Motion::new(&built.plan.mechanism, &built.q);
     built.plan.mechanism.place::<f64, 2>(&built.q, Angle::new(phi), &mut motion);
     motion
 }

@@ -90,7 +90,7 @@ fn run_up_ends_in_steady_motion() {
     let built = b.finish(Motor::Line { torque, inverse_speed }, [10.0, 0.9, 0.9, 60.0, 12.0]);
     let cycle = steady(&built.plan, &built.q, 1e-12).expect("steady motion");
     let machine = Machine { plan: &built.plan, q: &built.q };
-    let mut m = Motion::new(&built.plan.mechanism);
+    let mut m = Motion::new(&built.plan.mechanism, &built.q);
     let omega = machine.state(0.0, cycle.turn.steps[0].E, &mut m).omega;
 
     let run_up = follow(&built.plan, &built.q, &from_rest(FOREVER, 40.0));
@@ -125,7 +125,7 @@ fn free_motion_keeps_its_energy() {
     let start = Start { phi: 0.3, omega: 20.0, duration: FOREVER, turns: 50.0, accuracy: 1e-12 };
     let path = follow(&built.plan, &built.q, &start);
     let machine = Machine { plan: &built.plan, q: &built.q };
-    let mut m = Motion::new(&built.plan.mechanism);
+    let mut m = Motion::new(&built.plan.mechanism, &built.q);
     let mut energy = |i: usize| 0.5 * machine.state(path.phi[i], 1.0, &mut m).J * path.omega[i].powi(2);
     let (first, last) = (energy(0), energy(path.t.len() - 1));
     // 1e-12 a step over some thousand steps.
@@ -228,7 +228,7 @@ fn batch_is_the_single_machine() {
             Element::Crank { cos, sin, .. } => Some((*cos, *sin)),
             _ => None,
         });
-        let (cos, sin) = cranks.last().expect("two cranks");
+        let (cos, sin) = cranks.fold(None, |_, slots| Some(slots)).expect("two cranks");
         let values: Vec<f64> = (0..n).map(|i| phase(i).cos()).chain((0..n).map(|i| phase(i).sin())).collect();
         let rows = Rows { base: &built.q, slots: &[cos, sin], values: &values, n };
         let mut out = vec![0.0; n * QUANTITIES];
@@ -276,7 +276,7 @@ fn inertia_scales_with_the_square_of_length() {
     };
     let J = |built: &Built| {
         let machine = Machine { plan: &built.plan, q: &built.q };
-        machine.state(0.7, 1.0, &mut Motion::new(&built.plan.mechanism)).J
+        machine.state(0.7, 1.0, &mut Motion::new(&built.plan.mechanism, &built.q)).J
     };
     let (one, three) = (J(&size(1.0)), J(&size(3.0)));
     assert!((three / one - 9.0).abs() < 1e-13, "ratio {}", three / one);

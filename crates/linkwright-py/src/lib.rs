@@ -226,7 +226,7 @@ fn transient<'py>(
 fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Curve<'py>> {
     let q = plan.parameters(&q)?;
     let machine = linkwright_core::cycle::Machine { plan: &plan.0, q };
-    let mut motion = linkwright_core::linkage::Motion::new(&plan.0.mechanism);
+    let mut motion = linkwright_core::linkage::Motion::new(&plan.0.mechanism, q);
     Ok(column(py, machine.breaks(&[], &mut motion)))
 }
 

@@ -2,7 +2,7 @@
 #![allow(dead_code, unreachable_pub)]
 
 use linkwright_core::drive::{Drive, Motor, Span};
-use linkwright_core::linkage::{Element, Mechanism, Rocker, SliderRod};
+use linkwright_core::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod};
 use linkwright_core::plan::Plan;
 use linkwright_core::reduce::{Body, Load};
 use linkwright_core::table::Table;
@@ -58,7 +58,7 @@ impl Builder {
 
     pub fn fixed(&mut self, x: f64, y: f64) -> usize {
         let (point, x, y) = (self.point(), self.number(x), self.number(y));
-        self.mechanism.elements.push(Element::Fixed { point, x, y });
+        self.mechanism.ground.push(Fixed { point, x, y });
         point
     }
 
