@@ -244,7 +244,7 @@ pub fn motions(plan: &Plan, rows: &Rows<'_>, phi: &[f64], channels: &[Channel], 
     }
     let (mut sin, mut cos) = (vec![0.0; n], vec![0.0; n]);
     in_lanes(SinCos { phi, sin: &mut sin, cos: &mut cos });
-    let job = |first, at: std::ops::Range<usize>, out| {
+    let job = |first: usize, at: std::ops::Range<usize>, out: Vec<Vec<&mut [f64]>>| {
         let (phi, sin, cos) = (&phi[at.clone()], &sin[at.clone()], &cos[at]);
         in_lanes(MotionJob { plan, rows, first, phi, sin, cos, channels, out });
     };
