@@ -44,7 +44,7 @@ def speeds(method: str, rtol: float, times: Any) -> Any:
     from scipy.integrate import solve_ivp
 
     span = (float(times[0]), float(times[-1]))
-    options = {"method": method, "rtol": rtol, "atol": rtol, "t_eval": times}
+    options: dict[str, Any] = {"method": method, "rtol": rtol, "atol": rtol, "t_eval": times}
     return solve_ivp(slope, span, [0.0, SPEED], **options).y[1]
 
 
@@ -52,8 +52,8 @@ def speeds_by_pieces(method: str, rtol: float, times: Any) -> Any:
     """The same from dead centre to dead centre, where the dry resistance has its kinks."""
     from scipy.integrate import solve_ivp
 
-    state, start, found = [0.0, SPEED], float(times[0]), np.empty_like(times)
-    options = {"method": method, "rtol": rtol, "atol": rtol, "dense_output": True}
+    state, start, found = [0.0, SPEED], float(times[0]), np.full_like(times, SPEED)
+    options: dict[str, Any] = {"method": method, "rtol": rtol, "atol": rtol, "dense_output": len(times) > 2}
     centre, end = pi, float(times[-1])
     while start < end:
 
@@ -61,8 +61,10 @@ def speeds_by_pieces(method: str, rtol: float, times: Any) -> Any:
             return float(y[0] - centre)
 
         reached.terminal = True  # type: ignore[attr-defined]
-        piece = solve_ivp(slope, (start, end), state, events=reached, **options)
-        inside = (times >= start) & (times <= piece.t[-1])
-        found[inside] = piece.sol(times[inside])[1]
+        piece: Any = solve_ivp(slope, (start, end), state, events=reached, **options)
+        inside = (times > start) & (times < piece.t[-1])
+        if inside.any():
+            found[inside] = piece.sol(times[inside])[1]
+        found[times == piece.t[-1]] = piece.y[1, -1]
         start, state, centre = float(piece.t[-1]), list(piece.y[:, -1]), centre + pi
     return found

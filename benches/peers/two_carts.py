@@ -1,7 +1,7 @@
 """The two-cart drive by hand: the energy equation of paper 1 over the crank angle, with SciPy.
 
-Scalar `math` functions in the right-hand side, energy for the state (no dJ/dφ), DOP853, extremes from its dense
-output: what someone writes who knows both the theory and SciPy well.
+Scalar `math` functions in the right-hand side, energy for the state (no dJ/dφ), DOP853, extremes from its
+dense output: what someone writes who knows both the theory and SciPy well.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def turn(drive: Drive, energy: float, rtol: float) -> Any:
 
     # Energies are some 5 kJ, times some 0.6 s.
     scale = [1e3 * rtol, 0.1 * rtol]
-    options = {"method": "DOP853", "rtol": rtol, "atol": scale, "dense_output": True}
+    options: dict[str, Any] = {"method": "DOP853", "rtol": rtol, "atol": scale, "dense_output": True}
     return solve_ivp(slope, (0.0, 2 * pi), [energy, 0.0], **options)
 
 

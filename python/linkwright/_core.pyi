@@ -31,9 +31,7 @@ def steady_rows(
 ) -> tuple[NDArray[np.uint8], Floats, int]:
     """Status (n,), scalars (n, 13) and turns swept for n machines; `values` is (slots, n)."""
 
-def motions(
-    plan: Plan, q: Floats, slots: Ints, values: Floats, phi: Floats, what: Ints, out: Floats
-) -> None:
+def motions(plan: Plan, q: Floats, slots: Ints, values: Floats, phi: Floats, what: Ints, out: Floats) -> None:
     """Motions of n machines at the angles `phi` into `out`, flat (n, numbers, angles)."""
 
 def gaps(plan: Plan, q: Floats, phi: Floats) -> Floats:

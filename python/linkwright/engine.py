@@ -7,15 +7,16 @@ from row to row: one description serves a single machine and a batch.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
-from linkwright.errors import MachineError, Problem, ShapeError
+from linkwright.errors import ShapeError
 from linkwright.machine import (
     Body,
     ConstantForce,
@@ -174,6 +175,7 @@ class _Translator:
     def __init__(self, machine: Machine) -> None:
         self.machine = machine
         self.parameters: list[Any] = []
+        self.varying: list[int] = []
         self.points: dict[str, int] = {}
         self.links: dict[str, int] = {}
         self.slides: dict[str, int] = {}
@@ -188,7 +190,9 @@ class _Translator:
         self.origin = -1
 
     def slot(self, value: Any) -> int:
-        """Adds a parameter."""
+        """Adds a parameter; one that is an array varies from row to row."""
+        if isinstance(value, np.ndarray) and value.ndim:
+            self.varying.append(len(self.parameters))
         self.parameters.append(value)
         return len(self.parameters) - 1
 
@@ -345,37 +349,34 @@ class _Translator:
         self.drive_row = [*head, *(self.slot(value) for value in numbers), *spans]
 
     def _motor(self, motor: Any) -> tuple[list[int], list[int]]:
+        """Row of the motor, and spans of its curve; a described motor has all its entries filled in."""
         match motor:
             case ConstantTorqueMotor():
                 return [1, self.slot(motor.torque)], []
-            case DcMotor():
-                return [2, self.slot(motor.torque_stall), self.slot(1.0 / motor.speed_no_load)], []
+            case DcMotor(torque_stall=stall, speed_no_load=no_load):
+                return [2, self.slot(stall), self.slot(1.0 / no_load)], []
             case InductionMotor():
-                slip = 1.0 - motor.speed_breakdown / motor.speed_synchronous
-                numbers = (
-                    1.0 / motor.speed_synchronous,
-                    motor.torque_breakdown,
-                    slip,
-                    motor.resistance_ratio,
-                )
-                return [3, *(self.slot(value) for value in numbers)], self._spans(motor)
+                return self._induction(motor)
             case TableMotor():
                 return [4, self.table(motor.speed, motor.torque)], []
         # No motor, or one of constant speed: nothing that answers to the load.
         return [0], []
 
-    def _spans(self, motor: InductionMotor) -> list[int]:
-        """The curve below breakdown: start, pull-up if there is one, breakdown."""
+    def _induction(self, motor: Any) -> tuple[list[int], list[int]]:
+        """Kloss, and the curve below breakdown: start, pull-up if there is one, breakdown."""
+        slip = 1.0 - motor.speed_breakdown / motor.speed_synchronous
+        numbers = (1.0 / motor.speed_synchronous, motor.torque_breakdown, slip, motor.resistance_ratio)
+        row = [3, *(self.slot(value) for value in numbers)]
         if motor.torque_start is None:
-            return []
+            return row, []
         knots = [(0.0, motor.torque_start), (motor.speed_breakdown, motor.torque_breakdown)]
         if motor.torque_pull_up is not None:
             knots.insert(1, (motor.speed_pull_up, motor.torque_pull_up))
         spans: list[int] = []
-        for nth, (left, right) in enumerate(zip(knots, knots[1:], strict=False)):
-            numbers = (*left, *right, 1.0 / (right[0] - left[0]))
-            spans += [self.slot(value) for value in numbers] + [int(nth > 0)]
-        return spans
+        for nth, (left, right) in enumerate(pairwise(knots)):
+            ends = (*left, *right, 1.0 / (right[0] - left[0]))
+            spans += [self.slot(value) for value in ends] + [int(nth > 0)]
+        return row, spans
 
     # -- result ------------------------------------------------------------------------------------------
 
@@ -394,7 +395,7 @@ class _Translator:
             np.array([value for x, _ in self.tables for value in x], dtype=np.float64),
             np.array([value for _, y in self.tables for value in y], dtype=np.float64),
         )
-        parameters, slots, values = _columns(self.parameters)
+        parameters, slots, values = _columns(self.parameters, self.varying)
         ratio, forward, reverse, _, guess = (float(parameters[slot]) for slot in self.drive_row[5:10])
         return Compiled(
             plan=plan,
@@ -471,22 +472,14 @@ def _rows(rows: list[list[int]], width: int) -> NDArray[np.int32]:
     return _ints([value for row in rows for value in (*row, *[0] * (width - len(row)))])
 
 
-def _columns(parameters: list[Any]) -> tuple[Floats, NDArray[np.int32], Floats]:
+def _columns(parameters: list[Any], varying: list[int]) -> tuple[Floats, NDArray[np.int32], Floats]:
     """First row of all parameters; which vary; their values (k, n)."""
-    varying = [slot for slot, value in enumerate(parameters) if np.ndim(value)]
     columns = [np.asarray(parameters[slot], dtype=np.float64) for slot in varying]
     lengths = {column.shape for column in columns}
     if len(lengths) > 1 or any(column.ndim != 1 for column in columns):
         raise ShapeError(f"arrays of one length are needed, found shapes {sorted(lengths)}")
-    first = [np.ravel(value)[0] if np.ndim(value) else value for value in parameters]
+    first = list(parameters)
+    for slot, column in zip(varying, columns, strict=True):
+        first[slot] = column[0]
     values = np.ascontiguousarray(columns) if columns else np.empty((0, 1))
     return np.array(first, dtype=np.float64), _ints(varying), values
-
-
-def vary(machine: Machine, entries: dict[str, ArrayLike], replace: Callable[..., Machine]) -> Machine:
-    """The machine with arrays for some entries, after a check that they are finite numbers."""
-    arrays = {address: np.asarray(value, dtype=np.float64) for address, value in entries.items()}
-    for address, array in arrays.items():
-        if not np.isfinite(array).all():
-            raise MachineError([Problem(address, "NaN or infinite values", "finite numbers")])
-    return replace(machine, arrays)

@@ -20,8 +20,11 @@ _SPEED_AGREES = 0.05
 # Mains voltage may be 10 % low (EN 50160), and the torque of an induction motor falls with its square.
 _LOW_VOLTAGE = 0.81
 
-# Below this size a torque against the motion is rounding [share of the greatest torque].
-_ROUNDING = 1e-9
+# Torques against the motion, and energies, that are a smaller share of the greatest are not worth a sentence.
+_SMALL = 0.01
+
+# Inertia that is a smaller share of the greatest is zero but for rounding.
+_ROUNDING = 1e-12
 
 
 def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -> tuple[str, ...]:
@@ -58,11 +61,28 @@ def _unloaded(machine: Machine) -> Iterator[str]:
         yield "The machine has no loads: nothing but its inertia is moved."
 
 
+def has_inertia(reduced: Reduction) -> bool:
+    """Whether the reduced inertia is above zero all round, beyond rounding.
+
+    Parameters
+    ----------
+    reduced : Reduction
+        The reduced machine.
+    """
+    return reduced.inertia_min > _ROUNDING * reduced.inertia_max
+
+
 def _reduced(reduced: Reduction) -> Iterator[str]:
-    if reduced.torque_load_mean < 0:
+    if not has_inertia(reduced):
         yield (
-            f"The loads drive the machine: their mean torque at the crank is {reduced.torque_load_mean:.4g} N m, "
-            "against the resisting direction."
+            "The reduced inertia falls to zero at a crank angle of "
+            f"{np.degrees(reduced.inertia_min_angle):.1f}°: give the drive "
+            "its inertias; until then there is no constant-energy limit."
+        )
+    if reduced.torque_load_mean < -_SMALL * float(np.abs(reduced.torque_load).max()):
+        yield (
+            f"The loads drive the machine: their mean torque at the crank is {-reduced.torque_load_mean:.4g} "
+            "N m in the direction of motion."
         )
 
 
@@ -109,8 +129,8 @@ def _overload(drive: Drive, steady: SteadyState) -> Iterator[str]:
     assert motor is not None
     if motor.torque_rated is not None and steady.torque_motor_rms > motor.torque_rated:
         yield (
-            f"The motor is overloaded: its torque has a root mean square of {steady.torque_motor_rms:.4g} N m, "
-            f"{_percent_above(steady.torque_motor_rms, motor.torque_rated)} above the rated "
+            f"The motor is overloaded: its torque has a root mean square of {steady.torque_motor_rms:.4g} "
+            f"N m, {_percent_above(steady.torque_motor_rms, motor.torque_rated)} above the rated "
             f"{motor.torque_rated:.4g} N m; in continuous duty it overheats."
         )
     if motor.power_rated is not None and steady.power_motor_mean > motor.power_rated:
@@ -150,7 +170,7 @@ def _breakdown(drive: Drive, steady: SteadyState) -> Iterator[str]:
 def _generator(drive: Drive, steady: SteadyState) -> Iterator[str]:
     """The part of the turn in which the load drives the motor."""
     least, most = steady.torque_motor_min, steady.torque_motor_max
-    if least >= -_ROUNDING * max(abs(most), abs(least)):
+    if least >= -_SMALL * max(abs(most), abs(least)):
         return
     time = np.interp(np.linspace(0, steady.period, 1000), steady.time, steady.torque_motor)
     share = 100 * float(np.mean(time < 0))
@@ -178,9 +198,9 @@ def _gear_gain(drive: Drive, steady: SteadyState) -> Iterator[str]:
     factor = float(reverse_factor(drive))
     driven = np.minimum(steady.torque_drive, 0.0)
     gained = -float(np.trapezoid(driven, steady.crank_angle)) * (1 / factor - 1)
-    if gained > _ROUNDING * abs(steady.energy_drive):
+    if gained > 0.1 * _SMALL * abs(steady.energy_drive):
         yield (
             f"While the load drives the motor, the gearbox factor {factor:.4g} (drive.gearbox.reverse) gives "
-            f"the motor {gained:.4g} J a turn more than the crank returns; a gearbox with losses has a factor "
-            "above 1."
+            f"the motor {gained:.4g} J a turn more than the crank returns; a gearbox with losses has a "
+            "factor above 1."
         )

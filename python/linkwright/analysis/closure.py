@@ -64,7 +64,7 @@ def closure_of(compiled: Compiled) -> Closure:
     full = Closure(((0.0, 2 * np.pi),), "")
     if not compiled.dyads:
         return full
-    angles = np.arange(_ANGLES) * (2 * np.pi / _ANGLES)
+    angles = turn_angles(_ANGLES)[:-1]
     gaps = compiled.gaps(angles)
     is_open = ~(gaps >= 0)
     if not is_open.any():

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.result import Result
 from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.analysis.transient import End, Transient, transient
-from linkwright.errors import InputError, StartError
+from linkwright.errors import InputError, StartError, SteadyStateError
 from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
@@ -78,7 +78,7 @@ def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
     At rest a dry resistance holds up to its size in either direction.
     """
     start_of(machine)
-    steady = steady or steady_state(machine, n=1440)
+    steady = steady or _steady_or_stall(machine)
     options = machine.run_up
     turns = min(_FIRST_TURNS, options.turns_max)
     while True:
@@ -111,6 +111,20 @@ def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
     )
 
 
+def _steady_or_stall(machine: Machine) -> SteadyState:
+    """The steady motion; where there is none because the machine comes to rest, a `StartError` says where."""
+    try:
+        return steady_state(machine, n=1440)
+    except SteadyStateError:
+        options = machine.run_up
+        motion = transient(
+            machine, angle=options.angle_start, speed=options.speed_start, turns=options.turns_max
+        )
+        if motion.came_to_rest:
+            raise StartError(_why_not(motion)) from None
+        raise
+
+
 def start_of(machine: Machine) -> None:
     """Raise if the machine cannot move from its start angle and speed.
 
@@ -125,7 +139,9 @@ def start_of(machine: Machine) -> None:
         raise InputError(f"{machine.name}: a run-up needs a motor; add [drive.motor]")
     options = machine.run_up
     # Any short motion will do: what counts is whether there is one.
-    first = transient(machine, angle=options.angle_start, speed=options.speed_start, turns=0.01, accuracy=1e-6)
+    first = transient(
+        machine, angle=options.angle_start, speed=options.speed_start, turns=0.01, accuracy=1e-6
+    )
     if first.came_to_rest:
         raise StartError(_why_not(first))
 

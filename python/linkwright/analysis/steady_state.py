@@ -214,9 +214,9 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
     if not 1e-13 <= accuracy <= 1e-2:
         raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
     compiled = compile_machine(machine)
-    require_full_turn(compiled, machine)
     phi = turn_angles(n)
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
+        require_full_turn(compiled, machine)
         return _at_constant_speed(machine, compiled, phi)
     status, scalars, curves = compiled.steady(phi, accuracy)
     if scalars is None or curves is None:
@@ -274,7 +274,9 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
     period = 2 * np.pi / omega
     still = dict.fromkeys(("speed_min_angle", "speed_max_angle"), 0.0)
     still |= dict.fromkeys(("acceleration_min", "acceleration_max"), 0.0)
-    still |= dict.fromkeys(("acceleration_min_angle", "acceleration_max_angle", "accuracy", "multiplier"), 0.0)
+    still |= dict.fromkeys(
+        ("acceleration_min_angle", "acceleration_max_angle", "accuracy", "multiplier"), 0.0
+    )
     return SteadyState(
         crank_angle=phi,
         time=phi / omega,

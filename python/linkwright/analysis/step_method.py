@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.closure import require_full_turn
+from linkwright.analysis.closure import require_full_turn, turn_angles
 from linkwright.analysis.result import Result
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError, StartError, SteadyStateError
@@ -114,7 +114,7 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
     n = whole_steps(step)
-    phi = np.arange(n) * (2 * np.pi / n)
+    phi = turn_angles(n)[:-1]
     J, _, load, dry, viscous = compiled.reductions(phi)
 
     def torque(k: int, omega: float) -> float:
@@ -197,7 +197,7 @@ def _measured(omega: Floats, J: Floats, step: float, turns: int) -> StepMotion:
     epsilon = np.diff(omega) / intervals
     last, steep = omega[-n:], epsilon[-n:]
     return StepMotion(
-        crank_angle=np.arange(len(omega)) * step,
+        crank_angle=np.linspace(0.0, (len(omega) - 1) * step, len(omega)),
         time=np.concatenate([[0.0], np.cumsum(intervals)]),
         speed=omega,
         acceleration=np.append(epsilon, epsilon[-n]),

@@ -17,7 +17,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from linkwright.analysis.cautions import cautions
+from linkwright.analysis.cautions import cautions, has_inertia
 from linkwright.analysis.constant_energy import ConstantEnergy, constant_energy_of
 from linkwright.analysis.reduction import Reduction, reduction
 from linkwright.analysis.result import Result
@@ -123,7 +123,8 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     reduced = found.of(reduction, machine, n=_INTERVALS)
     if reduced is None:
         return Study(machine, findings=found.sentences())
-    limit = constant_energy_of(reduced)
+    # Without inertia at some angle there is no energy to stay constant.
+    limit = constant_energy_of(reduced) if has_inertia(reduced) else None
     if not _has_motor(machine):
         return Study(machine, reduced, limit, warnings=cautions(machine, reduced, None))
     steady = found.of(steady_state, machine, accuracy=accuracy, n=_INTERVALS)

@@ -81,7 +81,7 @@ class Transient(Result):
         -------
         tuple of ndarray
             Angle [rad] and speed [rad/s], by the quintic through angle, speed and acceleration at both ends
-            of each step.
+            of each step: good to five digits or more. To have it better, end a transient there.
         """
         t = np.asarray(time, dtype=np.float64)
         k = np.clip(np.searchsorted(self.time, t, side="right") - 1, 0, len(self.time) - 2)
@@ -169,7 +169,9 @@ def transient(
     if not (np.isfinite(duration) or np.isfinite(turns)) or not duration > 0 or not turns > 0:
         raise InputError("a positive, finite duration [s] or number of turns is needed")
     if not (np.isfinite(speed) and speed >= 0 and np.isfinite(angle)):
-        raise InputError(f"a speed of {speed:g} rad/s at {angle:g} rad: expected numbers, the speed not negative")
+        raise InputError(
+            f"a speed of {speed:g} rad/s at {angle:g} rad: expected numbers, the speed not negative"
+        )
     if motor and machine.drive and isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a motor of constant speed has no run-up: it turns at its speed under any load")
     compiled = compile_machine(machine, motor=motor, brake=brake)
@@ -182,4 +184,14 @@ def transient(
             method="DOP853",
             iterations=len(curves[0]),
         )
-    return Transient(*curves, End(end), *torques, evaluations)
+    time, crank_angle, omega, epsilon = curves
+    return Transient(
+        time=time,
+        crank_angle=crank_angle,
+        speed=omega,
+        acceleration=epsilon,
+        end=End(end),
+        torque_drive_end=torques[0],
+        torque_load_end=torques[1],
+        evaluations=evaluations,
+    )

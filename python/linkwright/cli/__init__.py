@@ -6,6 +6,7 @@ To add a command, write its file and put its function into `COMMANDS`.
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable
 from io import TextIOWrapper
@@ -16,11 +17,13 @@ import typer
 from linkwright.cli.check import check
 from linkwright.cli.common import reports_errors
 from linkwright.cli.new import new
+from linkwright.cli.papers import papers
 from linkwright.cli.run import run
 from linkwright.cli.schema import schema
+from linkwright.cli.size import size
 
 # In the order of the help.
-COMMANDS: tuple[Callable[..., Any], ...] = (run, check, new, schema)
+COMMANDS: tuple[Callable[..., Any], ...] = (run, check, size, papers, new, schema)
 
 
 def _version(wanted: bool) -> None:
@@ -58,6 +61,8 @@ def application() -> typer.Typer:
 
 def main() -> None:
     """Run the command line, for the console script."""
+    # Looking for plugins of pydantic among all installed packages costs more than reading a machine file.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     # Names may hold letters that the terminal has not; they are no reason to fail.
     if isinstance(sys.stdout, TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import gc
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from linkwright.cli.common import File, Json, Sets
+from linkwright.errors import InputError
 
 if TYPE_CHECKING:
     from linkwright.analysis.study import Study
-    from linkwright.machine import Machine
 
 Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not scalars alone.")]
 Folder = Annotated[
@@ -49,16 +50,43 @@ def run(
 
     Reduced inertia and load, steady motion and its evenness, run-up; with --out also a report.
     """
-    from linkwright.analysis.study import study
-    from linkwright.files.read import read
-    from linkwright.units import ANGLE, parse
-
-    machine = read(file, set or ())
-    angle = parse(step, ANGLE) if method == "baranov" else None
-    result = study(machine, accuracy=accuracy, step=angle)
+    if out is not None and out.exists() and not out.is_dir():
+        raise _no_folder(out)
+    steps = step if method == "baranov" else None
     if json:
+        result = _studied(file, set or [], accuracy, steps)
         _print_json(result, curves=curves)
-    raise typer.Exit(1 if result.findings else 0)
+    else:
+        result = _shown(file, set or [], accuracy, steps)
+    if out is not None:
+        _write(result, out, quiet=json)
+    if result.findings:
+        raise typer.Exit(1)
+
+
+def _studied(file: Path, sets: list[str], accuracy: float, step: str | None) -> Study:
+    """Read the file and study the machine."""
+    # A start makes some 100 000 objects that all stay; looking among them for rubbish takes time.
+    gc.disable()
+    try:
+        from linkwright.analysis.study import study
+        from linkwright.files.read import read
+        from linkwright.units import ANGLE, parse
+
+        angle = None if step is None else parse(step, ANGLE)
+        return study(read(file, sets), accuracy=accuracy, step=angle)
+    finally:
+        gc.enable()
+
+
+def _shown(file: Path, sets: list[str], accuracy: float, step: str | None) -> Study:
+    """Study the machine and print tables for people."""
+    from linkwright.cli.tables import print_study, progress
+
+    with progress("computing"):
+        result = _studied(file, sets, accuracy, step)
+    print_study(result)
+    return result
 
 
 def _print_json(study: Study, *, curves: bool) -> None:
@@ -66,3 +94,47 @@ def _print_json(study: Study, *, curves: bool) -> None:
     from json import dumps
 
     typer.echo(dumps(study.to_dict(curves=curves), allow_nan=False, ensure_ascii=False))
+
+
+def _no_folder(path: Path) -> InputError:
+    return InputError(f"{path}: found a file, expected a folder for --out")
+
+
+def _write(study: Study, folder: Path, *, quiet: bool) -> None:
+    """All files of a study; says where they are, on standard error where the output is JSON."""
+    from linkwright.cli.tables import progress
+
+    with progress("writing the report"):
+        names = _files(study, folder)
+    listed = "\n".join(f"  {folder / name}" for name in names)
+    typer.echo(f"Written:\n{listed}", err=quiet)
+
+
+def _files(study: Study, folder: Path) -> list[str]:
+    """Write the files; their names."""
+    from json import dumps
+
+    from linkwright.report import report_html
+    from linkwright.report.csv import curves_csv
+
+    texts = {"results.json": dumps(study.to_dict(curves=True), allow_nan=False, ensure_ascii=False) + "\n"}
+    tables = {f"{name}.csv": curves_csv(result) for name, result in study.results().items()}
+    texts |= {name: text for name, text in tables.items() if text}
+    texts["report.html"] = report_html(study, command=_command())
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in texts.items():
+            (folder / name).write_text(text, encoding="utf-8")
+    except (FileExistsError, NotADirectoryError):
+        raise _no_folder(folder) from None
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
+    return list(texts)
+
+
+def _command() -> str:
+    """The command line as it was given, to be repeated."""
+    import shlex
+    import sys
+
+    return shlex.join(["linkwright", *sys.argv[1:]])

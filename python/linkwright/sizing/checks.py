@@ -15,6 +15,7 @@ The torques are those of the exact steady motion, not of a mean load.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,12 +29,12 @@ from linkwright.errors import FindingError
 from linkwright.machine import CatalogueMotor, InductionMotor, Machine
 from linkwright.sizing.power import RequiredPower
 
-# Share of the design speed by which the crank's speed at the rated point may differ from it. Gearboxes come in
-# ratios 12 % apart (series R20), so a suitable one is within half of that; 10 % keeps a file's own ratio.
-SPEED_BAND = 0.10
+# Share of the design speed by which the crank's speed at the rated point may differ from it: gearboxes come
+# in ratios 12 % apart (series R20 of preferred numbers), so that the nearest one may be that far off.
+SPEED_BAND = 0.12
 
-# Torque goes with the square of the voltage: with 10 % less of it 0.9² = 0.81 of the breakdown torque is left.
-# Handbooks of electric drives give 0.8 to 0.85.
+# Torque goes with the square of the voltage: with 10 % less of it 0.9² = 0.81 of the breakdown torque is
+# left. Handbooks of electric drives give 0.8 to 0.85.
 PEAK_SHARE = 0.9**2
 
 # Intervals of the turn over which greatest torques are looked for: the largest of 1440 samples of a smooth
@@ -89,10 +90,25 @@ class Check:
         title = self.name.replace("_", " ")
         if self.value is None or self.limit is None:
             return f"{title}: {self.note}"
-        sign = "≤" if self.at_most else "≥"
-        short = "" if self.passed else f" fails, {_times(self.utilisation)}"
-        text = f"{title} {self.value:.4g} {sign} {self.limit:.4g} {self.unit}{short}"
+        wanted = "at most" if self.at_most else "at least"
+        limit = f"{wanted} {_shown(self.limit, self.unit)}"
+        text = f"{title} {_shown(self.value, self.unit)}, {limit}{self._factor()}"
         return f"{text} ({self.note})" if self.note else text
+
+    @property
+    def brief(self) -> str:
+        """How it fails, in a few words."""
+        title = self.name.replace("_", " ")
+        if self.passed is None:
+            return f"{title} not known"
+        return f"{title}{self._factor().lstrip(':')}" if self._factor() else f"{title} fails"
+
+    def _factor(self) -> str:
+        """By what factor a check fails."""
+        share = self.utilisation
+        if self.passed is not False or share is None:
+            return ""
+        return f": {share:.2f} times too {'large' if self.at_most else 'small'}"
 
     def to_dict(self) -> dict[str, Any]:
         """Its entries, ready for JSON."""
@@ -100,8 +116,11 @@ class Check:
         return {name: getattr(self, name) for name in names}
 
 
-def _times(share: float | None) -> str:
-    return "no torque" if share is None else f"{share:.2f} times what is allowed"
+def _shown(value: float, unit: str) -> str:
+    """A number of four digits with its unit; powers in kW, as motors are rated."""
+    value, unit = (value / 1e3, "kW") if unit == "W" else (value, unit)
+    digits = max(0, 3 - math.floor(math.log10(abs(value)))) if value else 0
+    return f"{value:.{min(digits, 3)}f} {unit}"
 
 
 @dataclass(frozen=True)

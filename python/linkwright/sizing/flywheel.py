@@ -5,11 +5,12 @@ at its mean,
 
 .. math::
 
-    \Delta A(\varphi) = \int_0^\varphi (\bar M_r - M_r)\,d\varphi - \tfrac12 J_\mathrm{red}(\varphi)\,\omega_m^2,
-    \qquad J_f + J_0 = \frac{\Delta A_\max - \Delta A_\min}{\delta\,\omega_m^2}
+    \Delta A(\varphi) = \int_0^\varphi (\bar M_r - M_r)\,d\varphi
+        - \tfrac12 J_\mathrm{red}(\varphi)\,\omega_m^2, \qquad
+    J_f + J_0 = \frac{\Delta A_\max - \Delta A_\min}{\delta\,\omega_m^2}
 
-with :math:`J_0` the inertia that turns with the crank already. The answer is not this estimate: it is the root
-of δ(J_f) − δ over the exact steady motion, which the estimate only starts.
+with :math:`J_0` the inertia that turns with the crank already. The answer is not this estimate: it is the
+root of δ(J_f) − δ over the exact steady motion, which the estimate only starts.
 """
 
 from __future__ import annotations
@@ -122,10 +123,37 @@ def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
         raise InputError(f"{machine.name}: a flywheel is sized for a motor; add [drive.motor]")
     bare = with_flywheel(machine, 0.0)
     without = _unevenness(bare)
-    needed = without is None or without > unevenness
     estimate, work = classical_flywheel(bare, unevenness)
-    inertia, iterations = _searched(bare, unevenness, max(estimate, 0.0)) if needed else (0.0, 1)
-    return _verified(bare, unevenness, without, inertia, (max(estimate, 0.0), work), iterations)
+    inertia, solved = flywheel_inertia(bare, unevenness, guess=estimate)
+    return _verified(bare, unevenness, without, inertia, (max(estimate, 0.0), work), solved)
+
+
+def flywheel_inertia(machine: Machine, unevenness: float, *, guess: float = 0.0) -> tuple[float, int]:
+    """The flywheel's inertia alone.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine without a flywheel.
+    unevenness : float
+        δ [–].
+    guess : float
+        Where to begin [kg m²].
+
+    Returns
+    -------
+    tuple of (float, int)
+        J_f [kg m²], 0 if none is needed; how many steady motions were solved.
+
+    Raises
+    ------
+    SteadyStateError, ConvergenceError
+        As for `choose_flywheel`.
+    """
+    without = _unevenness(machine)
+    if without is not None and without <= unevenness:
+        return 0.0, 1
+    return _searched(machine, unevenness, guess)
 
 
 def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, float]:

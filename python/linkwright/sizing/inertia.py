@@ -56,4 +56,4 @@ def estimated_inertia(torque_rated: float) -> float:
     """
     like = motor(KNOWN)
     assert like.inertia is not None
-    return like.inertia * (torque_rated / like.torque_rated) ** _EXPONENT
+    return float(like.inertia * (torque_rated / like.torque_rated) ** _EXPONENT)

@@ -1,4 +1,4 @@
-"""The smallest motor of the catalogue that will do, chosen by checks and verified by analysing the machine."""
+"""The smallest motor of the catalogue that will do, chosen by checks that analyse the machine with it."""
 
 from __future__ import annotations
 
@@ -8,11 +8,12 @@ from typing import Any, Literal
 
 from linkwright.analysis.run_up import RunUp
 from linkwright.analysis.steady_state import SteadyState
-from linkwright.errors import InputError, MachineError
+from linkwright.errors import FindingError, InputError
 from linkwright.machine import CatalogueMotor, InductionMotor, Machine, motors
 from linkwright.machine import motor as catalogue_motor
 from linkwright.sizing.checks import DECISIVE, Check, Checked, motion_checks, rating_checks
-from linkwright.sizing.fit import with_motor
+from linkwright.sizing.fit import with_flywheel, with_motor
+from linkwright.sizing.flywheel import flywheel_inertia
 from linkwright.sizing.inertia import KNOWN, rotor_inertia
 from linkwright.sizing.power import RequiredPower, required_power
 
@@ -21,8 +22,8 @@ Track = Callable[[Sequence[CatalogueMotor]], Iterable[CatalogueMotor]]
 
 ESTIMATE = f"estimated from {KNOWN} by similarity, J as M_rated^(5/3)"
 
-# How far an estimated inertia may be off: types of one frame differ in length only, so that J goes as M and not
-# as M^(5/3); over the range of torques of a series that is a factor of about two.
+# How far an estimated inertia may be off: types of one frame differ in length only, so that J goes as M and
+# not as M^(5/3); over a range of torques of one to three that is a factor of two.
 _DOUBT = 2.0
 
 
@@ -42,6 +43,8 @@ class Candidate:
         Of the rotor [kg m²].
     inertia_estimated : bool
         Whether that is an estimate.
+    flywheel : float or None
+        Inertia of the flywheel that it was judged with [kg m²]; None if none was sized for it.
     checks : tuple of Check
         Those made; a motor whose rating does not suit is not analysed further.
     decisive : tuple of str
@@ -57,6 +60,7 @@ class Candidate:
     ratio: float
     inertia: float
     inertia_estimated: bool
+    flywheel: float | None
     checks: tuple[Check, ...]
     decisive: tuple[str, ...]
     machine: Machine | None = None
@@ -93,6 +97,7 @@ class Candidate:
             "ratio": self.ratio,
             "inertia": self.inertia,
             "inertia_estimated": self.inertia_estimated,
+            "flywheel": self.flywheel,
             "passes": self.passes,
             "reason": self.reason,
             "checks": [check.to_dict() for check in self.checks],
@@ -167,6 +172,7 @@ def choose_motor(
     reserve: float = 1.1,
     by: By = "all",
     free_ratio: bool = False,
+    unevenness: float | None = None,
     inertias: Mapping[str, float] | None = None,
     track: Track = iter,
 ) -> MotorChoice:
@@ -183,6 +189,9 @@ def choose_motor(
     free_ratio : bool
         Give each motor the ratio that suits it, rated speed over design speed, not the machine's own. So it
         is done in any case if the machine has no gearbox.
+    unevenness : float, optional
+        Judge each motor together with the flywheel on the crankshaft that gives this δ with it [–]. It takes
+        the peaks off the motor, so that a smaller one may do.
     inertias : mapping, optional
         Type → inertia of its rotor [kg m²], where it is known better than the catalogue does.
     track : callable, optional
@@ -206,11 +215,13 @@ def choose_motor(
     """
     required = required_power(machine)
     if not required.power > 0:
-        raise InputError(f"the mean load is {required.torque_load_mean:.4g} N m: there is no motor to size for it")
+        raise InputError(
+            f"the mean load is {required.torque_load_mean:.4g} N m: there is no motor to size for it"
+        )
     if not reserve > 0:
         raise InputError(f"power reserve {reserve:g}: expected a number greater than 0, such as 1.1")
     given = own_inertia(machine) | {catalogue_motor(type).type: J for type, J in (inertias or {}).items()}
-    judge = _Judge(machine, required, reserve, by, free_ratio or not _has_ratio(machine), given)
+    judge = _Judge(machine, required, reserve, by, free_ratio or not _has_ratio(machine), unevenness, given)
     found = sorted((judge.candidate(known) for known in track(motors())), key=_rank)
     chosen = found[0] if found[0].passes else None
     present = present_checks(machine, required, reserve)
@@ -257,6 +268,14 @@ def _has_ratio(machine: Machine) -> bool:
     return machine.drive is not None and "ratio" in machine.drive.gearbox.model_fields_set
 
 
+def _lacking(known: CatalogueMotor) -> Check | None:
+    """What the catalogue does not give and no check can do without."""
+    if known.torque_breakdown is not None:
+        return None
+    note = "not checkable: the catalogue gives no breakdown torque"
+    return Check("torque_peak", None, None, "N m", None, note=note)
+
+
 def _rank(each: Candidate) -> tuple[bool, float, str]:
     """Those that pass first, then the smaller ones."""
     return not each.passes, each.known.power_rated, each.type
@@ -271,6 +290,7 @@ class _Judge:
     reserve: float
     by: By
     free_ratio: bool
+    unevenness: float | None
     inertias: Mapping[str, float]
 
     def candidate(self, known: CatalogueMotor) -> Candidate:
@@ -282,13 +302,17 @@ class _Judge:
         estimate, estimated = rotor_inertia(known)
         inertia = self.inertias.get(known.type, estimate)
         estimated = estimated and known.type not in self.inertias
-        fitted, done = self._analysed(known, inertia, ratio, estimated, rating)
+        lacking = _lacking(known)
+        fitted, flywheel, done = None, None, Checked((lacking,) if lacking else ())
+        if lacking is None and all(check.passed for check in rating):
+            fitted, flywheel, done = self._analysed(known, inertia, ratio, estimated)
         return Candidate(
             type=known.type,
             known=known,
             ratio=ratio,
             inertia=inertia,
             inertia_estimated=estimated,
+            flywheel=flywheel,
             checks=(*rating, *done.checks),
             decisive=DECISIVE[self.by],
             machine=fitted,
@@ -297,27 +321,20 @@ class _Judge:
         )
 
     def _analysed(
-        self,
-        known: CatalogueMotor,
-        inertia: float,
-        ratio: float,
-        estimated: bool,
-        rating: tuple[Check, ...],
-    ) -> tuple[Machine | None, Checked]:
-        """The machine with the motor and its checks, as far as the rating and the catalogue let it."""
-        if known.torque_breakdown is None:
-            note = "not checkable: the catalogue gives no breakdown torque"
-            return None, Checked((Check("torque_peak", None, None, "N m", None, note=note),))
+        self, known: CatalogueMotor, inertia: float, ratio: float, estimated: bool
+    ) -> tuple[Machine, float | None, Checked]:
+        """The machine with the motor, the flywheel sized for it, and the checks."""
         note = f"Motor {known.type} by linkwright size"
         note += f"; the inertia of its rotor is {ESTIMATE}." if estimated else "."
+        fitted = with_motor(self.machine, known, inertia=inertia, ratio=ratio, note=note)
+        if self.unevenness is None:
+            return fitted, None, motion_checks(fitted)
         try:
-            fitted = with_motor(self.machine, known, inertia=inertia, ratio=ratio, note=note)
-        except MachineError as error:
-            lines = "; ".join(problem.expected for problem in error.problems)
-            return None, Checked((Check("torque_peak", None, None, "N m", None, note=f"not checkable: {lines}"),))
-        if not all(check.passed for check in rating):
-            return fitted, Checked(())
-        return fitted, motion_checks(fitted)
+            flywheel, _ = flywheel_inertia(with_flywheel(fitted, 0.0), self.unevenness)
+        except FindingError as error:
+            return fitted, None, Checked((Check("run_up", None, None, "s", False, note=str(error)),))
+        fitted = with_flywheel(fitted, flywheel)
+        return fitted, flywheel, motion_checks(fitted)
 
     def doubts(self, chosen: Candidate | None) -> list[str]:
         """What the choice rests on without being known."""
@@ -333,6 +350,5 @@ class _Judge:
     def _lost(self, chosen: Candidate, factor: float) -> list[str]:
         """Decisive checks that fail with another inertia."""
         inertia = chosen.inertia * factor
-        fitted = with_motor(self.machine, chosen.known, inertia=inertia, ratio=chosen.ratio)
-        checks = motion_checks(fitted).checks
+        checks = self._analysed(chosen.known, inertia, chosen.ratio, True)[2].checks
         return [check.name for check in checks if check.name in chosen.decisive and not check.passed]

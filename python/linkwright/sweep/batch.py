@@ -18,6 +18,21 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
+# The first columns of the core's table (`linkwright-core`, module `batch`).
+_COLUMNS = (
+    "speed_min",
+    "speed_max",
+    "acceleration_min",
+    "acceleration_max",
+    "period",
+    "multiplier",
+    "energy_motor",
+    "energy_drive",
+    "energy_load",
+    "torque_motor_mean",
+    "torque_motor_rms",
+)
+
 # Sentences for the statuses of the core.
 STATUS = {
     0: "solved",
@@ -98,9 +113,7 @@ class SteadyStates:
         """Entries and results as a table, a row for each machine (needs pandas)."""
         import pandas as pd
 
-        names = ["speed_min", "speed_max", "acceleration_min", "acceleration_max", "period", "multiplier"]
-        names += ["energy_motor", "energy_drive", "energy_load", "torque_motor_mean", "torque_motor_rms"]
-        names += ["unevenness", "dynamism", "motion_coefficient"]
+        names = [*_COLUMNS, "unevenness", "dynamism", "motion_coefficient"]
         columns = {name: getattr(self, name) for name in names}
         return pd.DataFrame({**self.entries, **columns, "status": self.status})
 
@@ -144,7 +157,8 @@ def steady_states(
     if not len(compiled.slots):
         raise InputError("none of the entries has an effect on the motion")
     status, table, turns = compiled.steady_rows(accuracy)
-    return SteadyStates(arrays, status, *np.ascontiguousarray(table.T)[:11], turns_swept=turns)
+    columns = dict(zip(_COLUMNS, np.ascontiguousarray(table.T), strict=False))
+    return SteadyStates(entries=arrays, status=status, turns_swept=turns, **columns)
 
 
 def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:

@@ -1,0 +1,50 @@
+"""The four-bar linkage by hand: arrays of crank angles or machines, with NumPy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+# Crank, frame, rocker [m]; place of the coupler point along and across the coupler [m].
+CRANK, FRAME, ROCKER = 0.1, 0.4, 0.3
+ALONG, ACROSS = 0.2, 0.1
+
+
+def motion(phi: Any, coupler: Any, out: Any) -> Any:
+    """Coupler point and rocker over the crank angle into ``out``.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (n,)
+        Crank angles [rad].
+    coupler : float or ndarray, shape (rows, 1)
+        Length of the coupler [m].
+    out : ndarray, shape (rows, 10, n)
+        x, y, x′, y′, x″, y″ of the point; cos ψ, sin ψ, ψ′, ψ″ of the rocker.
+    """
+    c, s = np.cos(phi), np.sin(phi)
+    ax, ay = CRANK * c, CRANK * s
+    ux, uy = FRAME - ax, -ay
+    u2 = ux * ux + uy * uy
+    k = u2 + (coupler - ROCKER) * (coupler + ROCKER)
+    S = np.sqrt(4.0 * coupler * coupler * u2 - k * k)
+    half = 0.5 / u2
+    bx, by = half * (k * ux - S * uy), half * (k * uy + S * ux)
+    ex, ey = bx / coupler, by / coupler
+    fx, fy = (bx - ux) / ROCKER, (by - uy) / ROCKER
+    kappa = ex * fy - ey * fx
+    # u′ = −a′, u″ = −a″
+    chi_d1 = (ay * fx - ax * fy) / (coupler * kappa)
+    psi_d1 = (ay * ex - ax * ey) / (ROCKER * kappa)
+    wx = ax + coupler * chi_d1**2 * ex - ROCKER * psi_d1**2 * fx
+    wy = ay + coupler * chi_d1**2 * ey - ROCKER * psi_d1**2 * fy
+    chi_d2 = (wx * fx + wy * fy) / (coupler * kappa)
+    psi_d2 = (wx * ex + wy * ey) / (ROCKER * kappa)
+    qx, qy = ALONG * ex - ACROSS * ey, ALONG * ey + ACROSS * ex
+    out[:, 0], out[:, 1] = ax + qx, ay + qy
+    out[:, 2], out[:, 3] = -ay - chi_d1 * qy, ax + chi_d1 * qx
+    out[:, 4] = -ax - chi_d2 * qy - chi_d1**2 * qx
+    out[:, 5] = -ay + chi_d2 * qx - chi_d1**2 * qy
+    out[:, 6], out[:, 7], out[:, 8], out[:, 9] = fx, fy, psi_d1, psi_d2
+    return out

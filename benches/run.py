@@ -1,0 +1,92 @@
+"""Measure the product and what a user would use instead: ``python benches/run.py [--quick] [CASE …]``.
+
+Prints one table and writes `benches/results.json`. What is compared, and how to read it: `benches/README.md`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from dataclasses import asdict
+from importlib import import_module
+from pathlib import Path
+
+from common import Row, facts
+from rich.console import Console
+from rich.table import Table
+
+# One file per question.
+CASES = ("steady_one", "transient_one", "steady_many", "motions_many", "start_up")
+
+RESULTS = Path(__file__).parent / "results.json"
+
+
+def main() -> None:
+    """Run the cases that are asked for."""
+    parser = argparse.ArgumentParser(description="Measure Linkwright and what a user would use instead.")
+    parser.add_argument("cases", nargs="*", metavar="CASE", help=f"of {', '.join(CASES)}; without it, all")
+    parser.add_argument("--quick", action="store_true", help="fewer repetitions and smaller batches")
+    asked = parser.parse_args()
+    unknown = set(asked.cases) - set(CASES)
+    if unknown:
+        parser.error(f"no case {', '.join(sorted(unknown))}; there is {', '.join(CASES)}")
+    # Wide enough for the table where the output is no terminal.
+    console = Console(width=None if sys.stdout.isatty() else 150)
+    here = facts()
+    rows: list[Row] = []
+    for name in asked.cases or CASES:
+        with console.status(f"{name} …"):
+            rows += import_module(name).rows(asked.quick)
+    console.print(table(rows, title(here)))
+    for nth, row in enumerate(rows, start=1):
+        console.print(f"{nth:>2}  {row.note}", highlight=False)
+    write(rows, here)
+    console.print(f"written to {RESULTS}")
+
+
+def title(here: dict[str, object]) -> str:
+    """Where and when the numbers are from."""
+    return f"{here['processor']}, {here['cores']} cores, load {here['load_average']}, {here['date']}"
+
+
+def table(rows: list[Row], head: str) -> Table:
+    """All rows for the terminal."""
+    made = Table(title=head, title_justify="left", box=None, pad_edge=False)
+    made.add_column("", justify="right")
+    made.add_column("case")
+    for column in ("product", "peer", "unit", "ratio"):
+        made.add_column(column, justify="right")
+    made.add_column("target")
+    made.add_column("peer")
+    for nth, row in enumerate(rows, start=1):
+        values = (number(row.product), number(row.peer), row.unit, number(row.ratio))
+        made.add_row(str(nth), row.case, *values, aim(row), row.peer_name)
+    return made
+
+
+def number(value: float | None) -> str:
+    """Three digits, or a dash."""
+    if value is None:
+        return "–"
+    return f"{value:,.0f}" if abs(value) >= 1000 else f"{value:.3g}"
+
+
+def aim(row: Row) -> str:
+    """The target and whether it is met."""
+    if row.target is None:
+        return ""
+    sign = "≤" if row.aim == "at most" else "≥"
+    word = "ratio " if row.aim == "ratio" else ""
+    verdict = {True: " [green]met[/]", False: " [red]missed[/]", None: " [yellow]not measured[/]"}[row.is_met]
+    return f"{word}{sign} {row.target:g}{verdict}"
+
+
+def write(rows: list[Row], here: dict[str, object]) -> None:
+    """All rows with the facts of the machine, as JSON."""
+    listed = [asdict(row) | {"is_met": row.is_met} for row in rows]
+    RESULTS.write_text(json.dumps({"machine": here, "rows": listed}, indent=2, ensure_ascii=False) + "\n")
+
+
+if __name__ == "__main__":
+    main()

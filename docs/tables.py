@@ -1,0 +1,100 @@
+"""Write the tables of `docs/file_format.md` from the descriptions themselves: ``python docs/tables.py``.
+
+A table stands between ``<!-- keys: NAME -->`` and ``<!-- end -->``, where NAME is a class of
+`linkwright.machine`. A test fails if the page is not what this file would write.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Annotated, Any, Literal, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticUndefined
+
+from linkwright import machine
+from linkwright.machine.schema_walk import mark_of, model_of, words_of
+from linkwright.units import Quantity, QuantityList
+
+PAGE = Path(__file__).with_name("file_format.md")
+
+_BLOCK = re.compile(r"(<!-- keys: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
+
+_HEAD = "| key | is | unit | if left out | meaning |\n| --- | --- | --- | --- | --- |\n"
+
+
+def written(text: str) -> str:
+    """The page with all its tables made anew."""
+    return _BLOCK.sub(lambda block: block[1] + table(getattr(machine, block[2])) + block[3], text)
+
+
+def models(text: str) -> list[str]:
+    """Names of the classes that the page has a table for."""
+    return [block[1] for block in _BLOCK.findall(text)]
+
+
+def table(model: type[BaseModel]) -> str:
+    """All keys of one table of a machine file."""
+    fields = model.model_fields.items()
+    return _HEAD + "".join(_row(field.alias or name, field) for name, field in fields)
+
+
+def _row(key: str, field: FieldInfo) -> str:
+    mark = mark_of(_annotation(field))
+    unit = mark.kind.unit or "–" if mark else "–"
+    cells = (f"`{key}`", _what(field, mark), unit, _default(field), field.description or _kind(field))
+    return "| " + " | ".join(cells) + " |\n"
+
+
+def _annotation(field: FieldInfo) -> Any:
+    """The annotation with its marks, which pydantic keeps apart where there is no union."""
+    return Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+
+
+def _what(field: FieldInfo, mark: Quantity | QuantityList | None) -> str:
+    """The quantity with its bound, or the words for anything else."""
+    if isinstance(mark, QuantityList):
+        return f"list of {mark.kind.noun}s"
+    if isinstance(mark, Quantity):
+        return mark.kind.noun + mark.bound.words.rstrip(",")
+    if get_origin(field.annotation) is dict or model_of(field.annotation) is not None:
+        return "table"
+    if _literals(field):
+        return _choices(field)
+    return words_of(field.annotation).removeprefix("a ").replace("another value", "a number")
+
+
+def _literals(field: FieldInfo) -> list[Any]:
+    """The alternatives that are given words."""
+    parts = (field.annotation, *get_args(field.annotation))
+    return [part for part in parts if get_origin(part) is Literal]
+
+
+def _choices(field: FieldInfo) -> str:
+    """The words that may stand here."""
+    words = " or ".join(
+        f"`{word!r}`".replace("'", '"') for part in _literals(field) for word in get_args(part)
+    )
+    return f"a number or {words}" if float in get_args(field.annotation) else words
+
+
+def _default(field: FieldInfo) -> str:
+    """What holds if the key is left out."""
+    if field.is_required():
+        return "**required**"
+    if field.default_factory is not None:
+        return "its defaults" if model_of(field.annotation) else "none"
+    if field.default in (None, "", PydanticUndefined):
+        return "–"
+    return f"`{field.default:.6g}`" if isinstance(field.default, float) else f'`"{field.default}"`'
+
+
+def _kind(field: FieldInfo) -> str:
+    """The meaning of the key ``kind``, which has no description of its own."""
+    return "Says which kind this is." if get_args(field.annotation) else ""
+
+
+if __name__ == "__main__":
+    PAGE.write_text(written(PAGE.read_text(encoding="utf-8")), encoding="utf-8")

@@ -1,0 +1,89 @@
+"""A study on the terminal: tables, findings in red, warnings in yellow; by rich."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, nullcontext
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+
+from linkwright.cli.check import summary
+from linkwright.report.tables import Table, tables
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from linkwright.analysis.study import Study
+
+# Letters in a line of a column's head.
+_HEAD = 12
+
+# Width for files and pipes, which have none of their own.
+_WIDTH = 100
+
+
+def print_study(study: Study) -> None:
+    """Print the tables, the findings and the warnings of a study.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+    """
+    from rich.console import Console
+
+    console = Console(highlight=False, soft_wrap=False)
+    if not console.is_terminal:
+        console = Console(highlight=False, width=_WIDTH)
+    console.print(summary(study.machine), markup=False)
+    for table in tables(study):
+        console.print()
+        console.print(_drawn(table))
+    for part in _sentences(study):
+        console.print()
+        console.print(part)
+
+
+def progress(words: str) -> AbstractContextManager[Any]:
+    """A moving sign on standard error while something takes long; nothing where nobody looks.
+
+    Parameters
+    ----------
+    words : str
+        What is being done.
+    """
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    return console.status(words) if console.is_terminal else nullcontext()
+
+
+def _drawn(table: Table) -> RenderableType:
+    """A table of words, symbols and numbers."""
+    from rich import box
+    from rich.table import Table as Drawn
+
+    drawn = Drawn(
+        title=table.title,
+        title_justify="left",
+        title_style="bold",
+        box=box.SIMPLE_HEAD,
+        show_edge=False,
+        pad_edge=False,
+    )
+    drawn.add_column(table.heads[0])
+    drawn.add_column(table.heads[1], style="cyan", no_wrap=True)
+    for head in table.heads[2:]:
+        # A narrow terminal may break the words in front, never a number.
+        drawn.add_column(fill(head, _HEAD), no_wrap=True)
+    for row in table.rows:
+        drawn.add_row(*row)
+    return drawn
+
+
+def _sentences(study: Study) -> Iterator[RenderableType]:
+    from rich.text import Text
+
+    for word, colour, texts in (("FINDING", "red", study.findings), ("WARNING", "yellow", study.warnings)):
+        for text in texts:
+            yield Text.assemble((f"{word}  ", f"bold {colour}"), (text, colour))

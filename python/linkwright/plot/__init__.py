@@ -1,0 +1,33 @@
+"""Figures of results: functions that take results and return a matplotlib `Figure`; they compute nothing.
+
+| module | draws |
+| --- | --- |
+| `reduction` | reduced inertia and torque over a turn |
+| `steady` | speed, acceleration, torque and power over a turn and over time |
+| `motor` | the motor's characteristic, and the part of it that steady motion uses |
+| `run_up` | speed from the start to steady motion |
+| `compare` | steady motion of several machines in one picture |
+| `style` | colours, fonts, axes |
+| `svg` | a figure as SVG text |
+
+matplotlib is imported when the first figure is drawn.
+"""
+
+from linkwright.plot.compare import compare_figure
+from linkwright.plot.motor import motor_figure
+from linkwright.plot.reduction import reduction_figure
+from linkwright.plot.run_up import attempt_figure, run_up_figure
+from linkwright.plot.steady import speed_figure, time_figure, torque_figure
+from linkwright.plot.svg import svg
+
+__all__ = [
+    "attempt_figure",
+    "compare_figure",
+    "motor_figure",
+    "reduction_figure",
+    "run_up_figure",
+    "speed_figure",
+    "svg",
+    "time_figure",
+    "torque_figure",
+]

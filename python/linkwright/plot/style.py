@@ -1,0 +1,146 @@
+"""What all figures share: colours, fonts, axes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+P = ParamSpec("P")
+R = TypeVar("R")
+Floats = NDArray[np.float64]
+
+# Okabe and Ito's colours, told apart by all kinds of colour vision (jfly.uni-koeln.de/color, 2008); yellow is
+# left out, it is too faint for lines on white, and the purple is darker for the same reason.
+BLUE = "#0072b2"
+RED = "#d55e00"
+GREEN = "#009e73"
+ORANGE = "#e69f00"
+PURPLE = "#a8478a"
+SKY = "#56b4e9"
+LINES = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY)
+
+INK = "#1d2329"
+SOFT = "#6b7480"
+GRID = "#d9dde2"
+PAPER = "#fefefe"
+
+# One meaning, one colour, in all figures.
+SPEED, ACCELERATION = BLUE, RED
+DRIVE, LOAD, MOTOR, INERTIA = BLUE, RED, PURPLE, GREEN
+
+# A column of text on A4 [inch].
+WIDTH = 7.1
+
+STYLE: Any = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9,
+    "mathtext.fontset": "dejavusans",
+    "axes.edgecolor": SOFT,
+    "axes.labelcolor": INK,
+    "axes.labelsize": 9,
+    "axes.titlesize": 9,
+    "axes.linewidth": 0.8,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.facecolor": "none",
+    "figure.facecolor": PAPER,
+    "grid.color": GRID,
+    "grid.linewidth": 0.7,
+    "lines.linewidth": 1.8,
+    "lines.solid_capstyle": "round",
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "legend.labelcolor": INK,
+    "text.color": INK,
+    "xtick.color": SOFT,
+    "ytick.color": SOFT,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "xtick.labelsize": 8.5,
+    "ytick.labelsize": 8.5,
+    # Outlines in place of letters look the same where the font is missing.
+    "svg.fonttype": "path",
+    # Names inside the file are the same in every run.
+    "svg.hashsalt": "linkwright",
+}
+
+
+def styled(draw: Callable[P, R]) -> Callable[P, R]:
+    """Let a function draw in the style of all figures, whatever the user has set elsewhere."""
+
+    @wraps(draw)
+    def drawn(*args: P.args, **kwargs: P.kwargs) -> R:
+        from matplotlib import rc_context
+
+        with rc_context(STYLE):
+            return draw(*args, **kwargs)
+
+    return drawn
+
+
+def panels(rows: int, *, height: float, columns: int = 1, shared: bool = True) -> tuple[Figure, list[Axes]]:
+    """A figure with axes above one another, or side by side, that share what is along x.
+
+    Parameters
+    ----------
+    rows, columns : int
+        How many axes.
+    height : float
+        Of the figure [inch].
+    shared : bool
+        Whether the axes in a column share their x.
+
+    Returns
+    -------
+    Figure, list of Axes
+        Row by row.
+    """
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    axes = figure.subplots(rows, columns, sharex="col" if shared else "none", squeeze=False)
+    return figure, list(axes.ravel())
+
+
+def turn_axis(axes: Axes, *, label: bool = True) -> None:
+    """Let x be the crank angle of one turn in degrees."""
+    axes.set_xlim(0, 360)
+    axes.set_xticks(range(0, 361, 45))
+    if label:
+        axes.set_xlabel("crank angle φ [°]")
+
+
+def legend_above(axes: Axes) -> None:
+    """A legend in one line above the axes, where no line runs through it."""
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=4, borderaxespad=0.2, handlelength=1.8)
+
+
+def level(axes: Axes, value: float, text: str, colour: str = SOFT) -> None:
+    """A dashed line at a height, with its words in the legend."""
+    axes.axhline(value, color=colour, linewidth=1.1, linestyle=(0, (5, 3)), label=text)
+
+
+def zero_line(axes: Axes) -> None:
+    """A thin line at zero, where the axes reach below it."""
+    if axes.get_ylim()[0] < 0 < axes.get_ylim()[1]:
+        axes.axhline(0, color=SOFT, linewidth=0.8)
+
+
+def roomy(axes: Axes, *values: Floats, share: float = 0.12) -> None:
+    """Limits in y that hold values with room around them, also where they are all the same."""
+    low = min(float(np.min(each)) for each in values)
+    high = max(float(np.max(each)) for each in values)
+    # A constant gets a tenth of itself to both sides, so that rounding does not fill the picture.
+    span = high - low if high - low > 1e-6 * max(abs(low), abs(high)) else 0.2 * (abs(high) or 1.0)
+    middle = 0.5 * (low + high)
+    axes.set_ylim(middle - (0.5 + share) * span, middle + (0.5 + share) * span)

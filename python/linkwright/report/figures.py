@@ -1,0 +1,112 @@
+"""The figures of a study with their captions: each says in words what its numbers say."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkwright.analysis.characteristic import characteristic
+from linkwright.analysis.study import Study
+from linkwright.machine import ConstantSpeedMotor
+from linkwright.plot import (
+    attempt_figure,
+    motor_figure,
+    reduction_figure,
+    run_up_figure,
+    speed_figure,
+    time_figure,
+    torque_figure,
+)
+from linkwright.report.quantities import number
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+# The motor's curve is drawn beyond the fastest instant of the turn by this share of it, and half the range of
+# speeds: as far as the detail beside it looks.
+_BEYOND = 0.012
+
+
+class Captioned(NamedTuple):
+    """A figure, its name in the page, its title, and its caption."""
+
+    name: str
+    title: str
+    caption: str
+    figure: Figure
+
+
+def figures(study: Study) -> Iterator[Captioned]:
+    """The figures that a study has results for.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Yields
+    ------
+    Captioned
+        In the order of the page.
+    """
+    yield from _steady(study)
+    yield from _motor(study)
+    yield from _run_up(study)
+    yield from _reduction(study)
+
+
+def _reduction(study: Study) -> Iterator[Captioned]:
+    reduced = study.reduction
+    if reduced is None:
+        return
+    low, high, mean = reduced.inertia_min, reduced.inertia_max, reduced.torque_load_mean
+    caption = (
+        f"Inertia that the crank feels, from {number(low)} to {number(high)} kg m², and torque that the "
+        f"loads ask of it, {number(mean)} N m on average."
+    )
+    yield Captioned("reduction", "Reduced inertia and torque", caption, reduction_figure(reduced))
+
+
+def _steady(study: Study) -> Iterator[Captioned]:
+    steady = study.steady_state
+    if steady is None:
+        return
+    low, high = number(steady.speed_min), number(steady.speed_max)
+    caption = (
+        f"The crank turns at {low} to {high} rad/s, δ = {number(steady.unevenness)}; a turn takes "
+        f"{number(steady.period)} s."
+    )
+    yield Captioned("speed", "Speed and acceleration over a turn", caption, speed_figure(steady))
+    caption = (
+        "Where the driving torque lies above the resisting one, the machine does not simply speed up: "
+        f"the reduced inertia changes too. The motor works {number(steady.energy_motor)} J in a turn."
+    )
+    yield Captioned("torque", "Torque and power over a turn", caption, torque_figure(steady))
+    caption = "The same motion against time: what a tachometer and the motor's winding feel."
+    yield Captioned("time", "Speed and motor torque over time", caption, time_figure(steady))
+
+
+def _motor(study: Study) -> Iterator[Captioned]:
+    drive, steady, reduced = study.machine.drive, study.steady_state, study.reduction
+    if drive is None or drive.motor is None or reduced is None or isinstance(drive.motor, ConstantSpeedMotor):
+        return
+    reach = (1.5 + _BEYOND) * steady.speed_max - 0.5 * steady.speed_min if steady else 0.0
+    curve = characteristic(study.machine, reduced=reduced, speed_max=reach * drive.gearbox.ratio)
+    caption = "Torque over speed at the motor's shaft, against the mean load of a turn."
+    if steady is not None:
+        slow, fast = (number(speed * drive.gearbox.ratio) for speed in (steady.speed_min, steady.speed_max))
+        caption += f" Shaded: the speeds of steady motion, {slow} to {fast} rad/s."
+    yield Captioned("motor", "Motor and working range", caption, motor_figure(curve, steady))
+
+
+def _run_up(study: Study) -> Iterator[Captioned]:
+    if study.run_up is not None:
+        run_up = study.run_up
+        caption = (
+            f"Steady motion, to within {100 * run_up.settled:.3g} %, is reached after "
+            f"{number(run_up.time)} s and {number(run_up.turns)} turns."
+        )
+        yield Captioned("run_up", "Run-up", caption, run_up_figure(run_up, study.steady_state))
+    elif study.attempt is not None and len(study.attempt.time) > 1:
+        caption = f"The motion ends after {number(study.attempt.turns)} turns."
+        yield Captioned("run_up", "Run-up that fails", caption, attempt_figure(study.attempt))

@@ -1,0 +1,126 @@
+"""Formulas of a report, as MathML, with their sources."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+PAPER_1 = (
+    "Paper 1: “Аналіз нерівномірності руху приводних механізмів машин роликового формування” (Analysis of "
+    "the unevenness of motion of the drive mechanisms of roller-forming machines)"
+)
+
+
+class Formula(NamedTuple):
+    """A formula: what it says, its MathML, and where it is from."""
+
+    words: str
+    math: str
+    source: str
+
+
+def _math(text: str) -> str:
+    """MathML of symbols with spaces between them; ``x_y``, ``x^y``, ``frac(a|b)`` and ``root(a)`` do more."""
+    return f'<math displaystyle="true"><mrow>{_row(text)}</mrow></math>'
+
+
+# What stands between two formulas, with room around it.
+_BETWEEN = {"or": "\u2003or\u2003", ",": ",\u2003"}
+
+_PIECE = re.compile(r"(frac|root)\(((?:[^()]|\([^()]*\))*)\)|(\S+)")
+
+
+def _row(text: str) -> str:
+    return "".join(_piece(match) for match in _PIECE.finditer(text))
+
+
+def _piece(match: re.Match[str]) -> str:
+    """A fraction, a root, or one symbol."""
+    if match[1] == "frac":
+        over, under = match[2].split("|")
+        return f"<mfrac><mrow>{_row(over)}</mrow><mrow>{_row(under)}</mrow></mfrac>"
+    if match[1] == "root":
+        return f"<msqrt>{_row(match[2])}</msqrt>"
+    if match[3] in _BETWEEN:
+        return f"<mtext>{_BETWEEN[match[3]]}</mtext>"
+    return _symbol(match[3])
+
+
+def _symbol(text: str) -> str:
+    """A symbol with its index and its power."""
+    base, _, power = text.partition("^")
+    base, _, index = base.partition("_")
+    core = f"<{_tag(base)}>{base}</{_tag(base)}>"
+    if not index and not power:
+        return core
+    below = f"<mtext>{index}</mtext>" if index else "<mrow></mrow>"
+    above = f"<mn>{power}</mn>" if power else "<mrow></mrow>"
+    return f"<msubsup>{core}{below}{above}</msubsup>"
+
+
+def _tag(text: str) -> str:
+    """Element of MathML for a symbol: a number, an operator, or a letter."""
+    if text[0].isdigit():
+        return "mn"
+    return "mi" if text[0].isalpha() else "mo"
+
+
+MOTION = Formula(
+    "Motion of the machine, reduced to the crank",
+    _math("J ω frac(d ω|d φ) + frac(1|2) ω^2 frac(d J|d φ) = M_d − M_r"),
+    "paper 1 (1)",
+)
+INERTIA = Formula(
+    "Reduced inertia, over all bodies and the drive",
+    _math("J = J_0 + Σ ( m |p′|^2 + J_S ψ′^2 )"),
+    "paper 1 (10), for any linkage",
+)
+LOAD = Formula(
+    "Reduced torque of all forces and torques",
+    _math("M_r = − Σ F · p′ − Σ M ψ′"),
+    "paper 1 (5), for any linkage",
+)
+KLOSS = Formula(
+    "Torque of an induction motor over its slip",
+    _math("M = frac(2 M_k|s / s_k + s_k / s) , s = frac(ω_0 − ω_m|ω_0)"),
+    "Kloss 1909; paper 1 (8)",
+)
+GEARBOX = Formula("Driving torque at the crank, behind the gearbox", _math("M_d = M i η"), "paper 1 (9)")
+UNEVENNESS = Formula("Coefficient of unevenness", _math("δ = frac(ω_max − ω_min|ω_mean)"), "paper 1 (13)")
+DYNAMISM = Formula("Coefficient of dynamism", _math("H = frac(∣ε∣_max|ω_mean^2)"), "paper 1 (14)")
+COEFFICIENT = Formula("Generalised coefficient of motion", _math("k_p = δ^2 + H"), "paper 1 (15)")
+MEANS = Formula(
+    "Mean speed, of the extremes or over time",
+    _math("ω_mean = frac(ω_max + ω_min|2) or ω_mean = frac(2 π|T)"),
+    "paper 1 takes the first",
+)
+LIMIT = Formula(
+    "Constant-energy limit: motor and loads switched off",
+    _math("ω ∝ frac(1|root(J)) , ε = − frac(ω^2|2 J) frac(d J|d φ)"),
+    "(1) without torques",
+)
+STEPS = Formula(
+    "Step method",
+    _math("ω_k+1 = frac(( M_d − M_r ) Δφ|J_k ω_k) + frac(3 J_k − J_k+1|2 J_k) ω_k"),
+    "Baranov; paper 1 (4)",
+)
+
+
+def formulas(*, induction: bool, motor: bool, steps: bool) -> list[Formula]:
+    """The formulas that a report needs.
+
+    Parameters
+    ----------
+    induction, motor, steps : bool
+        Whether there is an induction motor, any motor, the step method.
+
+    Returns
+    -------
+    list of Formula
+        From the motion to its measures.
+    """
+    found = [MOTION, INERTIA, LOAD]
+    found += [KLOSS] if induction else []
+    found += [GEARBOX] if motor else []
+    found += [UNEVENNESS, DYNAMISM, COEFFICIENT, MEANS] if motor else []
+    return [*found, LIMIT, *([STEPS] if steps else [])]

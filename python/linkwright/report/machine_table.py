@@ -1,0 +1,128 @@
+"""The entries of a machine as rows of words, each number with its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from pydantic import BaseModel
+
+from linkwright.machine import Machine, kind
+from linkwright.machine.plain import field_names, keys, look
+from linkwright.machine.text import join
+from linkwright.report.quantities import degrees, number, pretty_unit
+
+Place = tuple[str, ...]
+
+# Longer lists are cut; the machine file holds them all.
+_LONGEST_LIST = 12
+
+
+class Entry(NamedTuple):
+    """An entry: its word, its value with the unit, and whether it was given or follows from others."""
+
+    word: str
+    value: str
+    given: bool = True
+
+
+class Part(NamedTuple):
+    """A part of a machine: its group, its name, and its entries."""
+
+    group: str
+    name: str
+    entries: list[Entry]
+
+
+def machine_parts(machine: Machine) -> list[Part]:
+    """All parts of a machine.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    list of Part
+        In the order drive, mechanism, bodies, loads, run-up.
+    """
+    return [*_drive(machine), *_mechanism(machine), *_tables(machine), *_run_up(machine)]
+
+
+def _drive(machine: Machine) -> Iterator[Part]:
+    if machine.drive is None:
+        return
+    if machine.drive.speed is not None:
+        yield Part(
+            "Drive", "design", [Entry("speed", _value(machine, ("drive", "speed"), machine.drive.speed))]
+        )
+    for name in ("motor", "gearbox", "coupling", "flywheel", "brake"):
+        if getattr(machine.drive, name) is not None:
+            yield _part("Drive", machine, ("drive", name))
+
+
+def _mechanism(machine: Machine) -> Iterator[Part]:
+    words = {"points": "Fixed points", "cranks": "Cranks", "sliders": "Sliders", "rockers": "Rockers"}
+    for table, group in {**words, "rigid_points": "Points on links"}.items():
+        for name in getattr(machine.mechanism, table):
+            yield _part(group, machine, ("mechanism", table, name))
+
+
+def _tables(machine: Machine) -> Iterator[Part]:
+    for table in ("bodies", "loads"):
+        for name in getattr(machine, table):
+            yield _part(table.capitalize(), machine, (table, name))
+
+
+def _run_up(machine: Machine) -> Iterator[Part]:
+    """The options of the run-up, if the file has any."""
+    if machine.run_up.model_fields_set:
+        yield _part("Run-up", machine, ("run_up",))
+
+
+def _part(group: str, machine: Machine, place: Place) -> Part:
+    """One part with all entries that it has."""
+    node: Any = machine
+    for key in place:
+        node = look(node, key)
+    found = {key: look(node, key) for key in keys(node)}
+    assumed = _not_given(node)
+    # A zero that nobody wrote says nothing.
+    entries = [
+        Entry(key.replace("_", " "), _value(machine, (*place, key), value), key not in assumed)
+        for key, value in found.items()
+        if value is not None and not (key in assumed and value == 0)
+    ]
+    return Part(group, place[-1].replace("_", " ") if len(place) < 3 else place[-1], entries)
+
+
+def _not_given(node: object) -> set[str]:
+    """Keys of the entries that follow from others or have their usual value."""
+    if not isinstance(node, BaseModel):
+        return set()
+    names = field_names(type(node))
+    return {key for key, name in names.items() if name not in node.model_fields_set}
+
+
+def _value(machine: Machine, place: Place, value: Any) -> str:
+    """One entry as text, with its unit."""
+    if isinstance(value, tuple):
+        if value and isinstance(value[0], str):
+            return ", ".join(value)
+        return _list(machine, place, value)
+    if isinstance(value, bool | str):
+        return str(value).replace("_", " ")
+    quantity = kind(machine, join(place))
+    unit = quantity.unit if quantity else ""
+    return degrees(value) if unit == "rad" else f"{number(value, 6)} {pretty_unit(unit)}".rstrip()
+
+
+def _list(machine: Machine, place: Place, values: tuple[float, ...]) -> str:
+    """Several values of one quantity."""
+    quantity = kind(machine, join((*place, "0")))
+    unit = quantity.unit if quantity else ""
+    shown = values[:_LONGEST_LIST]
+    texts = [degrees(each) if unit == "rad" else number(each, 6) for each in shown]
+    more = ["…"] if len(values) > len(shown) else []
+    return f"{', '.join(texts + more)} {'' if unit == 'rad' else pretty_unit(unit)}".rstrip()

@@ -1,0 +1,205 @@
+// The moving sketch: draws the parts of #scene at an instant, and lets the instant go on with the machine's own time.
+(() => {
+  "use strict";
+  const scene = JSON.parse(document.getElementById("scene").textContent);
+  const svg = document.getElementById("sketch");
+  const COLOURS = ["--blue", "--red", "--green", "--purple", "--orange", "--sky"];
+  const last = scene.times.length - 1;
+  const duration = scene.times[last];
+
+  // A page's worth of units across, whatever the size of the machine; y points up in the machine, down on the page.
+  const [left, bottom, right, top_] = scene.box;
+  const scale = Math.min(640 / Math.max(right - left, 1e-9), 330 / Math.max(top_ - bottom, 1e-9));
+  const MARGIN = 70;
+  const width = Math.max((right - left) * scale, 200) + 2 * MARGIN;
+  const height = (top_ - bottom) * scale + 2 * MARGIN;
+  const slack = (width - (right - left) * scale) / 2;
+  svg.setAttribute("viewBox", `0 0 ${width.toFixed(1)} ${height.toFixed(1)}`);
+  const place = (x, y) => [(x - left) * scale + slack, (top_ - y) * scale + MARGIN];
+
+  function add(tag, name, attributes = {}) {
+    const element = document.createElementNS(svg.namespaceURI, tag);
+    element.setAttribute("class", name);
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+    svg.append(element);
+    return element;
+  }
+
+  // Where a point is at k, a place in the tables that may lie between two entries.
+  function at(name, k) {
+    const [xs, ys] = scene.points[name];
+    const n = Math.min(Math.floor(k), last - 1), z = k - n;
+    return place(xs[n] + z * (xs[n + 1] - xs[n]), ys[n] + z * (ys[n + 1] - ys[n]));
+  }
+
+  function title(element, text) {
+    const words = document.createElementNS(svg.namespaceURI, "title");
+    words.textContent = text;
+    element.append(words);
+  }
+
+  function hatch(x, y, length, turn) {
+    const lines = [];
+    for (let s = -length / 2; s <= length / 2 + 0.01; s += 8) lines.push(`M${s} 0l-6 8`);
+    add("path", "hatch", { d: lines.join(""), transform: `translate(${x} ${y}) rotate(${turn})` });
+  }
+
+  // Each maker draws a part once and gives back what moves it, if it moves.
+  const makers = {
+    guide(part) {
+      const [a, b] = part.ends.map(([x, y]) => place(x, y));
+      const turn = -part.angle * 180 / Math.PI;
+      const length = Math.hypot(b[0] - a[0], b[1] - a[1]) + 76;
+      const [x, y] = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+      const offset = `translate(${x} ${y}) rotate(${turn}) translate(0 16)`;
+      add("path", "guide", { d: `M${-length / 2} 0H${length / 2}`, transform: offset, "stroke-width": 1.5 });
+      const radians = turn * Math.PI / 180;
+      hatch(x - 16 * Math.sin(radians), y + 16 * Math.cos(radians), length, turn);
+    },
+    ground(part) {
+      const [x, y] = at(part.name, 0);
+      add("path", "ground", { d: `M${x} ${y}l-13 22h26z`, "stroke-width": 1.5 });
+      hatch(x, y + 22, 38, 0);
+      const words = add("text", "name", { x: x + 16, y: y + 18 });
+      words.textContent = part.name;
+    },
+    trace(part) {
+      const points = scene.points[part.name][0].map((_, k) => at(part.name, k).map((v) => v.toFixed(1)).join(" "));
+      add("path", "trace", { d: "M" + points.join("L"), "stroke-width": 1.2 });
+    },
+    link(part) {
+      const stroke = `var(${COLOURS[part.series % COLOURS.length]})`;
+      const line = add("line", "link", { stroke, "stroke-width": part.role === "crank" ? 9 : 6 });
+      title(line, part.name);
+      return (k) => ends(line, at(part.from, k), at(part.to, k));
+    },
+    plate(part) {
+      const plate = add("polygon", "plate", { fill: `var(${COLOURS[part.series % COLOURS.length]})` });
+      return (k) => plate.setAttribute("points", part.corners.map((name) => at(name, k).join(" ")).join(" "));
+    },
+    spring(part) {
+      const path = add("path", "spring", { "stroke-width": 2 });
+      title(path, part.name);
+      return (k) => path.setAttribute("d", coil(at(part.from, k), at(part.to, k)));
+    },
+    slider(part) {
+      const size = part.heavy ? [44, 30] : [30, 22];
+      const stroke = `var(${COLOURS[part.series % COLOURS.length]})`;
+      const box = { x: -size[0] / 2, y: -size[1] / 2, width: size[0], height: size[1], rx: 3, stroke, "stroke-width": 3 };
+      const block = add("rect", "block", box);
+      title(block, part.name);
+      const turn = -part.angle * 180 / Math.PI;
+      return (k) => block.setAttribute("transform", `translate(${at(part.name, k).join(" ")}) rotate(${turn})`);
+    },
+    mass(part) {
+      const dot = add("circle", "mass", { r: part.at ? 9 : 4 });
+      title(dot, part.name);
+      if (part.at) return (k) => centre(dot, at(part.at, k));
+      return (k) => {
+        const [a, b] = [at(part.from, k), at(part.to, k)];
+        const [dx, dy] = [b[0] - a[0], b[1] - a[1]], [u, v] = part.place;
+        centre(dot, [a[0] + u * dx + v * dy, a[1] + u * dy - v * dx]);
+      };
+    },
+    point(part) {
+      const joint = add("circle", "joint", { r: 5, "stroke-width": 2 });
+      title(joint, part.name);
+      const words = add("text", "name");
+      words.textContent = part.slides ? part.name : "";
+      return (k) => {
+        const [x, y] = at(part.name, k);
+        centre(joint, [x, y]);
+        words.setAttribute("x", x - 16);
+        words.setAttribute("y", y - 24 - 15 * part.series);
+      };
+    },
+  };
+
+  function ends(line, [x1, y1], [x2, y2]) {
+    for (const [key, value] of Object.entries({ x1, y1, x2, y2 })) line.setAttribute(key, value);
+  }
+  function centre(circle, [x, y]) {
+    circle.setAttribute("cx", x);
+    circle.setAttribute("cy", y);
+  }
+  function coil([x1, y1], [x2, y2]) {
+    const length = Math.hypot(x2 - x1, y2 - y1) || 1, [nx, ny] = [-(y2 - y1) / length, (x2 - x1) / length];
+    const zigzag = Array.from({ length: 13 }, (_, n) => {
+      const side = n < 2 || n > 10 ? 0 : (n % 2 ? 9 : -9), z = n / 12;
+      return `${x1 + z * (x2 - x1) + side * nx} ${y1 + z * (y2 - y1) + side * ny}`;
+    });
+    return "M" + zigzag.join("L");
+  }
+
+  const movers = scene.parts.map((part) => makers[part.kind](part)).filter(Boolean);
+  const [play, angle, pace, state] = ["play", "angle", "pace", "state"].map((id) => document.getElementById(id));
+
+  // Place in the tables of an instant, by halving.
+  function index(time) {
+    let low = 0, high = last;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (scene.times[middle] <= time) low = middle; else high = middle;
+    }
+    return low + (time - scene.times[low]) / (scene.times[high] - scene.times[low]);
+  }
+  function between(values, k) {
+    const n = Math.min(Math.floor(k), last - 1);
+    return values[n] + (k - n) * (values[n + 1] - values[n]);
+  }
+  function draw(k) {
+    for (const move of movers) move(k);
+    const degrees = (between(scene.angles, k) * 180 / Math.PI) % 360;
+    const speed = between(scene.speeds, k);
+    const words = `φ = ${degrees.toFixed(0).padStart(3, "\u2007")}°`;
+    state.textContent = scene.true_speed ? `${words}   ω = ${speed.toPrecision(4)} rad/s` : words;
+  }
+
+  // One turn in two seconds at the middle of the slider, or in its own time if that is longer and still watchable.
+  const usual = Math.min(Math.max(duration, 2), 8);
+  let time = 0, way = 1, before = null;
+  const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  let playing = !still;
+
+  function step(now) {
+    if (playing) {
+      if (before !== null) {
+        time += way * Math.min(now - before, 100) / 1000 * (duration / usual) * 10 ** Number(pace.value);
+      }
+      before = now;
+      if (scene.swings && (time >= duration || time <= 0)) {
+        way = time <= 0 ? 1 : -1;
+        time = Math.min(Math.max(time, 0), duration);
+      }
+      if (!scene.swings) time %= duration;
+      const k = index(time);
+      angle.value = k / last;
+      draw(k);
+      requestAnimationFrame(step);
+    }
+  }
+  function setPlaying(on) {
+    playing = on;
+    before = null;
+    play.textContent = on ? "Pause" : "Play";
+    play.setAttribute("aria-pressed", String(on));
+    if (on) requestAnimationFrame(step);
+  }
+  play.addEventListener("click", () => setPlaying(!playing));
+  angle.addEventListener("input", () => {
+    setPlaying(false);
+    const k = Number(angle.value) * last;
+    time = between(scene.times, k);
+    draw(k);
+  });
+
+  const shown = usual / duration;
+  const factor = shown > 1.05 ? `${shown.toPrecision(2)} times slower than the machine` : "as fast as the machine";
+  document.getElementById("sketch-words").textContent = scene.true_speed
+    ? `Moves with the true uneven speed of steady motion; with the pace in the middle ${factor}. Dots: centres of mass.`
+    : scene.swings
+      ? "Does not close all round: swings within the range of crank angles where it does. Dots: centres of mass."
+      : "Turns evenly, for want of a steady motion. Dots: centres of mass.";
+  draw(0);
+  setPlaying(playing);
+})();

@@ -1,0 +1,230 @@
+"""Run-up, run-down, motion in time, the step method and batches, from Python."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import linkwright as lw
+from linkwright.errors import (
+    AssemblyError,
+    InputError,
+    MachineError,
+    ShapeError,
+    StartError,
+    SteadyStateError,
+)
+
+MACHINES = Path(__file__).parents[2] / "machines"
+
+
+@pytest.fixture(scope="module")
+def two_carts() -> lw.Machine:
+    return lw.read(MACHINES / "roller_two_carts.toml")
+
+
+def test_transient_against_scipy() -> None:
+    """Slider-crank under constant torque and dry resistance, two seconds, against DOP853 of SciPy."""
+    r, rod, m, q, J0, M, F = 0.2, 0.8, 1000.0, 64.0, 48.4, 500.0, 3562.0
+    text = f"""
+    format = 1
+    name = "slider-crank"
+    [drive.motor]
+    kind = "constant_torque"
+    torque = {M}
+    [drive.flywheel]
+    inertia = {J0}
+    [mechanism.cranks.A]
+    radius = {r}
+    [mechanism.sliders.S]
+    crank = "A"
+    rod = {rod}
+    [bodies]
+    S = {{ mass = {m} }}
+    "S.rod" = {{ mass = {q} }}
+    [loads]
+    dry = {{ kind = "dry", on = "S", force = {F} }}
+    """
+
+    def J_and_slope(phi: float) -> tuple[float, float, float]:
+        lam = r / rod
+        s, c = np.sin(phi), np.cos(phi)
+        D = np.sqrt(1 - lam**2 * s**2)
+        x1 = -r * s * (1 + lam * c / D)
+        x2 = -r * c - r * lam * ((c * c - s * s) / D + lam**2 * s * s * c * c / D**3)
+        y1, y2 = 0.5 * r * c, -0.5 * r * s
+        g1, g2 = 0.5 * (x1 - r * s), 0.5 * (x2 - r * c)
+        b1 = -lam * c / D
+        b2 = lam * s / D - lam**3 * s * c * c / D**3
+        J = J0 + m * x1**2 + q * (g1**2 + y1**2) + q * rod**2 / 12 * b1**2
+        J1 = 2 * (m * x1 * x2 + q * (g1 * g2 + y1 * y2) + q * rod**2 / 12 * b1 * b2)
+        return J, J1, x1
+
+    def rhs(t: float, y: np.ndarray) -> list[float]:
+        J, J1, x1 = J_and_slope(y[0])
+        return [y[1], (M - F * abs(x1) - 0.5 * J1 * y[1] ** 2) / J]
+
+    reference = solve_ivp(rhs, (0, 2), [0.0, 8.0], method="DOP853", rtol=1e-12, atol=1e-12, max_step=1e-3)
+    path = lw.transient(lw.loads(text), speed=8.0, duration=2.0, accuracy=1e-10)
+    # SciPy steps over the kinks of |x′| with steps of 1 ms: an error of order h² times the kink.
+    assert path.speed[-1] == pytest.approx(reference.y[1, -1], rel=1e-8)
+    assert path.crank_angle[-1] == pytest.approx(reference.y[0, -1], rel=1e-8)
+    # Steps of a fifth of a turn are long for a quintic: it keeps five digits of the speed between them.
+    inside = np.linspace(0.1, 1.9, 50)
+    dense = solve_ivp(
+        rhs, (0, 2), [0.0, 8.0], method="DOP853", rtol=1e-12, atol=1e-12, t_eval=inside, max_step=1e-3
+    )
+    np.testing.assert_allclose(path.at(inside)[1], dense.y[1], rtol=2e-5)
+
+
+def test_run_up_settles_into_steady_motion(two_carts: lw.Machine) -> None:
+    result = lw.run_up(two_carts)
+    steady = lw.steady_state(two_carts)
+    angle, speed = result.motion.at(np.array([result.time]))
+    there = np.interp(angle % (2 * np.pi), steady.crank_angle, steady.speed)
+    # At that time the speed is just on the edge of the band; the curves are good to 1e-4.
+    assert abs(speed[0] - there[0]) / steady.speed_mean_time == pytest.approx(0.01, abs=2e-4)
+    assert result.turns == pytest.approx(angle[0] / (2 * np.pi))
+
+
+def test_too_weak_a_start_names_angle_and_torques(two_carts: lw.Machine) -> None:
+    weak = lw.replace(two_carts, {"drive.motor.torque_start": 39.8})
+    with pytest.raises(
+        StartError, match=r"does not start: at 0\.0° the motor gives 351 N m .* needs 775 N m"
+    ):
+        lw.run_up(weak)
+
+
+def test_stall_on_the_way_is_told(two_carts: lw.Machine) -> None:
+    heavy = lw.replace(two_carts, {"loads.rolling1.force": 12000.0})
+    with pytest.raises(StartError, match="stalls after"):
+        lw.run_up(heavy)
+
+
+def test_a_rod_too_short_is_told_with_angles(two_carts: lw.Machine) -> None:
+    """sin φ = l/r bounds the ranges in which a rod shorter than the crank closes."""
+    short = lw.replace(two_carts, {"mechanism.sliders.cart1.rod": 0.15})
+    edge = np.degrees(np.arcsin(0.15 / 0.2))
+    found = lw.closure(short)
+    assert not found.turns_fully
+    np.testing.assert_allclose(np.degrees(found.ranges[0]), [180 - edge, 180 + edge], atol=1e-6)
+    np.testing.assert_allclose(np.degrees(found.ranges[1]), [360 - edge, 360 + edge], atol=1e-6)
+    for analysis in (lw.reduction, lw.steady_state, lw.run_up, lw.constant_energy, lw.kinematics):
+        with pytest.raises(AssemblyError, match="cart1"):
+            analysis(short)
+
+
+def test_run_down_against_its_energy(two_carts: lw.Machine) -> None:
+    """Without a brake the kinetic energy is used up by the loads."""
+    steady = lw.steady_state(two_carts)
+    result = lw.run_down(two_carts)
+    reduced = lw.reduction(two_carts, n=7200)
+    phi = reduced.crank_angle
+    upto = phi <= result.angle_end
+    whole, rest = int(result.turns), phi[upto]
+    work = whole * 2 * np.pi * reduced.torque_load_mean + np.trapezoid(reduced.torque_load[upto], rest)
+    energy = 0.5 * reduced.inertia_reduced[0] * steady.speed[0] ** 2
+    # The last part of a trapezium of 0.05° is left out: a torque of 1000 N m over 1e-3 rad.
+    assert work == pytest.approx(energy, abs=1.5)
+
+
+def test_step_method_approaches_the_solution(two_carts: lw.Machine) -> None:
+    """It is of order 1: a third of the step leaves about a third of the error."""
+    exact = lw.steady_state(two_carts).unevenness
+    errors = [lw.step_method(two_carts, step=np.radians(d)).unevenness - exact for d in (3, 1)]
+    assert errors[0] / errors[1] == pytest.approx(3, rel=0.2)
+
+
+def test_step_must_divide_the_turn(two_carts: lw.Machine) -> None:
+    with pytest.raises(InputError, match="does not divide the turn"):
+        lw.step_method(two_carts, step=np.radians(7))
+
+
+def test_constant_speed_needs_the_inertia_torque() -> None:
+    machine = lw.read(MACHINES / "roller_two_carts.toml")
+    text = {"kind": "constant_speed", "speed": 100.0, "inertia": 0.138}
+    data = machine.model_dump(by_alias=True, exclude_unset=True)
+    data["drive"]["motor"] = text
+    fixed = lw.Machine.model_validate(data)
+    motion = lw.steady_state(fixed)
+    omega = 100.0 / 9.8
+    reduced = lw.reduction(fixed)
+    need = reduced.torque_load + 0.5 * reduced.inertia_reduced_d1 * omega**2
+    np.testing.assert_allclose(motion.torque_drive, need, rtol=1e-12)
+    assert motion.unevenness == 0.0
+    with pytest.raises(InputError, match="constant speed"):
+        lw.transient(fixed, duration=1.0)
+
+
+def test_no_load_no_limit_is_told() -> None:
+    """A constant torque without a load that grows with speed has no steady motion."""
+    text = """
+    format = 1
+    name = "runs away"
+    [drive.motor]
+    kind = "constant_torque"
+    torque = 10
+    [drive.flywheel]
+    inertia = 1
+    [mechanism.cranks.A]
+    radius = 0.1
+    [loads]
+    drag = { kind = "dry", on = "A", torque = 4 }
+    """
+    with pytest.raises(SteadyStateError, match="speeds up without end"):
+        lw.steady_state(lw.loads(text))
+    with pytest.raises(SteadyStateError, match="needs"):
+        lw.steady_state(lw.replace(lw.loads(text), {"loads.drag.torque": 40.0}))
+
+
+def test_batch_is_the_single_machine(two_carts: lw.Machine) -> None:
+    phases = np.radians(np.linspace(40, 140, 57))
+    masses = np.linspace(700, 1300, 57)
+    entries = {"mechanism.cranks.A2.phase": phases, "bodies.cart1.mass": masses}
+    many = lw.steady_states(two_carts, entries)
+    assert (many.status == 0).all()
+    for row in range(0, 57, 8):
+        one = lw.steady_state(lw.replace(two_carts, {k: float(v[row]) for k, v in entries.items()}))
+        # Lanes work on a fixed mesh: speeds to 1e-7, accelerations to 1e-6.
+        assert many.unevenness[row] == pytest.approx(one.unevenness, rel=1e-6)
+        assert many.dynamism[row] == pytest.approx(one.dynamism, rel=3e-6)
+        assert many.torque_motor_rms[row] == pytest.approx(one.torque_motor_rms, rel=1e-6)
+    assert list(many.to_frame()["bodies.cart1.mass"]) == list(masses)
+
+
+def test_a_bad_row_stays_alone(two_carts: lw.Machine) -> None:
+    rods = np.array([0.8, 0.15, 0.7])
+    many = lw.steady_states(two_carts, {"mechanism.sliders.cart1.rod": rods})
+    assert list(many.status) == [0, 1, 0]
+    assert np.isnan(many.unevenness[1])
+    assert np.isfinite(many.unevenness[[0, 2]]).all()
+
+
+@pytest.mark.parametrize(
+    ("entries", "error"),
+    [
+        ({"bodies.cart1.mass": [1.0, -1.0]}, MachineError),
+        ({"bodies.cart1.mass": [1.0, np.nan]}, MachineError),
+        ({"bodies.cart9.mass": [1.0, 2.0]}, MachineError),
+        ({"bodies.cart1.mass": [1.0, 2.0], "bodies.cart2.mass": [1.0, 2.0, 3.0]}, ShapeError),
+        ({"bodies.cart1.mass": [[1.0, 2.0]]}, ShapeError),
+        ({}, ShapeError),
+    ],
+)
+def test_impossible_batches_are_refused(two_carts: lw.Machine, entries: dict, error: type) -> None:
+    with pytest.raises(error):
+        lw.steady_states(two_carts, entries)
+
+
+def test_out_is_checked(two_carts: lw.Machine) -> None:
+    angles = np.linspace(0, 1, 10)
+    out = np.empty((1, 6, 10))
+    assert lw.motions(two_carts, angles, points=["cart1"], out=out) is out
+    for bad in (np.empty((1, 6, 9)), np.empty((1, 6, 20))[..., ::2], np.empty((1, 6, 10), dtype=np.float32)):
+        with pytest.raises(ShapeError):
+            lw.motions(two_carts, angles, points=["cart1"], out=bad)
+    with pytest.raises(MachineError, match="cart1"):
+        lw.motions(two_carts, angles, points=["cart7"])

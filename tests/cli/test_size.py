@@ -1,0 +1,86 @@
+"""``linkwright size`` and ``linkwright papers``: exit codes, JSON, files."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from linkwright.analysis.steady_state import steady_state
+from linkwright.cli import application
+from linkwright.files import read
+from linkwright.files.library import library_path
+
+TWO_CARTS = library_path("roller_two_carts")
+
+
+def run(*arguments: str | Path) -> Result:
+    """Run the command line in this process."""
+    return CliRunner().invoke(application(), [str(each) for each in arguments])
+
+
+def test_size_in_json() -> None:
+    done = run("size", TWO_CARTS, "--unevenness", "0.02", "--json")
+    assert done.exit_code == 0
+    found = json.loads(done.stdout)
+    assert set(found) == {"machine", "results", "warnings"}
+    results = found["results"]
+    assert results["required_power"]["power"] == pytest.approx(10582.318, rel=1e-6)
+    assert results["motor"]["chosen"]["type"] == "4A180M6U3"
+    assert results["motor"]["chosen"]["inertia_estimated"] is True
+    assert results["flywheel"]["unevenness"] == pytest.approx(0.02, abs=1e-6)
+    assert any("by similarity" in text for text in found["warnings"])
+
+
+def test_size_writes_the_machine(tmp_path: Path) -> None:
+    out = tmp_path / "sized.toml"
+    assert run("size", TWO_CARTS, "--unevenness", "0.02", "--out", out).exit_code == 0
+    assert steady_state(read(out)).unevenness == pytest.approx(0.02, abs=1e-6)
+    assert "# estimated from" in out.read_text()
+    assert run("size", TWO_CARTS, "--out", out).exit_code == 2
+    assert run("size", TWO_CARTS, "--out", out, "--force").exit_code == 0
+
+
+def test_no_motor_suffices() -> None:
+    done = run("size", TWO_CARTS, "--set", "loads.rolling1.force=1e5")
+    assert done.exit_code == 1
+    assert "times too small" in done.stderr
+    in_json = run("size", TWO_CARTS, "--set", "loads.rolling1.force=1e5", "--json")
+    assert in_json.exit_code == 1
+    assert json.loads(in_json.stdout)["results"]["motor"]["chosen"] is None
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--unevenness", "3"],
+        ["--power-reserve", "-1"],
+        ["--inertia", "4A180M6U3"],
+        ["--inertia", "4A180M6=0.2"],
+        ["--inertia", "4A180M6U3=2 kg"],
+        ["--set", "drive.speed=nonsense"],
+        ["--by", "luck"],
+    ],
+)
+def test_wrong_input(arguments: list[str]) -> None:
+    assert run("size", TWO_CARTS, *arguments).exit_code == 2
+
+
+def test_papers(tmp_path: Path) -> None:
+    assert "1" in run("papers").stdout
+    assert run("papers", "7").exit_code == 2
+    done = run("papers", "1", "--json", "--out", tmp_path)
+    assert done.exit_code == 0
+    found = json.loads(done.stdout)["results"]["paper1"]
+    assert [each["carts"] for each in found["drives"]] == [1, 2, 3, 4]
+    names = {path.name for path in tmp_path.iterdir()}
+    machines = [f"roller_{name}" for name in ("one_cart", "two_carts", "three_carts", "four_carts")]
+    figures = {f"{name}.{end}" for name in (*machines, "evenness") for end in ("svg", "png")}
+    assert names == figures | {"papers1.html"}
+    page = (tmp_path / "papers1.html").read_text(encoding="utf-8")
+    # Self-contained: nothing is loaded from elsewhere.
+    assert "src=" not in page
+    assert "@import" not in page
+    assert page.count("<svg") == 5

@@ -1,0 +1,83 @@
+"""Figures: drawn from results, alike in every run, in words with units."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from linkwright.analysis.characteristic import characteristic
+from linkwright.analysis.study import Study, study
+from linkwright.files import loads, read, template
+from linkwright.plot import compare_figure, motor_figure, reduction_figure, run_up_figure, svg
+from linkwright.report.figures import figures
+
+TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
+
+
+@cache
+def two_carts() -> Study:
+    return study(read(TWO_CARTS))
+
+
+def test_axes_have_words_and_units() -> None:
+    for each in figures(two_carts()):
+        for axes in each.figure.axes:
+            assert "[" in axes.get_ylabel() or axes.get_subplotspec().colspan.start > 0
+        assert any("[" in axes.get_xlabel() for axes in each.figure.axes)
+
+
+def test_curves_are_those_of_the_result() -> None:
+    reduced = two_carts().reduction
+    assert reduced is not None
+    line = reduction_figure(reduced).axes[0].lines[0]
+    assert line.get_ydata() == pytest.approx(reduced.inertia_reduced)
+    assert line.get_xdata()[-1] == pytest.approx(360)
+
+
+def test_run_up_is_drawn_beyond_its_end() -> None:
+    run_up = two_carts().run_up
+    assert run_up is not None
+    time, turns = run_up_figure(run_up, two_carts().steady_state).axes
+    assert time.get_xlim()[1] > run_up.time
+    assert turns.get_xlim()[1] == pytest.approx(run_up.turns + 1, rel=1e-3)
+
+
+def test_working_range_lies_on_the_characteristic() -> None:
+    steady = two_carts().steady_state
+    assert steady is not None
+    figure = motor_figure(characteristic(read(TWO_CARTS)), steady)
+    left, right = figure.axes[1].get_xlim()
+    assert left < steady.speed_min * 9.8 < steady.speed_max * 9.8 < right
+    assert len(motor_figure(characteristic(read(TWO_CARTS))).axes) == 1
+
+
+def test_svg_is_alike_in_every_run_and_knows_nothing_of_the_day() -> None:
+    reduced = two_carts().reduction
+    assert reduced is not None
+    first, second = (svg(reduction_figure(reduced)) for _ in range(2))
+    assert first == second
+    assert first.startswith("<svg")
+    assert "<text" not in first
+    assert "dc:date" not in first
+
+
+def test_style_of_the_user_does_not_matter() -> None:
+    from matplotlib import rc_context
+
+    reduced = two_carts().reduction
+    assert reduced is not None
+    usual = svg(reduction_figure(reduced))
+    with rc_context({"font.size": 30, "axes.grid": False, "svg.fonttype": "none"}):
+        assert svg(reduction_figure(reduced)) == usual
+
+
+def test_compared_machines_have_a_line_each() -> None:
+    other = study(loads(template("press"))).steady_state
+    steady = two_carts().steady_state
+    assert steady is not None
+    assert other is not None
+    speed, acceleration = compare_figure({"carts": steady, "press": other}).axes
+    assert [line.get_label() for line in speed.lines] == ["carts", "press"]
+    assert len(acceleration.lines) >= 2

@@ -1,0 +1,70 @@
+"""Numbers, tables and curves as text."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from linkwright.analysis.study import study
+from linkwright.files import loads, read, template
+from linkwright.report.csv import curves_csv
+from linkwright.report.machine_table import machine_parts
+from linkwright.report.quantities import number
+from linkwright.report.tables import tables
+
+TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.084959144, "0.084959"),
+        (-48.298, "−48.298"),
+        (20237.3, "20237"),
+        (1234567.0, "1234600"),
+        (2.5e9, "2.5·10⁹"),
+        (-1.4051e-8, "−1.4051·10⁻⁸"),
+        (0.0, "0"),
+        (None, "–"),
+        (float("nan"), "–"),
+    ],
+)
+def test_number(value: float | None, text: str) -> None:
+    assert number(value) == text
+
+
+def test_tables_are_those_that_there_are_results_for() -> None:
+    machine = read(TWO_CARTS)
+    usual = ["reduction", "steady_state", "measures", "drive", "run_up"]
+    assert [table.name for table in tables(study(machine))] == usual
+    stepped = tables(study(machine, step=np.radians(1)))
+    assert [table.name for table in stepped] == [*usual, "step_method"]
+    for table in stepped:
+        assert {len(row) for row in table.rows} == {len(table.heads)}
+    with_brake = read(TWO_CARTS, ["drive.brake.torque=100"])
+    assert [table.name for table in tables(study(with_brake))] == [*usual, "run_down"]
+
+
+def test_curves_read_back_exactly() -> None:
+    steady = study(read(TWO_CARTS)).steady_state
+    assert steady is not None
+    head, *lines = curves_csv(steady).splitlines()
+    assert head.split(",")[:3] == ["crank_angle [rad]", "time [s]", "speed [rad/s]"]
+    values = np.array([[float(cell) for cell in line.split(",")] for line in lines])
+    assert np.array_equal(values[:, 2], steady.speed)
+    assert "power_motor [W]" in head
+
+
+def test_machine_parts_have_units_and_what_follows_is_marked() -> None:
+    parts = {(part.group, part.name): part.entries for part in machine_parts(loads(template("press")))}
+    motor = {entry.word: entry for entry in parts["Drive", "motor"]}
+    assert motor["power rated"].value == "5500 W"
+    assert not motor["power rated"].given
+    assert motor["inertia"].given
+    work = {entry.word: entry.value for entry in parts["Loads", "work"]}
+    assert work["position"] == "0.42, 0.56, 0.562, 0.578, 0.58 m"
+    slider = {entry.word: entry.value for entry in parts["Sliders", "ram"]}
+    assert slider["angle"] == "−90°"
+    assert "offset" not in slider
