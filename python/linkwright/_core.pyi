@@ -1,60 +1,76 @@
 """The compiled kernels. Used by `linkwright.engine` only; everything is SI and contiguous."""
 
+from typing import final
+
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int32]
+__all__ = [
+    "Plan",
+    "gaps",
+    "has_motor",
+    "kinks",
+    "motions",
+    "motor_torques",
+    "reductions",
+    "steady_rows",
+    "steady_state",
+    "transient",
+]
 
+_Floats = NDArray[np.float64]
+_Ints = NDArray[np.int32]
+
+@final
 class Plan:
     """A machine's structure: integer tables described in `crates/linkwright-core/src/plan.rs`."""
 
     def __new__(
         cls,
-        sizes: Ints,
-        elements: Ints,
-        bodies: Ints,
-        loads: Ints,
-        drive: Ints,
-        table_starts: Ints,
-        table_x: Floats,
-        table_y: Floats,
+        sizes: _Ints,
+        elements: _Ints,
+        bodies: _Ints,
+        loads: _Ints,
+        drive: _Ints,
+        table_starts: _Ints,
+        table_x: _Floats,
+        table_y: _Floats,
     ) -> Plan: ...
 
 def steady_state(
-    plan: Plan, q: Floats, accuracy: float, phi: Floats
-) -> tuple[int, Floats | None, Floats | None]:
+    plan: Plan, q: _Floats, accuracy: float, phi: _Floats
+) -> tuple[int, _Floats | None, _Floats | None]:
     """Status, 18 scalars, and 7 curves (time, ω, ε, motor, drive and load torque, J) at the angles `phi`."""
 
 def steady_rows(
-    plan: Plan, q: Floats, slots: Ints, values: Floats, accuracy: float
-) -> tuple[NDArray[np.uint8], Floats, int]:
+    plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float
+) -> tuple[NDArray[np.uint8], _Floats, int]:
     """Status (n,), scalars (n, 13) and turns swept for n machines; `values` is (slots, n)."""
 
-def motions(plan: Plan, q: Floats, slots: Ints, values: Floats, phi: Floats, what: Ints, out: Floats) -> None:
+def motions(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, phi: _Floats, what: _Ints, out: _Floats) -> None:
     """Motions of n machines at the angles `phi` into `out`, flat (n, numbers, angles)."""
 
-def gaps(plan: Plan, q: Floats, phi: Floats) -> Floats:
+def gaps(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
     """Radicand of each dyad at each angle (dyads, angles); negative where it does not close."""
 
-def reductions(plan: Plan, q: Floats, phi: Floats, sense: float) -> Floats:
+def reductions(plan: Plan, q: _Floats, phi: _Floats, sense: float) -> _Floats:
     """J, J′, load, dry torque and viscous coefficient (5, angles)."""
 
-def motor_torques(plan: Plan, q: Floats, omega: Floats) -> tuple[Floats, Floats]:
+def motor_torques(plan: Plan, q: _Floats, omega: _Floats) -> tuple[_Floats, _Floats]:
     """Motor torque at its shaft and at the crank, at crank speeds."""
 
 def transient(
     plan: Plan,
-    q: Floats,
+    q: _Floats,
     phi: float,
     omega: float,
     duration: float,
     turns: float,
     accuracy: float,
-) -> tuple[int, tuple[float, float], int, list[Floats]]:
+) -> tuple[int, tuple[float, float], int, list[_Floats]]:
     """How it ended; drive and load torque there; evaluations; t, φ, ω, ε at the ends of the steps."""
 
-def kinks(plan: Plan, q: Floats) -> Floats:
+def kinks(plan: Plan, q: _Floats) -> _Floats:
     """Crank angles between which the reduced machine is smooth, from 0 to 2π."""
 
 def has_motor(plan: Plan) -> bool:

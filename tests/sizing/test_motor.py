@@ -7,7 +7,7 @@ import pytest
 from linkwright.analysis.run_up import run_up
 from linkwright.analysis.steady_state import steady_state
 from linkwright.errors import InputError
-from linkwright.files import dumps, loads, read
+from linkwright.files import dumps, loads, read, template
 from linkwright.files.library import library_path
 from linkwright.machine import InductionMotor, Machine, motors, replace
 from linkwright.sizing.checks import PEAK_SHARE
@@ -94,6 +94,24 @@ def test_none_suffices_and_the_reason_says_by_how_much() -> None:
     assert choice.chosen is None
     share = 1.1 * choice.required.power / 55e3
     assert f"{share:.2f} times too small" in choice.reason
+
+
+def test_a_press_is_not_sized_for_a_start_in_the_work_stroke() -> None:
+    """From the worst angle the press needs a motor several times as large as from its start angle."""
+    press = loads(template("press"), {"drive.speed": 6.7})
+    worst, fixed = choose_motor(press), choose_motor(press, by="fixed-start")
+    assert fixed.chosen is not None
+    assert worst.chosen is not None
+    assert worst.chosen.known.power_rated > 3 * fixed.chosen.known.power_rated
+    assert any(fixed.chosen.type in text for text in worst.warnings)
+    assert not any("fixed-start" in text for text in fixed.warnings)
+
+
+def test_no_motor_suits_the_ratio() -> None:
+    slow = replace(machine_of("two_carts"), {"drive.gearbox.ratio": 50.0})
+    choice = choose_motor(slow)
+    assert choice.chosen is None
+    assert "9.13 to 14.8" in choice.reason
 
 
 def test_a_missing_start_torque_is_not_held_against_a_motor_as_a_failure() -> None:

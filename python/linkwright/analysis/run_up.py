@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -212,4 +213,4 @@ def _settled(motion: Transient, steady: SteadyState, band: float) -> tuple[float
 
 
 def _spans(time: Floats) -> list[tuple[float, float]]:
-    return [(float(a), float(b)) for a, b in zip(time[:-1], time[1:], strict=True)]
+    return [(float(a), float(b)) for a, b in pairwise(time)]

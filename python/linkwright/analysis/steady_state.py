@@ -329,8 +329,8 @@ def _what_lacks(compiled: Compiled) -> str:
     best = int(np.argmax(drive - resisting))
     if drive[best] < resisting[best]:
         return (
-            f"no steady motion: at best, at {omega[best]:.4g} rad/s, the drive gives {drive[best]:.4g} N m at "
-            f"the crank and the mean load needs {resisting[best]:.4g} N m; choose a larger motor or ratio"
+            f"no steady motion: at best, at {omega[best]:.4g} rad/s, the drive gives {drive[best]:.4g} N m "
+            f"at the crank and the mean load needs {resisting[best]:.4g} N m; choose a larger motor or ratio"
         )
     if (drive > resisting).all():
         return (

@@ -27,8 +27,12 @@ Unevenness = Annotated[
     typer.Option("--unevenness", metavar="X", help="(ω_max − ω_min)/ω_mean that the flywheel must give."),
 ]
 By = Annotated[
-    Literal["all", "power"],
-    typer.Option("--by", help="power: by rated power and start alone, as is often done."),
+    Literal["all", "fixed-start", "power"],
+    typer.Option(
+        "--by",
+        help="Checks that decide. fixed-start: all but the start from the worst angle. power: rated power "
+        "and start alone, as is often done.",
+    ),
 ]
 FreeRatio = Annotated[
     bool, typer.Option("--free-ratio", help="Give each motor the ratio that suits it, not the file's.")
@@ -250,8 +254,8 @@ def _shown(motor: MotorChoice) -> list[Candidate]:
 
 
 def _suited(motor: MotorChoice) -> list[Candidate]:
-    """Motors whose speed suits the ratio."""
-    return [each for each in motor.candidates if each.checks[0].passed]
+    """Motors whose speed suits the ratio; all, if there is none."""
+    return [each for each in motor.candidates if each.checks[0].passed] or list(motor.candidates)
 
 
 def _verdict(each: Candidate, motor: MotorChoice) -> str:

@@ -52,5 +52,5 @@ def inline_svg(figure: Figure, name: str, text: str) -> str:
     opening = rf'<svg viewBox="\1" role="img" aria-label="{escape(text)}">'
     drawn = re.sub(r'^<svg[^>]*?viewBox="([^"]*)"[^>]*>', opening, drawn)
     # A style inside a figure would hold for the whole page; the page has its own.
-    drawn = drawn + "<img src='http://x.y/z.png'>"
+    drawn = re.sub(r"\s*<style.*?</style>", "", drawn, flags=re.DOTALL)
     return drawn.replace("xlink:href", "href")

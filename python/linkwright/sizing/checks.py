@@ -46,7 +46,11 @@ _START = ("starting_torque", "run_up")
 _TORQUE = ("starting_torque_worst", "torque_rms", "torque_peak")
 
 # Which checks decide, by the way of choosing.
-DECISIVE = {"power": _RATING + _START, "all": _RATING + _START + _TORQUE}
+DECISIVE = {
+    "power": _RATING + _START,
+    "fixed-start": _RATING + _START + _TORQUE[1:],
+    "all": _RATING + _START + _TORQUE,
+}
 
 
 @dataclass(frozen=True)
@@ -108,7 +112,11 @@ class Check:
         share = self.utilisation
         if self.passed is not False or share is None:
             return ""
-        return f": {share:.2f} times too {'large' if self.at_most else 'small'}"
+        word = "large" if self.at_most else "small"
+        # Below twice the limit a percentage says more than a factor.
+        if share < 2:
+            return f": {100 * (share - 1 if self.at_most else 1 - 1 / share):.2g} % too {word}"
+        return f": {share:.2f} times too {word}"
 
     def to_dict(self) -> dict[str, Any]:
         """Its entries, ready for JSON."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from linkwright.analysis.run_up import RunUp
@@ -17,7 +17,7 @@ from linkwright.sizing.flywheel import flywheel_inertia
 from linkwright.sizing.inertia import KNOWN, rotor_inertia
 from linkwright.sizing.power import RequiredPower, required_power
 
-By = Literal["all", "power"]
+By = Literal["all", "fixed-start", "power"]
 Track = Callable[[Sequence[CatalogueMotor]], Iterable[CatalogueMotor]]
 
 ESTIMATE = f"estimated from {KNOWN} by similarity, J as M_rated^(5/3)"
@@ -117,7 +117,7 @@ class MotorChoice:
     reserve : float
         Rated power over required power that was asked for [–].
     by : str
-        ``"all"`` checks, or ``"power"`` and start alone.
+        ``"all"`` checks, ``"fixed-start"``, or ``"power"`` and start alone.
     candidates : tuple of Candidate
         All types of the catalogue, those that pass first, then by rated power.
     chosen : Candidate or None
@@ -141,16 +141,27 @@ class MotorChoice:
         """Why this one, or by how much the best of the catalogue falls short."""
         if self.chosen is None:
             return self._shortfall()
-        rule = "passes all checks" if self.by == "all" else "suffices by power and starts the machine"
+        rule = {
+            "all": "passes all checks",
+            "fixed-start": "passes all checks, if the machine is started from its start angle",
+            "power": "suffices by power and starts the machine",
+        }[self.by]
         power = self.chosen.known.power_rated / 1e3
         return f"{self.chosen.type}, {power:.4g} kW, is the smallest motor of the catalogue that {rule}"
 
     def _shortfall(self) -> str:
         """What the least bad candidate lacks."""
-        need = self.required.power * self.reserve / 1e3
-        best = min(self.candidates, key=lambda each: (each.worst, -each.known.power_rated))
+        need = self.required.power * self.reserve
+        suited = [each for each in self.candidates if each.checks[0].passed]
+        if not suited:
+            ratios = sorted(each.known.speed_rated / self.required.speed for each in self.candidates)
+            return (
+                f"no motor of the catalogue suits the ratio at {self.required.speed:.4g} rad/s: ratios from "
+                f"{ratios[0]:.3g} to {ratios[-1]:.3g} would, see free_ratio"
+            )
+        best = min(suited, key=lambda each: (each.worst, abs(each.known.power_rated - need)))
         return (
-            f"no motor of the catalogue suffices: {need:.4g} kW are needed; the nearest, {best.type} "
+            f"no motor of the catalogue suffices: {need / 1e3:.4g} kW are needed; the nearest, {best.type} "
             f"({best.known.power_rated / 1e3:.4g} kW), is refused: {best.reason}"
         )
 
@@ -185,7 +196,9 @@ def choose_motor(
     reserve : float
         Rated power over required power that is asked for [–].
     by : str
-        ``"all"``: every check decides. ``"power"``: rated power and start alone, as is often done.
+        ``"all"``: every check decides. ``"fixed-start"``: every one but the start from the worst angle, for a
+        machine that is always started from its start angle. ``"power"``: rated power and start alone, as is
+        often done.
     free_ratio : bool
         Give each motor the ratio that suits it, rated speed over design speed, not the machine's own. So it
         is done in any case if the machine has no gearbox.
@@ -225,7 +238,20 @@ def choose_motor(
     found = sorted((judge.candidate(known) for known in track(motors())), key=_rank)
     chosen = found[0] if found[0].passes else None
     present = present_checks(machine, required, reserve)
-    return MotorChoice(required, reserve, by, tuple(found), chosen, present, tuple(judge.doubts(chosen)))
+    warnings = (*judge.doubts(chosen), *_smaller(found, chosen, by))
+    return MotorChoice(required, reserve, by, tuple(found), chosen, present, warnings)
+
+
+def _smaller(found: Sequence[Candidate], chosen: Candidate | None, by: By) -> list[str]:
+    """The smaller motor that would do if the machine need not start from its worst angle."""
+    if by != "all":
+        return []
+    would = [replace(each, decisive=DECISIVE["fixed-start"]) for each in found]
+    least = min((each for each in would if each.passes), key=_rank, default=None)
+    if least is None or (chosen and least.known.power_rated >= chosen.known.power_rated):
+        return []
+    power = least.known.power_rated / 1e3
+    return [f"started from its start angle only, {least.type} of {power:.4g} kW would do: see fixed-start"]
 
 
 def own_inertia(machine: Machine) -> dict[str, float]:
