@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 __all__ = [
     "Plan",
     "gaps",
-    "has_motor",
     "kinks",
     "motions",
     "motor_torques",
@@ -47,7 +46,9 @@ def steady_rows(
 ) -> tuple[NDArray[np.uint8], _Floats, int]:
     """Status (n,), scalars (n, 13) and turns swept for n machines; `values` is (slots, n)."""
 
-def motions(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, phi: _Floats, what: _Ints, out: _Floats) -> None:
+def motions(
+    plan: Plan, q: _Floats, slots: _Ints, values: _Floats, phi: _Floats, what: _Ints, out: _Floats
+) -> None:
     """Motions of n machines at the angles `phi` into `out`, flat (n, numbers, angles)."""
 
 def gaps(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
@@ -72,6 +73,3 @@ def transient(
 
 def kinks(plan: Plan, q: _Floats) -> _Floats:
     """Crank angles between which the reduced machine is smooth, from 0 to 2π."""
-
-def has_motor(plan: Plan) -> bool:
-    """Whether anything drives."""

@@ -9,7 +9,6 @@ mod errors;
 use arrays::{as_indices, channels, column};
 use errors::plan_error;
 use linkwright_core::batch::{self, QUANTITIES, Rows};
-use linkwright_core::drive::Motor;
 use linkwright_core::lanes::in_lanes;
 use linkwright_core::plan::{Encoded, Plan as CorePlan};
 use linkwright_core::steady::{ReadCurves, steady};
@@ -230,16 +229,10 @@ fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Curve<'py
     Ok(column(py, machine.breaks(&[], &mut motion)))
 }
 
-#[pyfunction]
-fn has_motor(plan: &Plan) -> bool {
-    !matches!(plan.0.drive.motor, Motor::Off)
-}
-
 #[pymodule(gil_used = false)]
 mod _core {
     #[pymodule_export]
     use super::{
-        Plan, gaps, has_motor, kinks, motions, motor_torques, reductions, steady_rows, steady_state,
-        transient,
+        Plan, gaps, kinks, motions, motor_torques, reductions, steady_rows, steady_state, transient,
     };
 }

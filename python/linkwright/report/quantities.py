@@ -48,7 +48,7 @@ SHOWN = {
     "energy_motor": Shown("work of the motor in a turn", "A_m", _J),
     "energy_drive": Shown("work at the crank in a turn", "A_d", _J),
     "energy_load": Shown("work taken by the loads in a turn", "A_r", _J),
-    "efficiency": Shown("work of the loads over work of the motor", "η", ""),
+    "efficiency": Shown("efficiency of the drive over a turn", "η", ""),
     "power_motor_mean": Shown("mean power of the motor", "P_mean", _W),
     "power_motor_max": Shown("greatest power of the motor", "P_max", _W),
     "torque_motor_mean": Shown("mean torque of the motor", "M_mean", _NM),
