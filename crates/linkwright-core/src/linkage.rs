@@ -127,14 +127,14 @@ impl Mechanism {
                     let heading = crank_heading(q[cos], q[sin], angle);
                     let arm = heading.e * q[radius];
                     let p = m.points[pivot].p + arm;
-                    m.points[pin] = Place { p, d1: arm.left(), d2: arm * R::splat(-1.0) };
-                    m.links[link] = heading;
+                    m.points[pin].set(p, arm.left(), arm * R::splat(-1.0));
+                    m.links[link].set(heading.e, heading.d1, heading.d2);
                 }
                 Element::SliderRod(ref e) => slider_rod::<R, ORDER>(e, q, m),
                 Element::Rocker(ref e) => rocker::<R, ORDER>(e, q, m),
                 Element::RigidPoint { point, link, origin, along, across } => {
-                    m.points[point] =
-                        on_link::<R, ORDER>(m.points[origin], m.links[link], q[along], q[across]);
+                    let place = on_link::<R, ORDER>(&m.points[origin], &m.links[link], q[along], q[across]);
+                    m.points[point].set(place.p, place.d1, place.d2);
                 }
             }
         }
@@ -151,8 +151,8 @@ fn crank_heading<R: Real>(cos: R, sin: R, angle: Angle<R>) -> Heading<R> {
 /// A point of a link: p = o + a, p′ = o′ + ψ′ a⊥, p″ = o″ + ψ″ a⊥ − ψ′² a, with a = along·e + across·e⊥.
 #[inline(always)]
 pub fn on_link<R: Real, const ORDER: u8>(
-    origin: Place<R>,
-    link: Heading<R>,
+    origin: &Place<R>,
+    link: &Heading<R>,
     along: R,
     across: R,
 ) -> Place<R> {
@@ -175,7 +175,7 @@ pub fn on_link<R: Real, const ORDER: u8>(
 /// ```
 #[inline(always)]
 fn slider_rod<R: Real, const ORDER: u8>(e: &SliderRod, q: &[R], m: &mut Motion<R>) {
-    let (pin, through) = (m.points[e.pin], m.points[e.through]);
+    let (pin, through) = (&m.points[e.pin], &m.points[e.through]);
     let (rod, sign) = (q[e.rod], q[e.sign]);
     let t = Vec2::new(q[e.cos], q[e.sin]);
     let n = t.left();
@@ -203,9 +203,9 @@ fn slider_rod<R: Real, const ORDER: u8>(e: &SliderRod, q: &[R], m: &mut Motion<R
         heading.d2 = -((h2 - h1 * w1 * inverse_w) * inverse_cos);
     }
     m.gaps[e.gap] = gap;
-    m.links[e.link] = heading;
-    m.points[e.point] = Place { p: point, d1: t * slide.d1, d2: t * slide.d2 };
-    m.slides[e.slide] = slide;
+    m.links[e.link].set(heading.e, heading.d1, heading.d2);
+    m.points[e.point].set(point, t * slide.d1, t * slide.d2);
+    m.slides[e.slide].set(slide.s, slide.d1, slide.d2);
 }
 
 /// Dyad RRR between pin A and pivot D, u = D − A, coupler a, rocker b, joint C:
@@ -218,7 +218,7 @@ fn slider_rod<R: Real, const ORDER: u8>(e: &SliderRod, q: &[R], m: &mut Motion<R
 /// ```
 #[inline(always)]
 fn rocker<R: Real, const ORDER: u8>(g: &Rocker, q: &[R], m: &mut Motion<R>) {
-    let (pin, pivot) = (m.points[g.pin], m.points[g.pivot]);
+    let (pin, pivot) = (&m.points[g.pin], &m.points[g.pivot]);
     let (a, b, sign) = (q[g.coupler], q[g.rocker], q[g.sign]);
     let u = pivot.p - pin.p;
     let u1 = pivot.d1 - pin.d1;
@@ -248,7 +248,7 @@ fn rocker<R: Real, const ORDER: u8>(g: &Rocker, q: &[R], m: &mut Motion<R>) {
         place.d2 = pin.d2.plus(arm.left(), coupler.d2).plus(arm, -(psi_a1.squared()));
     }
     m.gaps[g.gap] = gap;
-    m.links[g.coupler_link] = coupler;
-    m.links[g.rocker_link] = arm_b;
-    m.points[g.joint] = place;
+    m.links[g.coupler_link].set(coupler.e, coupler.d1, coupler.d2);
+    m.links[g.rocker_link].set(arm_b.e, arm_b.d1, arm_b.d2);
+    m.points[g.joint].set(place.p, place.d1, place.d2);
 }

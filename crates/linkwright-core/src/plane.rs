@@ -78,6 +78,15 @@ impl<R: Real> Place<R> {
     pub fn fixed(p: Vec2<R>) -> Self {
         Place { p, d1: Vec2::zero(), d2: Vec2::zero() }
     }
+
+    /// Puts it there, part by part: a bundle of lanes is wide, and a copy of the whole would go through
+    /// memory.
+    #[inline(always)]
+    pub fn set(&mut self, p: Vec2<R>, d1: Vec2<R>, d2: Vec2<R>) {
+        self.p = p;
+        self.d1 = d1;
+        self.d2 = d2;
+    }
 }
 
 /// A link over the crank angle: its direction as a unit vector, and dψ/dφ, d²ψ/dφ² of its angle ψ.
@@ -91,6 +100,16 @@ pub struct Heading<R> {
     pub d2: R,
 }
 
+impl<R: Real> Heading<R> {
+    /// Turns it there; see [`Place::set`].
+    #[inline(always)]
+    pub fn set(&mut self, e: Vec2<R>, d1: R, d2: R) {
+        self.e = e;
+        self.d1 = d1;
+        self.d2 = d2;
+    }
+}
+
 /// A slide over the crank angle: its coordinate along the guide \[m\] and two derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct Slide<R> {
@@ -100,6 +119,16 @@ pub struct Slide<R> {
     pub d1: R,
     /// Second transfer function d²s/dφ².
     pub d2: R,
+}
+
+impl<R: Real> Slide<R> {
+    /// Puts it there; see [`Place::set`].
+    #[inline(always)]
+    pub fn set(&mut self, s: R, d1: R, d2: R) {
+        self.s = s;
+        self.d1 = d1;
+        self.d2 = d2;
+    }
 }
 
 /// The crank angle φ \[rad\] with its sine and cosine.

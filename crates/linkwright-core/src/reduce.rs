@@ -10,7 +10,7 @@
 
 use crate::linkage::{Motion, Slot, on_link};
 use crate::plan::Plan;
-use crate::plane::{Angle, Vec2};
+use crate::plane::{Angle, Place, Vec2};
 use crate::real::Real;
 
 /// A body: a mass at a point, or a link with its centre of mass `along`, `across` from the link's start.
@@ -169,7 +169,7 @@ impl Plan {
                 r.load = (length - q[free_length]).mul_add(q[stiffness] * length1, r.load);
             }
             Load::ForcePosition { slide, forward, back } => {
-                let slide = m.slides[slide];
+                let slide = &m.slides[slide];
                 let ahead = slide.s.map(|s| self.tables[forward].held(s));
                 let behind = slide.s.map(|s| self.tables[back].held(s));
                 let force = (slide.d1 * sense).select_lt(R::splat(0.0), behind, ahead);
@@ -190,17 +190,22 @@ fn add_body<R: Real, const ORDER: u8>(
     m: &Motion<R>,
     r: &mut Reduction<R>,
 ) {
-    let (place, mass) = match *body {
-        Body::Point { point, mass } => (m.points[point], q[mass]),
+    match *body {
+        Body::Point { point, mass } => add_mass::<R, ORDER>(&m.points[point], q[mass], gravity, r),
         Body::Link { link, origin, along, across, mass, inertia } => {
-            let heading = m.links[link];
+            let heading = &m.links[link];
             r.J = heading.d1.squared().mul_add(q[inertia], r.J);
             if ORDER > 1 {
                 r.J_d1 = (heading.d1 * heading.d2 * 2.0).mul_add(q[inertia], r.J_d1);
             }
-            (on_link::<R, ORDER>(m.points[origin], heading, q[along], q[across]), q[mass])
+            let centre = on_link::<R, ORDER>(&m.points[origin], heading, q[along], q[across]);
+            add_mass::<R, ORDER>(&centre, q[mass], gravity, r);
         }
-    };
+    }
+}
+
+#[inline(always)]
+fn add_mass<R: Real, const ORDER: u8>(place: &Place<R>, mass: R, gravity: Vec2<R>, r: &mut Reduction<R>) {
     r.J = place.d1.dot(place.d1).mul_add(mass, r.J);
     if ORDER > 1 {
         r.J_d1 = (place.d1.dot(place.d2) * 2.0).mul_add(mass, r.J_d1);

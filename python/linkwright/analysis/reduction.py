@@ -49,6 +49,8 @@ class Reduction(Result):
         Crank angles where they are [rad].
     torque_load_mean, torque_load_max : float
         Mean over the angle, and greatest value at the given angles, of the resisting torque [N m].
+    viscous_mean : float
+        Mean over the angle of the resisting torque per speed [N m s/rad].
     """
 
     crank_angle: Floats

@@ -36,6 +36,8 @@ class RunUp(Result):
         motion at the same angle by more than ``settled`` times the mean speed.
     settled : float
         That share [–].
+    speed_peak : float
+        Greatest speed on the way [rad/s].
     motion : Transient
         The whole motion.
     """

@@ -74,12 +74,12 @@ class Transient(Result):
 
         Parameters
         ----------
-        time : array_like
+        time : array_like, shape (m,)
             Times between the first and the last [s].
 
         Returns
         -------
-        tuple of ndarray
+        tuple of ndarray, shape (m,)
             Angle [rad] and speed [rad/s], by the quintic through angle, speed and acceleration at both ends
             of each step: good to five digits or more. To have it better, end a transient there.
         """
