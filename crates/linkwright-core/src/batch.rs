@@ -74,14 +74,14 @@ const CHUNK: usize = 256;
 /// Measures of a turn as a row of numbers:
 /// speed min, max; acceleration min, max; period; multiplier; motor work, crank work, load work;
 /// torque mean, rms; crank angles of the speed's extremes.
-fn row_of<R: Real>(turn: &Turn<R>, e: &Extremes<R>, t: &Totals<R>) -> [R; QUANTITIES] {
+fn row_of<R: Real>(multiplier: R, e: &Extremes<R>, t: &Totals<R>) -> [R; QUANTITIES] {
     [
         e.speed_min.value,
         e.speed_max.value,
         e.acceleration_min.value,
         e.acceleration_max.value,
         t.period,
-        turn.multiplier,
+        multiplier,
         t.motor_work,
         t.crank_work,
         t.load_work,
@@ -94,7 +94,7 @@ fn row_of<R: Real>(turn: &Turn<R>, e: &Extremes<R>, t: &Totals<R>) -> [R; QUANTI
 
 /// The row of one machine.
 pub fn row_of_steady(s: &Steady) -> [f64; QUANTITIES] {
-    row_of(&s.turn, &s.extremes, &s.totals)
+    row_of(s.multiplier, &s.extremes, &s.totals)
 }
 
 /// Steady motions of all rows: `out` is (rows, `QUANTITIES`). Returns a status for each row and the total
@@ -143,7 +143,7 @@ impl Job for Chunk<'_> {
             );
             let mut turn = R::outline(
                 #[inline(always)]
-                || Turn::tabulate(&machine, &breaks, STEPS, &mut m),
+                || Turn::of_machines(&machine, &breaks, STEPS, &mut m),
             );
             R::outline(
                 #[inline(always)]
@@ -162,7 +162,7 @@ impl Job for Chunk<'_> {
                 || turn.totals(&machine),
             );
             sweeps += u64::from(turn.sweeps) * status.len() as u64;
-            for (k, quantity) in row_of(&turn, &extremes, &totals).into_iter().enumerate() {
+            for (k, quantity) in row_of(turn.multiplier, &extremes, &totals).into_iter().enumerate() {
                 quantity.store(&mut lane);
                 for i in 0..status.len() {
                     self.out[(at + i) * QUANTITIES + k] = lane[i];
@@ -348,31 +348,48 @@ impl Job for MotionJob<'_, '_> {
 /// Writes all channels at one angle (or one a lane), a number to each list.
 #[inline(always)]
 fn store<R: Real>(m: &Motion<R>, channels: &[Channel], at: usize, out: &mut [&mut [f64]]) {
-    let mut list = 0;
+    let mut lists = out.iter_mut();
+    let mut put = Put { lists: &mut lists, at };
     for channel in channels {
         match *channel {
             Channel::Point(i) => {
                 let place = &m.points[i];
-                for v in [place.p, place.d1, place.d2] {
-                    v.x.store(&mut out[list][at..]);
-                    v.y.store(&mut out[list + 1][at..]);
-                    list += 2;
-                }
+                put.next(place.p.x);
+                put.next(place.p.y);
+                put.next(place.d1.x);
+                put.next(place.d1.y);
+                put.next(place.d2.x);
+                put.next(place.d2.y);
             }
             Channel::Link(i) => {
                 let link = &m.links[i];
-                for value in [link.e.x, link.e.y, link.d1, link.d2] {
-                    value.store(&mut out[list][at..]);
-                    list += 1;
-                }
+                put.next(link.e.x);
+                put.next(link.e.y);
+                put.next(link.d1);
+                put.next(link.d2);
             }
             Channel::Slide(i) => {
                 let slide = &m.slides[i];
-                for value in [slide.s, slide.d1, slide.d2] {
-                    value.store(&mut out[list][at..]);
-                    list += 1;
-                }
+                put.next(slide.s);
+                put.next(slide.d1);
+                put.next(slide.d2);
             }
+        }
+    }
+}
+
+/// Writes one number after the other, each to the next list.
+struct Put<'a, 'b, 'c> {
+    lists: &'a mut std::slice::IterMut<'b, &'c mut [f64]>,
+    at: usize,
+}
+
+impl Put<'_, '_, '_> {
+    #[inline(always)]
+    fn next<R: Real>(&mut self, value: R) {
+        // There are as many lists as the channels have numbers.
+        if let Some(list) = self.lists.next() {
+            value.store(&mut list[self.at..]);
         }
     }
 }

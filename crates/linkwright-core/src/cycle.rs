@@ -12,6 +12,7 @@
 
 use crate::dual::Dual;
 use crate::gauss::{B, C, S, StageNewton, stage_newton};
+use crate::layout::{Layout, bundle};
 use crate::linkage::Motion;
 use crate::plan::Plan;
 use crate::plane::Angle;
@@ -51,6 +52,8 @@ pub struct Step<R> {
 pub struct Turn<R> {
     /// The steps from φ = 0 to 2π.
     pub steps: Vec<Step<R>>,
+    /// What the lanes hold.
+    pub layout: Layout,
     /// Derivative of the turn-to-turn map.
     pub multiplier: R,
     /// Newton sweeps over the turn.
@@ -98,7 +101,11 @@ impl<R: Real> Machine<'_, R> {
     #[inline(always)]
     pub fn row<const ORDER: u8>(&self, phi: R, m: &mut Motion<R>) -> Row<R> {
         let r = self.plan.reduce::<R, ORDER>(self.q, Angle::new(phi), 1.0, m);
-        let root = (R::splat(2.0) / r.J).sqrt();
+        let mut root = (R::splat(2.0) / r.J).sqrt();
+        for &gap in &m.gaps {
+            // A dyad without mass leaves no trace in J: where it does not close there is no motion either.
+            root = R::splat(0.0).select_lt(gap, root, R::splat(f64::NAN));
+        }
         Row { root, J_d1: r.J_d1, load: r.load + r.dry, viscous: r.viscous }
     }
 
@@ -132,8 +139,8 @@ impl<R: Real> Machine<'_, R> {
         let rows = self.rows::<1>(phi, h, m);
         let mut X = [E; S];
         let mut end = E;
-        // Quadratic convergence from E itself: 4 sweeps reach rounding for the step lengths in use.
-        for _ in 0..4 {
+        // From E itself, off by some percent, Newton squares the error: 1e-3, 1e-7, 1e-14.
+        for _ in 0..3 {
             let (f, d) = self.balances(&rows, &X);
             let newton = stage_newton(E, h, &f, &d, &X);
             for i in 0..S {
@@ -175,28 +182,36 @@ impl<R: Real> Step<R> {
 }
 
 impl<R: Real> Turn<R> {
-    /// Divides the turn at `breaks` (increasing, from 0 to 2π, lanes may differ) into steps no longer than
-    /// 2π/`n`, the longest lane deciding, and tabulates the machine at their stages.
+    /// Machines in lanes: divides the turn at `breaks` (increasing, from 0 to 2π, lanes may differ) into
+    /// steps no longer than 2π/`n`, the longest lane deciding, and tabulates the machines at their stages.
     #[inline(always)]
-    pub fn tabulate(machine: &Machine<'_, R>, breaks: &[R], n: usize, m: &mut Motion<R>) -> Self {
-        let mut steps = Vec::with_capacity(n + breaks.len());
-        let longest = TAU / n as f64;
+    pub fn of_machines(machine: &Machine<'_, R>, breaks: &[R], n: usize, m: &mut Motion<R>) -> Self {
+        Self::tabulate(machine, divide(breaks, n), Layout::Machines, m)
+    }
+
+    /// One machine, its steps in lanes, the last bundle filled up at 2π.
+    #[inline(always)]
+    pub fn of_steps(machine: &Machine<'_, R>, breaks: &[f64], n: usize, m: &mut Motion<R>) -> Self {
+        let (mut phi, mut h): (Vec<f64>, Vec<f64>) = divide(breaks, n).into_iter().unzip();
+        let filled = phi.len().next_multiple_of(R::LANES);
+        phi.resize(filled, TAU);
+        h.resize(filled, 0.0);
+        let steps = bundle(&phi).into_iter().zip(bundle(&h)).collect();
+        Self::tabulate(machine, steps, Layout::Steps, m)
+    }
+
+    #[inline(always)]
+    fn tabulate(machine: &Machine<'_, R>, steps: Vec<(R, R)>, layout: Layout, m: &mut Motion<R>) -> Self {
         let zero = R::splat(0.0);
-        for ends in breaks.windows(2) {
-            let length = ends[1] - ends[0];
-            // The guard keeps a segment of exactly n·longest from being cut into n + 1 by rounding.
-            let count = (length.max_lane() / longest - 1e-9).ceil();
-            let h = length * (1.0 / count.max(1.0));
-            for i in 0..count as usize {
-                let phi = h.mul_add(R::splat(i as f64), ends[0]);
-                let rows = R::outline(
-                    #[inline(always)]
-                    || machine.rows::<2>(phi, h, m),
-                );
-                steps.push(Step { phi, h, rows, E: zero, X: [zero; S] });
-            }
+        let mut tabulated = Vec::with_capacity(steps.len());
+        for (phi, h) in steps {
+            let rows = R::outline(
+                #[inline(always)]
+                || machine.rows::<2>(phi, h, m),
+            );
+            tabulated.push(Step { phi, h, rows, E: zero, X: [zero; S] });
         }
-        Turn { steps, multiplier: zero, sweeps: 0, correction: f64::INFINITY }
+        Turn { steps: tabulated, layout, multiplier: zero, sweeps: 0, correction: f64::INFINITY }
     }
 
     /// Starts every energy from one constant speed that balances the mean load.
@@ -223,7 +238,7 @@ impl<R: Real> Turn<R> {
                 viscous = weight.mul_add(step.rows[i].viscous, viscous);
             }
         }
-        (load, viscous)
+        (self.layout.total(load), self.layout.total(viscous))
     }
 
     /// Solves for the periodic motion until no lane's correction exceeds `tolerance` (relative), or until
@@ -245,37 +260,50 @@ impl<R: Real> Turn<R> {
         }
     }
 
+    /// Newton for the stages of every step on its own, then for the starts of all steps together.
     #[inline(always)]
     fn sweep(&mut self, machine: &Machine<'_, R>, work: &mut Vec<StageNewton<R>>) {
         work.clear();
-        let n = self.steps.len();
-        let one = R::splat(1.0);
-        let (mut gain, mut offset) = (one, R::splat(0.0));
-        for k in 0..n {
-            let step = &self.steps[k];
+        let mut starts = Vec::with_capacity(self.steps.len());
+        for step in &self.steps {
             let (f, d) = machine.balances(&step.rows, &step.X);
-            let newton = stage_newton(step.E, step.h, &f, &d, &step.X);
-            let defect = newton.end - self.steps[(k + 1) % n].E;
-            offset = newton.growth.mul_add(offset, defect);
-            gain = gain * newton.growth;
-            work.push(newton);
+            work.push(stage_newton(step.E, step.h, &f, &d, &step.X));
+            starts.push(step.E);
         }
-        self.multiplier = gain;
-        let mut delta = offset / (one - gain);
+        let ends = self.layout.ends(&starts);
+        let (mut growth, mut defect) = (starts, ends);
+        for k in 0..work.len() {
+            growth[k] = work[k].growth;
+            defect[k] = work[k].end - defect[k];
+        }
+        let (delta, multiplier) = self.layout.close(&growth, &defect);
+        self.multiplier = multiplier;
         let mut worst = R::splat(0.0);
-        for k in 0..n {
-            let end = self.steps[(k + 1) % n].E;
-            let newton = &work[k];
-            let step = &mut self.steps[k];
+        for ((step, newton), delta) in self.steps.iter_mut().zip(work.iter()).zip(delta) {
             for i in 0..S {
                 let change = newton.u[i].mul_add(delta, newton.p[i]);
-                let X = (step.X[i] + change).max(step.X[i] * SHRINK);
                 worst = worst.max(change.abs() / step.X[i]);
-                step.X[i] = X;
+                step.X[i] = (step.X[i] + change).max(step.X[i] * SHRINK);
             }
             step.E = (step.E + delta).max(step.E * SHRINK);
-            delta = newton.growth.mul_add(delta, newton.end - end);
         }
         self.correction = worst.max_lane();
     }
+}
+
+/// Start and length of equal steps, no longer than 2π/`n` in any lane, from break to break.
+#[inline(always)]
+fn divide<R: Real>(breaks: &[R], n: usize) -> Vec<(R, R)> {
+    let longest = TAU / n as f64;
+    let mut steps = Vec::with_capacity(n + breaks.len());
+    for ends in breaks.windows(2) {
+        let length = ends[1] - ends[0];
+        // The guard keeps a segment of exactly n·longest from being cut into n + 1 by rounding.
+        let count = (length.max_lane() / longest - 1e-9).ceil();
+        let h = length * (1.0 / count.max(1.0));
+        for i in 0..count as usize {
+            steps.push((h.mul_add(R::splat(i as f64), ends[0]), h));
+        }
+    }
+    steps
 }

@@ -12,6 +12,7 @@
 //! | [`drive`] | motor, gearbox: torque on the crank over speed |
 //! | [`gauss`] | collocation of order 8 |
 //! | [`kinks`] | where the reduced machine is not smooth |
+//! | [`layout`] | what the lanes of a turn hold: machines or steps |
 //! | [`cycle`] | steady motion on one mesh, in any lanes |
 //! | [`measures`] | extremes, work, torque of a turn |
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
@@ -32,6 +33,7 @@ pub mod error;
 pub mod gauss;
 pub mod kinks;
 pub mod lanes;
+pub mod layout;
 pub mod linkage;
 pub mod measures;
 pub mod plan;

@@ -205,6 +205,9 @@ impl<R: Real> Turn<R> {
                 square = torque.squared().mul_add(dt, square);
             }
         }
+        let layout = self.layout;
+        let (period, mean, square) = (layout.total(period), layout.total(mean), layout.total(square));
+        let (motor, crank, load) = (layout.total(motor), layout.total(crank), layout.total(load));
         Totals {
             period,
             motor_work: motor,
@@ -237,19 +240,27 @@ impl<R: Real> Turn<R> {
     #[inline(always)]
     fn samples(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Samples<R> {
         let n = self.steps.len();
-        let mut starts = Vec::with_capacity(n);
+        let (mut torques, mut speeds, mut gains) =
+            (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
         for step in &self.steps {
             let row = machine.row::<2>(step.phi, m);
-            starts.push((row, machine.balance(&row, step.E).value));
+            let torque = machine.balance(&row, step.E).value;
+            let (omega, epsilon) = speed_and_gain(&row, step.E, torque);
+            torques.push(torque);
+            speeds.push(omega);
+            gains.push(epsilon);
         }
+        let [torques_end, speeds_end, gains_end] =
+            [self.layout.ends(&torques), self.layout.ends(&speeds), self.layout.ends(&gains)];
         let mut samples: Samples<R> = Vec::with_capacity(n);
         for (k, step) in self.steps.iter().enumerate() {
-            let mut f = [starts[k].1; N];
-            f[S + 1] = starts[(k + 1) % n].1;
+            let mut f = [torques[k]; N];
+            f[S + 1] = torques_end[k];
             for i in 0..S {
                 f[i + 1] = machine.balance(&step.rows[i], step.X[i]).value;
             }
-            let mut sample = [speed_and_gain(&starts[k].0, step.E, f[0]); N];
+            let mut sample = [(speeds[k], gains[k]); N];
+            sample[S + 1] = (speeds_end[k], gains_end[k]);
             for i in 1..=S {
                 let mut E = step.E;
                 for j in 0..N {
@@ -259,9 +270,6 @@ impl<R: Real> Turn<R> {
                 sample[i] = speed_and_gain(row, E, machine.balance(row, E).value);
             }
             samples.push(sample);
-        }
-        for k in 0..n {
-            samples[k][S + 1] = samples[(k + 1) % n][0];
         }
         samples
     }
@@ -278,7 +286,7 @@ impl<R: Real> Turn<R> {
         let lowest = R::splat(f64::NEG_INFINITY);
         let mut best = Extreme { value: lowest, phi: R::splat(0.0) };
         let mut seen: [R; ROUNDS] = [R::splat(-1.0); ROUNDS];
-        let range = range_of(samples, quantity);
+        let range = self.range(samples, quantity);
         let peaks = R::outline(
             #[inline(always)]
             || peaks_of(samples, quantity),
@@ -302,9 +310,28 @@ impl<R: Real> Turn<R> {
                 phi: best.value.select_lt(found.value, found.phi, best.phi),
                 value: best.value.max(found.value),
             };
+            // With the steps of one machine in lanes, the best of all lanes is the one to beat.
+            let top = self.layout.highest(best.value);
+            let below = R::splat(f64::NEG_INFINITY);
+            best.phi = self.layout.highest(best.value.select_lt(top, below, best.phi));
+            best.value = top;
         }
         best.value = best.value * quantity.sign;
         best
+    }
+
+    /// Largest minus smallest sample.
+    #[inline(always)]
+    fn range(&self, samples: &Samples<R>, quantity: Quantity) -> R {
+        let mut low = quantity.of(samples[0][0]);
+        let mut high = low;
+        for sample in samples {
+            for state in sample {
+                low = low.min(quantity.of(*state));
+                high = high.max(quantity.of(*state));
+            }
+        }
+        self.layout.highest(high) + self.layout.highest(-low)
     }
 
     /// The most promising step of those not seen yet.
@@ -407,20 +434,6 @@ fn peaks_of<R: Real>(samples: &Samples<R>, quantity: Quantity) -> Vec<(R, R)> {
         peaks.push(peak_of_step(&y));
     }
     peaks
-}
-
-/// Largest minus smallest sample.
-#[inline(always)]
-fn range_of<R: Real>(samples: &Samples<R>, quantity: Quantity) -> R {
-    let mut low = quantity.of(samples[0][0]);
-    let mut high = low;
-    for sample in samples {
-        for state in sample {
-            low = low.min(quantity.of(*state));
-            high = high.max(quantity.of(*state));
-        }
-    }
-    high - low
 }
 
 /// Height and place (share of the step) of the best of four parabolas through neighbouring samples.

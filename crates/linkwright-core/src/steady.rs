@@ -5,13 +5,15 @@
 //! the motor's or gearbox's characteristic has a kink at some speed, the angles at which the speed passes it
 //! are found on each mesh and become ends of steps on the next.
 
-use crate::cycle::{Machine, Turn};
-use crate::lanes::Job;
+use crate::cycle::{Machine, Step, Turn};
+use crate::lanes::{Job, in_lanes};
+use crate::layout::unbundle;
 use crate::linkage::Motion;
-use crate::measures::{Extremes, Totals};
+use crate::measures::{Extreme, Extremes, Totals};
 use crate::plan::Plan;
 use crate::real::Real;
 use crate::status::Status;
+use std::f64::consts::TAU;
 
 /// Steps of the first mesh.
 const FIRST: usize = 24;
@@ -22,14 +24,31 @@ const FINEST: usize = FIRST << 9;
 /// Agreement of two meshes per accuracy asked for; see the head of this file.
 const MARGIN: f64 = 100.0;
 
+/// Relative distance of a speed from a kink's below which it counts as the kink's. A break that is off by
+/// 1e-9 rad changes the solution by the square of that.
+const ON_KINK: f64 = 1e-10;
+
 /// The smallest accuracy that rounding leaves reachable.
 const ROUNDING: f64 = 2e-14;
+
+/// The solution at the start of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Mark {
+    /// Crank angle \[rad\].
+    pub phi: f64,
+    /// Kinetic energy \[J\].
+    pub E: f64,
+    /// Time from φ = 0 \[s\].
+    pub t: f64,
+}
 
 /// Steady motion of one machine.
 #[derive(Clone, Debug)]
 pub struct Steady {
-    /// The turn's solution.
-    pub turn: Turn<f64>,
+    /// The solution at the starts of the steps.
+    pub marks: Vec<Mark>,
+    /// Derivative of the turn-to-turn map.
+    pub multiplier: f64,
     /// Measures.
     pub extremes: Extremes<f64>,
     /// Integrals.
@@ -49,72 +68,188 @@ pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Status> {
     let machine = Machine { plan, q };
     let mut m = Motion::new(&plan.mechanism, q);
     let accuracy = accuracy.max(ROUNDING);
+    let breaks = machine.breaks(&[], &mut m);
     let speeds = plan.speed_kinks(q);
-    let (mut crossings, mut before, mut sweeps, mut n) = (Vec::new(), None, 0, FIRST);
-    while n <= FINEST {
-        let breaks = machine.breaks(&crossings, &mut m);
-        let mut turn = Turn::tabulate(&machine, &breaks, n, &mut m);
+    let mut mesh = Mesh { plan, q, breaks: &breaks, n: FIRST, tolerance: accuracy * 1e-2, last: None };
+    let (mut crossings, mut sweeps) = (Vec::new(), 0);
+    while mesh.n <= FINEST {
+        let with_crossings = merged(&breaks, &crossings);
+        let found = in_lanes(Mesh { breaks: &with_crossings, ..mesh })?;
+        sweeps += found.sweeps;
+        let next = crossings_of(&found, &machine, &speeds, &mut m);
+        if let Some((difference, extremes)) = found.agreed.filter(|_| next.len() == crossings.len()) {
+            let Solved { marks, multiplier, totals, .. } = found;
+            return Ok(Steady { marks, multiplier, extremes, totals, difference, sweeps });
+        }
+        mesh.last = Some((found.totals.period, found.marks[0].E, accuracy));
+        (crossings, mesh.n) = (next, mesh.n * 2);
+    }
+    Err(Status::Inaccurate)
+}
+
+/// Breaks of the turn with further angles, in order.
+fn merged(breaks: &[f64], more: &[f64]) -> Vec<f64> {
+    let mut all = [breaks, more].concat();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+/// The search on one mesh, with the steps of the machine in lanes.
+#[derive(Clone, Copy)]
+struct Mesh<'a> {
+    plan: &'a Plan,
+    q: &'a [f64],
+    breaks: &'a [f64],
+    n: usize,
+    tolerance: f64,
+    /// Period and first energy on the mesh before, and the accuracy to which they should agree.
+    last: Option<(f64, f64, f64)>,
+}
+
+/// What a mesh gives; the measures only where it agrees with the one before.
+struct Solved {
+    marks: Vec<Mark>,
+    multiplier: f64,
+    totals: Totals<f64>,
+    sweeps: u32,
+    agreed: Option<(f64, Extremes<f64>)>,
+}
+
+impl Job for Mesh<'_> {
+    type Output = Result<Solved, Status>;
+
+    #[inline(always)]
+    fn run<R: Real>(self) -> Self::Output {
+        let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
+        let machine = Machine { plan: self.plan, q: &q };
+        let mut m = Motion::new(&self.plan.mechanism, &q);
+        let mut turn = Turn::of_steps(&machine, self.breaks, self.n, &mut m);
         if !turn.closes() {
             return Err(Status::DoesNotClose);
         }
         turn.start_from_balance(&machine);
-        turn.solve(&machine, accuracy * 1e-2);
-        sweeps += turn.sweeps;
+        turn.solve(&machine, self.tolerance);
         if !turn.is_solved() {
             return Err(Status::NoSteadyMotion);
         }
-        let totals = turn.totals(&machine);
-        let found = (totals.period, turn.steps[0].E);
-        let difference = before.map_or(f64::INFINITY, |old| relative_difference(found, old));
-        let next = turn.crossings(&machine, &speeds, &mut m);
-        let settled = next.len() == crossings.len();
-        if settled && difference <= MARGIN * accuracy {
-            let extremes = turn.extremes(&machine, &mut m);
-            return Ok(Steady { turn, extremes, totals, difference, sweeps });
-        }
-        (crossings, before, n) = (next, Some(found), n * 2);
+        let totals = turn.totals(&machine).first_lane();
+        let marks = turn.marks();
+        let agreed = self.last.and_then(|(period, E, accuracy)| {
+            let difference = relative_difference((totals.period, marks[0].E), (period, E));
+            (difference <= MARGIN * accuracy)
+                .then(|| (difference, turn.extremes(&machine, &mut m).first_lane()))
+        });
+        let multiplier = first_lane(turn.multiplier);
+        Ok(Solved { marks, multiplier, totals, sweeps: turn.sweeps, agreed })
     }
-    Err(Status::Inaccurate)
 }
 
 fn relative_difference(a: (f64, f64), b: (f64, f64)) -> f64 {
     ((a.0 - b.0) / a.0).abs().max(((a.1 - b.1) / a.1).abs())
 }
 
-impl Turn<f64> {
+impl<R: Real> Turn<R> {
     /// Whether every dyad closes at every stage.
+    #[inline(always)]
     fn closes(&self) -> bool {
-        self.steps.iter().all(|step| step.rows.iter().all(|row| !row.root.is_nan()))
-    }
-
-    /// Whether Newton converged to a real motion.
-    pub fn is_solved(&self) -> bool {
-        self.correction.is_finite()
-            && self.correction <= 1e-6
-            && self.multiplier.is_finite()
-            && self.steps.iter().all(|step| step.E > 0.0 && step.E.is_finite())
-    }
-
-    /// Angles at which the speed passes one of the given ones.
-    fn crossings(&self, machine: &Machine<'_, f64>, speeds: &[f64], m: &mut Motion<f64>) -> Vec<f64> {
-        if speeds.is_empty() {
-            return Vec::new();
-        }
-        let omega: Vec<f64> = self.steps.iter().map(|s| machine.state(s.phi, s.E, m).omega).collect();
-        let mut found = Vec::new();
-        for (k, step) in self.steps.iter().enumerate() {
-            let (a, b) = (omega[k], omega[(k + 1) % omega.len()]);
-            for &speed in speeds.iter().filter(|&&speed| (a - speed) * (b - speed) < 0.0) {
-                let excess = |h: f64| {
-                    let E = machine.advance(step.phi, step.E, h, m);
-                    machine.state(step.phi + h, E, m).omega - speed
-                };
-                found.push(step.phi + crossing(excess, step.h, a - speed, b - speed));
+        let mut worst = R::splat(0.0);
+        for step in &self.steps {
+            for row in &step.rows {
+                // NaN, which an open dyad leaves, is not below the limit.
+                worst = worst.max(row.root.select_lt(R::splat(f64::INFINITY), worst, R::splat(1.0)));
             }
         }
-        found.sort_by(f64::total_cmp);
-        found
+        worst.max_lane() < 0.5
     }
+
+    /// Whether Newton converged to a real motion in every lane.
+    #[inline(always)]
+    fn is_solved(&self) -> bool {
+        let energies: Vec<R> = self.steps.iter().map(|step| step.E).collect();
+        self.correction <= 1e-6
+            && unbundle(&[self.multiplier]).iter().all(|x| x.is_finite())
+            && unbundle(&energies).iter().all(|&E| E > 0.0 && E.is_finite())
+    }
+
+    /// The solution at the starts of the steps, those of no length left out.
+    #[inline(always)]
+    fn marks(&self) -> Vec<Mark> {
+        let columns = |of: &dyn Fn(&Step<R>) -> R| unbundle(&self.steps.iter().map(of).collect::<Vec<_>>());
+        let (phi, E) = (columns(&|step| step.phi), columns(&|step| step.E));
+        let (h, duration) = (columns(&|step| step.h), columns(&|step| step.duration()));
+        let mut t = 0.0;
+        let mut marks = Vec::with_capacity(phi.len());
+        for k in 0..phi.len() {
+            if h[k] > 0.0 {
+                marks.push(Mark { phi: phi[k], E: E[k], t });
+            }
+            t += duration[k];
+        }
+        marks
+    }
+}
+
+#[inline(always)]
+fn first_lane<R: Real>(x: R) -> f64 {
+    unbundle(&[x])[0]
+}
+
+impl<R: Real> Totals<R> {
+    /// Those of the first lane.
+    #[inline(always)]
+    fn first_lane(&self) -> Totals<f64> {
+        Totals {
+            period: first_lane(self.period),
+            motor_work: first_lane(self.motor_work),
+            crank_work: first_lane(self.crank_work),
+            load_work: first_lane(self.load_work),
+            torque_mean: first_lane(self.torque_mean),
+            torque_rms: first_lane(self.torque_rms),
+        }
+    }
+}
+
+impl<R: Real> Extremes<R> {
+    /// Those of the first lane.
+    #[inline(always)]
+    fn first_lane(&self) -> Extremes<f64> {
+        let first = |e: &Extreme<R>| Extreme { value: first_lane(e.value), phi: first_lane(e.phi) };
+        Extremes {
+            speed_min: first(&self.speed_min),
+            speed_max: first(&self.speed_max),
+            acceleration_min: first(&self.acceleration_min),
+            acceleration_max: first(&self.acceleration_max),
+        }
+    }
+}
+
+/// Angles at which the speed passes one of the given ones.
+fn crossings_of(found: &Solved, machine: &Machine<'_, f64>, speeds: &[f64], m: &mut Motion<f64>) -> Vec<f64> {
+    if speeds.is_empty() {
+        return Vec::new();
+    }
+    let marks = &found.marks;
+    let omega: Vec<f64> = marks.iter().map(|mark| machine.state(mark.phi, mark.E, m).omega).collect();
+    let mut crossings = Vec::new();
+    for (k, mark) in marks.iter().enumerate() {
+        let h = marks.get(k + 1).map_or(TAU, |next| next.phi) - mark.phi;
+        let (a, b) = (omega[k], omega[(k + 1) % omega.len()]);
+        for &speed in speeds {
+            let (left, right) = (a - speed, b - speed);
+            if left.abs() <= ON_KINK * speed {
+                // The crossing of the mesh before: it stays an end of steps.
+                crossings.push(mark.phi);
+            } else if left * right < 0.0 && right.abs() > ON_KINK * speed {
+                let excess = |h: f64| {
+                    let E = machine.advance(mark.phi, mark.E, h, m);
+                    machine.state(mark.phi + h, E, m).omega - speed
+                };
+                crossings.push(mark.phi + crossing(excess, h, left, right));
+            }
+        }
+    }
+    crossings.sort_by(f64::total_cmp);
+    crossings
 }
 
 /// Zero of `f` in [0, h] with given values of opposite sign at the ends: Illinois variant of regula falsi
@@ -161,7 +296,7 @@ pub struct ReadCurves<'a> {
     /// Its numbers.
     pub q: &'a [f64],
     /// The solution.
-    pub turn: &'a Turn<f64>,
+    pub marks: &'a [Mark],
     /// The angles \[rad\], in [0, 2π].
     pub phi: &'a [f64],
 }
@@ -174,16 +309,14 @@ impl Job for ReadCurves<'_> {
         let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
         let machine = Machine { plan: self.plan, q: &q };
         let mut m = Motion::new(&self.plan.mechanism, &q);
-        let times = self.times();
         let mut curves = Curves::default();
         let n = R::LANES;
         let mut from = vec![[0.0; 4]; n];
         for phis in self.phi.chunks(n) {
             for (lane, slot) in from.iter_mut().enumerate() {
                 let phi = phis[lane.min(phis.len() - 1)];
-                let k = self.turn.steps.partition_point(|step| step.phi <= phi).max(1) - 1;
-                let step = &self.turn.steps[k];
-                *slot = [step.phi, step.E, phi - step.phi, times[k]];
+                let mark = &self.marks[self.marks.partition_point(|mark| mark.phi <= phi).max(1) - 1];
+                *slot = [mark.phi, mark.E, phi - mark.phi, mark.t];
             }
             let gather = |i: usize| R::load(&from.iter().map(|slot| slot[i]).collect::<Vec<_>>());
             let (phi, E, h, start) = (gather(0), gather(1), gather(2), gather(3));
@@ -209,18 +342,5 @@ impl Job for ReadCurves<'_> {
             put(&mut curves.J, state.J);
         }
         curves
-    }
-}
-
-impl ReadCurves<'_> {
-    /// Time at the start of each step.
-    fn times(&self) -> Vec<f64> {
-        let mut t = 0.0;
-        let durations = self.turn.steps.iter().map(|step| {
-            let start = t;
-            t += step.duration();
-            start
-        });
-        durations.collect()
     }
 }

@@ -73,7 +73,7 @@ fn accuracy_is_kept() {
 fn work_of_the_search_is_as_before() {
     let built = two_carts(FRAC_PI_2, 0.9);
     let found = steady(&built.plan, &built.q, 1e-10).expect("steady motion");
-    assert_eq!((found.sweeps, found.turn.steps.len()), (10, 48), "sweeps and steps");
+    assert_eq!((found.sweeps, found.marks.len()), (10, 48), "sweeps and steps");
 }
 
 /// Steady motion is what a long run-up ends in, and the multiplier is how a disturbance shrinks.
@@ -91,7 +91,7 @@ fn run_up_ends_in_steady_motion() {
     let cycle = steady(&built.plan, &built.q, 1e-12).expect("steady motion");
     let machine = Machine { plan: &built.plan, q: &built.q };
     let mut m = Motion::new(&built.plan.mechanism, &built.q);
-    let omega = machine.state(0.0, cycle.turn.steps[0].E, &mut m).omega;
+    let omega = machine.state(0.0, cycle.marks[0].E, &mut m).omega;
 
     let run_up = follow(&built.plan, &built.q, &from_rest(FOREVER, 40.0));
     assert_eq!(run_up.end, End::Turns, "how it ended");
@@ -104,7 +104,7 @@ fn run_up_ends_in_steady_motion() {
         *follow(&built.plan, &built.q, &start).omega.last().expect("a motion")
     };
     let shrinks = (disturbed(1e-3) - disturbed(-1e-3)) / 2e-3;
-    let multiplier = cycle.turn.multiplier;
+    let multiplier = cycle.multiplier;
     // Central difference of a smooth map: error of order (1e-3)².
     assert!((shrinks - multiplier).abs() < 1e-5, "{shrinks} measured, {multiplier} predicted");
 }

@@ -83,7 +83,7 @@ fn steady_state<'py>(
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let solved = py.detach(|| {
         let found = steady(&plan.0, q, accuracy)?;
-        let curves = in_lanes(ReadCurves { plan: &plan.0, q, turn: &found.turn, phi });
+        let curves = in_lanes(ReadCurves { plan: &plan.0, q, marks: &found.marks, phi });
         Ok((found, curves))
     });
     let (found, curves) = match solved {
@@ -99,7 +99,7 @@ fn steady_state<'py>(
         found.extremes.acceleration_max.phi,
         found.difference,
         f64::from(found.sweeps),
-        found.turn.steps.len() as f64,
+        found.marks.len() as f64,
     ]);
     let rows = [
         &curves.time,
