@@ -7,6 +7,7 @@ from row to row: one description serves a single machine and a batch.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -161,12 +162,39 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
     ShapeError
         Arrays of different length, or an array in a table.
     """
+    parts = _parts(machine)
+    key = (id(machine), motor, brake)
+    known = _known.get(key)
+    if known and len(known[0]) == len(parts) and all(map(operator.is_, known[0], parts)):
+        return known[1]
     translator = _Translator(machine)
     translator.mechanism()
     translator.bodies()
     translator.loads(brake=brake)
     translator.drive(motor=motor)
-    return translator.result()
+    compiled = translator.result()
+    if len(_known) >= _KNOWN_MAX:
+        _known.pop(next(iter(_known)))
+    _known[key] = (parts, compiled)
+    return compiled
+
+
+# Machines translated last, with the parts they were made of: frozen objects, so a machine of the same parts
+# is the same machine. A few suffice for analyses that follow one another on one machine.
+_known: dict[tuple[int, bool, bool], tuple[list[object], Compiled]] = {}
+_KNOWN_MAX = 8
+
+
+def _parts(machine: Machine) -> list[object]:
+    """The frozen parts that a machine consists of, with their names."""
+    mechanism = machine.mechanism
+    parts: list[object] = [machine, machine.drive]
+    tables = (mechanism.points, mechanism.cranks, mechanism.sliders, mechanism.rockers, mechanism.rigid_points)
+    for table in (*tables, machine.bodies, machine.loads):
+        parts.append(len(table))
+        parts += table
+        parts += table.values()
+    return parts
 
 
 class _Translator:

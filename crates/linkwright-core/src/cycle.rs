@@ -101,11 +101,7 @@ impl<R: Real> Machine<'_, R> {
     #[inline(always)]
     pub fn row<const ORDER: u8>(&self, phi: R, m: &mut Motion<R>) -> Row<R> {
         let r = self.plan.reduce::<R, ORDER>(self.q, Angle::new(phi), 1.0, m);
-        let mut root = (R::splat(2.0) / r.J).sqrt();
-        for &gap in &m.gaps {
-            // A dyad without mass leaves no trace in J: where it does not close there is no motion either.
-            root = R::splat(0.0).select_lt(gap, root, R::splat(f64::NAN));
-        }
+        let root = (R::splat(2.0) / r.J).sqrt();
         Row { root, J_d1: r.J_d1, load: r.load + r.dry, viscous: r.viscous }
     }
 

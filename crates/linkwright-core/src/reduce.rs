@@ -126,6 +126,10 @@ impl Plan {
         for load in &self.loads {
             self.add_load(load, q, angle, sense, m, &mut r);
         }
+        for &gap in &m.gaps {
+            // A dyad without mass leaves no trace in J: where it does not close there is no motion either.
+            r.J = gap.select_lt(R::splat(0.0), R::splat(f64::NAN), r.J + gap * 0.0);
+        }
         r
     }
 

@@ -82,28 +82,41 @@ pub fn try_step<const N: usize>(
     let mut k = [[0.0; N]; S];
     k[0] = *k0;
     for i in 1..S {
-        let stage: Vector<N> = std::array::from_fn(|n| {
-            let sum: f64 = (0..i).map(|j| A[i][j] * k[j][n]).sum();
-            y[n] + h * sum
-        });
+        let mut stage = *y;
+        for j in 0..i {
+            let weight = h * A[i][j];
+            for n in 0..N {
+                stage[n] += weight * k[j][n];
+            }
+        }
         k[i] = f(t + C[i] * h, &stage);
     }
-    let weigh = |weights: &[f64; S], n: usize| (0..S).map(|j| weights[j] * k[j][n]).sum::<f64>();
-    let end: Vector<N> = std::array::from_fn(|n| y[n] + h * weigh(&B, n));
+    let weigh = |weights: &[f64; S]| {
+        let mut sum = [0.0; N];
+        for j in 0..S {
+            for n in 0..N {
+                sum[n] += weights[j] * k[j][n];
+            }
+        }
+        sum
+    };
+    let (rise, third, fifth) = (weigh(&B), weigh(&E3), weigh(&E5));
+    let end: Vector<N> = std::array::from_fn(|n| y[n] + h * rise[n]);
     let (mut e3, mut e5) = (0.0, 0.0);
     for n in 0..N {
         let size = scale(n, y[n].abs().max(end[n].abs()));
-        e3 += (weigh(&E3, n) / size).powi(2);
-        e5 += (weigh(&E5, n) / size).powi(2);
+        e3 += (third[n] / size).powi(2);
+        e5 += (fifth[n] / size).powi(2);
     }
     let blend = e5 + 0.01 * e3;
     let error = if blend > 0.0 { h.abs() * e5 / (blend * N as f64).sqrt() } else { 0.0 };
     Trial { y: end, error }
 }
 
-/// Factor for the next step: aims at nine tenths of the tolerance, changes at most tenfold.
+/// Factor for the next step: nine tenths of the length that would just meet the tolerance, at most six times
+/// longer, at least a tenth.
 pub fn next_factor(error: f64) -> f64 {
-    if error.is_nan() { 0.1 } else { (0.9 * error.powf(-1.0 / 8.0)).clamp(0.1, 10.0) }
+    if error.is_nan() { 0.1 } else { (0.9 * error.powf(-1.0 / 8.0)).clamp(0.1, 6.0) }
 }
 
 #[cfg(test)]

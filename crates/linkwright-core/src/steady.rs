@@ -6,6 +6,7 @@
 //! are found on each mesh and become ends of steps on the next.
 
 use crate::cycle::{Machine, Step, Turn};
+use crate::gauss::S;
 use crate::lanes::{Job, in_lanes};
 use crate::layout::unbundle;
 use crate::linkage::Motion;
@@ -76,7 +77,8 @@ pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Status> {
         let with_crossings = merged(&breaks, &crossings);
         let found = in_lanes(Mesh { breaks: &with_crossings, ..mesh })?;
         sweeps += found.sweeps;
-        let next = crossings_of(&found, &machine, &speeds, &mut m);
+        let passed: Vec<f64> = speeds.iter().copied().filter(|&speed| found.may_pass(speed)).collect();
+        let next = crossings_of(&found.marks, &machine, &passed, &mut m);
         if let Some((difference, extremes)) = found.agreed.filter(|_| next.len() == crossings.len()) {
             let Solved { marks, multiplier, totals, .. } = found;
             return Ok(Steady { marks, multiplier, extremes, totals, difference, sweeps });
@@ -112,7 +114,18 @@ struct Solved {
     multiplier: f64,
     totals: Totals<f64>,
     sweeps: u32,
+    /// Least and greatest speed at the stages.
+    speeds: (f64, f64),
     agreed: Option<(f64, Extremes<f64>)>,
+}
+
+impl Solved {
+    /// Whether the motion may pass a speed, with room for what lies between the stages.
+    fn may_pass(&self, speed: f64) -> bool {
+        let (low, high) = self.speeds;
+        let room = 0.1 * (high - low) + 1e-9 * high;
+        low - room < speed && speed < high + room
+    }
 }
 
 impl Job for Mesh<'_> {
@@ -140,7 +153,7 @@ impl Job for Mesh<'_> {
                 .then(|| (difference, turn.extremes(&machine, &mut m).first_lane()))
         });
         let multiplier = first_lane(turn.multiplier);
-        Ok(Solved { marks, multiplier, totals, sweeps: turn.sweeps, agreed })
+        Ok(Solved { marks, multiplier, totals, sweeps: turn.sweeps, speeds: turn.stage_speeds(), agreed })
     }
 }
 
@@ -169,6 +182,21 @@ impl<R: Real> Turn<R> {
         self.correction <= 1e-6
             && unbundle(&[self.multiplier]).iter().all(|x| x.is_finite())
             && unbundle(&energies).iter().all(|&E| E > 0.0 && E.is_finite())
+    }
+
+    /// Least and greatest speed at the stages of all lanes.
+    #[inline(always)]
+    fn stage_speeds(&self) -> (f64, f64) {
+        let mut low = R::splat(f64::INFINITY);
+        let mut high = R::splat(0.0);
+        for step in &self.steps {
+            for i in 0..S {
+                let omega = step.rows[i].root * step.X[i].sqrt();
+                low = low.min(omega);
+                high = high.max(omega);
+            }
+        }
+        (-(-low).max_lane(), high.max_lane())
     }
 
     /// The solution at the starts of the steps, those of no length left out.
@@ -228,7 +256,6 @@ fn crossings_of(found: &Solved, machine: &Machine<'_, f64>, speeds: &[f64], m: &
     if speeds.is_empty() {
         return Vec::new();
     }
-    let marks = &found.marks;
     let omega: Vec<f64> = marks.iter().map(|mark| machine.state(mark.phi, mark.E, m).omega).collect();
     let mut crossings = Vec::new();
     for (k, mark) in marks.iter().enumerate() {
@@ -311,15 +338,21 @@ impl Job for ReadCurves<'_> {
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let mut curves = Curves::default();
         let n = R::LANES;
-        let mut from = vec![[0.0; 4]; n];
+        let mut from = [vec![0.0; n], vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+        let mut lanes = vec![0.0; n];
+        let mut k = 0;
         for phis in self.phi.chunks(n) {
-            for (lane, slot) in from.iter_mut().enumerate() {
+            for lane in 0..n {
                 let phi = phis[lane.min(phis.len() - 1)];
-                let mark = &self.marks[self.marks.partition_point(|mark| mark.phi <= phi).max(1) - 1];
-                *slot = [mark.phi, mark.E, phi - mark.phi, mark.t];
+                k = self.mark_before(phi, k);
+                let mark = &self.marks[k];
+                let values = [mark.phi, mark.E, phi - mark.phi, mark.t];
+                for (list, value) in from.iter_mut().zip(values) {
+                    list[lane] = value;
+                }
             }
-            let gather = |i: usize| R::load(&from.iter().map(|slot| slot[i]).collect::<Vec<_>>());
-            let (phi, E, h, start) = (gather(0), gather(1), gather(2), gather(3));
+            let [phi, E, h, start] =
+                [R::load(&from[0]), R::load(&from[1]), R::load(&from[2]), R::load(&from[3])];
             let (end, dt) = R::outline(
                 #[inline(always)]
                 || machine.advance_timed(phi, E, h, &mut m),
@@ -328,19 +361,32 @@ impl Job for ReadCurves<'_> {
                 #[inline(always)]
                 || machine.state(phi + h, end, &mut m),
             );
-            let put = |list: &mut Vec<f64>, value: R| {
-                let mut row = vec![0.0; n];
-                value.store(&mut row);
-                list.extend_from_slice(&row[..phis.len()]);
-            };
-            put(&mut curves.time, start + dt);
-            put(&mut curves.omega, state.omega);
-            put(&mut curves.epsilon, state.epsilon);
-            put(&mut curves.motor_torque, state.motor_torque);
-            put(&mut curves.drive_torque, state.drive_torque);
-            put(&mut curves.load_torque, state.load_torque);
-            put(&mut curves.J, state.J);
+            let row = [
+                (&mut curves.time, start + dt),
+                (&mut curves.omega, state.omega),
+                (&mut curves.epsilon, state.epsilon),
+                (&mut curves.motor_torque, state.motor_torque),
+                (&mut curves.drive_torque, state.drive_torque),
+                (&mut curves.load_torque, state.load_torque),
+                (&mut curves.J, state.J),
+            ];
+            for (list, value) in row {
+                value.store(&mut lanes);
+                list.extend_from_slice(&lanes[..phis.len()]);
+            }
         }
         curves
+    }
+}
+
+impl ReadCurves<'_> {
+    /// Index of the last mark not after φ, looked for from a likely one on.
+    fn mark_before(&self, phi: f64, from: usize) -> usize {
+        let is_before = |k: usize| self.marks.get(k).is_some_and(|mark| mark.phi <= phi);
+        let mut k = if is_before(from) { from } else { 0 };
+        while is_before(k + 1) {
+            k += 1;
+        }
+        k
     }
 }

@@ -72,8 +72,12 @@ pub struct Trajectory {
 /// Steps after which the motion is given up: a run-up of a thousand turns takes a tenth of them.
 const STEPS_MAX: usize = 400_000;
 
-/// How close a landing on an angle must be \[rad\].
+/// How close a landing on the last angle must be \[rad\].
 const LANDING: f64 = 1e-13;
+
+/// How close a landing on a kink must be, for an accuracy ε: this times √ε \[rad\]. Passing a kink by δ errs
+/// by δ² times its change of slope, a millionth of ε.
+const NEAR: f64 = 1e-3;
 
 type Y = [f64; 2];
 
@@ -138,7 +142,8 @@ struct Path {
 struct Accepted {
     h: f64,
     y: Y,
-    error: f64,
+    /// Length to try next.
+    next: f64,
     at_rest: bool,
 }
 
@@ -194,9 +199,7 @@ impl Path {
                 self.trajectory.end = End::Inaccurate;
                 return;
             };
-            // A step cut short by an event says nothing about the length the next may have.
-            let grown = step.h * next_factor(step.error);
-            h = if step.h < h { h.min(10.0 * grown).max(grown) } else { grown };
+            h = step.next;
             self.trajectory.t.push(t + step.h);
             self.trajectory.phi.push(step.y[0]);
             self.trajectory.omega.push(step.y[1]);
@@ -233,36 +236,40 @@ impl Path {
         way < 1
     }
 
-    /// The next accepted step from `from`, of length at most `h`.
-    fn step(&self, follower: &mut Follower<'_>, from: (f64, &Y, &Y), mut h: f64) -> Option<Accepted> {
+    /// The next accepted step from `from`, of length at most `longest`.
+    fn step(&self, follower: &mut Follower<'_>, from: (f64, &Y, &Y), mut longest: f64) -> Option<Accepted> {
         let (t, y, k0) = from;
         let target = self.next_angle(y[0]);
         let rest = self.last_time - t;
+        let landing = time_to(target - y[0], y[1], k0[1]);
         let scale = |n: usize, size: f64| {
             if n == 0 { self.accuracy } else { self.accuracy * (size + 0.01 * self.speed_scale) }
         };
         let mut derivative = |_t: f64, y: &Y| follower.derivative(y);
         let mut attempt = |h: f64| try_step(&mut derivative, from, h, &scale);
-        // Forty halvings to a tenth reach any length that still changes t.
+        let mut growth_max = f64::INFINITY;
+        // Forty reductions by a tenth to nine tenths reach any length that still changes t.
         for _ in 0..40 {
-            let landing = time_to(target - y[0], y[1], k0[1]);
-            let aims = landing <= h && landing <= rest;
-            h = h.min(rest).min(landing);
+            let mut h = longest.min(rest).min(landing);
             let mut trial = attempt(h);
             if trial.error.is_nan() || trial.error > 1.0 {
-                h *= next_factor(trial.error).min(0.5);
+                longest = h * next_factor(trial.error).min(0.9);
+                growth_max = 1.0;
                 continue;
             }
-            if trial.y[0] > target || aims {
-                (trial, h) = land(&mut attempt, trial, h, target);
+            // A step cut short by an event says nothing about the length that the next may have.
+            let grown = h * next_factor(trial.error).min(growth_max);
+            let next = if h < longest { grown.max(longest) } else { grown };
+            if trial.y[0] > target || h == landing {
+                let is_last = target == self.last_angle;
+                let near = if is_last { LANDING } else { NEAR * self.accuracy.sqrt() };
+                (trial, h) = land(&mut attempt, trial, h, (target, near));
             }
-            let cut = self.first_speed_event(&mut attempt, y[1], &trial, h);
-            let Some((shorter, speed)) = cut else {
-                return Some(Accepted { h, y: trial.y, error: trial.error, at_rest: false });
+            let Some((h, speed)) = self.first_speed_event(&mut attempt, y[1], &trial, h) else {
+                return Some(Accepted { h, y: trial.y, next, at_rest: false });
             };
-            let mut trial = attempt(shorter);
-            trial.y[1] = speed;
-            return Some(Accepted { h: shorter, y: trial.y, error: trial.error, at_rest: speed == 0.0 });
+            let at_rest = speed == 0.0;
+            return Some(Accepted { h, y: [attempt(h).y[0], speed], next, at_rest });
         }
         None
     }
@@ -270,9 +277,8 @@ impl Path {
     /// The next angle at which a step must end.
     fn next_angle(&self, phi: f64) -> f64 {
         let turn = (phi / TAU).floor() * TAU;
-        let after = |base: f64| {
-            self.kinks.iter().map(move |kink| base + kink).find(|&angle| angle > phi + 10.0 * LANDING)
-        };
+        let passed = phi + 10.0 * NEAR * self.accuracy.sqrt();
+        let after = |base: f64| self.kinks.iter().map(move |kink| base + kink).find(|&angle| angle > passed);
         let kink = after(turn).or_else(|| after(turn + TAU)).unwrap_or(f64::INFINITY);
         kink.min(self.last_angle)
     }
@@ -328,11 +334,11 @@ fn land(
     attempt: &mut impl FnMut(f64) -> Trial<2>,
     mut trial: Trial<2>,
     mut h: f64,
-    target: f64,
+    (target, near): (f64, f64),
 ) -> (Trial<2>, f64) {
     for _ in 0..6 {
         let miss = target - trial.y[0];
-        if miss.abs() <= LANDING || trial.y[1] <= 0.0 {
+        if miss.abs() <= near || trial.y[1] <= 0.0 {
             break;
         }
         h += miss / trial.y[1];

@@ -8,6 +8,7 @@ are u apart. The angles where it changes sign bound the ranges in which the mech
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -136,6 +137,9 @@ def _deg(angle: float) -> str:
     return f"{np.degrees(angle):.2f}"
 
 
+@lru_cache(maxsize=8)
 def turn_angles(n: int) -> NDArray[np.float64]:
-    """Crank angles from 0 to 2π inclusive, ``n`` intervals [rad]."""
-    return np.linspace(0.0, 2 * np.pi, n + 1)
+    """Crank angles from 0 to 2π inclusive, ``n`` intervals [rad]; shared by results, so read-only."""
+    angles = np.linspace(0.0, 2 * np.pi, n + 1)
+    angles.flags.writeable = False
+    return angles

@@ -227,7 +227,7 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
 def _from_core(scalars: Floats, curves: Floats, phi: Floats, ratio: float) -> SteadyState:
     """The core's numbers by name; their order is that of `linkwright-core`, module `batch`."""
     time, speed, acceleration, torque_motor, torque_drive, torque_load, inertia = curves
-    low, high, drop, rise, period, multiplier, motor, drive, load, mean, rms, *places = map(float, scalars)
+    low, high, drop, rise, period, multiplier, motor, drive, load, mean, rms, *places = scalars.tolist()
     low_at, high_at, drop_at, rise_at, difference, sweeps, steps = places
     return SteadyState(
         crank_angle=phi,

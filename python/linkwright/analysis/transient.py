@@ -156,7 +156,7 @@ def transient(
     Raises
     ------
     AssemblyError
-        The mechanism does not close all round.
+        The motion reaches an angle at which the mechanism does not close.
     ConvergenceError
         The accuracy cannot be kept.
     InputError
@@ -175,8 +175,9 @@ def transient(
     if motor and machine.drive and isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a motor of constant speed has no run-up: it turns at its speed under any load")
     compiled = compile_machine(machine, motor=motor, brake=brake)
-    require_full_turn(compiled, machine)
     end, torques, evaluations, curves = compiled.transient((angle, speed), duration, turns, accuracy)
+    if end == End.DOES_NOT_CLOSE:
+        require_full_turn(compiled, machine)
     if end == End.INACCURATE:
         raise ConvergenceError(
             f"the motion was given up at {curves[0][-1]:.6g} s: steps became too small or too many for an "
