@@ -252,7 +252,7 @@ impl<R: Real> Extremes<R> {
 }
 
 /// Angles at which the speed passes one of the given ones.
-fn crossings_of(found: &Solved, machine: &Machine<'_, f64>, speeds: &[f64], m: &mut Motion<f64>) -> Vec<f64> {
+fn crossings_of(marks: &[Mark], machine: &Machine<'_, f64>, speeds: &[f64], m: &mut Motion<f64>) -> Vec<f64> {
     if speeds.is_empty() {
         return Vec::new();
     }
