@@ -189,7 +189,13 @@ def _parts(machine: Machine) -> list[object]:
     """The frozen parts that a machine consists of, with their names."""
     mechanism = machine.mechanism
     parts: list[object] = [machine, machine.drive]
-    tables = (mechanism.points, mechanism.cranks, mechanism.sliders, mechanism.rockers, mechanism.rigid_points)
+    tables = (
+        mechanism.points,
+        mechanism.cranks,
+        mechanism.sliders,
+        mechanism.rockers,
+        mechanism.rigid_points,
+    )
     for table in (*tables, machine.bodies, machine.loads):
         parts.append(len(table))
         parts += table
