@@ -34,7 +34,12 @@ _HOME = {
     "run_up": "analysis.run_up",
     "run_down": "analysis.run_down",
     "step_method": "analysis.step_method",
+    "study": "analysis.study",
     "steady_states": "sweep.batch",
+    "required_power": "sizing.power",
+    "choose_motor": "sizing.motor",
+    "choose_flywheel": "sizing.flywheel",
+    "write_report": "report",
 }
 
 __all__ = ["__version__", *_HOME]
@@ -64,6 +69,7 @@ if TYPE_CHECKING:
     from linkwright.analysis.run_up import run_up as run_up
     from linkwright.analysis.steady_state import steady_state as steady_state
     from linkwright.analysis.step_method import step_method as step_method
+    from linkwright.analysis.study import study as study
     from linkwright.analysis.transient import transient as transient
     from linkwright.files import loads as loads
     from linkwright.files import read as read
@@ -73,4 +79,8 @@ if TYPE_CHECKING:
     from linkwright.machine import get as get
     from linkwright.machine import motors as motors
     from linkwright.machine import replace as replace
+    from linkwright.report import write_report as write_report
+    from linkwright.sizing.flywheel import choose_flywheel as choose_flywheel
+    from linkwright.sizing.motor import choose_motor as choose_motor
+    from linkwright.sizing.power import required_power as required_power
     from linkwright.sweep.batch import steady_states as steady_states

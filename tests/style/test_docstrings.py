@@ -103,7 +103,7 @@ def test_public_functions_are_documented_in_full(name: str) -> None:
     member = getattr(lw, name)
     if not inspect.isfunction(member):
         return
-    assert section(member.__doc__ or "", "Returns" if name != "write" else "Parameters") is not None
+    assert section(member.__doc__ or "", "Parameters" if name.startswith("write") else "Returns") is not None
     if arguments(member):
         assert section(member.__doc__ or "", "Parameters") is not None
 
