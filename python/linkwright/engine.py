@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
-from linkwright.errors import ShapeError
+from linkwright.errors import MachineError, Problem, ShapeError
 from linkwright.machine import (
     Body,
     ConstantForce,
@@ -39,6 +39,7 @@ from linkwright.machine import (
     TorqueAngle,
     TorqueSpeed,
     ViscousFriction,
+    addresses,
 )
 
 Floats = NDArray[np.float64]
@@ -93,22 +94,38 @@ class Compiled:
         """How many machines."""
         return int(self.values.shape[1])
 
+    @property
+    def one(self) -> Floats:
+        """The parameters of a single machine.
+
+        Raises
+        ------
+        ShapeError
+            Entries vary from machine to machine.
+        """
+        if len(self.slots):
+            raise ShapeError(
+                f"this analysis takes one machine, and the entries describe {self.n_rows}; "
+                "use steady_states, kinematics or motions for many"
+            )
+        return self.parameters
+
     def gaps(self, angles: Floats) -> Floats:
-        """Radicand of each dyad at crank angles, (dyads, n) [m²]; negative where it does not close."""
+        """Radicand of each dyad at crank angles, (dyads, n) [m² or m⁴]; negative where it does not close."""
         return _core.gaps(self.plan, self.parameters, angles)
 
     def kinks(self) -> Floats:
         """Crank angles from 0 to 2π [rad] between which everything is smooth."""
-        return _core.kinks(self.plan, self.parameters)
+        return _core.kinks(self.plan, self.one)
 
     def reductions(self, angles: Floats, sense: float = 1.0) -> Floats:
         """J, dJ/dφ, load torque, dry torque, viscous coefficient at crank angles, (5, n) in SI."""
-        return _core.reductions(self.plan, self.parameters, angles, sense)
+        return _core.reductions(self.plan, self.one, angles, sense)
 
     def motor_torques(self, speeds: ArrayLike) -> tuple[Floats, Floats]:
         """Torque at the motor's shaft and at the crank [N m] at crank speeds [rad/s]."""
         at = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
-        return _core.motor_torques(self.plan, self.parameters, at)
+        return _core.motor_torques(self.plan, self.one, at)
 
     def speed_load(self, speeds: ArrayLike) -> Floats:
         """Resisting torque of the loads over speed at crank speeds [N m]."""
@@ -124,11 +141,11 @@ class Compiled:
         self, start: tuple[float, float], duration: float, turns: float, accuracy: float
     ) -> tuple[int, tuple[float, float], int, list[Floats]]:
         """Motion in time from angle [rad] and speed [rad/s]; see `_core.transient`."""
-        return _core.transient(self.plan, self.parameters, *start, duration, turns, accuracy)
+        return _core.transient(self.plan, self.one, *start, duration, turns, accuracy)
 
     def steady(self, angles: Floats, accuracy: float) -> tuple[int, Floats | None, Floats | None]:
         """Steady motion with curves at crank angles in [0, 2π]; see `_core.steady_state`."""
-        return _core.steady_state(self.plan, self.parameters, accuracy, angles)
+        return _core.steady_state(self.plan, self.one, accuracy, angles)
 
     def steady_rows(self, accuracy: float) -> tuple[NDArray[np.uint8], Floats, int]:
         """Steady motion of every row; see `_core.steady_rows`."""
@@ -167,17 +184,42 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
     known = _known.get(key)
     if known and len(known[0]) == len(parts) and all(map(operator.is_, known[0], parts)):
         return known[1]
+    try:
+        compiled = _translate(machine, motor=motor, brake=brake)
+    except (ArithmeticError, ValueError, TypeError) as error:
+        raise _not_usable(machine, str(error)) from None
+    if not np.isfinite(compiled.parameters).all():
+        raise _not_usable(machine, "a number that follows from them is not finite")
+    if len(compiled.slots):
+        # Arrays are large, and may change in place.
+        return compiled
+    if len(_known) >= _KNOWN_MAX:
+        _known.pop(next(iter(_known)), None)
+    _known[key] = (parts, compiled)
+    return compiled
+
+
+def _translate(machine: Machine, *, motor: bool, brake: bool) -> Compiled:
     translator = _Translator(machine)
     translator.mechanism()
     translator.bodies()
     translator.loads(brake=brake)
     translator.drive(motor=motor)
-    compiled = translator.result()
-    if len(_known) >= _KNOWN_MAX:
-        _known.pop(next(iter(_known)))
-    _known[key] = (parts, compiled)
-    return compiled
+    return translator.result()
 
+
+def _not_usable(machine: Machine, reason: str) -> MachineError:
+    """The error for entries that were exchanged unchecked, or are too large or too small to compute with."""
+    wrong = [
+        Problem(address, f"{value!r}", "a finite number of usual size")
+        for address, value in addresses(machine).items()
+        if not np.isfinite(value) or abs(value) > _SIZE_MAX or 0 < abs(value) < 1 / _SIZE_MAX
+    ]
+    return MachineError(wrong or [Problem("", "entries that cannot be computed with", reason)])
+
+
+# Entries beyond this size, or below its reciprocal, are named when a machine cannot be computed.
+_SIZE_MAX = 1e100
 
 # Machines translated last, with the parts they were made of: frozen objects, so a machine of the same parts
 # is the same machine. A few suffice for analyses that follow one another on one machine.
@@ -452,7 +494,9 @@ def link_body(body: Body, length: Any) -> tuple[Any, Any, Any, Any]:
     Without a place the centre is in the middle; without an inertia the body is a uniform slender rod,
     m l²/12.
     """
-    mass = body.mass_per_length * length if body.mass_per_length is not None else body.mass or 0.0
+    mass = 0.0 if body.mass is None else body.mass
+    if body.mass_per_length is not None:
+        mass = body.mass_per_length * length
     along = 0.5 * length if body.along is None else body.along
     inertia = mass * length**2 / 12 if body.inertia is None else body.inertia
     return along, body.across, mass, inertia
@@ -489,7 +533,7 @@ def speed_guess(drive: Drive) -> Any:
         case TableMotor(speed=speeds, torque=torques):
             driving = [speed for speed, torque in zip(speeds, torques, strict=True) if torque > 0]
             return max([*driving, 0.1 * speeds[-1]]) / drive.gearbox.ratio
-    return drive.speed or _SPEED_UNKNOWN
+    return _SPEED_UNKNOWN if drive.speed is None else drive.speed
 
 
 def _one_turn(angles: Sequence[float], torques: Sequence[float]) -> tuple[Sequence[float], Sequence[float]]:

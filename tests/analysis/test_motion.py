@@ -228,3 +228,81 @@ def test_out_is_checked(two_carts: lw.Machine) -> None:
             lw.motions(two_carts, angles, points=["cart1"], out=bad)
     with pytest.raises(MachineError, match="cart1"):
         lw.motions(two_carts, angles, points=["cart7"])
+
+
+def test_a_change_point_is_told(two_carts: lw.Machine) -> None:
+    """A rod as long as the crank folds at 90°: neither slider nor speeds are determined there."""
+    folds = lw.replace(two_carts, {"mechanism.sliders.cart1.rod": 0.2})
+    for analysis in (lw.reduction, lw.steady_state):
+        with pytest.raises(AssemblyError, match=r"change point at crank angle 90\.00°"):
+            analysis(folds)
+
+
+def test_arrays_ask_for_a_batch(two_carts: lw.Machine) -> None:
+    many = lw.replace(two_carts, {"bodies.cart1.mass": np.array([500.0, 1000.0])})
+    for analysis in (lw.reduction, lw.steady_state, lw.run_up):
+        with pytest.raises(ShapeError, match="one machine"):
+            analysis(many)
+    assert lw.kinematics(many, [0.0, 1.0]).points["cart1"].position.shape == (2, 2, 2)
+
+
+def test_arrays_changed_in_place_count(two_carts: lw.Machine) -> None:
+    radii = np.array([0.1, 0.2])
+    many = lw.replace(two_carts, {"mechanism.cranks.A1.radius": radii})
+    before = lw.motions(many, [0.0], points=["A1"])[:, 0, 0]
+    radii *= 0.5
+    after = lw.motions(many, [0.0], points=["A1"])[:, 0, 0]
+    np.testing.assert_allclose(after, 0.5 * before)
+
+
+def test_masses_of_links_vary_in_a_batch() -> None:
+    text = (MACHINES / "roller_one_cart.toml").read_text(encoding="utf-8")
+    machine = lw.loads(text.replace('mass_per_length = "80 kg/m"', "mass = 64"))
+    masses = np.array([32.0, 64.0, 96.0])
+    many = lw.steady_states(machine, {"bodies.cart1.rod.mass": masses})
+    one = lw.steady_state(lw.replace(machine, {"bodies.cart1.rod.mass": 96.0}))
+    assert many.speed_max[2] == pytest.approx(one.speed_max, rel=1e-7)
+
+
+def test_entries_that_belong_together_vary_together(two_carts: lw.Machine) -> None:
+    """Breakdown and starting torque raised together are possible; a start above breakdown is not."""
+    both = {"drive.motor.torque_breakdown": [215.4, 500.0], "drive.motor.torque_start": [129.0, 300.0]}
+    assert (lw.steady_states(two_carts, both).status == 0).all()
+    with pytest.raises(MachineError, match="torque_start"):
+        lw.steady_states(
+            two_carts,
+            {"drive.motor.torque_breakdown": [215.4, 140.0], "drive.motor.torque_start": [129.0, 200.0]},
+        )
+
+
+def test_extremes_do_not_depend_on_the_curves(two_carts: lw.Machine) -> None:
+    coarse, fine = lw.steady_state(two_carts, n=7), lw.steady_state(two_carts, n=3600)
+    for name in ("speed_max", "torque_motor_max", "torque_motor_min", "power_motor_max", "acceleration_min"):
+        assert getattr(coarse, name) == pytest.approx(getattr(fine, name), rel=1e-12), name
+    assert lw.reduction(two_carts, n=7).torque_load_max == pytest.approx(
+        lw.reduction(two_carts, n=7200).torque_load.max(), rel=1e-6
+    )
+
+
+def test_no_inertia_is_told() -> None:
+    text = """
+    format = 1
+    name = "weightless"
+    [drive.motor]
+    kind = "dc"
+    speed_no_load = 10
+    torque_stall = 1
+    [mechanism.cranks.A]
+    radius = 0.1
+    """
+    machine = lw.loads(text)
+    for analysis in (lw.steady_state, lw.constant_energy, lambda m: lw.transient(m, speed=1.0, duration=1.0)):
+        with pytest.raises(SteadyStateError, match="inertia is zero"):
+            analysis(machine)
+
+
+@pytest.mark.parametrize("n", [0, -1])
+def test_a_turn_needs_an_interval(two_carts: lw.Machine, n: int) -> None:
+    for analysis in (lw.steady_state, lw.reduction):
+        with pytest.raises(InputError, match="at least 1"):
+            analysis(two_carts, n=n)

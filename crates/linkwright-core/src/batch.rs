@@ -62,8 +62,12 @@ impl Rows<'_> {
 /// Quantities of a row's steady motion, in the order of a result row.
 pub const QUANTITIES: usize = 13;
 
-/// Steps a turn in lanes: on smooth pieces of a quarter turn the speed is good to about 1e-8.
+/// Steps a turn in lanes; [`DOUBT`] tells where they do not suffice.
 const STEPS: usize = 20;
+
+/// Largest disagreement of the stages' energies ([`Extremes::doubt`]) that a row in lanes may have. Below it
+/// speeds were good to 1e-7 on machines from light to heavy; rows above it are solved one by one.
+const DOUBT: f64 = 5e-5;
 
 /// Newton's relative tolerance in lanes.
 const TOLERANCE: f64 = 1e-12;
@@ -166,6 +170,12 @@ impl Job for Chunk<'_> {
                 quantity.store(&mut lane);
                 for i in 0..status.len() {
                     self.out[(at + i) * QUANTITIES + k] = lane[i];
+                }
+            }
+            extremes.doubt.store(&mut lane);
+            for (status, doubt) in status.iter_mut().zip(&lane) {
+                if doubt.is_nan() || *doubt > DOUBT {
+                    *status = Status::Inaccurate;
                 }
             }
             // One lane that does not converge keeps the others' correction from being known: all are tried
@@ -394,14 +404,36 @@ impl Put<'_, '_, '_> {
     }
 }
 
-/// Smallest radicand of each dyad at each angle: where one is negative the mechanism does not close.
-/// `out` is (dyads, angles).
+/// Radicand of each dyad at each angle: where one is negative the mechanism does not close. `out` is
+/// (dyads, angles).
 pub fn gaps(plan: &Plan, q: &[f64], phi: &[f64], out: &mut [f64]) {
-    let mut m = Motion::new(&plan.mechanism, q);
-    for (i, &phi_i) in phi.iter().enumerate() {
-        plan.mechanism.place::<f64, 1>(q, Angle::new(phi_i), &mut m);
-        for (k, gap) in m.gaps.iter().enumerate() {
-            out[k * phi.len() + i] = *gap;
+    in_lanes(GapJob { plan, q, phi, out });
+}
+
+struct GapJob<'a> {
+    plan: &'a Plan,
+    q: &'a [f64],
+    phi: &'a [f64],
+    out: &'a mut [f64],
+}
+
+impl Job for GapJob<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let n = self.phi.len();
+        let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
+        let mut m = Motion::new(&self.plan.mechanism, &q);
+        let mut lanes = vec![0.0; R::LANES];
+        for (block, phi) in self.phi.chunks(R::LANES).enumerate() {
+            lanes[..phi.len()].copy_from_slice(phi);
+            self.plan.mechanism.place::<R, 1>(&q, Angle::new(R::load(&lanes)), &mut m);
+            for (k, gap) in m.gaps.iter().enumerate() {
+                gap.store(&mut lanes);
+                let at = k * n + block * R::LANES;
+                self.out[at..at + phi.len()].copy_from_slice(&lanes[..phi.len()]);
+            }
         }
     }
 }

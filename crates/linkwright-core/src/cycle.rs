@@ -160,7 +160,7 @@ impl<R: Real> Machine<'_, R> {
             let next = omega - net.value / net.d;
             omega = next.max(low).min(high);
         }
-        // A flat characteristic (constant torque, no drag) divides by zero: stay at the start then.
+        // Where a flat characteristic just balances the load this is 0/0: stay at the start then.
         omega.select_lt(high * 2.0, omega, start)
     }
 }

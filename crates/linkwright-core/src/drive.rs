@@ -5,7 +5,7 @@
 //! * Kloss with stator resistance: `M = 2 M_k (1 + a s_k) / (s/s_k + s_k/s + 2 a s_k)`, s = (ω₀ − ω_m)/ω₀,
 //!   a = R₁/R₂′; a = 0 is the simplified formula, paper 1 (8). Source: M. Kloss, *Drehmoment und Schlüpfung
 //!   des Drehstrommotors*, 1909; e.g. Fischer, *Elektrische Maschinen*, section on the torque curve.
-//! * Catalogue curve below breakdown: cubic spans through start, pull-up and breakdown, monotone between
+//! * Catalogue curve below breakdown: a parabola, then a cubic, through start, pull-up and breakdown, monotone between
 //!   them, level at pull-up and breakdown, so the slope is continuous.
 //! * Gearbox: the motor's torque reaches the crank as `M i η` when the motor drives and as `M i · reverse`
 //!   when the load drives it (reverse = 1/η unless the machine says otherwise).

@@ -100,8 +100,8 @@ pub fn stage_newton<R: Real>(x: R, h: R, f: &[R; S], d: &[R; S], X: &[R; S]) -> 
     StageNewton { p, u, end, growth }
 }
 
-/// Gauss elimination for two right-hand sides. No pivoting: the diagonal 1 − h a_ii D exceeds the rest of
-/// its column wherever the motion is stable (D < 0), and stays near 1 for the step lengths in use elsewhere.
+/// Gauss elimination for two right-hand sides. No pivoting: all principal minors of A are positive, so where
+/// the motion is stable (D ≤ 0) all pivots of I − hAD are too; elsewhere h D is small.
 #[inline(always)]
 fn eliminate<R: Real>(m: &mut [[R; S]; S], p: &mut [R; S], u: &mut [R; S]) {
     let mut inverse = [R::splat(1.0); S];

@@ -23,8 +23,8 @@ enum Watch {
     SlideAt(usize, f64),
 }
 
-/// Angles at which zeros are looked for. Two zeros between neighbours go unseen: that costs accuracy near
-/// them (found by the comparison of meshes), not correctness.
+/// Angles at which zeros are looked for. Two zeros between neighbours go unseen: that costs accuracy:
+/// the comparison of meshes may then err by some tens of times the accuracy asked for.
 const SCAN: usize = 64;
 
 /// Share of a scan interval by which the scan is shifted, so that the round angles at which dead centres
@@ -41,6 +41,9 @@ impl Plan {
             match *load {
                 Load::DrySlide { slide, .. } => watches.push(Watch::SlideTurns(slide)),
                 Load::DryLink { link, .. } => watches.push(Watch::LinkTurns(link)),
+                Load::DryPoint { point, .. } => {
+                    watches.extend(self.mechanism.arm_of(point).map(Watch::LinkTurns));
+                }
                 Load::ForcePosition { slide, forward, back } => {
                     watches.push(Watch::SlideTurns(slide));
                     let knots = self.tables[forward].knots().iter().chain(self.tables[back].knots());
@@ -137,7 +140,7 @@ impl<R: Real> Machine<'_, R> {
             );
             root.store(&mut guess);
             for lane in 0..R::LANES {
-                if brackets[lane].len() > nth {
+                if brackets[lane].len() > nth && guess[lane].is_finite() {
                     lanes[lane].push(guess[lane].rem_euclid(TAU));
                 }
             }

@@ -44,6 +44,9 @@ pub struct Extremes<R> {
     pub speed_max: Extreme<R>,
     pub acceleration_min: Extreme<R>,
     pub acceleration_max: Extreme<R>,
+    /// Largest relative disagreement of the energies at the stages with those of order 7: how coarse the
+    /// steps are.
+    pub doubt: R,
 }
 
 /// Integrals over a turn, by the quadrature of the steps (order 8).
@@ -221,11 +224,12 @@ impl<R: Real> Turn<R> {
     /// Extremes of speed and acceleration.
     #[inline(always)]
     pub fn extremes(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Extremes<R> {
-        let samples = R::outline(
+        let (samples, doubt) = R::outline(
             #[inline(always)]
             || self.samples(machine, m),
         );
         Extremes {
+            doubt,
             speed_min: self.largest(machine, &samples, Quantity { is_speed: true, sign: -1.0 }, m),
             speed_max: self.largest(machine, &samples, Quantity { is_speed: true, sign: 1.0 }, m),
             acceleration_min: self.largest(machine, &samples, Quantity { is_speed: false, sign: -1.0 }, m),
@@ -238,7 +242,7 @@ impl<R: Real> Turn<R> {
     /// The stages' energies are of order 5 only. With the torque at both ends of the step there are six
     /// values to integrate through, which gives energies of order 7 at the stages.
     #[inline(always)]
-    fn samples(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Samples<R> {
+    fn samples(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> (Samples<R>, R) {
         let n = self.steps.len();
         let (mut torques, mut speeds, mut gains) =
             (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
@@ -253,6 +257,7 @@ impl<R: Real> Turn<R> {
         let [torques_end, speeds_end, gains_end] =
             [self.layout.ends(&torques), self.layout.ends(&speeds), self.layout.ends(&gains)];
         let mut samples: Samples<R> = Vec::with_capacity(n);
+        let mut doubt = R::splat(0.0);
         for (k, step) in self.steps.iter().enumerate() {
             let mut f = [torques[k]; N];
             f[S + 1] = torques_end[k];
@@ -266,12 +271,13 @@ impl<R: Real> Turn<R> {
                 for j in 0..N {
                     E = (step.h * AREAS[i][j]).mul_add(f[j], E);
                 }
+                doubt = doubt.max((E - step.X[i - 1]).abs() / E);
                 let row = &step.rows[i - 1];
                 sample[i] = speed_and_gain(row, E, machine.balance(row, E).value);
             }
             samples.push(sample);
         }
-        samples
+        (samples, doubt)
     }
 
     /// The extreme of a quantity over the turn; while searching, its value counts times its sign.

@@ -41,7 +41,7 @@ pub trait Real:
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self;
     /// Applies a scalar function `x ↦ (value, slope)` lane by lane; only tables need it.
     fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self;
-    /// Largest lane; NaN in a lane is passed over.
+    /// Largest lane; of several lanes a NaN is passed over.
     fn max_lane(self) -> f64;
     /// Runs `f` as a function of its own, compiled for the same instruction set. Cuts kernels at their
     /// natural joints: one body of many thousand instructions would no longer be optimised well.

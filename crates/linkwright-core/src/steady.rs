@@ -179,7 +179,8 @@ impl<R: Real> Turn<R> {
     #[inline(always)]
     fn is_solved(&self) -> bool {
         let energies: Vec<R> = self.steps.iter().map(|step| step.E).collect();
-        self.correction <= 1e-6
+        !self.steps.is_empty()
+            && self.correction <= 1e-6
             && unbundle(&[self.multiplier]).iter().all(|x| x.is_finite())
             && unbundle(&energies).iter().all(|&E| E > 0.0 && E.is_finite())
     }
@@ -247,6 +248,7 @@ impl<R: Real> Extremes<R> {
             speed_max: first(&self.speed_max),
             acceleration_min: first(&self.acceleration_min),
             acceleration_max: first(&self.acceleration_max),
+            doubt: first_lane(self.doubt),
         }
     }
 }

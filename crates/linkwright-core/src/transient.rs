@@ -79,6 +79,9 @@ const LANDING: f64 = 1e-13;
 /// by δ² times its change of slope, a millionth of ε.
 const NEAR: f64 = 1e-3;
 
+/// Difference of speeds, as a share of the working speed, that rounding may leave.
+const AT_REST: f64 = 1e-11;
+
 type Y = [f64; 2];
 
 struct Follower<'a> {
@@ -104,16 +107,19 @@ impl Follower<'_> {
         let Machine { plan, q } = self.machine;
         let ahead = plan.reduce::<f64, 1>(q, Angle::new(phi), 1.0, &mut self.motion);
         let back = plan.reduce::<f64, 1>(q, Angle::new(phi), -1.0, &mut self.motion);
-        let drive = plan.drive_torque(q, 0.0);
-        let free = drive - ahead.load;
-        let way = if free > ahead.dry {
+        let drive = plan.geared_torque(q, plan.motor_torque(q, 0.0));
+        // At rest a load over speed holds in either direction, like a dry one; a driving one drives.
+        let over_speed: f64 = plan.speed_load(0.0);
+        let holding = over_speed.max(0.0);
+        let free = drive - ahead.load - over_speed.min(0.0);
+        let way = if free > ahead.dry + holding {
             1
-        } else if free < -back.dry {
+        } else if free < -(back.dry + holding) {
             -1
         } else {
             0
         };
-        (drive, ahead.load + ahead.dry, way)
+        (drive, ahead.load + ahead.dry + over_speed, way)
     }
 }
 
@@ -178,7 +184,8 @@ impl Path {
 
     fn run(&mut self, follower: &mut Follower<'_>) {
         let (_, y) = self.now();
-        if y[1] <= 0.0 {
+        if y[1] <= AT_REST * self.speed_scale {
+            self.trajectory.omega[0] = 0.0;
             let way = follower.balance_at_rest(y[0]).2;
             if way != 1 {
                 self.trajectory.end = if way == 0 { End::DoesNotStart } else { End::StartsBackwards };
@@ -187,6 +194,7 @@ impl Path {
         }
         // A hundredth of a radian at working speed: small against any feature, soon grown tenfold.
         let mut h = 0.01 / self.speed_scale;
+        let (_, y) = self.now();
         let mut k0 = follower.derivative(&y);
         for _ in 0..STEPS_MAX {
             self.trajectory.epsilon.push(k0[1]);
@@ -294,7 +302,7 @@ impl Path {
         let mut first: Option<(f64, f64)> = None;
         let is_past = |speed: f64| {
             // A step that starts on the speed itself, to rounding, is not passing it.
-            let apart = (omega - speed).abs() > 1e-11 * self.speed_scale;
+            let apart = (omega - speed).abs() > AT_REST * self.speed_scale;
             apart && (omega - speed) * (trial.y[1] - speed) < 0.0
         };
         for speed in self.speeds.iter().copied().chain([0.0]).filter(|&speed| is_past(speed)) {

@@ -188,6 +188,82 @@ fn standstill_is_told() {
     assert_eq!(lifted(150.0, 20.0, 0.0).end, End::Turns, "strong enough");
 }
 
+/// A speed that is rounding only is rest; a torque over speed holds at rest like a dry one.
+#[test]
+fn almost_at_rest_is_at_rest() {
+    let build = |table: Option<f64>| {
+        let mut b = Builder::new();
+        b.crank(0.1, 0.0);
+        let (drag, torque) = (b.number(20.0), b.number(5.0));
+        b.load(Load::DryCrank { torque: drag });
+        let table = table.map(|y| b.table(&[0.0, 10.0], &[y, 0.0]));
+        let mut built = b.finish(Motor::Constant { torque }, [1.0, 1.0, 1.0, 1.0, 5.0]);
+        built.plan.drive.speed_loads.extend(table);
+        built
+    };
+    let machine = build(None);
+    let start = Start { omega: 1e-12, ..from_rest(1.0, FOREVER) };
+    let path = follow(&machine.plan, &machine.q, &start);
+    assert_eq!(path.end, End::DoesNotStart, "5 N m against 20 N m");
+    let held = build(Some(100.0));
+    let path = follow(&held.plan, &held.q, &from_rest(1.0, FOREVER));
+    assert_eq!(path.end, End::DoesNotStart, "a resisting table does not drive backwards");
+    assert!((path.drive_torque - 5.0).abs() < 1e-12, "the motor gives {}", path.drive_torque);
+    assert!((path.load_torque - 120.0).abs() < 1e-12, "the load needs {}", path.load_torque);
+}
+
+/// A dry force on a rocker's joint is the same load as a dry torque on the rocker, to any accuracy.
+#[test]
+fn dry_force_on_a_joint_is_a_torque_on_its_rocker() {
+    let build = |on_joint: bool| {
+        let mut b = Builder::new();
+        let (pin, _) = b.crank(0.1, 0.0);
+        let pivot = b.fixed(0.4, 0.0);
+        let [joint, _, rocker] = b.rocker(pin, pivot, 0.35, 0.3, 1.0);
+        b.mass(joint, 5.0);
+        let (force, torque) = (b.number(60.0), b.number(18.0));
+        b.load(if on_joint {
+            Load::DryPoint { point: joint, force }
+        } else {
+            Load::DryLink { link: rocker, torque }
+        });
+        let (torque, inverse_speed) = (b.number(20.0), b.number(1.0 / 100.0));
+        b.finish(Motor::Line { torque, inverse_speed }, [5.0, 1.0, 1.0, 0.5, 20.0])
+    };
+    let period = |built: &Built| {
+        let found = steady(&built.plan, &built.q, 1e-10).expect("steady motion");
+        (found.totals.period, found.marks.len())
+    };
+    let (joint, rocker) = (period(&build(true)), period(&build(false)));
+    assert!((joint.0 / rocker.0 - 1.0).abs() < 1e-10, "{} and {} s", joint.0, rocker.0);
+    assert_eq!(joint.1, rocker.1, "as many steps");
+}
+
+/// Rows for which the fixed mesh of the lanes is too coarse are solved on their own: a light drive.
+#[test]
+fn a_light_drive_in_a_batch_is_as_good_as_alone() {
+    let mut b = Builder::new();
+    let (pin, _) = b.crank(0.1, 0.0);
+    let [point, _, slide] = b.slider(pin, 0.3, 0.0, 0.0, 1.0);
+    b.mass(point, 50.0);
+    b.dry_slide(slide, 100.0);
+    let (torque, inverse_speed) = (b.number(200.0), b.number(1.0 / 100.0));
+    let built = b.finish(Motor::Line { torque, inverse_speed }, [5.0, 1.0, 1.0, 1.0, 20.0]);
+    let slot = built.plan.drive.inertia;
+    let inertias: Vec<f64> = (0..20).map(|i| 0.02 * 1.4_f64.powi(i)).collect();
+    let rows = Rows { base: &built.q, slots: &[slot], values: &inertias, n: 20 };
+    let mut out = vec![0.0; 20 * QUANTITIES];
+    let (status, _) = steady_rows(&built.plan, &rows, 1e-9, &mut out);
+    for row in 0..20 {
+        assert_eq!(status[row], Status::Ok, "row {row}");
+        let exact = row_of_steady(&steady(&built.plan, &rows.row(row), 1e-11).expect("steady"));
+        for k in [0, 1, 4] {
+            let error = (out[row * QUANTITIES + k] / exact[k] - 1.0).abs();
+            assert!(error < 1e-7, "inertia {}, number {k}: off by {error:e}", inertias[row]);
+        }
+    }
+}
+
 /// A swing that comes to rest where it says: energy from the bottom, (M − T) φ = m g r (1 − cos φ).
 #[test]
 fn reversal_is_where_the_energy_is_used_up() {

@@ -14,8 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.engine import Compiled, compile_machine
-from linkwright.errors import AssemblyError
+from linkwright.errors import AssemblyError, InputError
 from linkwright.machine import Machine
+
+Floats = NDArray[np.float64]
+
+# A radicand below this share of its greatest is looked into: a parabola that falls to zero between two of the
+# angles below is a few millionths at the nearer one.
+_CLOSE = 1e-3
+
+# A radicand below this share counts as zero: links in line to a hundred-thousandth of their length.
+_ZERO = 1e-10
 
 # Angles at which closure is looked at; a gap narrower than a quarter of a degree may go unseen here, and is
 # then found by the analysis that meets it.
@@ -33,10 +42,14 @@ class Closure:
         fully, none if it never closes. A range may pass 2π.
     element : str
         Name of the first element that does not close; empty if all do.
+    change_point : float or None
+        Crank angle at which that element closes with nothing to spare [rad]: a change point or dead centre,
+        where its links are in line and their speeds are not determined.
     """
 
     ranges: tuple[tuple[float, float], ...]
     element: str
+    change_point: float | None = None
 
     @property
     def turns_fully(self) -> bool:
@@ -67,9 +80,10 @@ def closure_of(compiled: Compiled) -> Closure:
         return full
     angles = turn_angles(_ANGLES)[:-1]
     gaps = compiled.gaps(angles)
-    is_open = ~(gaps >= 0)
+    # Links in line leave zero, or by rounding a little less.
+    is_open = ~(gaps >= -_ZERO * np.nan_to_num(gaps).max(axis=1, keepdims=True))
     if not is_open.any():
-        return full
+        return _change_point(compiled, gaps) or full
     element = compiled.dyads[int(np.argmax(is_open.any(axis=1)))]
     closes = ~is_open.any(axis=0)
     starts = np.flatnonzero(closes & ~np.roll(closes, 1))
@@ -79,8 +93,28 @@ def closure_of(compiled: Compiled) -> Closure:
         end = ends[np.searchsorted(ends, start) % len(ends)]
         low = _edge(compiled, angles[start], -1)
         high = _edge(compiled, angles[end], +1)
-        ranges.append((low, high if high > low else high + 2 * np.pi))
+        ranges.append((float(low), float(high if high > low else high + 2 * np.pi)))
     return Closure(tuple(ranges), element)
+
+
+def _change_point(compiled: Compiled, gaps: Floats) -> Closure | None:
+    """The first dyad whose radicand falls to zero at some angle between those looked at; None if none does.
+
+    There the dyad is stretched or folded: the rates of its links have no limit that the positions alone
+    could tell.
+    """
+    sizes, lows = gaps.max(axis=1), gaps.min(axis=1)
+    for dyad in np.flatnonzero(lows < _CLOSE * sizes):
+        centre, reach = float(turn_angles(_ANGLES)[gaps[dyad].argmin()]), 2 * np.pi / _ANGLES
+        # The radicand is a parabola there: its zero is met when its square root is, at 1e-7 of the size.
+        for _ in range(6):
+            angles = np.linspace(centre - reach, centre + reach, 41)
+            near = compiled.gaps(angles)[dyad]
+            centre, reach = float(angles[near.argmin()]), reach / 20
+        if near.min() <= _ZERO * sizes[dyad]:
+            at = centre % (2 * np.pi)
+            return Closure(((at, at + 2 * np.pi),), compiled.dyads[dyad], at)
+    return None
 
 
 def _edge(compiled: Compiled, inside: float, way: int) -> float:
@@ -119,9 +153,14 @@ def _sentence(found: Closure, machine: Machine) -> str:
     mechanism = machine.mechanism
     remedy = "change the lengths"
     what = found.element
+    if found.change_point is not None:
+        return (
+            f"{what} reaches a change point at crank angle {_deg(found.change_point)}°: its links are in "
+            "line there and the speeds are not determined; change a length by a little"
+        )
     if found.element in mechanism.sliders:
         rod = mechanism.sliders[found.element].rod
-        what = f"the rod of {found.element} ({rod:g} m)"
+        what = f"the rod of {found.element} ({rod:g} m) and its guide"
         remedy = "lengthen the rod or shorten the crank"
     elif found.element in mechanism.rockers:
         rocker = mechanism.rockers[found.element]
@@ -129,17 +168,32 @@ def _sentence(found: Closure, machine: Machine) -> str:
         remedy = "shorten the crank, or change coupler and rocker until the crank can turn fully (Grashof)"
     if not found.ranges:
         return f"the mechanism does not close at any crank angle: {what} cannot reach; {remedy}"
-    where = " and ".join(f"{_deg(low)}° to {_deg(high)}°" for low, high in found.ranges)
-    return f"the mechanism does not close all round: {what} closes only for crank angles {where}; {remedy}"
+    where = " and ".join(_range(low, high) for low, high in found.ranges)
+    return f"the mechanism does not close all round: {what} can meet only at crank angles {where}; {remedy}"
+
+
+def _range(low: float, high: float) -> str:
+    """A range in degrees; one that passes 360° is given about 0°."""
+    turn = 2 * np.pi if high > 2 * np.pi * (1 + 1e-9) else 0.0
+    return f"{_deg(low - turn)}° to {_deg(high - turn)}°"
 
 
 def _deg(angle: float) -> str:
-    return f"{np.degrees(angle):.2f}"
+    rounded = round(float(np.degrees(angle)), 2)
+    return f"{0.0 if rounded == 360.0 else rounded:.2f}"
 
 
 @lru_cache(maxsize=8)
 def turn_angles(n: int) -> NDArray[np.float64]:
-    """Crank angles from 0 to 2π inclusive, ``n`` intervals [rad]; shared by results, so read-only."""
+    """Crank angles from 0 to 2π inclusive, ``n`` intervals [rad]; shared by results, so read-only.
+
+    Raises
+    ------
+    InputError
+        ``n`` is less than 1.
+    """
+    if n < 1:
+        raise InputError(f"n = {n}: expected at least 1 interval of the turn")
     angles = np.linspace(0.0, 2 * np.pi, n + 1)
     angles.flags.writeable = False
     return angles

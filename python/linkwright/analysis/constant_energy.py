@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.analysis.reduction import Reduction, reduction
+from linkwright.analysis.reduction import NO_INERTIA, Reduction, reduction
 from linkwright.analysis.result import Result
+from linkwright.errors import SteadyStateError
 from linkwright.machine import Machine
 
 
@@ -67,6 +68,8 @@ def constant_energy_of(reduced: Reduction) -> ConstantEnergy:
     With E = 1: :math:`\omega = \sqrt{2/J}`, :math:`\varepsilon = -\tfrac12 J'\omega^2/J = -J'/J^2`.
     The peak of ε is found by a parabola through the best sample and its neighbours.
     """
+    if not reduced.inertia_min > 0:
+        raise SteadyStateError(NO_INERTIA)
     slow, fast = np.sqrt(2 / reduced.inertia_max), np.sqrt(2 / reduced.inertia_min)
     mean = 0.5 * (slow + fast)
     epsilon = np.abs(reduced.inertia_reduced_d1 / reduced.inertia_reduced**2)[:-1]

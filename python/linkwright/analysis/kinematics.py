@@ -114,7 +114,7 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None) -> Kinematics:
     Derivatives are exact. Angles count counter-clockwise from x; signs in ``docs/signs.md``.
     """
     compiled = compile_machine(machine)
-    phi = np.linspace(0, 2 * np.pi, 361) if angles is None else np.ascontiguousarray(angles, dtype=np.float64)
+    phi = np.linspace(0, 2 * np.pi, 361) if angles is None else _angles(angles)
     names = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
     what = [(part, name) for part, known in names.items() for name in known]
     out = motion_arrays(compiled, phi, what)
@@ -123,6 +123,23 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None) -> Kinematics:
     single = compiled.n_rows == 1 and not len(compiled.slots)
     table = out[0] if single else out
     return _collect(phi, table, what)
+
+
+def _angles(angles: ArrayLike) -> Floats:
+    """Crank angles as a contiguous list.
+
+    Raises
+    ------
+    ShapeError
+        They are no list of finite numbers.
+    """
+    try:
+        phi = np.ascontiguousarray(angles, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ShapeError(f"crank angles in radians are needed, found {angles!r}") from None
+    if phi.ndim != 1 or not np.isfinite(phi).all():
+        raise ShapeError(f"a list of finite crank angles is needed, found an array of shape {phi.shape}")
+    return phi
 
 
 def _collect(phi: Floats, table: Floats, what: list[tuple[str, str]]) -> Kinematics:
@@ -181,7 +198,7 @@ def motions(
     compiled = compile_machine(machine)
     asked: Mapping[str, Iterable[str]] = {"points": points, "links": links, "slides": slides}
     what = [(part, name) for part, names in asked.items() for name in names]
-    return motion_arrays(compiled, np.ascontiguousarray(angles, dtype=np.float64), what, out)
+    return motion_arrays(compiled, _angles(angles), what, out)
 
 
 def motion_arrays(

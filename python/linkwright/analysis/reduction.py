@@ -8,6 +8,7 @@ r"""The machine reduced to the crank: reduced inertia and resisting torque over 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,12 @@ from linkwright.engine import Compiled, compile_machine
 from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
+
+# What is said of a machine that nothing keeps from infinite acceleration.
+NO_INERTIA = (
+    "the reduced inertia is zero at some crank angle, so its motion is not determined: "
+    "give motor, flywheel or bodies their inertia"
+)
 
 # Nodes of Gauss–Legendre quadrature between two kinks: on a quarter turn of a slider-crank 24 nodes are
 # exact to rounding.
@@ -48,7 +55,7 @@ class Reduction(Result):
     inertia_min_angle, inertia_max_angle : float
         Crank angles where they are [rad].
     torque_load_mean, torque_load_max : float
-        Mean over the angle, and greatest value at the given angles, of the resisting torque [N m].
+        Mean over the angle, and greatest value, of the resisting torque [N m].
     viscous_mean : float
         Mean over the angle of the resisting torque per speed [N m s/rad].
     """
@@ -106,8 +113,8 @@ def reduction_of(compiled: Compiled, n: int = 360) -> Reduction:
     """`reduction` of a compiled machine that closes."""
     phi = turn_angles(n)
     J, J_d1, load, dry, viscous = compiled.reductions(phi)
-    low, low_at = _extreme(compiled, -1)
-    high, high_at = _extreme(compiled, +1)
+    low, low_at = _extreme(compiled, -1, _inertia)
+    high, high_at = _extreme(compiled, +1, _inertia)
     means = mean_over_turn(compiled)
     return Reduction(
         crank_angle=phi,
@@ -121,35 +128,49 @@ def reduction_of(compiled: Compiled, n: int = 360) -> Reduction:
         inertia_min_angle=low_at,
         inertia_max_angle=high_at,
         torque_load_mean=means[0],
-        torque_load_max=float((load + dry).max()),
+        torque_load_max=_extreme(compiled, +1, _load)[0],
         viscous_mean=means[1],
     )
 
 
 def mean_over_turn(compiled: Compiled) -> tuple[float, float]:
-    """Means of the resisting torque and of the viscous coefficient over the crank angle.
-
-    By Gauss–Legendre quadrature from kink to kink.
-    """
-    x, w = np.polynomial.legendre.leggauss(_NODES)
-    ends = compiled.kinks()
-    half = 0.5 * np.diff(ends)[:, None]
-    phi = (ends[:-1, None] + half * (x + 1)).ravel()
-    weights = (half * w).ravel() / (2 * np.pi)
+    """Means of the resisting torque and of the viscous coefficient over the crank angle."""
+    phi, weights = turn_nodes(compiled)
     _, _, load, dry, viscous = compiled.reductions(phi)
     return float(weights @ (load + dry)), float(weights @ viscous)
 
 
-def _extreme(compiled: Compiled, sign: int) -> tuple[float, float]:
-    """Greatest (+1) or least (−1) reduced inertia and its crank angle.
+def turn_nodes(compiled: Compiled) -> tuple[Floats, Floats]:
+    """Crank angles and weights for means over a turn: Gauss–Legendre quadrature from kink to kink."""
+    x, w = np.polynomial.legendre.leggauss(_NODES)
+    ends = compiled.kinks()
+    half = 0.5 * np.diff(ends)[:, None]
+    phi = (ends[:-1, None] + half * (x + 1)).ravel()
+    return phi, (half * w).ravel() / (2 * np.pi)
 
-    The best of 720 samples is closed in on by ever finer samples; the value errs by the square of the
-    angle's error, which ends at 1e-8 rad.
+
+def _inertia(reductions: Floats) -> Floats:
+    J: Floats = reductions[0]
+    return J
+
+
+def _load(reductions: Floats) -> Floats:
+    torque: Floats = reductions[2] + reductions[3]
+    return torque
+
+
+def _extreme(compiled: Compiled, sign: int, of: Callable[[Floats], Floats]) -> tuple[float, float]:
+    """Greatest (+1) or least (−1) value of a quantity over the turn, and its crank angle [rad].
+
+    The best of 720 samples and of the kinks is closed in on by ever finer samples. The value errs by the
+    square of the angle's error, which ends below 1e-7 rad; at a kink, by its first power.
     """
+    kinks = compiled.kinks()[:-1]
     centre, reach = np.pi, np.pi
-    for samples in (721, 41, 41, 41, 41):
-        phi = np.linspace(centre - reach, centre + reach, samples)
-        J = compiled.reductions(phi)[0]
-        best = int(np.argmax(sign * J))
+    for samples in (721, 41, 41, 41, 41, 41):
+        phi = np.append(np.linspace(centre - reach, centre + reach, samples), kinks)
+        values = of(compiled.reductions(phi))
+        best = int(np.argmax(sign * values))
         centre, reach = float(phi[best]), 2 * reach / (samples - 1)
-    return float(J[best]), centre % (2 * np.pi)
+    # Angles just short of a turn are the start of it.
+    return float(values[best]), 0.0 if 2 * np.pi - centre % (2 * np.pi) < 1e-6 else centre % (2 * np.pi)

@@ -16,7 +16,7 @@ from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
 
-# The share of the settling band that the solver's error must stay below.
+# Relative accuracy of a step.
 _ACCURACY = 1e-9
 
 # Turns after which it is looked again whether the motion has settled; most drives settle in the first ten.
@@ -37,7 +37,7 @@ class RunUp(Result):
     settled : float
         That share [–].
     speed_peak : float
-        Greatest speed on the way [rad/s].
+        Greatest speed until then [rad/s].
     motion : Transient
         The whole motion.
     """
@@ -96,7 +96,7 @@ def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
             raise StartError(_why_not(motion))
         settled = _settled(motion, steady, options.settled)
         # Settled well before the end: otherwise the speed may yet leave the band again.
-        if settled is not None and settled[0] <= 0.8 * turns:
+        if settled is not None and (settled[0] <= 0.8 * turns or turns >= options.turns_max):
             break
         if turns >= options.turns_max:
             raise StartError(_too_slow(motion, steady, options.settled))
@@ -109,7 +109,7 @@ def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
         turns=settled[0],
         time=settled[1],
         settled=options.settled,
-        speed_peak=float(motion.speed.max()),
+        speed_peak=_peak(motion, settled[1]),
         motion=motion,
     )
 
@@ -212,6 +212,11 @@ def _settled(motion: Transient, steady: SteadyState, band: float) -> tuple[float
         low, high = (middle, high) if excess(np.array([middle]))[0] > 0 else (low, middle)
     angle = motion.at(np.array([high]))[0][0]
     return float(angle - motion.crank_angle[0]) / (2 * np.pi), float(high)
+
+
+def _peak(motion: Transient, until: float) -> float:
+    """Greatest speed up to a time, from five hundred looks."""
+    return float(motion.at(np.linspace(0.0, until, 501))[1].max())
 
 
 def _spans(time: Floats) -> list[tuple[float, float]]:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.closure import require_full_turn, turn_angles
+from linkwright.analysis.reduction import NO_INERTIA, mean_over_turn, turn_nodes
 from linkwright.analysis.result import Result
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import ConvergenceError, InputError, SteadyStateError
@@ -61,8 +62,13 @@ class SteadyState(Result):
         Work in a turn at the motor's shaft, at the crank, and taken by the loads [J].
     torque_motor_mean, torque_motor_rms : float
         Over time [N m].
+    torque_motor_min, torque_motor_max : float
+        Extremes at the motor's shaft [N m]; the least is negative where the load drives the motor.
+    power_motor_max : float
+        Greatest power at the motor's shaft [W].
     accuracy : float
-        Relative difference between the last two meshes; the error of the finer is a hundredth of it or less.
+        Estimated relative error: a hundredth of the difference between the last two meshes. The method is of
+        order 8, so the finer mesh errs by 1/255 of it.
     sweeps, steps : int
         Newton sweeps over the turn in all, and steps of the finest mesh.
     method : str
@@ -93,6 +99,9 @@ class SteadyState(Result):
     energy_load: float
     torque_motor_mean: float
     torque_motor_rms: float
+    torque_motor_min: float
+    torque_motor_max: float
+    power_motor_max: float
     accuracy: float
     sweeps: int
     steps: int
@@ -149,21 +158,6 @@ class SteadyState(Result):
         return self.energy_motor / self.period
 
     @property
-    def power_motor_max(self) -> float:
-        """Greatest power at the motor's shaft, at the angles of the curves [W]."""
-        return float(self.power_motor.max())
-
-    @property
-    def torque_motor_max(self) -> float:
-        """Greatest torque at the motor's shaft, at the angles of the curves [N m]."""
-        return float(self.torque_motor.max())
-
-    @property
-    def torque_motor_min(self) -> float:
-        """Least torque at the motor's shaft; negative where the load drives the motor [N m]."""
-        return float(self.torque_motor.min())
-
-    @property
     def efficiency(self) -> float | None:
         """Work taken by the loads over work of the motor [–]; None without any work of the motor."""
         return self.energy_load / self.energy_motor if self.energy_motor > 0 else None
@@ -181,7 +175,7 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
     machine : Machine
         The machine, with a motor.
     accuracy : float
-        Relative accuracy of speed and period, down to 1e-12.
+        Relative accuracy of speed and period, down to 1e-13.
     n : int
         Intervals of the turn for the curves; extremes and integrals do not depend on it.
 
@@ -214,21 +208,34 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
     if not 1e-13 <= accuracy <= 1e-2:
         raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
     compiled = compile_machine(machine)
+    require_full_turn(compiled, machine)
     phi = turn_angles(n)
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
-        require_full_turn(compiled, machine)
         return _at_constant_speed(machine, compiled, phi)
     status, scalars, curves = compiled.steady(phi, accuracy)
     if scalars is None or curves is None:
         raise _failure(status, compiled, machine, accuracy)
-    return _from_core(scalars, curves, phi, machine.drive.gearbox.ratio)
+    return _from_core(scalars, curves, phi, compiled)
 
 
-def _from_core(scalars: Floats, curves: Floats, phi: Floats, ratio: float) -> SteadyState:
+def _motor_extremes(compiled: Compiled, low: float, high: float) -> tuple[float, float, float]:
+    """Least and greatest torque and greatest power of the motor for speeds of the crank between two.
+
+    In a turn the speed takes every value between its extremes, and the torque depends on the speed alone.
+    """
+    omega = np.linspace(low, high, 257)
+    torque = compiled.motor_torques(omega)[0]
+    power = torque * omega * compiled.gear_factors[0]
+    return float(torque.min()), float(torque.max()), float(power.max())
+
+
+def _from_core(scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled) -> SteadyState:
     """The core's numbers by name; their order is that of `linkwright-core`, module `batch`."""
     time, speed, acceleration, torque_motor, torque_drive, torque_load, inertia = curves
     low, high, drop, rise, period, multiplier, motor, drive, load, mean, rms, *places = scalars.tolist()
     low_at, high_at, drop_at, rise_at, difference, sweeps, steps = places
+    weakest, strongest, most = _motor_extremes(compiled, low, high)
+    ratio = compiled.gear_factors[0]
     return SteadyState(
         crank_angle=phi,
         time=time,
@@ -254,7 +261,10 @@ def _from_core(scalars: Floats, curves: Floats, phi: Floats, ratio: float) -> St
         energy_load=load,
         torque_motor_mean=mean,
         torque_motor_rms=rms,
-        accuracy=difference,
+        torque_motor_min=weakest,
+        torque_motor_max=strongest,
+        power_motor_max=most,
+        accuracy=0.01 * difference,
         sweeps=int(sweeps),
         steps=int(steps),
     )
@@ -267,10 +277,21 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
     assert isinstance(drive.motor, ConstantSpeedMotor)
     ratio = drive.gearbox.ratio
     omega = drive.motor.speed / ratio
-    J, J_d1, load, dry, viscous = compiled.reductions(phi)
-    torque_load = load + dry + viscous * omega + compiled.speed_load(omega)
-    torque_drive = torque_load + 0.5 * J_d1 * omega**2
+
+    def load_at(angles: Floats) -> Floats:
+        _, _, load, dry, viscous = compiled.reductions(angles)
+        total: Floats = load + dry + viscous * omega + compiled.speed_load(omega)
+        return total
+
+    def drive_at(angles: Floats) -> Floats:
+        total: Floats = load_at(angles) + 0.5 * compiled.reductions(angles)[1] * omega**2
+        return total
+
+    J = compiled.reductions(phi)[0]
+    torque_load, torque_drive = load_at(phi), drive_at(phi)
     torque_motor = compiled.motor_torque_for(torque_drive)
+    nodes, weights = turn_nodes(compiled)
+    at_nodes = compiled.motor_torque_for(drive_at(nodes))
     period = 2 * np.pi / omega
     still = dict.fromkeys(("speed_min_angle", "speed_max_angle"), 0.0)
     still |= dict.fromkeys(("acceleration_min", "acceleration_max"), 0.0)
@@ -290,11 +311,14 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
         speed_min=omega,
         speed_max=omega,
         period=period,
-        energy_motor=float(np.trapezoid(torque_motor * ratio, phi)),
-        energy_drive=float(np.trapezoid(torque_drive, phi)),
-        energy_load=float(np.trapezoid(torque_load, phi)),
-        torque_motor_mean=float(np.trapezoid(torque_motor, phi) / (2 * np.pi)),
-        torque_motor_rms=float(np.sqrt(np.trapezoid(torque_motor**2, phi) / (2 * np.pi))),
+        energy_motor=float(weights @ at_nodes * ratio * 2 * np.pi),
+        energy_drive=float(weights @ drive_at(nodes) * 2 * np.pi),
+        energy_load=float(weights @ load_at(nodes) * 2 * np.pi),
+        torque_motor_mean=float(weights @ at_nodes),
+        torque_motor_rms=float(np.sqrt(weights @ at_nodes**2)),
+        torque_motor_min=float(torque_motor.min()),
+        torque_motor_max=float(torque_motor.max()),
+        power_motor_max=float((torque_motor * omega * ratio).max()),
         sweeps=0,
         steps=0,
         method="constant speed",
@@ -305,8 +329,7 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
 def _failure(status: int, compiled: Compiled, machine: Machine, accuracy: float) -> Exception:
     """The error for a status of the core, with numbers."""
     if status == _DOES_NOT_CLOSE:
-        require_full_turn(compiled, machine)
-        return SteadyStateError("the mechanism does not close at some crank angle between those looked at")
+        return SteadyStateError(NO_INERTIA)
     if status == _NO_STEADY_MOTION:
         return SteadyStateError(_what_lacks(compiled))
     return ConvergenceError(
@@ -319,8 +342,6 @@ def _failure(status: int, compiled: Compiled, machine: Machine, accuracy: float)
 
 def _what_lacks(compiled: Compiled) -> str:
     """Why there may be no periodic motion: the drive against the mean load."""
-    from linkwright.analysis.reduction import mean_over_turn
-
     load, viscous = mean_over_turn(compiled)
     top = 1.5 * compiled.speed_guess
     omega = np.linspace(0.0, top, _SPEEDS + 1)[1:]

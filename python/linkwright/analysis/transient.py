@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.closure import require_full_turn
+from linkwright.analysis.reduction import NO_INERTIA
 from linkwright.analysis.result import Result
 from linkwright.engine import compile_machine
-from linkwright.errors import ConvergenceError, InputError
+from linkwright.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
 
 Floats = NDArray[np.float64]
@@ -84,6 +85,8 @@ class Transient(Result):
             of each step: good to five digits or more. To have it better, end a transient there.
         """
         t = np.asarray(time, dtype=np.float64)
+        if len(self.time) == 1:
+            return np.full_like(t, self.crank_angle[0]), np.full_like(t, self.speed[0])
         k = np.clip(np.searchsorted(self.time, t, side="right") - 1, 0, len(self.time) - 2)
         h = self.time[k + 1] - self.time[k]
         z = (t - self.time[k]) / h
@@ -172,12 +175,15 @@ def transient(
         raise InputError(
             f"a speed of {speed:g} rad/s at {angle:g} rad: expected numbers, the speed not negative"
         )
+    if not 1e-14 <= accuracy <= 1e-2:
+        raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-14 to 1e-2")
     if motor and machine.drive and isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a motor of constant speed has no run-up: it turns at its speed under any load")
     compiled = compile_machine(machine, motor=motor, brake=brake)
     end, torques, evaluations, curves = compiled.transient((angle, speed), duration, turns, accuracy)
     if end == End.DOES_NOT_CLOSE:
         require_full_turn(compiled, machine)
+        raise SteadyStateError(NO_INERTIA)
     if end == End.INACCURATE:
         raise ConvergenceError(
             f"the motion was given up at {curves[0][-1]:.6g} s: steps became too small or too many for an "

@@ -125,7 +125,7 @@ def _value(text: str) -> Any:
     """The value as TOML, or the text itself."""
     try:
         tables = tomllib.loads(f"value = {text}")
-    except (tomllib.TOMLDecodeError, RecursionError):
+    except (ValueError, RecursionError):
         return text
     return tables["value"] if tables.keys() == {"value"} else text
 

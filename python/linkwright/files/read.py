@@ -142,6 +142,9 @@ def _tables(text: str, path: str) -> dict[str, Any]:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise MachineFileError([_syntax(str(error), text, path)]) from None
+    except ValueError as error:
+        # A number of more digits than Python reads.
+        raise MachineFileError([Problem(found=str(error), expected="a machine file", path=path)]) from None
     except RecursionError:
         found = "brackets within brackets, too deep to read"
         raise MachineFileError([Problem(found=found, expected="a machine file", path=path)]) from None

@@ -207,6 +207,10 @@ class InductionMotor(Motor):
             yield from _knee_faults(knee, rated, top)
         elif (rated is None or rated < top) and (knee is None or not 0 < knee < top):
             yield self._no_formula()
+        elif knee is not None and self.resistance_ratio * (top - knee) >= top:
+            # R1/√(R1² + X²) is less than 1; beyond, the formula has a pole where the motor brakes.
+            limit = f"less than {top / (top - knee):.4g}, one over the breakdown slip"
+            yield fault("resistance_ratio", found=f"{self.resistance_ratio:.6g}", expected=limit)
 
     def _no_formula(self) -> InitErrorDetails:
         """The fault of a rated point that no breakdown speed goes with."""

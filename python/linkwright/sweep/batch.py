@@ -163,26 +163,37 @@ def steady_states(
 
 def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:
     """The values as arrays of one length, each possible at its address."""
-    arrays = {address: np.atleast_1d(np.asarray(value, float)) for address, value in entries.items()}
+    try:
+        arrays = {address: np.atleast_1d(np.asarray(value, float)) for address, value in entries.items()}
+    except (TypeError, ValueError):
+        raise ShapeError("arrays of plain numbers in SI are needed, found texts or lists of lists") from None
+    if any(array.size == 0 for array in arrays.values()):
+        raise ShapeError("arrays of at least one number are needed, found an empty one")
     lengths = {array.shape for array in arrays.values()} - {(1,)}
     if not arrays or len(lengths) > 1 or any(len(shape) != 1 for shape in lengths):
         raise ShapeError(f"arrays of one length are needed, found shapes {sorted(lengths)}")
     shape = lengths.pop() if lengths else (1,)
-    for address, array in arrays.items():
-        _check(machine, address, array)
-    return {address: np.ascontiguousarray(np.broadcast_to(array, shape)) for address, array in arrays.items()}
+    columns = {
+        address: np.ascontiguousarray(np.broadcast_to(array, shape)) for address, array in arrays.items()
+    }
+    _check(machine, columns)
+    return columns
 
 
-def _check(machine: Machine, address: str, array: Floats) -> None:
-    """Raise unless the smallest and the largest value are possible at the address.
+def _check(machine: Machine, columns: Mapping[str, Floats]) -> None:
+    """Raise unless all values are finite, and the rows with the extremes of each entry are possible machines.
 
-    Bounds of entries are intervals, so what holds for the extremes holds between them.
+    Bounds of entries are intervals, so an impossible value is an extreme or lies beyond a possible one; of
+    entries that depend on each other only these rows are looked at.
     """
-    get(machine, address)
-    if not np.isfinite(array).all():
-        raise MachineError([Problem(address, "NaN or infinite values", "finite numbers")])
-    for value in (array.min(), array.max()):
-        Machine.model_validate(_plain(replace(machine, {address: float(value)})))
+    for address, array in columns.items():
+        get(machine, address)
+        if not np.isfinite(array).all():
+            raise MachineError([Problem(address, "NaN or infinite values", "finite numbers")])
+    rows = {int(pick(array)) for array in columns.values() for pick in (np.argmin, np.argmax)}
+    for row in sorted(rows):
+        entries = {address: float(array[row]) for address, array in columns.items()}
+        Machine.model_validate(_plain(replace(machine, entries)))
 
 
 def _plain(machine: Machine) -> dict[str, object]:
