@@ -12,7 +12,7 @@ ALONG, ACROSS = 0.2, 0.1
 
 
 def motion(phi: Any, coupler: Any, out: Any) -> Any:
-    """Coupler point and rocker over the crank angle into ``out``.
+    """Coupler point over the crank angle into ``out``.
 
     Parameters
     ----------
@@ -20,8 +20,8 @@ def motion(phi: Any, coupler: Any, out: Any) -> Any:
         Crank angles [rad].
     coupler : float or ndarray, shape (rows, 1)
         Length of the coupler [m].
-    out : ndarray, shape (rows, 10, n)
-        x, y, x′, y′, x″, y″ of the point; cos ψ, sin ψ, ψ′, ψ″ of the rocker.
+    out : ndarray, shape (rows, 6, n)
+        x, y, x′, y′, x″, y″ of the point.
     """
     c, s = np.cos(phi), np.sin(phi)
     ax, ay = CRANK * c, CRANK * s
@@ -40,11 +40,9 @@ def motion(phi: Any, coupler: Any, out: Any) -> Any:
     wx = ax + coupler * chi_d1**2 * ex - ROCKER * psi_d1**2 * fx
     wy = ay + coupler * chi_d1**2 * ey - ROCKER * psi_d1**2 * fy
     chi_d2 = (wx * fx + wy * fy) / (coupler * kappa)
-    psi_d2 = (wx * ex + wy * ey) / (ROCKER * kappa)
     qx, qy = ALONG * ex - ACROSS * ey, ALONG * ey + ACROSS * ex
     out[:, 0], out[:, 1] = ax + qx, ay + qy
     out[:, 2], out[:, 3] = -ay - chi_d1 * qy, ax + chi_d1 * qx
     out[:, 4] = -ax - chi_d2 * qy - chi_d1**2 * qx
     out[:, 5] = -ay + chi_d2 * qx - chi_d1**2 * qy
-    out[:, 6], out[:, 7], out[:, 8], out[:, 9] = fx, fy, psi_d1, psi_d2
     return out

@@ -26,6 +26,11 @@ _CLOSE = 1e-3
 # A radicand below this share counts as zero: links in line to a hundred-thousandth of their length.
 _ZERO = 1e-10
 
+# Angles of a first look, and the share of its greatest above which every radicand has room to spare: one that
+# falls to zero between two of these angles is a few ten-thousandths at the nearer one.
+_FEW = 180
+_AMPLE = 0.02
+
 # Angles at which closure is looked at; a gap narrower than a quarter of a degree may go unseen here, and is
 # then found by the analysis that meets it.
 _ANGLES = 1440
@@ -77,6 +82,9 @@ def closure_of(compiled: Compiled) -> Closure:
     """`closure` of a compiled machine."""
     full = Closure(((0.0, 2 * np.pi),), "")
     if not compiled.dyads:
+        return full
+    gaps = compiled.gaps(turn_angles(_FEW))
+    if (gaps.min(axis=1) > _AMPLE * gaps.max(axis=1)).all():
         return full
     angles = turn_angles(_ANGLES)[:-1]
     gaps = compiled.gaps(angles)

@@ -25,6 +25,10 @@ Floats = NDArray[np.float64]
 # Statuses of the core (`linkwright-core`, module `status`).
 _DOES_NOT_CLOSE, _NO_STEADY_MOTION = 1, 2
 
+# Speeds of a turn at which the motor's torque is looked at: its extremes lie at the ends of their range, or
+# at breakdown, which is flat.
+_SPEEDS_IN_TURN = 65
+
 # Speeds at which it is looked whether the drive can balance the mean load at all.
 _SPEEDS = 400
 
@@ -223,7 +227,7 @@ def _motor_extremes(compiled: Compiled, low: float, high: float) -> tuple[float,
 
     In a turn the speed takes every value between its extremes, and the torque depends on the speed alone.
     """
-    omega = np.linspace(low, high, 257)
+    omega = np.linspace(low, high, _SPEEDS_IN_TURN)
     torque = compiled.motor_torques(omega)[0]
     power = torque * omega * compiled.gear_factors[0]
     return float(torque.min()), float(torque.max()), float(power.max())
