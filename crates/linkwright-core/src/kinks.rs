@@ -25,7 +25,7 @@ enum Watch {
 
 /// Angles at which zeros are looked for. Two zeros between neighbours go unseen: that costs accuracy:
 /// the comparison of meshes may then err by some tens of times the accuracy asked for.
-const SCAN: usize = 64;
+const SCAN: usize = 48;
 
 /// Share of a scan interval by which the scan is shifted, so that the round angles at which dead centres
 /// tend to lie (0°, 90°, …) fall inside intervals.
@@ -152,7 +152,7 @@ impl<R: Real> Machine<'_, R> {
     fn polish(&self, watch: Watch, low: R, guess: R, m: &mut Motion<R>) -> R {
         let high = low + TAU / SCAN as f64;
         let mut phi = guess;
-        // The guess is good to (2π/64)² ~ 1e-2; Newton squares it: 1e-4, 1e-8, 1e-16.
+        // The guess is good to (2π/48)² ~ 1e-2; Newton squares it: 1e-4, 1e-8, 1e-16.
         for _ in 0..4 {
             self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
             let (value, slope) = watched(watch, m);

@@ -300,7 +300,7 @@ impl<R: Real> Turn<R> {
         for round in 0..ROUNDS {
             let promise = R::outline(
                 #[inline(always)]
-                || self.promise(samples, &peaks, quantity, &seen),
+                || self.promise(samples, &peaks, quantity, &seen[..round]),
             );
             let worth = best.value - range * DOUBT;
             // In lanes the round is run while any lane has a step worth looking into.
@@ -342,13 +342,7 @@ impl<R: Real> Turn<R> {
 
     /// The most promising step of those not seen yet.
     #[inline(always)]
-    fn promise(
-        &self,
-        samples: &Samples<R>,
-        peaks: &[(R, R)],
-        quantity: Quantity,
-        seen: &[R; ROUNDS],
-    ) -> Promise<R> {
+    fn promise(&self, samples: &Samples<R>, peaks: &[(R, R)], quantity: Quantity, seen: &[R]) -> Promise<R> {
         let lowest = R::splat(f64::NEG_INFINITY);
         let zero = R::splat(0.0);
         let samples_of_none = [zero; N];
