@@ -218,3 +218,10 @@ def test_missing_file(tmp_path: Path) -> None:
     done = run(tmp_path / "none.toml")
     assert done.exit_code == 2
     assert "no such file" in done.stderr
+
+
+def test_an_option_that_is_no_quantity_is_named() -> None:
+    done = run(TWO_CARTS, "--method", "baranov", "--step", "1 kg")
+    assert done.exit_code == 2
+    assert "--step" in done.stderr
+    assert "1 kg" in done.stderr

@@ -13,11 +13,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
-from typing import Annotated, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
 
 import typer
 
-from linkwright.errors import InputError, LinkwrightError
+from linkwright.errors import InputError, LinkwrightError, UnitError
+
+if TYPE_CHECKING:
+    from linkwright.units import Kind
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -62,10 +65,42 @@ def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
         except LinkwrightError as error:
             typer.echo(error, err=True)
             raise typer.Exit(error.exit_code) from None
+        except BrokenPipeError:
+            # Whoever read the output has enough.
+            raise
+        except OSError as error:
+            typer.echo(f"cannot read or write: {error}", err=True)
+            raise typer.Exit(InputError.exit_code) from None
         except KeyboardInterrupt:
             raise typer.Exit(_INTERRUPTED) from None
 
     return run
+
+
+def option_value(option: str, text: str, kind: Kind) -> float:
+    """The value of an option that is a quantity; a bare number is SI.
+
+    Raises
+    ------
+    InputError
+        It is not such a quantity; names the option.
+    """
+    from linkwright.units import parse
+
+    try:
+        return parse(float(text) if _is_number(text) else text, kind)
+    except UnitError as error:
+        problem = error.problem
+        raise InputError(f"{option}: found {problem.found}, expected {problem.expected}") from None
+
+
+def _is_number(text: str) -> bool:
+    """Whether a text is a number without a unit."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def put(text: str, out: Path | None, *, force: bool = False) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets
+from linkwright.cli.common import File, Json, Sets, option_value
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -71,9 +71,9 @@ def _studied(file: Path, sets: list[str], accuracy: float, step: str | None) -> 
     try:
         from linkwright.analysis.study import study
         from linkwright.files.read import read
-        from linkwright.units import ANGLE, parse
+        from linkwright.units import ANGLE
 
-        angle = None if step is None else parse(step, ANGLE)
+        angle = None if step is None else option_value("--step", step, ANGLE)
         return study(read(file, sets), accuracy=accuracy, step=angle)
     finally:
         gc.enable()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from linkwright.cli.common import File, Force, Json, Sets, put
+from linkwright.cli.common import File, Force, Json, Sets, option_value, put
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -115,14 +115,14 @@ def size(
 def _inertias(texts: Sequence[str]) -> dict[str, float]:
     """Type → inertia, of ``TYPE=VALUE``."""
     from linkwright.errors import InputError
-    from linkwright.units import INERTIA, parse
+    from linkwright.units import INERTIA
 
     found = {}
     for text in texts:
         type, equals, value = text.rpartition("=")
         if not equals:
             raise InputError(f'--inertia {text}\n  expected: TYPE=VALUE, such as 4A132S6U3="0.04 kg m^2"')
-        found[type.strip()] = parse(value.strip().strip("\"'"), INERTIA)
+        found[type.strip()] = option_value("--inertia", value.strip().strip("\"'"), INERTIA)
     return found
 
 
