@@ -54,8 +54,8 @@ def motions(
 def gaps(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
     """Radicand of each dyad at each angle (dyads, angles); negative where it does not close."""
 
-def reductions(plan: Plan, q: _Floats, phi: _Floats, sense: float) -> _Floats:
-    """J, J′, load, dry torque and viscous coefficient (5, angles)."""
+def reductions(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
+    """J, J′, load, dry torque and viscous coefficient, turning forward (5, angles)."""
 
 def motor_torques(plan: Plan, q: _Floats, omega: _Floats) -> tuple[_Floats, _Floats]:
     """Motor torque at its shaft and at the crank, at crank speeds."""

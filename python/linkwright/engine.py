@@ -118,9 +118,9 @@ class Compiled:
         """Crank angles from 0 to 2π [rad] between which everything is smooth."""
         return _core.kinks(self.plan, self.one)
 
-    def reductions(self, angles: Floats, sense: float = 1.0) -> Floats:
+    def reductions(self, angles: Floats) -> Floats:
         """J, dJ/dφ, load torque, dry torque, viscous coefficient at crank angles, (5, n) in SI."""
-        return _core.reductions(self.plan, self.one, angles, sense)
+        return _core.reductions(self.plan, self.one, angles)
 
     def motor_torques(self, speeds: ArrayLike) -> tuple[Floats, Floats]:
         """Torque at the motor's shaft and at the crank [N m] at crank speeds [rad/s]."""

@@ -51,7 +51,7 @@ def slope(f, phi: Points) -> Points:
     return sum(w * (f(phi + k * h) - f(phi - k * h)) for k, w in weights.items()) / (60 * h)
 
 
-def torque(load: str, sense: float = 1.0) -> tuple[Points, lw.Machine]:
+def torque(load: str) -> tuple[Points, lw.Machine]:
     """Resisting torque over the turn of a machine with one load."""
     machine = lw.loads(BASE + f"[loads]\nit = {load}\n")
     reduced = lw.reduction(machine, n=72)

@@ -143,7 +143,7 @@ impl Job for Chunk<'_> {
             let machine = Machine { plan: self.plan, q: &q };
             let breaks = R::outline(
                 #[inline(always)]
-                || machine.breaks(&[], &mut m),
+                || machine.breaks(&mut m),
             );
             let mut turn = R::outline(
                 #[inline(always)]
@@ -438,12 +438,12 @@ impl Job for GapJob<'_> {
     }
 }
 
-/// J, J′, load, dry and viscous torque coefficients at each angle. `out` is (5, angles).
-pub fn reductions(plan: &Plan, q: &[f64], phi: &[f64], sense: f64, out: &mut [f64]) {
+/// J, J′, load, dry and viscous torque coefficients at each angle, turning forward. `out` is (5, angles).
+pub fn reductions(plan: &Plan, q: &[f64], phi: &[f64], out: &mut [f64]) {
     let mut m = Motion::new(&plan.mechanism, q);
     let n = phi.len();
     for (i, &phi_i) in phi.iter().enumerate() {
-        let r = plan.reduce::<f64, 2>(q, Angle::new(phi_i), sense, &mut m);
+        let r = plan.reduce::<f64, 2>(q, Angle::new(phi_i), 1.0, &mut m);
         for (k, value) in [r.J, r.J_d1, r.load, r.dry, r.viscous].into_iter().enumerate() {
             out[k * n + i] = value;
         }

@@ -79,9 +79,9 @@ fn watched<R: Real>(watch: Watch, m: &Motion<R>) -> (R, R) {
 
 impl<R: Real> Machine<'_, R> {
     /// Ends of the smooth pieces of the turn: increasing from 0 to 2π, as many in every lane (a lane with
-    /// fewer kinks repeats 2π). `extra` are further angles, the same in all lanes.
+    /// fewer kinks repeats 2π).
     #[inline(always)]
-    pub fn breaks(&self, extra: &[f64], m: &mut Motion<R>) -> Vec<R> {
+    pub fn breaks(&self, m: &mut Motion<R>) -> Vec<R> {
         let mut lanes: Vec<Vec<f64>> = vec![vec![0.0]; R::LANES];
         let watches = self.plan.watches();
         if !watches.is_empty() {
@@ -94,7 +94,7 @@ impl<R: Real> Machine<'_, R> {
             }
         }
         for lane in &mut lanes {
-            lane.extend(self.plan.angle_knots().chain(extra.iter().copied()));
+            lane.extend(self.plan.angle_knots());
             for angle in lane.iter_mut() {
                 *angle = if *angle > TAU - WRAP { 0.0 } else { *angle };
             }
@@ -160,6 +160,11 @@ impl<R: Real> Machine<'_, R> {
         }
         phi
     }
+}
+
+/// Ends of the smooth pieces of one machine's turn \[rad\].
+pub fn kinks(plan: &Plan, q: &[f64]) -> Vec<f64> {
+    Machine { plan, q }.breaks(&mut Motion::new(&plan.mechanism, q))
 }
 
 fn scan_angle(i: usize) -> f64 {

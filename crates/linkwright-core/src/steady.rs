@@ -69,7 +69,7 @@ pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Status> {
     let machine = Machine { plan, q };
     let mut m = Motion::new(&plan.mechanism, q);
     let accuracy = accuracy.max(ROUNDING);
-    let breaks = machine.breaks(&[], &mut m);
+    let breaks = machine.breaks(&mut m);
     let speeds = plan.speed_kinks(q);
     let mut mesh = Mesh { plan, q, breaks: &breaks, n: FIRST, tolerance: accuracy * 1e-2, last: None };
     let (mut crossings, mut sweeps) = (Vec::new(), 0);

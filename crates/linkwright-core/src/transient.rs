@@ -127,7 +127,7 @@ impl Follower<'_> {
 pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
     let machine = Machine { plan, q };
     let mut motion = Motion::new(&plan.mechanism, q);
-    let kinks: Vec<f64> = machine.breaks(&[], &mut motion);
+    let kinks = machine.breaks(&mut motion);
     let mut follower = Follower { machine, motion, evaluations: 0 };
     let mut path = Path::new(plan, q, start, kinks);
     path.run(&mut follower);

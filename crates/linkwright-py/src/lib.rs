@@ -9,6 +9,7 @@ mod errors;
 use arrays::{as_indices, channels, column};
 use errors::plan_error;
 use linkwright_core::batch::{self, QUANTITIES, Rows};
+use linkwright_core::kinks as core_kinks;
 use linkwright_core::lanes::in_lanes;
 use linkwright_core::plan::{Encoded, Plan as CorePlan};
 use linkwright_core::steady::{ReadCurves, steady};
@@ -170,21 +171,23 @@ fn motions(
 fn gaps<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>, phi: Floats<'_>) -> PyResult<Table<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let out = PyArray2::<f64>::zeros(py, [plan.0.mechanism.n_gaps, phi.len()], false);
-    batch::gaps(&plan.0, q, phi, out.readwrite().as_slice_mut()?);
+    {
+        let mut to = out.readwrite();
+        let to = to.as_slice_mut()?;
+        py.detach(|| batch::gaps(&plan.0, q, phi, to));
+    }
     Ok(out)
 }
 
 #[pyfunction]
-fn reductions<'py>(
-    py: Python<'py>,
-    plan: &Plan,
-    q: Floats<'_>,
-    phi: Floats<'_>,
-    sense: f64,
-) -> PyResult<Table<'py>> {
+fn reductions<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>, phi: Floats<'_>) -> PyResult<Table<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let out = PyArray2::<f64>::zeros(py, [5, phi.len()], false);
-    batch::reductions(&plan.0, q, phi, sense, out.readwrite().as_slice_mut()?);
+    {
+        let mut to = out.readwrite();
+        let to = to.as_slice_mut()?;
+        py.detach(|| batch::reductions(&plan.0, q, phi, to));
+    }
     Ok(out)
 }
 
@@ -224,9 +227,7 @@ fn transient<'py>(
 #[pyfunction]
 fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Curve<'py>> {
     let q = plan.parameters(&q)?;
-    let machine = linkwright_core::cycle::Machine { plan: &plan.0, q };
-    let mut motion = linkwright_core::linkage::Motion::new(&plan.0.mechanism, q);
-    Ok(column(py, machine.breaks(&[], &mut motion)))
+    Ok(column(py, py.detach(|| core_kinks::kinks(&plan.0, q))))
 }
 
 #[pymodule(gil_used = false)]

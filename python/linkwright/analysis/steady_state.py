@@ -282,20 +282,17 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
     ratio = drive.gearbox.ratio
     omega = drive.motor.speed / ratio
 
-    def load_at(angles: Floats) -> Floats:
-        _, _, load, dry, viscous = compiled.reductions(angles)
-        total: Floats = load + dry + viscous * omega + compiled.speed_load(omega)
-        return total
+    def needs(angles: Floats) -> tuple[Floats, Floats, Floats]:
+        """J, resisting torque, and driving torque that the motion needs."""
+        J, J_d1, load, dry, viscous = compiled.reductions(angles)
+        resisting = load + dry + viscous * omega + compiled.speed_load(omega)
+        return J, resisting, resisting + 0.5 * J_d1 * omega**2
 
-    def drive_at(angles: Floats) -> Floats:
-        total: Floats = load_at(angles) + 0.5 * compiled.reductions(angles)[1] * omega**2
-        return total
-
-    J = compiled.reductions(phi)[0]
-    torque_load, torque_drive = load_at(phi), drive_at(phi)
+    J, torque_load, torque_drive = needs(phi)
     torque_motor = compiled.motor_torque_for(torque_drive)
     nodes, weights = turn_nodes(compiled)
-    at_nodes = compiled.motor_torque_for(drive_at(nodes))
+    _, load_at_nodes, drive_at_nodes = needs(nodes)
+    at_nodes = compiled.motor_torque_for(drive_at_nodes)
     period = 2 * np.pi / omega
     still = dict.fromkeys(("speed_min_angle", "speed_max_angle"), 0.0)
     still |= dict.fromkeys(("acceleration_min", "acceleration_max"), 0.0)
@@ -316,8 +313,8 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
         speed_max=omega,
         period=period,
         energy_motor=float(weights @ at_nodes * ratio * 2 * np.pi),
-        energy_drive=float(weights @ drive_at(nodes) * 2 * np.pi),
-        energy_load=float(weights @ load_at(nodes) * 2 * np.pi),
+        energy_drive=float(weights @ drive_at_nodes * 2 * np.pi),
+        energy_load=float(weights @ load_at_nodes * 2 * np.pi),
         torque_motor_mean=float(weights @ at_nodes),
         torque_motor_rms=float(np.sqrt(weights @ at_nodes**2)),
         torque_motor_min=float(torque_motor.min()),

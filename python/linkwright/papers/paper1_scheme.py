@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.analysis.closure import turn_angles
 from linkwright.analysis.step_method import StepMotion, by_steps, whole_steps
 from linkwright.engine import compile_machine
 from linkwright.machine import InductionMotor, Machine
@@ -54,7 +55,7 @@ def published_scheme(machine: Machine, *, step: float = np.radians(1.0)) -> Step
     assert machine.drive is not None
     compiled = compile_machine(machine)
     n = whole_steps(step)
-    J, _, load, dry, _ = compiled.reductions(np.arange(n, dtype=np.float64) * (2 * np.pi / n))
+    J, _, load, dry, _ = compiled.reductions(turn_angles(n)[:-1])
     M_0 = load + dry
     motor, gearbox = machine.drive.motor, machine.drive.gearbox
     assert isinstance(motor, InductionMotor)
