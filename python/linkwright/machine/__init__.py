@@ -6,7 +6,9 @@
 | `drive` | gearbox, coupling, flywheel, brake |
 | `motor` | the kinds of motor, and how their entries follow from one another |
 | `catalogue` | published motors |
-| `mechanism` | cranks, sliders, rockers, rigid points |
+| `element` | cranks, dyads, gears, cables, joints and bars |
+| `mechanism` | all elements by name |
+| `assembly` | in which order a mechanism is built; what is missing or too much |
 | `body`, `load` | masses; forces and torques |
 | `curve` | curves given by points |
 | `outline` | names in a mechanism: what refers to what, in which order it is built |
@@ -19,6 +21,23 @@ from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.body import Body
 from linkwright.machine.catalogue import CatalogueMotor, motor, motors
 from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
+from linkwright.machine.element import (
+    Bar,
+    Cable,
+    Crank,
+    Crossing,
+    FixedPoint,
+    Gear,
+    Guide,
+    Joint,
+    LinearDriver,
+    Rack,
+    RigidPoint,
+    Rocker,
+    Slider,
+    SlottedLever,
+    Yoke,
+)
 from linkwright.machine.load import (
     AnyLoad,
     ConstantForce,
@@ -33,7 +52,7 @@ from linkwright.machine.load import (
     ViscousFriction,
 )
 from linkwright.machine.machine import FORMAT, Machine, RunUp
-from linkwright.machine.mechanism import Crank, FixedPoint, Link, Mechanism, RigidPoint, Rocker, Slider
+from linkwright.machine.mechanism import Link, Mechanism
 from linkwright.machine.motor import (
     AnyMotor,
     ConstantSpeedMotor,
@@ -48,8 +67,10 @@ __all__ = [
     "FORMAT",
     "AnyLoad",
     "AnyMotor",
+    "Bar",
     "Body",
     "Brake",
+    "Cable",
     "CatalogueMotor",
     "ConstantForce",
     "ConstantSpeedMotor",
@@ -57,29 +78,37 @@ __all__ = [
     "ConstantTorqueMotor",
     "Coupling",
     "Crank",
+    "Crossing",
     "DcMotor",
     "Drive",
     "DryFriction",
     "FixedPoint",
     "Flywheel",
     "ForcePosition",
+    "Gear",
     "Gearbox",
     "Gravity",
+    "Guide",
     "InductionMotor",
+    "Joint",
+    "LinearDriver",
     "Link",
     "Load",
     "Machine",
     "Mechanism",
     "Motor",
+    "Rack",
     "RigidPoint",
     "Rocker",
     "RunUp",
     "Slider",
+    "SlottedLever",
     "Spring",
     "TableMotor",
     "TorqueAngle",
     "TorqueSpeed",
     "ViscousFriction",
+    "Yoke",
     "addresses",
     "get",
     "kind",
