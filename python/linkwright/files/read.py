@@ -58,9 +58,7 @@ def read(path: str | os.PathLike[str], overrides: Overrides = ()) -> Machine:
     return read_as(Machine, path, overrides)
 
 
-def read_as(
-    model: type[Model], path: str | os.PathLike[str], overrides: Overrides = ()
-) -> Model:
+def read_as(model: type[Model], path: str | os.PathLike[str], overrides: Overrides = ()) -> Model:
     """Read a description of some kind from a file, such as the task of a synthesis.
 
     Parameters
@@ -114,9 +112,7 @@ def loads(text: str, overrides: Overrides = (), *, path: str = "") -> Machine:
     return loads_as(Machine, text, overrides, path=path)
 
 
-def loads_as(
-    model: type[Model], text: str, overrides: Overrides = (), *, path: str = ""
-) -> Model:
+def loads_as(model: type[Model], text: str, overrides: Overrides = (), *, path: str = "") -> Model:
     """Read a description of some kind from a TOML text.
 
     Parameters

@@ -1,12 +1,15 @@
-"""Dead-centre design: a crank-rocker or a slider-crank for a wanted swing or stroke and time ratio.
+"""Dead-centre design: a crank-rocker for a wanted swing and time ratio; the slider-crank is in `stroke`.
 
-In the outer dead centre the joint is at p = c + r from the crank's pivot A₀, in the inner one at q = c − r, and A₀ sees the
-two places under the angle δ = φ₀ − π, where φ₀ is the crank angle from the outer to the inner dead centre. With the chord
+In the outer dead centre the joint is at p = c + r from the crank's pivot A₀, in the inner one at q = c − r,
+and A₀ sees the
+two places under the angle δ = φ₀ − π, where φ₀ is the crank angle from the outer to the inner dead centre.
+With the chord
 h between the places (h = 2 b sin ψ₀/2 for a rocker b, the stroke for a slider) the triangle gives
 
     r = ½ h cos κ/cos(δ/2)          c = ½ h sin κ/sin(δ/2)
 
-κ is free. It is written as sin κ = sin(|δ|/2)/t, so that c = h/(2t) holds for δ = 0 too, and t between sin(|δ|/2) and 1 is
+κ is free. It is written as sin κ = sin(|δ|/2)/t, so that c = h/(2t) holds for δ = 0 too, and t between
+sin(|δ|/2) and 1 is
 chosen for the best transmission angle.
 
 Source: Alt's construction, VDI 2130 (transmission-optimal crank-rockers for two dead centres); Volmer,
@@ -24,7 +27,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError, SynthesisError
 from linkwright.machine import Machine
-from linkwright.synthesis.four_bar import FourBar, cross, machine_of, turn_spare, worst_transmission
+from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -74,40 +77,6 @@ class CrankRocker(Result):
     machine: Machine
 
 
-@dataclass(frozen=True)
-class StrokeCrank(Result):
-    """A slider-crank for a given stroke and time ratio.
-
-    Attributes
-    ----------
-    stroke : float
-        Way of the slider between the dead centres [m].
-    crank_angle_forward : float
-        Crank angle φ₀ from the outer dead centre to the inner one [rad].
-    time_ratio : float
-        φ₀ over the rest of the turn [–].
-    crank, rod, offset : float
-        Lengths [m].
-    transmission_angle_min : float
-        Least angle between the rod and the normal of the guide [rad].
-    crank_angle_outer, crank_angle_inner : float
-        Crank angles of the dead centres in the machine [rad].
-    machine : Machine
-        The linkage, its guide along x.
-    """
-
-    stroke: float
-    crank_angle_forward: float
-    time_ratio: float
-    crank: float
-    rod: float
-    offset: float
-    transmission_angle_min: float
-    crank_angle_outer: float
-    crank_angle_inner: float
-    machine: Machine
-
-
 def crank_rocker(
     swing: float, time_ratio: float = 1.0, *, frame: float = 1.0, coupler_max: float = 3.0
 ) -> CrankRocker:
@@ -141,63 +110,19 @@ def crank_rocker(
     ----------
     .. [1] VDI 2130.
     """
-    _check(swing=(swing, np.pi), time_ratio=(time_ratio, np.inf), frame=(frame, np.inf))
-    _check(coupler_max=(coupler_max, np.inf))
-    delta = _delta(time_ratio)
+    check(swing=(swing, np.pi), time_ratio=(time_ratio, np.inf), frame=(frame, np.inf))
+    check(coupler_max=(coupler_max, np.inf))
+    delta = delta_of(time_ratio)
     families = [_Family(swing, delta, side) for side in (1.0, -1.0)]
     low = max(np.sin(abs(delta) / 2), np.sin(swing / 2) / coupler_max)
-    found = [(each, *_best(each.transmission, low)) for each in families]
+    found = [(each, *best(each.transmission, low)) for each in families]
     family, t, mu = max(found, key=lambda each: np.nan_to_num(each[2]))
     if not mu > 0:
         raise SynthesisError(_no_crank_rocker(swing, time_ratio, coupler_max))
     return family.result(t, time_ratio, frame)
 
 
-def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = None) -> StrokeCrank:
-    """Find the slider-crank for a stroke and a time ratio.
-
-    Parameters
-    ----------
-    stroke : float
-        Way of the slider between its dead centres [m].
-    time_ratio : float
-        Crank angle from the outer dead centre to the inner one over the rest of the turn [–].
-    rod : float, optional
-        Its rod [m]. Without it, the rod of the best transmission angle; at a time ratio of 1 there is none.
-
-    Returns
-    -------
-    StrokeCrank
-        The linkage. Its crank turns counter-clockwise.
-
-    Raises
-    ------
-    InputError
-        A stroke, time ratio or rod that is not positive, or no rod at a time ratio of 1.
-    SynthesisError
-        No slider-crank has this stroke, time ratio and rod.
-
-    References
-    ----------
-    .. [1] VDI 2130.
-    """
-    _check(stroke=(stroke, np.inf), time_ratio=(time_ratio, np.inf), rod=(rod or 1.0, np.inf))
-    delta = _delta(time_ratio)
-    if rod is None and delta == 0:
-        raise InputError(
-            "a time ratio of 1 leaves the rod free, and the longer it is the better: give the rod, such as 3 to 5 times "
-            f"half the stroke ({3 * stroke / 2:.4g} m to {5 * stroke / 2:.4g} m)"
-        )
-    t, mu = _best(lambda t: _slide_transmission(t, delta), float(np.sin(abs(delta) / 2)))
-    if rod is not None:
-        t = stroke / (2 * rod)
-        mu = float(_slide_transmission(np.array([t]), delta)[0]) if np.sin(abs(delta) / 2) < t < 1 else np.nan
-    if not mu > 0:
-        raise SynthesisError(_no_slider_crank(stroke, time_ratio, rod, delta))
-    return _stroke_crank(stroke, time_ratio, delta, t, mu)
-
-
-def _check(**given: tuple[float, float]) -> None:
+def check(**given: tuple[float, float]) -> None:
     """Raise unless each number is positive and below its bound."""
     for name, (value, bound) in given.items():
         if not 0 < value < bound or not np.isfinite(value):
@@ -205,15 +130,15 @@ def _check(**given: tuple[float, float]) -> None:
             raise InputError(f"{name} {value:g}: expected a positive number{limit}")
 
 
-def _delta(time_ratio: float) -> float:
+def delta_of(time_ratio: float) -> float:
     """δ = φ₀ − π of a time ratio k = φ₀/(2π − φ₀) [rad]."""
     return 2 * np.pi * time_ratio / (1 + time_ratio) - np.pi
 
 
-def _best(transmission: Callable[[Floats], Floats], low: float) -> tuple[float, float]:
+def best(transmission: Callable[[Floats], Floats], low: float) -> tuple[float, float]:
     """The free parameter of the best transmission angle, and that angle; NaN if there is no linkage."""
     least, high = low, 1.0
-    best, angle = np.nan, np.nan
+    found, angle = np.nan, np.nan
     # Each look is a thousand times closer than the one before; five pass the limit of rounding.
     for _ in range(5 if low < high else 0):
         t = np.linspace(low, high, _LOOKS + 2)[1:-1]
@@ -221,12 +146,12 @@ def _best(transmission: Callable[[Floats], Floats], low: float) -> tuple[float, 
         if np.isnan(angles).all():
             break
         at = int(np.nanargmax(angles))
-        best, angle, step = float(t[at]), float(angles[at]), t[1] - t[0]
-        low, high = max(best - step, least), min(best + step, 1.0)
-    return best, angle
+        found, angle, step = float(t[at]), float(angles[at]), t[1] - t[0]
+        low, high = max(found - step, least), min(found + step, 1.0)
+    return found, angle
 
 
-def _joints(t: Floats, delta: float) -> tuple[Floats, Floats, Complexes, Complexes]:
+def joints(t: Floats, delta: float) -> tuple[Floats, Floats, Complexes, Complexes]:
     """Crank, coupler, and the places of the joint in the outer and inner dead centre, for a chord of 2."""
     kappa = np.arcsin(np.sin(abs(delta) / 2) / t)
     crank, coupler = np.cos(kappa) / np.cos(delta / 2), 1 / t
@@ -243,7 +168,7 @@ class _Family:
 
     def places(self, t: Floats) -> tuple[Floats, Floats, Complexes, Complexes, Complexes]:
         """Crank, coupler, joint in both dead centres, and rocker pivot, for a chord of 2."""
-        crank, coupler, outer, inner = _joints(t, self.delta)
+        crank, coupler, outer, inner = joints(t, self.delta)
         pivot = 0.5 * (outer + inner) + self.side * 0.5j * (inner - outer) / np.tan(self.swing / 2)
         return crank, coupler, outer, inner, pivot
 
@@ -286,52 +211,9 @@ def _no_crank_rocker(swing: float, time_ratio: float, coupler_max: float) -> str
     psi, phi = np.degrees(swing), 360 * time_ratio / (1 + time_ratio)
     most = (270 + psi / 2) / (90 - psi / 2)
     return (
-        f"no crank-rocker swings {psi:.4g}° with a crank angle of {phi:.4g}° between the dead centres (time ratio "
+        f"no crank-rocker swings {psi:.4g}° with a crank angle of {phi:.4g}° between the dead "
+        f"centres (time ratio "
         f"{time_ratio:.4g}): for this swing the time ratio must lie between {1 / most:.4g} and {most:.4g}, "
-        f"and near its ends the coupler may need more than {coupler_max:.4g} times the rocker; change one of them"
-    )
-
-
-def _slide_transmission(t: Floats, delta: float) -> Floats:
-    """Least transmission angle of a slider-crank in its turn; NaN where its crank does not turn."""
-    crank, coupler, outer, inner = _joints(t, delta)
-    offset = np.abs(cross(outer, inner)) / np.abs(outer - inner)
-    ahead = np.real(np.conj(outer - inner) * inner) > 0
-    good = ahead & (coupler > crank + offset) & (crank > 0)
-    with np.errstate(invalid="ignore"):
-        return np.where(good, np.arccos((crank + offset) / coupler), np.nan)
-
-
-def _stroke_crank(stroke: float, time_ratio: float, delta: float, t: float, mu: float) -> StrokeCrank:
-    """The slider-crank in its wanted size, with its guide along x."""
-    crank, rod, outer, inner = (0.5 * stroke * each[0] for each in _joints(np.array([t]), delta))
-    along = (outer - inner) / abs(outer - inner)
-    outer, inner = outer / along, inner / along
-    offset = float(outer.imag)
-    slider = {"crank": "A", "rod": float(rod), "offset": offset}
-    mechanism = {"cranks": {"A": {"radius": float(crank)}}, "sliders": {"B": slider}}
-    name = f"Slider-crank, stroke {stroke:.6g} m, time ratio {time_ratio:.6g}"
-    return StrokeCrank(
-        stroke=float(stroke),
-        crank_angle_forward=float(np.pi + delta),
-        time_ratio=float(time_ratio),
-        crank=float(crank),
-        rod=float(rod),
-        offset=offset,
-        transmission_angle_min=float(mu),
-        crank_angle_outer=float(np.angle(outer)) % (2 * np.pi),
-        crank_angle_inner=float(np.angle(-inner)) % (2 * np.pi),
-        machine=machine_of(name, mechanism, SOURCE),
-    )
-
-
-def _no_slider_crank(stroke: float, time_ratio: float, rod: float | None, delta: float) -> str:
-    """What rods, or time ratios, are possible."""
-    least, most = stroke / 2, stroke / 2 / np.sin(abs(delta) / 2) if delta else np.inf
-    what = f"no slider-crank has a stroke of {stroke:.4g} m, a time ratio of {time_ratio:.4g}"
-    if rod is None:
-        return f"{what} and a crank that turns: bring the time ratio nearer to 1"
-    return (
-        f"{what} and a rod of {rod:.4g} m: the rod must lie between {least:.4g} m and {most:.4g} m, and its crank must "
-        "turn; change the rod, or bring the time ratio nearer to 1"
+        f"and near its ends the coupler may need more than {coupler_max:.4g} times the rocker; "
+        f"change one of them"
     )

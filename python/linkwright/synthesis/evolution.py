@@ -4,12 +4,15 @@ Each trial starts from its parent, moves towards one of the best, and by the dif
 
     v = x + F (x_best − x) + F (x_a − x_b)
 
-and takes each coordinate of v with probability C, else that of x. F and C follow those that have succeeded. Trials
-are compared by Deb's rules: what keeps the constraints beats what does not; among the former the smaller cost wins, among the
+and takes each coordinate of v with probability C, else that of x. F and C follow those that have succeeded.
+Trials
+are compared by Deb's rules: what keeps the constraints beats what does not; among the former the smaller
+cost wins, among the
 latter the smaller violation.
 
 Source: J. Zhang, A. C. Sanderson, JADE: adaptive differential evolution with optional external archive, IEEE
-Transactions on Evolutionary Computation 13 (2009) 945–958; K. Deb, An efficient constraint handling method for genetic
+Transactions on Evolutionary Computation 13 (2009) 945–958; K. Deb, An efficient constraint handling method
+for genetic
 algorithms, Computer Methods in Applied Mechanics and Engineering 186 (2000) 311–338.
 """
 
@@ -26,7 +29,8 @@ Floats = NDArray[np.float64]
 # Rows, improved where that is cheap; cost and violation of each; violation 0 where all constraints are kept.
 Judge = Callable[[Floats], tuple[Floats, Floats, Floats]]
 
-# Share of the population that counts as the best, and rate at which F and C follow (Zhang and Sanderson: 5 to 20 %, 0.1).
+# Share of the population that counts as the best, and rate at which F and C follow (Zhang and Sanderson: 5
+# to 20 %, 0.1).
 _BEST = 0.1
 _RATE = 0.1
 
@@ -60,9 +64,7 @@ class Generation:
     population: Floats
 
 
-def evolve(
-    judge: Judge, low: Floats, high: Floats, population: int, seed: int
-) -> Iterator[Generation]:
+def evolve(judge: Judge, low: Floats, high: Floats, population: int, seed: int) -> Iterator[Generation]:
     """Search a box; yields after every generation, until the search has come to rest.
 
     Parameters

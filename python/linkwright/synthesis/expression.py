@@ -1,6 +1,7 @@
 """A function y(x) given as text, read as an expression and nothing else.
 
-Allowed: numbers, ``x``, ``pi``, ``e``, + − * / and powers (``^`` or ``**``), parentheses, and the functions of `FUNCTIONS`.
+Allowed: numbers, ``x``, ``pi``, ``e``, + − * / and powers (``^`` or ``**``), parentheses, and the functions
+of `FUNCTIONS`.
 """
 
 from __future__ import annotations
@@ -100,11 +101,15 @@ def _check(node: ast.expr) -> None:
         case ast.Name(id=name) if name == "x" or name in _CONSTANTS:
             return
         case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
-            return _check(left) or _check(right)
+            _check(left)
+            _check(right)
+            return
         case ast.UnaryOp(op=op, operand=operand) if type(op) in _UNARY:
-            return _check(operand)
+            _check(operand)
+            return
         case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]) if name in FUNCTIONS:
-            return _check(argument)
+            _check(argument)
+            return
     found = show(ast.unparse(node))
     near = close_match(ast.unparse(getattr(node, "func", node)), [*FUNCTIONS, "x"])
     expected = f"numbers, x, pi, e, + - * / ^ and {', '.join(FUNCTIONS)}"

@@ -1,11 +1,14 @@
 """A four-bar linkage in the plane of complex numbers: what its lengths say without moving it.
 
-A₀ and B₀ are the fixed pivots, A the pin of the crank, B the joint of coupler and rocker. The distance d of A from
+A₀ and B₀ are the fixed pivots, A the pin of the crank, B the joint of coupler and rocker. The distance d of
+A from
 B₀ decides everything:
 
-    d² = g² + r² − 2 g r cos(φ − γ)          cos μ = (c² + b² − d²)/(2 c b)          S = 4 c² d² − (d² + c² − b²)²
+    d² = g² + r² − 2 g r cos(φ − γ)          cos μ = (c² + b² − d²)/(2 c b)          S = 4 c² d² − (d² + c² −
+    b²)²
 
-with the frame g in the direction γ, crank r, coupler c, rocker b, and the transmission angle μ between coupler and rocker.
+with the frame g in the direction γ, crank r, coupler c, rocker b, and the transmission angle μ between
+coupler and rocker.
 The linkage closes where S ≥ 0.
 
 Source: VDI 2127, VDI 2130; Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
@@ -66,18 +69,18 @@ class FourBar:
 
     def pin(self, angles: Floats) -> Complexes:
         """The crank pin A at crank angles, (n,) [m]."""
-        return self.crank_pivot + self.crank * np.exp(1j * (self.phase + np.asarray(angles)))
+        return np.asarray(self.crank_pivot + self.crank * np.exp(1j * (self.phase + np.asarray(angles))))
 
     def gap(self, angles: Floats) -> Floats:
         """S at crank angles, (n,) [m⁴]; negative where the linkage does not close."""
         d2 = np.abs(self.rocker_pivot - self.pin(angles)) ** 2
-        return 4 * self.coupler**2 * d2 - (d2 + self.coupler**2 - self.rocker**2) ** 2
+        return np.asarray(4 * self.coupler**2 * d2 - (d2 + self.coupler**2 - self.rocker**2) ** 2)
 
     def transmission_angle(self, angles: Floats) -> Floats:
         """μ at crank angles, at most a right angle, (n,) [rad]."""
         d2 = np.abs(self.rocker_pivot - self.pin(angles)) ** 2
         cosine = (self.coupler**2 + self.rocker**2 - d2) / (2 * self.coupler * self.rocker)
-        return np.arccos(np.clip(np.abs(cosine), 0, 1))
+        return np.asarray(np.arccos(np.clip(np.abs(cosine), 0, 1)))
 
     def machine(self, name: str, *, points: Mapping[str, complex] | None = None, source: str = "") -> Machine:
         """The linkage as a machine.
@@ -138,7 +141,7 @@ def plain_rocker(
 
 def cross(a: complex | Complexes, b: complex | Complexes) -> Floats:
     """The cross product of vectors in the plane, positive if b is to the left of a."""
-    return np.imag(np.conj(a) * b)
+    return np.asarray(np.imag(np.conj(a) * b))
 
 
 def side_of(crank_pin: complex, rocker_pivot: complex, joint: complex) -> Assembly:
@@ -179,7 +182,7 @@ def turn_spare(frame: Floats, crank: Floats, coupler: Floats, rocker: Floats) ->
     """
     far = coupler + rocker - (frame + crank)
     near = np.abs(frame - crank) - np.abs(coupler - rocker)
-    return np.minimum(far, near)
+    return np.asarray(np.minimum(far, near))
 
 
 def worst_transmission(frame: Floats, crank: Floats, coupler: Floats, rocker: Floats) -> Floats:
@@ -190,4 +193,4 @@ def worst_transmission(frame: Floats, crank: Floats, coupler: Floats, rocker: Fl
     product = 2 * coupler * rocker
     cosines = [(coupler**2 + rocker**2 - (frame + sign * crank) ** 2) / product for sign in (-1, 1)]
     with np.errstate(invalid="ignore"):
-        return np.arccos(np.maximum(np.abs(cosines[0]), np.abs(cosines[1])))
+        return np.asarray(np.arccos(np.maximum(np.abs(cosines[0]), np.abs(cosines[1]))))

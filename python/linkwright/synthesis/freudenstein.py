@@ -4,16 +4,20 @@
 
     K₁ = g/r          K₂ = g/b          K₃ = (g² + r² + b² − c²)/(2 r b)
 
-with frame g, crank r, coupler c, rocker b, and both angles from the frame's direction. With start angles φ₀, ψ₀
-given it is linear in K: three points are met exactly, more in the least-squares sense. Each start angle left free
+with frame g, crank r, coupler c, rocker b, and both angles from the frame's direction. With start angles φ₀,
+ψ₀
+given it is linear in K: three points are met exactly, more in the least-squares sense. Each start angle left
+free
 is one more unknown and one more point that can be met exactly; the equations are then solved by the method of
 Levenberg and Marquardt from a grid of start angles, all at once.
 
-Source: F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955) 853–861.
+Source: F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955)
+853–861.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -80,9 +84,7 @@ def lengths(K: Floats, frame: float = 1.0) -> tuple[float, float, float] | None:
     return (r, float(np.sqrt(square)), b) if square > 0 else None
 
 
-def solve(
-    crank: Floats, rocker: Floats, crank_start: float | None, rocker_start: float | None
-) -> list[Fit]:
+def solve(crank: Floats, rocker: Floats, crank_start: float | None, rocker_start: float | None) -> list[Fit]:
     """All solutions that are found for pairs of angles.
 
     Parameters
@@ -112,9 +114,35 @@ def solve(
     return _distinct(found)
 
 
-def _grid(crank_start: float | None, rocker_start: float | None) -> Floats:
-    """Start angles to begin with, (m, 2)."""
-    n = _GRID.get((crank_start is None) + (rocker_start is None), 1)
+def scan(crank: Floats, rocker: Floats, crank_start: float | None, rocker_start: float | None) -> list[Fit]:
+    """Least-squares fits for start angles all over, for a choice by something else than the residual.
+
+    Parameters
+    ----------
+    crank, rocker : ndarray, shape (n,)
+        Crank and rocker angles of the points, from their start angles [rad].
+    crank_start, rocker_start : float or None
+        Start angles from the frame [rad]; None where they are free.
+
+    Returns
+    -------
+    list of Fit
+        The smallest residual first.
+    """
+    starts = _grid(crank_start, rocker_start, {1: 720, 2: 90})
+    K = _linear(crank, rocker, starts)
+    residuals = np.sqrt(np.mean(_residuals(crank, rocker, K, starts)[0] ** 2, axis=1))
+    rows = [
+        (K[i], float(starts[i, 0]), float(starts[i, 1]), float(residuals[i])) for i in residuals.argsort()
+    ]
+    return [Fit(*row) for row in rows]
+
+
+def _grid(
+    crank_start: float | None, rocker_start: float | None, per_turn: Mapping[int, int] = _GRID
+) -> Floats:
+    """Start angles to begin with, (m, 2); so many a turn, by how many are free."""
+    n = per_turn.get((crank_start is None) + (rocker_start is None), 1)
     turn = np.linspace(-np.pi, np.pi, n, endpoint=False)
     axes = [turn if start is None else np.array([start]) for start in (crank_start, rocker_start)]
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -129,7 +157,7 @@ def _linear(crank: Floats, rocker: Floats, starts: Floats) -> Floats:
     """K by linear least squares for given start angles, (m, 3)."""
     phi, psi = _columns(crank, rocker, starts)
     A = np.stack([np.cos(psi), -np.cos(phi), np.ones_like(phi)], axis=-1)
-    return np.einsum("mkn,mn->mk", np.linalg.pinv(A), np.cos(phi - psi))
+    return np.asarray(np.einsum("mkn,mn->mk", np.linalg.pinv(A), np.cos(phi - psi)))
 
 
 def _residuals(crank: Floats, rocker: Floats, K: Floats, starts: Floats) -> tuple[Floats, Floats]:
@@ -150,7 +178,8 @@ def _refined(
 
     References
     ----------
-    .. [1] D. Marquardt, An algorithm for least-squares estimation of nonlinear parameters, SIAM 11 (1963) 431–441.
+    .. [1] D. Marquardt, An algorithm for least-squares estimation of nonlinear parameters, SIAM 11 (1963)
+    431–441.
     """
     moving = np.concatenate([np.ones(3, dtype=bool), free])
     x = np.concatenate([K, starts], axis=1)

@@ -1,9 +1,12 @@
 """Function generation: a four-bar linkage whose rocker turns with y(x) while its crank turns with x.
 
-Both scales are linear: φ = φ₀ + Δφ (x − x₀)/(x_n − x₀) and ψ = ψ₀ + Δψ (y − y₀)/(y_n − y₀). The linkage meets the function at
-its precision points; between them it deviates by the structural error, which is found by analysing the machine again.
+Both scales are linear: φ = φ₀ + Δφ (x − x₀)/(x_n − x₀) and ψ = ψ₀ + Δψ (y − y₀)/(y_n − y₀). The linkage
+meets the function at
+its precision points; between them it deviates by the structural error, which is found by analysing the
+machine again.
 
-Source: F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955) 853–861;
+Source: F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955)
+853–861;
 spacing by Chebyshev: Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
 """
 
@@ -21,13 +24,16 @@ from linkwright.errors import InputError, SynthesisError
 from linkwright.machine import Machine
 from linkwright.synthesis.expression import function_of
 from linkwright.synthesis.four_bar import FourBar, side_of
-from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, solve
+from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, scan, solve
 from linkwright.synthesis.task import FunctionTask
 
 Floats = NDArray[np.float64]
 
 # Intervals of the range at which the machine is analysed again.
 _STEPS = 720
+
+# Usable linkages among which the one of the least error is chosen; they come in the order of their residuals.
+_ENOUGH = 40
 
 SOURCE = "Synthesised by linkwright as a function generator"
 
@@ -48,11 +54,11 @@ class FunctionGenerator(Result):
         Whether the link ``B.rocker`` points against the rocker angle.
     residual : float
         Root of the mean square of the residuals of Freudenstein's equation [–]; 0 where all points are met.
-    error_max, error_rms : float
+    angle_error_max, angle_error_rms : float
         Structural error of the rocker angle over the range [rad].
-    error_function_max : float
+    function_error_max : float
         The greatest one in the unit of y.
-    point_error_max : float
+    angle_error_points : float
         Error of the rocker angle at the worst of the points [rad].
     transmission_angle_min : float
         Least transmission angle over the range [rad].
@@ -75,10 +81,10 @@ class FunctionGenerator(Result):
     rocker_start: float
     rocker_opposite: bool
     residual: float
-    error_max: float
-    error_rms: float
-    error_function_max: float
-    point_error_max: float
+    angle_error_max: float
+    angle_error_rms: float
+    function_error_max: float
+    angle_error_points: float
     transmission_angle_min: float
     solutions: int
     x: Floats
@@ -136,7 +142,8 @@ def function_generator(task: FunctionTask) -> FunctionGenerator:
 
     References
     ----------
-    .. [1] F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955) 853–861.
+    .. [1] F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955)
+    853–861.
     """
     scale = _Scale.of(task)
     fits = solve(scale.crank, scale.rocker, task.crank_start, task.rocker_start)
@@ -144,24 +151,39 @@ def function_generator(task: FunctionTask) -> FunctionGenerator:
         fits = [fit for fit in fits if fit.residual < EXACT]
     if not fits:
         raise SynthesisError(
-            f"no linkage meets the {len(scale.points)} points: Freudenstein's equation has no real solution for them; change "
+            f"no linkage meets the {len(scale.points)} points: Freudenstein's equation has no real "
+            f"solution for them; change "
             "crank_range or rocker_range, or ask for fewer points"
         )
-    results, reasons = [], []
+    results, reasons = _usable(task, scale, fits)
+    if not results and len(scale.points) > task.unknowns > 3:
+        # The best fits break a limit; among the others the best that keeps it.
+        others = scan(scale.crank, scale.rocker, task.crank_start, task.rocker_start)
+        results = _usable(task, scale, others)[0]
+    if not results:
+        raise SynthesisError(_none(fits, reasons))
+    best = min(results, key=lambda each: each.angle_error_max)
+    return FunctionGenerator(**{**vars(best), "solutions": len(results)})
+
+
+def _usable(task: FunctionTask, scale: _Scale, fits: list[Fit]) -> tuple[list[FunctionGenerator], list[str]]:
+    """Results of the solutions that keep all limits, and why the others do not."""
+    results: list[FunctionGenerator] = []
+    reasons: list[str] = []
     for fit in fits:
         try:
             results.append(_generator(task, scale, fit))
         except SynthesisError as reason:
             reasons.append(str(reason))
-    if not results:
-        raise SynthesisError(_none(fits, reasons))
-    best = min(results, key=lambda each: each.error_max)
-    return FunctionGenerator(**{**vars(best), "solutions": len(results)})
+        if len(results) == _ENOUGH:
+            break
+    return results, reasons
 
 
 @dataclass(frozen=True)
 class _Scale:
-    """The function on its scales: points, crank and rocker angles from their starts, and the same over the range."""
+    """The function on its scales: points, crank and rocker angles from their starts, and the same "
+    "over the range."""
 
     points: Floats
     crank: Floats
@@ -183,7 +205,8 @@ class _Scale:
         y, y0, yn = function(points), *function(np.array(ends))
         if not np.isfinite(yn - y0) or abs(yn - y0) <= 1e-12 * max(abs(yn), abs(y0), 1e-300):
             raise InputError(
-                f"function: {y0:.6g} at both ends of the range, so rocker_range has no scale; expected different values"
+                f"function: {y0:.6g} at both ends of the range, so rocker_range has no scale; "
+                f"expected different values"
             )
         per_angle = (yn - y0) / task.rocker_range
         part, over = (points - ends[0]) / (ends[1] - ends[0]), np.linspace(0, 1, _STEPS + 1)
@@ -203,7 +226,8 @@ def _points(task: FunctionTask, ends: tuple[float, ...]) -> Floats:
 
 
 def _function(task: FunctionTask) -> Callable[[Floats], Floats]:
-    """The function of a task; one given by points is a polynomial through few of them, straight between many."""
+    """The function of a task; one given by points is a polynomial through few of them, straight "
+    "between many."""
     if task.function is not None:
         return function_of(task.function)
     x, y = np.asarray(task.x), np.asarray(task.y)
@@ -227,14 +251,17 @@ def _generator(task: FunctionTask, scale: _Scale, fit: Fit) -> FunctionGenerator
     size = (task.frame, abs(r), c, abs(b))
     if max(size) > task.length_ratio_max * min(size):
         ratio = max(size) / min(size)
-        raise SynthesisError(f"its longest link is {ratio:.4g} times its shortest (length_ratio_max {task.length_ratio_max:g})")
+        raise SynthesisError(
+            f"its longest link is {ratio:.4g} times its shortest (length_ratio_max {task.length_ratio_max:g})"
+        )
     bar = _bar(task, scale, fit, r, c, b)
     mu = float(bar.transmission_angle(scale.crank_over).min())
     if (bar.gap(scale.crank_over) < 0).any():
         raise SynthesisError(f"as a {bar.type} it does not close over the whole range")
     if mu < task.transmission_angle_min:
         raise SynthesisError(
-            f"its transmission angle falls to {np.degrees(mu):.2f}° (transmission_angle_min {np.degrees(task.transmission_angle_min):.4g}°)"
+            f"its transmission angle falls to {np.degrees(mu):.2f}° (transmission_angle_min "
+            f"{np.degrees(task.transmission_angle_min):.4g}°)"
         )
     name = task.name or f"Function generator, {task.function or 'table'}"
     return _analysed(scale, fit, bar, bar.machine(name, source=SOURCE), b < 0, mu)
@@ -270,10 +297,10 @@ def _analysed(
         rocker_start=fit.rocker_start,
         rocker_opposite=bool(opposite),
         residual=fit.residual if fit.residual > EXACT else 0.0,
-        error_max=float(np.abs(errors).max()),
-        error_rms=float(np.sqrt(np.mean(errors**2))),
-        error_function_max=float(np.abs(errors).max() * abs(scale.per_angle)),
-        point_error_max=float(np.abs(np.angle(np.exp(1j * at_points))).max()),
+        angle_error_max=float(np.abs(errors).max()),
+        angle_error_rms=float(np.sqrt(np.mean(errors**2))),
+        function_error_max=float(np.abs(errors).max() * abs(scale.per_angle)),
+        angle_error_points=float(np.abs(np.angle(np.exp(1j * at_points))).max()),
         transmission_angle_min=mu,
         solutions=1,
         x=scale.x,
@@ -287,11 +314,15 @@ def _analysed(
 def _rocker_angles(machine: Machine, angles: Floats) -> Floats:
     """Angles of the rocker by the core [rad]."""
     table = motions(machine, angles, links=["B.rocker"])[0]
-    return np.arctan2(table[1], table[0])
+    return np.asarray(np.arctan2(table[1], table[0]))
 
 
 def _none(fits: list[Fit], reasons: list[str]) -> str:
     """Why none of the solutions can be used, the commonest reason with its numbers first."""
     told = "; ".join(dict.fromkeys(reasons[:3]))
-    best = f"Freudenstein's equation has {len(fits)} solution{'s' if len(fits) > 1 else ''}, none of which can be used"
-    return f"{best}: {told}. Change crank_range, rocker_range or the start angles"
+    n = f"{len(fits)} solution{'s' if len(fits) > 1 else ''}"
+    return (
+        f"Freudenstein's equation has {n}, none of which can be used: {told}. Change crank_range, "
+        f"rocker_range "
+        "or the start angles"
+    )

@@ -59,13 +59,15 @@ def _bar_tables(bar: FourBar, point: complex) -> Tables:
 
 
 def _hoeken(p: dict[str, float]) -> Tables:
-    """Crank-rocker with equal coupler and rocker; P beyond the joint, as far again. At its middle the crank points away from B₀."""
+    """Crank-rocker with equal coupler and rocker; P beyond the joint, as far again. At its middle "
+    "the crank points away from B₀."""
     bar = FourBar(0j, p["frame"] + 0j, p["crank"], p["arm"], p["arm"], "left", np.pi)
     return _bar_tables(bar, 2 * p["arm"] + 0j)
 
 
 def _chebyshev(p: dict[str, float]) -> Tables:
-    """Crossed rockers of one length; P in the middle of the coupler, which is parallel to the frame in the middle."""
+    """Crossed rockers of one length; P in the middle of the coupler, which is parallel to the "
+    "frame in the middle."""
     half = 0.5 * (p["frame"] + p["coupler"])
     pin = half + 1j * np.sqrt(p["arm"] ** 2 - half**2)
     joint = pin - p["coupler"]
@@ -79,20 +81,23 @@ _INSIDE = 0.9
 
 
 def _chebyshev_span(p: dict[str, float]) -> tuple[float, float]:
-    """Nearly between the places where P is above the pivots; at the usual proportions links are in line there."""
+    """Nearly between the places where P is above the pivots; at the usual proportions links are in "
+    "line there."""
     middle = np.arccos(0.5 * (p["frame"] + p["coupler"]) / p["arm"])
     low = np.arccos(min(1.0, p["frame"] / p["arm"]))
     return float(_INSIDE * (low - middle)), float(_INSIDE * (np.pi / 2 - middle))
 
 
 def _watt(p: dict[str, float]) -> Tables:
-    """Two rockers of one length on either side of the coupler, at right angles to it in the middle; P in its middle."""
+    """Two rockers of one length on either side of the coupler, at right angles to it in the "
+    "middle; P in its middle."""
     bar = FourBar(0j, 2 * p["arm"] + 1j * p["coupler"], p["arm"], p["coupler"], p["arm"], "left", 0.0)
     return _bar_tables(bar, 0.5 * p["coupler"] + 0j)
 
 
 def _roberts(p: dict[str, float]) -> Tables:
-    """Two rockers of one length and a coupler of half the frame, with P as far from its ends as the pivots are, on the line of the frame."""
+    """Two rockers of one length and a coupler of half the frame, with P as far from its ends as "
+    "the pivots are, on the line of the frame."""
     half, coupler = 0.5 * p["frame"], 0.5 * p["frame"]
     height = np.sqrt(p["arm"] ** 2 - (0.5 * (p["frame"] - coupler)) ** 2)
     pin = half - 0.5 * coupler + 1j * height
@@ -104,13 +109,15 @@ def _roberts_span(p: dict[str, float]) -> tuple[float, float]:
     """Between the places where P is at the pivots: there crank and line to P fall together."""
     middle = np.arccos(0.25 * p["frame"] / p["arm"])
     low = np.arccos(0.5 * p["frame"] / p["arm"])
-    return float(low - middle), float(low + 2 * np.arcsin(0.25 * p["frame"] / p["arm"]) - middle)
+    high = low + 2 * np.arcsin(0.25 * p["frame"] / p["arm"])
+    return float(_INSIDE * (low - middle)), float(_INSIDE * (high - middle))
 
 
 def _evans(p: dict[str, float]) -> Tables:
     """Scott Russell's linkage with its slider carried by a long rocker instead ("grasshopper").
 
-    The joint B swings about the line through the crank's pivot; the middle of the range is where the crank lies along
+    The joint B swings about the line through the crank's pivot; the middle of the range is where the crank
+    lies along
     that line, and the rod continues it, so B is 2 r away.
     """
     r, arm = p["crank"], p["arm"]
@@ -135,7 +142,8 @@ def _scott_russell(p: dict[str, float]) -> Tables:
 
 
 def _peaucellier(p: dict[str, float]) -> Tables:
-    """Long arms from O to the corners of a rhombus; one of its other corners on a circle through O, the other is P."""
+    """Long arms from O to the corners of a rhombus; one of its other corners on a circle through "
+    "O, the other is P."""
     arm, side, crank = p["arm"], p["side"], p["crank"]
     return {
         "points": {"O": {"x": 0.0, "y": 0.0}, "Q": {"x": crank, "y": 0.0}},
@@ -177,13 +185,78 @@ def _even(half: float) -> Callable[[dict[str, float]], tuple[float, float]]:
 KINDS: dict[str, LineKind] = {
     each.kind: each
     for each in (
-        LineKind("hoeken", "Hoeken's linkage", False, 4, {"crank": 1.0, "frame": 2.0, "arm": 2.5}, _even(90), _hoeken, "Hoeken 1926; proportions 1 : 2 : 2.5 : 2.5 : 5, those of Chebyshev's lambda linkage"),
-        LineKind("chebyshev", "Chebyshev's linkage", False, 4, {"frame": 4.0, "coupler": 2.0, "arm": 5.0}, _chebyshev_span, _chebyshev, "Chebyshev 1854; proportions 4 : 2 : 5"),
-        LineKind("watt", "Watt's linkage", False, 4, {"arm": 2.0, "coupler": 1.0}, _even(20), _watt, "Watt 1784"),
-        LineKind("roberts", "Roberts's linkage", False, 4, {"frame": 2.0, "arm": 1.2}, _roberts_span, _roberts, "Roberts; coupler half the frame"),
-        LineKind("evans", "Evans's linkage (grasshopper)", False, 4, {"crank": 1.0, "arm": 3.0}, _even(30), _evans, "Evans; Scott Russell's linkage with a rocker for the slider"),
-        LineKind("scott-russell", "Scott Russell's linkage", True, 4, {"crank": 1.0}, _even(60), _scott_russell, "Scott Russell 1803; crank and rod of one length"),
-        LineKind("peaucellier", "Peaucellier and Lipkin's inversor", True, 8, {"arm": 5.0, "side": 2.0, "crank": 1.9}, _even(60), _peaucellier, "Peaucellier 1864, Lipkin 1870"),
-        LineKind("hart", "Hart's inversor", True, 6, {"long": 4.0, "short": 2.0, "part": 0.5, "crank": 0.8}, _even(60), _hart, "Hart 1874"),
+        LineKind(
+            "hoeken",
+            "Hoeken's linkage",
+            False,
+            4,
+            {"crank": 1.0, "frame": 2.0, "arm": 2.5},
+            _even(90),
+            _hoeken,
+            "Hoeken 1926; proportions 1 : 2 : 2.5 : 2.5 : 5, those of Chebyshev's lambda linkage",
+        ),
+        LineKind(
+            "chebyshev",
+            "Chebyshev's linkage",
+            False,
+            4,
+            {"frame": 4.0, "coupler": 2.0, "arm": 5.0},
+            _chebyshev_span,
+            _chebyshev,
+            "Chebyshev 1854; proportions 4 : 2 : 5",
+        ),
+        LineKind(
+            "watt", "Watt's linkage", False, 4, {"arm": 2.0, "coupler": 1.0}, _even(20), _watt, "Watt 1784"
+        ),
+        LineKind(
+            "roberts",
+            "Roberts's linkage",
+            False,
+            4,
+            {"frame": 2.0, "arm": 1.2},
+            _roberts_span,
+            _roberts,
+            "Roberts; coupler half the frame",
+        ),
+        LineKind(
+            "evans",
+            "Evans's linkage (grasshopper)",
+            False,
+            4,
+            {"crank": 1.0, "arm": 3.0},
+            _even(30),
+            _evans,
+            "Evans; Scott Russell's linkage with a rocker for the slider",
+        ),
+        LineKind(
+            "scott-russell",
+            "Scott Russell's linkage",
+            True,
+            4,
+            {"crank": 1.0},
+            _even(60),
+            _scott_russell,
+            "Scott Russell 1803; crank and rod of one length",
+        ),
+        LineKind(
+            "peaucellier",
+            "Peaucellier and Lipkin's inversor",
+            True,
+            8,
+            {"arm": 5.0, "side": 2.0, "crank": 1.9},
+            _even(60),
+            _peaucellier,
+            "Peaucellier 1864, Lipkin 1870",
+        ),
+        LineKind(
+            "hart",
+            "Hart's inversor",
+            True,
+            6,
+            {"long": 4.0, "short": 2.0, "part": 0.5, "crank": 0.8},
+            _even(60),
+            _hart,
+            "Hart 1874",
+        ),
     )
 }

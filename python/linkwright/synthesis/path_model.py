@@ -1,6 +1,7 @@
-"""Path generation as numbers: which rows stand for which linkages, what they cost and which constraints they break.
+"""Path generation as numbers: which rows stand for which linkages, what they cost, what they break.
 
-A row holds A₀ (x, y), B₀ (x, y), crank, coupler, rocker, and the coupler point along and across; where the points
+A row holds A₀ (x, y), B₀ (x, y), crank, coupler, rocker, and the coupler point along and across; where the
+points
 have crank angles, also the crank's direction at angle zero.
 """
 
@@ -91,7 +92,18 @@ class PathModel:
             box = getattr(self.task.pivots, key) if self.task.pivots else (middle - reach, middle + reach)
             ends.append(box)
         least = longest / 1000
-        low = [ends[0][0], ends[1][0], ends[0][0], ends[1][0], least, least, least, -longest, -longest, -np.pi]
+        low = [
+            ends[0][0],
+            ends[1][0],
+            ends[0][0],
+            ends[1][0],
+            least,
+            least,
+            least,
+            -longest,
+            -longest,
+            -np.pi,
+        ]
         high = [ends[0][1], ends[1][1], ends[0][1], ends[1][1], *(5 * [longest]), np.pi]
         return np.array(low[: self.n_entries]), np.array(high[: self.n_entries])
 
@@ -138,7 +150,7 @@ class PathModel:
             infinite where a linkage does not close; sum of violations (m,).
         """
         table = self.places(rows, self._angles if self.timed is None else self.timed)
-        closed = np.isfinite(table).all(axis=(1, 2))
+        closed = np.asarray(np.isfinite(table).all(axis=(1, 2)))
         places = np.where(closed[:, None], table[:, 0] + 1j * table[:, 1], 0)
         rows, places = self._aligned(rows, places)
         violation = self.violation(rows) + np.where(closed, 0, 1)
@@ -153,7 +165,8 @@ class PathModel:
     def _aligned(self, rows: Floats, places: Complexes) -> tuple[Floats, Complexes]:
         """The linkages moved by the similarity w = s z + t that fits their places best to the points.
 
-        A similar linkage draws a similar curve, so s and t follow by linear least squares without computing it anew.
+        A similar linkage draws a similar curve, so s and t follow by linear least squares without computing
+        it anew.
         """
         z = places if self.timed is not None else self._partners(places)
         middle = z.mean(axis=1, keepdims=True)
@@ -167,7 +180,7 @@ class PathModel:
         moved[:, 4:9] *= np.abs(s)
         if self.timed is not None:
             moved[:, 9] = np.angle(np.exp(1j * rows[:, 9]) * s[:, 0])
-        inside = ((moved >= self.low) & (moved <= self.high)).all(axis=1)
+        inside = np.asarray(((moved >= self.low) & (moved <= self.high)).all(axis=1))
         new_places = np.where(inside[:, None], s * places + t, places)
         return np.where(inside[:, None], moved, rows), new_places
 
@@ -222,7 +235,7 @@ class PathModel:
         if len(row) > self.n_entries:
             return np.asarray(row[self.n_entries :])
         table = self.places(row[None], self._angles)
-        return self._projected(table[:, 0] + 1j * table[:, 1])[1][0] * (2 * np.pi / _CHORDS)
+        return np.asarray(self._projected(table[:, 0] + 1j * table[:, 1])[1][0] * (2 * np.pi / _CHORDS))
 
 
 def disorder(at: Floats, turn: float) -> Floats:
@@ -242,4 +255,4 @@ def disorder(at: Floats, turn: float) -> Floats:
     """
     steps = np.diff(at, axis=1, append=at[:, :1])
     turns = [np.round(np.mod(sign * steps, turn).sum(axis=1) / turn) for sign in (1, -1)]
-    return np.maximum(np.minimum(*turns) - 1, 0)
+    return np.asarray(np.maximum(np.minimum(*turns) - 1, 0))

@@ -1,7 +1,9 @@
 """Motion generation: a linkage whose coupler passes through two or three given poses.
 
-A point a of the body is at Z_i = p_i + a e^{iθ_i} in pose i. A link can hold it if its places lie on a circle about the
-link's fixed pivot. Of three places this circle is the only one; of two, any point on their mid-normal is a centre, and the
+A point a of the body is at Z_i = p_i + a e^{iθ_i} in pose i. A link can hold it if its places lie on a
+circle about the
+link's fixed pivot. Of three places this circle is the only one; of two, any point on their mid-normal is a
+centre, and the
 angle that the link turns through chooses it.
 
 Source: Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964; Erdman, Sandor, Mechanism Design: Analysis
@@ -27,7 +29,8 @@ from linkwright.synthesis.travel import listed, travel, way
 
 Floats = NDArray[np.float64]
 
-# Three places whose triangle is flatter than this lie on a straight line: the circle through them is a million
+# Three places whose triangle is flatter than this lie on a straight line: the circle through them is a
+# million
 # times larger than they are apart.
 _FLAT = 1e-6
 
@@ -144,7 +147,8 @@ def centre(places: Complexes, point: MovingPoint, key: str) -> complex:
     apart = min(abs(places[i] - places[i - 1]) for i in range(len(places)))
     if apart <= _SAME * max(1e-3, np.abs(places).max()):
         raise SynthesisError(
-            f"{key} is at the same place in two poses, ({places[0].real:.6g}, {places[0].imag:.6g}) m: it may be a fixed "
+            f"{key} is at the same place in two poses, ({places[0].real:.6g}, {places[0].imag:.6g}) "
+            f"m: it may be a fixed "
             "pivot, not a crank pin; choose another point of the body"
         )
     if len(places) == 2:
@@ -155,8 +159,9 @@ def centre(places: Complexes, point: MovingPoint, key: str) -> complex:
     area = cross(u, v)
     if abs(area) <= _FLAT * reach**2:
         raise SynthesisError(
-            f"the three places of {key} lie on a straight line to {abs(area) / (2 * reach):.3g} m, so the centre of its link "
-            'is infinitely far; choose another point of the body, or hold it by a slider (linkage = "slider-crank")'
+            f"the three places of {key} lie on a straight line to {abs(area) / (2 * reach):.3g} m, "
+            f"so the centre of its link "
+            'is infinitely far; choose another point of the body, or a slider (linkage = "slider-crank")'
         )
     return complex(places[0] + 1j * (v * abs(u) ** 2 - u * abs(v) ** 2) / (-2 * area))
 
@@ -170,12 +175,14 @@ def _rocker_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> Pose
         raise SynthesisError("crank_point and rocker_point are one point; choose two different points")
     if abs(rocker_pivot - crank_pivot) <= _SAME * abs(pins[0] - crank_pivot):
         raise SynthesisError(
-            "both fixed pivots fall on one place: the body only turns about it; choose other points of the body"
+            "both fixed pivots fall on one place: the body only turns about it; choose other points "
+            "of the body"
         )
     sides = [side_of(a, rocker_pivot, b) for a, b in zip(pins, joints, strict=True)]
     if len(set(sides)) > 1:
         raise SynthesisError(
-            f"the poses lie on different branches: the joint is on the {', '.join(sides)} of the line from pin to rocker "
+            f"the poses lie on different branches: the joint is on the {', '.join(sides)} of the "
+            f"line from pin to rocker "
             "pivot in turn, and the linkage must be taken apart between them; choose other points of the body"
         )
     bar = FourBar(
@@ -205,9 +212,7 @@ def _slider_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> Pose
     mu = guide.transmission_angle(np.linspace(angles[0], angles[-1], 721)).min()
     errors = _errors(task, machine, angles, "B.rod")
     lengths = (None, guide.crank, guide.rod, None, guide.offset)
-    return PoseGuide(
-        "slider-crank", guide.type, *lengths, way(angles), float(mu), *errors, angles, machine
-    )
+    return PoseGuide("slider-crank", guide.type, *lengths, way(angles), float(mu), *errors, angles, machine)
 
 
 def body_origin(task: PoseTask) -> complex:
@@ -223,7 +228,8 @@ def _travelled(
     angles = travel(gap, list(directions - directions[0]), task.crank_point.turn)
     if angles is None:
         raise SynthesisError(
-            f"{what} meets the poses at crank directions {listed(directions)}, and can be driven through them in order in "
+            f"{what} meets the poses at crank directions {listed(directions)}, and can be driven "
+            f"through them in order in "
             "neither direction: it does not close in between; choose other points of the body"
         )
     return angles

@@ -1,6 +1,7 @@
 """Tasks of a synthesis as they stand in a file: what a linkage shall do. All numbers are SI.
 
-Entries with several values are lists or one text with one unit, ``x = "0, 20, 35 mm"``, so that a task of many points
+Entries with several values are lists or one text with one unit, ``x = "0, 20, 35 mm"``, so that a task of
+many points
 is short.
 """
 
@@ -68,7 +69,8 @@ class MovingPoint(Description):
     x: Length = Field(description="Along the body's x axis from its origin.")
     y: Length = Field(0.0, description="Along the body's y axis.")
     turn: Angle | None = Field(
-        None, description="Angle that the link at this point turns through from the first of two poses to the second."
+        None,
+        description="Angle that the link at this point turns through between two poses; signed.",
     )
 
 
@@ -85,8 +87,8 @@ class PoseTask(Task):
     )
     slider_point: MovingPoint | None = Field(
         None,
-        description="Point of the body at the slider; for a slider-crank. With three poses the nearest point that "
-        "stays on a straight line is taken.",
+        description="Point of the body at the slider; for a slider-crank. With three poses the nearest point "
+        "that stays on a straight line is taken.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -122,7 +124,8 @@ class FunctionTask(Task):
     """A function y(x) that the angle of a rocker shall follow as the crank turns."""
 
     function: str | None = Field(
-        None, description='The function, such as "log10(x)", of x, numbers, + − * / ^ and the usual functions.'
+        None,
+        description='The function, such as "log10(x)", of x, numbers, + − * / ^ and the usual functions.',
     )
     x: Ratios | None = Field(None, description="Arguments at which the function shall be met.")
     y: Ratios | None = Field(None, description="Its values there; instead of `function`.")
@@ -162,7 +165,9 @@ class FunctionTask(Task):
             yield fault("range", found=str(list(self.range)), expected="two different values")
         for key in ("crank_range", "rocker_range"):
             if not 0 < abs(getattr(self, key)) < 6.28:
-                yield fault(key, found=getattr(self, key), expected="an angle other than zero, less than a turn")
+                yield fault(
+                    key, found=getattr(self, key), expected="an angle other than zero, less than a turn"
+                )
         yield from self._count_faults()
 
     def _table_faults(self, y: tuple[float, ...]) -> Iterator[InitErrorDetails]:
@@ -195,10 +200,11 @@ class PathTask(Task):
     y: Lengths = Field(description="Up, one value a point.")
     crank_angle: Angles | None = Field(
         None,
-        description="Crank angle at each point, counted from any angle of the crank; without it, timing is free.",
+        description="Crank angle at each point, counted from anywhere; without it, timing is free.",
     )
     pivots: Box | None = Field(
-        None, description="Where the fixed pivots may lie; without it, within four sizes of the path around it."
+        None,
+        description="Where the fixed pivots may lie; without it, within four sizes of the path around it.",
     )
     linkage: Literal["crank-rocker", "double-crank", "any"] = Field(
         "crank-rocker", description="What the linkage must be; in any case its crank turns round."
@@ -212,7 +218,9 @@ class PathTask(Task):
     length_max: PositiveLength | None = Field(
         None, description="Longest link; without it, four sizes of the path."
     )
-    seed: int = Field(1, ge=0, description="Start of the random numbers; the same seed gives the same linkage.")
+    seed: int = Field(
+        1, ge=0, description="Start of the random numbers; the same seed gives the same linkage."
+    )
     population: int = Field(120, ge=20, le=100_000, description="Linkages in a generation.")
     generations: int = Field(600, ge=1, le=1_000_000, description="Generations at most, for each assembly.")
     accuracy: Ratio = Field(1e-6, description="Error over size of the path at which the search ends.")
@@ -229,7 +237,9 @@ class PathTask(Task):
         for key in ("x", "y") if self.pivots else ():
             ends: tuple[float, ...] = getattr(self.pivots, key)
             if len(ends) != 2 or ends[0] >= ends[1]:
-                yield fault("pivots", key, found=str(list(ends)), expected="two values, the smaller one first")
+                yield fault(
+                    "pivots", key, found=str(list(ends)), expected="two values, the smaller one first"
+                )
 
 
 def same_length(place: tuple[str, ...], found: int, wanted: int, what: str) -> Iterator[InitErrorDetails]:
