@@ -14,7 +14,7 @@ from linkwright.synthesis.four_bar import worst_transmission
 
 
 def extremes(machine: lw.Machine) -> tuple[float, float, float, float]:
-    """Crank angles of the greatest and the least rocker angle and these, by Newton on the first derivative."""
+    """Crank angles of the greatest and the least rocker angle and these, by Newton."""
     angles = np.linspace(0, 2 * np.pi, 721)
     motion = lw.kinematics(machine, angles).links["B.rocker"]
     found = []
@@ -43,7 +43,8 @@ def test_swing_and_time_ratio_come_out_again(swing: float, share: float) -> None
 
 @pytest.mark.parametrize(("swing", "ratio"), [(60, 1.2), (40, 1.5), (90, 1.1)])
 def test_no_other_linkage_of_the_family_transmits_better(swing: float, ratio: float) -> None:
-    # The family in another form: rocker 1, its pivot the origin, crank pivot on the circle that sees the chord
+    # The family in another form: rocker 1, its pivot the origin, crank pivot on the circle that sees the
+    # chord
     # of the joint under |δ|; here found by brute force over the plane.
     found = lw.crank_rocker(np.radians(swing), ratio)
     delta = abs(2 * np.pi * ratio / (1 + ratio) - np.pi)
@@ -73,7 +74,7 @@ def test_no_other_linkage_of_the_family_transmits_better(swing: float, ratio: fl
 
 @pytest.mark.parametrize("swing", [20.0, 45.0, 80.0])
 def test_time_ratio_one_is_the_published_centric_linkage(swing: float) -> None:
-    """Brodell and Soni, Journal of Mechanisms 5 (1970) 1–4: lengths from swing and least transmission angle."""
+    """Brodell and Soni, Journal of Mechanisms 5 (1970) 1–4: lengths from swing and transmission angle."""
     found = lw.crank_rocker(np.radians(swing))
     psi, gamma = np.radians(swing), found.transmission_angle_min
     coupler = np.sqrt((1 - np.cos(psi)) / (2 * np.cos(gamma) ** 2))
@@ -122,9 +123,12 @@ def test_stroke_and_time_ratio_come_out_again(stroke: float, ratio: float) -> No
 def test_central_slider_crank() -> None:
     found = lw.slider_crank(0.1, rod=0.2)
     assert (found.crank, found.rod, found.offset) == pytest.approx((0.05, 0.2, 0.0), abs=1e-15)
+    for rod in (0.0, -1.0):
+        with pytest.raises(InputError, match="rod"):
+            lw.slider_crank(0.1, rod=rod)
     with pytest.raises(InputError, match="give the rod"):
         lw.slider_crank(0.1)
-    with pytest.raises(SynthesisError, match="the rod must lie between"):
+    with pytest.raises(SynthesisError, match="the rod must lie between 0.05 m and"):
         lw.slider_crank(0.1, 1.3, rod=5.0)
 
 

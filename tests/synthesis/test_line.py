@@ -41,8 +41,8 @@ def test_approximate_lines_are_nearly_straight(kind: str) -> None:
 def test_hoeken_against_its_closed_form() -> None:
     """Crank 1, frame 2, coupler = rocker = 2.5, P at 5, over half a turn.
 
-    Coupler and rocker are equal, so P, A and B₀ make a right angle at B₀: P is perpendicular to B₀A, at distance
-    √(25 − d²) with d² = 5 − 4 cos φ.
+    Coupler and rocker are equal, so P, A and B₀ make a right angle at B₀: P is perpendicular to B₀A, at
+    distance √(25 − d²) with d² = 5 − 4 cos φ.
     """
     found = lw.straight_line("hoeken", 4.0)
     mechanism = found.machine.mechanism
@@ -62,7 +62,7 @@ def test_hoeken_against_its_closed_form() -> None:
 
 
 def test_chebyshev_passes_its_three_places() -> None:
-    """Frame 4, arms 5, coupler 2: P is 4 above the frame over both pivots and in the middle (3-4-5 triangles)."""
+    """Frame 4, arms 5, coupler 2: P is 4 above the frame over both pivots and in the middle (3-4-5)."""
     found = lw.straight_line("chebyshev", 1.0)
     scale = found.machine.mechanism.points["B0"].x / 4
     middle = lw.motions(found.machine, [0.0], points=["P"])[0]

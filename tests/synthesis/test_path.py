@@ -1,4 +1,4 @@
-"""Path generation: a path drawn by a known linkage is found again; constraints are kept; a published problem."""
+"""Path generation: a known linkage is found again; constraints are kept; a published problem."""
 
 from __future__ import annotations
 
@@ -62,7 +62,8 @@ def test_same_seed_same_linkage() -> None:
 # synthesis of mechanisms with genetic algorithms, Mechanism and Machine Theory 37 (2002) 1165–1177.
 CLOSED = (
     (0.5, 1.1), (0.4, 1.1), (0.3, 1.1), (0.2, 1.0), (0.1, 0.9), (0.05, 0.75), (0.02, 0.6), (0, 0.5), (0, 0.4),
-    (0.03, 0.3), (0.1, 0.25), (0.15, 0.2), (0.2, 0.3), (0.3, 0.4), (0.4, 0.5), (0.5, 0.7), (0.6, 0.9), (0.6, 1.0),
+    (0.03, 0.3), (0.1, 0.25), (0.15, 0.2), (0.2, 0.3), (0.3, 0.4), (0.4, 0.5), (0.5, 0.7), (0.6, 0.9),
+    (0.6, 1.0),
 )  # fmt: skip
 
 
@@ -75,7 +76,7 @@ def test_published_closed_path() -> None:
     for seed in (1, 2):
         found = lw.path_generator(PathTask(x=x, y=y, crank_angle=timing, pivots=box, seed=seed, **wide))
         errors.append(18 * found.error_rms**2)
-    # Two searches from different random numbers end in one minimum; our own last number for its sum of squares.
+    # Two searches from different random numbers end in one minimum; our own last number.
     assert errors == pytest.approx([0.00902888, 0.00902888], rel=1e-5)
 
 
@@ -108,7 +109,7 @@ def test_double_crank() -> None:
 
 def test_impossible_constraints_are_a_finding() -> None:
     task = PathTask(**drawn(), transmission_angle_min=np.radians(89.9), length_ratio_max=1.5, generations=10)
-    with pytest.raises(SynthesisError, match="none of .* keeps all constraints"):
+    with pytest.raises(SynthesisError, match=r"none of .* keeps all constraints"):
         lw.path_generator(task)
 
 

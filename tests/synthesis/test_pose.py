@@ -51,10 +51,13 @@ def test_two_poses_and_the_turns_of_the_links(turn: float, other: float, sign: i
     crank = MovingPoint(x=0, y=0, turn=sign * turn)
     rocker = MovingPoint(x=0.08, y=0.02, turn=sign * other)
     task = PoseTask(poses=poses, crank_point=crank, rocker_point=rocker)
+    finding = ""
     try:
         guide = lw.pose_guide(task)
-    except SynthesisError as finding:
-        assert "branches" in str(finding) or "neither direction" in str(finding)
+    except SynthesisError as error:
+        finding = str(error)
+    if finding:
+        assert "branches" in finding or "neither direction" in finding
         return
     assert guide.crank_angles[1] == pytest.approx(sign * turn)
     assert guide.pose_error < 1e-13
@@ -104,7 +107,7 @@ def test_points_on_the_circle_of_sliders_stay_in_line(
 def test_a_circle_through_points_in_line_is_a_finding() -> None:
     poses = Poses(x=(0, 0.1, 0.3), y=(0, 0.1, 0.3), angle=(0, 0.2, 0.4))
     task = PoseTask(poses=poses, crank_point=MovingPoint(x=0), rocker_point=MovingPoint(x=0.1))
-    with pytest.raises(SynthesisError, match="straight line.*infinitely far.*slider"):
+    with pytest.raises(SynthesisError, match=r"straight line.*infinitely far.*slider"):
         lw.pose_guide(task)
 
 
@@ -122,7 +125,7 @@ def test_poses_on_two_branches_are_a_finding() -> None:
         crank_point=MovingPoint(x=0),
         rocker_point=MovingPoint(x=0.12),
     )
-    with pytest.raises(SynthesisError, match="different branches.*left, left, right"):
+    with pytest.raises(SynthesisError, match=r"different branches.*left, left, right"):
         lw.pose_guide(task)
 
 

@@ -12,7 +12,6 @@ spacing by Chebyshev: Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,17 +19,14 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.kinematics import motions
 from linkwright.analysis.result import Result
-from linkwright.errors import InputError, SynthesisError
+from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
-from linkwright.synthesis.expression import function_of
 from linkwright.synthesis.four_bar import FourBar, side_of
 from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, scan, solve
+from linkwright.synthesis.function_scale import Scale
 from linkwright.synthesis.task import FunctionTask
 
 Floats = NDArray[np.float64]
-
-# Intervals of the range at which the machine is analysed again.
-_STEPS = 720
 
 # Usable linkages among which the one of the least error is chosen; they come in the order of their residuals.
 _ENOUGH = 40
@@ -94,31 +90,6 @@ class FunctionGenerator(Result):
     machine: Machine
 
 
-def chebyshev_points(start: float, end: float, n: int) -> Floats:
-    r"""Arguments spread so that the error between them tends to be even.
-
-    .. math:: x_j = \tfrac12 (x_0 + x_n) - \tfrac12 (x_n - x_0) \cos\frac{(2j - 1)\pi}{2n}
-
-    Parameters
-    ----------
-    start, end : float
-        First and last argument of the range.
-    n : int
-        How many.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        In order from start to end.
-
-    References
-    ----------
-    .. [1] Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
-    """
-    j = np.arange(1, n + 1)
-    return 0.5 * (start + end) - 0.5 * (end - start) * np.cos((2 * j - 1) * np.pi / (2 * n))
-
-
 def function_generator(task: FunctionTask) -> FunctionGenerator:
     """Find the four-bar linkage that generates a function.
 
@@ -145,7 +116,7 @@ def function_generator(task: FunctionTask) -> FunctionGenerator:
     .. [1] F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955)
     853–861.
     """
-    scale = _Scale.of(task)
+    scale = Scale.of(task)
     fits = solve(scale.crank, scale.rocker, task.crank_start, task.rocker_start)
     if len(scale.points) == task.unknowns:
         fits = [fit for fit in fits if fit.residual < EXACT]
@@ -166,7 +137,7 @@ def function_generator(task: FunctionTask) -> FunctionGenerator:
     return FunctionGenerator(**{**vars(best), "solutions": len(results)})
 
 
-def _usable(task: FunctionTask, scale: _Scale, fits: list[Fit]) -> tuple[list[FunctionGenerator], list[str]]:
+def _usable(task: FunctionTask, scale: Scale, fits: list[Fit]) -> tuple[list[FunctionGenerator], list[str]]:
     """Results of the solutions that keep all limits, and why the others do not."""
     results: list[FunctionGenerator] = []
     reasons: list[str] = []
@@ -180,69 +151,7 @@ def _usable(task: FunctionTask, scale: _Scale, fits: list[Fit]) -> tuple[list[Fu
     return results, reasons
 
 
-@dataclass(frozen=True)
-class _Scale:
-    """The function on its scales: points, crank and rocker angles from their starts, and the same "
-    "over the range."""
-
-    points: Floats
-    crank: Floats
-    rocker: Floats
-    x: Floats
-    wanted: Floats
-    crank_over: Floats
-    rocker_over: Floats
-    per_angle: float
-    at_start: float
-
-    @classmethod
-    def of(cls, task: FunctionTask) -> _Scale:
-        """The scales of a task."""
-        ends = task.range if task.range is not None else (min(task.x or ()), max(task.x or ()))
-        points = _points(task, ends)
-        function = _function(task)
-        x = np.linspace(ends[0], ends[1], _STEPS + 1)
-        y, y0, yn = function(points), *function(np.array(ends))
-        if not np.isfinite(yn - y0) or abs(yn - y0) <= 1e-12 * max(abs(yn), abs(y0), 1e-300):
-            raise InputError(
-                f"function: {y0:.6g} at both ends of the range, so rocker_range has no scale; "
-                f"expected different values"
-            )
-        per_angle = (yn - y0) / task.rocker_range
-        part, over = (points - ends[0]) / (ends[1] - ends[0]), np.linspace(0, 1, _STEPS + 1)
-        wanted = function(x)
-        angles = ((y - y0) / per_angle, (wanted - y0) / per_angle)
-        crank = (part * task.crank_range, over * task.crank_range)
-        return cls(points, crank[0], angles[0], x, wanted, crank[1], angles[1], float(per_angle), float(y0))
-
-
-def _points(task: FunctionTask, ends: tuple[float, ...]) -> Floats:
-    """Arguments at which the function shall be met."""
-    if task.x is not None:
-        return np.asarray(task.x)
-    if task.spacing == "even":
-        return np.linspace(ends[0], ends[1], task.points)
-    return chebyshev_points(ends[0], ends[1], task.points)
-
-
-def _function(task: FunctionTask) -> Callable[[Floats], Floats]:
-    """The function of a task; one given by points is a polynomial through few of them, straight "
-    "between many."""
-    if task.function is not None:
-        return function_of(task.function)
-    x, y = np.asarray(task.x), np.asarray(task.y)
-    order = np.argsort(x)
-    x, y = x[order], y[order]
-    if (np.diff(x) <= 0).any():
-        raise InputError("x: the same argument twice, expected different ones")
-    if len(x) <= 6:
-        middle, half = 0.5 * (x[0] + x[-1]), 0.5 * (x[-1] - x[0])
-        factors = np.linalg.solve(np.vander((x - middle) / half), y)
-        return lambda at: np.polyval(factors, (np.asarray(at) - middle) / half)
-    return lambda at: np.interp(at, x, y)
-
-
-def _generator(task: FunctionTask, scale: _Scale, fit: Fit) -> FunctionGenerator:
+def _generator(task: FunctionTask, scale: Scale, fit: Fit) -> FunctionGenerator:
     """The result of one solution; a finding if it cannot be driven through the range."""
     found = lengths(fit.K, task.frame)
     if found is None:
@@ -267,7 +176,7 @@ def _generator(task: FunctionTask, scale: _Scale, fit: Fit) -> FunctionGenerator
     return _analysed(scale, fit, bar, bar.machine(name, source=SOURCE), b < 0, mu)
 
 
-def _bar(task: FunctionTask, scale: _Scale, fit: Fit, r: float, c: float, b: float) -> FourBar:
+def _bar(task: FunctionTask, scale: Scale, fit: Fit, r: float, c: float, b: float) -> FourBar:
     """The linkage of a solution, on the branch of all its points."""
     frame = task.frame
     pins = r * np.exp(1j * (fit.crank_start + scale.crank))
@@ -280,7 +189,7 @@ def _bar(task: FunctionTask, scale: _Scale, fit: Fit, r: float, c: float, b: flo
 
 
 def _analysed(
-    scale: _Scale, fit: Fit, bar: FourBar, machine: Machine, opposite: bool, mu: float
+    scale: Scale, fit: Fit, bar: FourBar, machine: Machine, opposite: bool, mu: float
 ) -> FunctionGenerator:
     """The machine analysed again over the range and at the points."""
     start = fit.rocker_start + (np.pi if opposite else 0.0)

@@ -233,11 +233,11 @@ def _line(
         closed = ~np.isnan(table).any(axis=0)
         if not closed.any():
             raise SynthesisError(_impossible(kind, chosen))
-        good = np.degrees(angles[closed])
+        gap = float(np.degrees(angles[~closed][0]))
         raise SynthesisError(
             f"{kind.title} does not close over crank angles {np.degrees(span[0]):.4g}° to "
-            f"{np.degrees(span[1]):.4g}°, only from "
-            f"{good[0]:.4g}° to {good[-1]:.4g}°; narrow the range or change the proportions"
+            f"{np.degrees(span[1]):.4g}°: not at {gap:.4g}°, and in all over {closed.mean():.0%} of them; narrow "
+            "the range or change the proportions"
         )
     return table[0], table[1], np.hypot(table[2], table[3]), angles
 

@@ -86,7 +86,7 @@ def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = 
     ----------
     .. [1] VDI 2130.
     """
-    check(stroke=(stroke, np.inf), time_ratio=(time_ratio, np.inf), rod=(rod or 1.0, np.inf))
+    check(stroke=(stroke, np.inf), time_ratio=(time_ratio, np.inf), rod=(1.0 if rod is None else rod, np.inf))
     delta = delta_of(time_ratio)
     if rod is None and delta == 0:
         raise InputError(
@@ -140,10 +140,10 @@ def _no_slider_crank(stroke: float, time_ratio: float, rod: float | None, delta:
     """What rods, or time ratios, are possible."""
     least, most = stroke / 2, stroke / 2 / np.sin(abs(delta) / 2) if delta else np.inf
     what = f"no slider-crank has a stroke of {stroke:.4g} m, a time ratio of {time_ratio:.4g}"
+    limits = f"lie between {least:.4g} m and {most:.4g} m" if delta else f"be longer than {least:.4g} m"
     if rod is None:
         return f"{what} and a crank that turns: bring the time ratio nearer to 1"
     return (
-        f"{what} and a rod of {rod:.4g} m: the rod must lie between {least:.4g} m and {most:.4g} m, "
-        f"and its crank must "
-        "turn; change the rod, or bring the time ratio nearer to 1"
+        f"{what} and a rod of {rod:.4g} m: the rod must {limits}, and its crank must turn; change the rod, or "
+        "bring the time ratio nearer to 1"
     )
