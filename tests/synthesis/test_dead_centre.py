@@ -128,7 +128,7 @@ def test_central_slider_crank() -> None:
             lw.slider_crank(0.1, rod=rod)
     with pytest.raises(InputError, match="give the rod"):
         lw.slider_crank(0.1)
-    with pytest.raises(SynthesisError, match="the rod must lie between 0.05 m and"):
+    with pytest.raises(SynthesisError, match=r"the rod must lie between 0\.05 m and"):
         lw.slider_crank(0.1, 1.3, rod=5.0)
 
 

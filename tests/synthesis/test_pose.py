@@ -13,6 +13,7 @@ from linkwright.files import dumps, loads
 from linkwright.synthesis import MovingPoint, Poses, PoseTask
 from linkwright.synthesis.four_bar import FourBar
 from linkwright.synthesis.slider_pose import circle_of_sliders
+from linkwright.synthesis.travel import travel
 
 POSES = Poses(x=(0, 0.04, 0.06), y=(0, 0.02, 0.06), angle=(0, np.radians(20), np.radians(50)))
 A, B = MovingPoint(x=-0.02, y=-0.05), MovingPoint(x=0.06, y=-0.04)
@@ -147,3 +148,39 @@ def test_all_problems_of_a_task_are_told() -> None:
         )
     keys = {each.key for each in caught.value.problems}
     assert keys == {"poses.x", "poses.y", "poses.angle", "slider_point", "rocker_point"}
+
+
+def test_a_gap_between_positions_is_a_circuit_defect() -> None:
+    """A double rocker closes in two ranges of its crank, mirror images in the frame line."""
+    bar = FourBar(0j, 4 + 0j, 5, 2, 5)
+    closes = bar.gap(np.linspace(-np.pi, np.pi, 2001)) >= 0
+    assert (np.diff(closes.astype(int)) != 0).sum() == 4
+    inside = np.radians([45.0, 60.0])
+    assert travel(bar.gap, [*inside]) == pytest.approx(inside)
+    assert travel(bar.gap, [inside[0], -inside[1]]) is None
+    # Another order than that of the crank's turning.
+    assert travel(bar.gap, [inside[0], inside[1], inside[0] + 0.01]) is None
+
+
+def test_travel_turns_the_shorter_way_unless_told() -> None:
+    free = FourBar(0j, 0.16 + 0j, 0.05, 0.12, 0.11).gap
+    assert travel(free, [0.0, 5.0]) == pytest.approx([0, 5 - 2 * np.pi])
+    assert travel(free, [0.0, 5.0], turn=1.0) == pytest.approx([0, 5])
+    assert travel(free, [0.0, 2.0, 5.0]) == pytest.approx([0, 2, 5])
+
+
+def test_poses_on_two_circuits_are_a_finding() -> None:
+    bar = FourBar(0j, 4 + 0j, 5, 2, 5, "left")
+    p, angle = [], []
+    for at in (0.8, 1.0, -0.9):
+        motion = lw.motions(bar.machine("x", points={"P": 0j}), [at], points=["P"], links=["B.coupler"])[0]
+        p.append((motion[0, 0], motion[1, 0]))
+        angle.append(float(np.arctan2(motion[7, 0], motion[6, 0])))
+    x, y = zip(*p, strict=True)
+    task = PoseTask(
+        poses=Poses(x=x, y=y, angle=tuple(angle)),
+        crank_point=MovingPoint(x=0),
+        rocker_point=MovingPoint(x=2),
+    )
+    with pytest.raises(SynthesisError, match="neither direction"):
+        lw.pose_guide(task)

@@ -72,7 +72,6 @@ def print_catalogue(lines: tuple[Any, ...], json: bool) -> None:
         span = f"{degrees(each.crank_angle_start):.1f}° to {degrees(each.crank_angle_end):.1f}°"
         deviation = "0" if each.exact else f"{each.deviation:.3g} m"
         typer.echo(
-            f"{each.kind:<14} {words('', each.exact):<6} {each.links:>5} {deviation:>11} "
-            f"{span:>20} {each.size:>7.3g} m  "
-            f"{words('', each.turns_fully)}"
+            f"{each.kind:<14} {words('', each.exact):<6} {each.links:>5} {deviation:>11} {span:>20} "
+            f"{each.size:>7.3g} m  {words('', each.turns_fully)}"
         )

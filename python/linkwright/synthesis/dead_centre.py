@@ -1,16 +1,14 @@
 """Dead-centre design: a crank-rocker for a wanted swing and time ratio; the slider-crank is in `stroke`.
 
 In the outer dead centre the joint is at p = c + r from the crank's pivot A₀, in the inner one at q = c − r,
-and A₀ sees the
-two places under the angle δ = φ₀ − π, where φ₀ is the crank angle from the outer to the inner dead centre.
-With the chord
-h between the places (h = 2 b sin ψ₀/2 for a rocker b, the stroke for a slider) the triangle gives
+and A₀ sees the two places under the angle δ = φ₀ − π, where φ₀ is the crank angle from the outer to the inner
+dead centre. With the chord h between the places (h = 2 b sin ψ₀/2 for a rocker b, the stroke for a slider)
+the triangle gives
 
     r = ½ h cos κ/cos(δ/2)          c = ½ h sin κ/sin(δ/2)
 
 κ is free. It is written as sin κ = sin(|δ|/2)/t, so that c = h/(2t) holds for δ = 0 too, and t between
-sin(|δ|/2) and 1 is
-chosen for the best transmission angle.
+sin(|δ|/2) and 1 is chosen for the best transmission angle.
 
 Source: Alt's construction, VDI 2130 (transmission-optimal crank-rockers for two dead centres); Volmer,
 Getriebetechnik: Koppelgetriebe.
@@ -211,9 +209,8 @@ def _no_crank_rocker(swing: float, time_ratio: float, coupler_max: float) -> str
     psi, phi = np.degrees(swing), 360 * time_ratio / (1 + time_ratio)
     most = (270 + psi / 2) / (90 - psi / 2)
     return (
-        f"no crank-rocker swings {psi:.4g}° with a crank angle of {phi:.4g}° between the dead "
-        f"centres (time ratio "
-        f"{time_ratio:.4g}): for this swing the time ratio must lie between {1 / most:.4g} and {most:.4g}, "
-        f"and near its ends the coupler may need more than {coupler_max:.4g} times the rocker; "
-        f"change one of them"
+        f"no crank-rocker swings {psi:.4g}° with a crank angle of {phi:.4g}° between the dead centres (time "
+        f"ratio {time_ratio:.4g}): for this swing the time ratio must lie between {1 / most:.4g} and "
+        f"{most:.4g}, and near its ends the coupler may need more than {coupler_max:.4g} times the rocker; "
+        "change one of them"
     )

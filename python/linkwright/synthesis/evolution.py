@@ -5,15 +5,12 @@ Each trial starts from its parent, moves towards one of the best, and by the dif
     v = x + F (x_best − x) + F (x_a − x_b)
 
 and takes each coordinate of v with probability C, else that of x. F and C follow those that have succeeded.
-Trials
-are compared by Deb's rules: what keeps the constraints beats what does not; among the former the smaller
-cost wins, among the
-latter the smaller violation.
+Trials are compared by Deb's rules: what keeps the constraints beats what does not; among the former the
+smaller cost wins, among the latter the smaller violation.
 
 Source: J. Zhang, A. C. Sanderson, JADE: adaptive differential evolution with optional external archive, IEEE
 Transactions on Evolutionary Computation 13 (2009) 945–958; K. Deb, An efficient constraint handling method
-for genetic
-algorithms, Computer Methods in Applied Mechanics and Engineering 186 (2000) 311–338.
+for genetic algorithms, Computer Methods in Applied Mechanics and Engineering 186 (2000) 311–338.
 """
 
 from __future__ import annotations
@@ -29,8 +26,8 @@ Floats = NDArray[np.float64]
 # Rows, improved where that is cheap; cost and violation of each; violation 0 where all constraints are kept.
 Judge = Callable[[Floats], tuple[Floats, Floats, Floats]]
 
-# Share of the population that counts as the best, and rate at which F and C follow (Zhang and Sanderson: 5
-# to 20 %, 0.1).
+# Share of the population that counts as the best, and rate at which F and C follow (Zhang and Sanderson: 5 to
+# 20 %, 0.1).
 _BEST = 0.1
 _RATE = 0.1
 

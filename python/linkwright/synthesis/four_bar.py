@@ -1,15 +1,13 @@
 """A four-bar linkage in the plane of complex numbers: what its lengths say without moving it.
 
-A₀ and B₀ are the fixed pivots, A the pin of the crank, B the joint of coupler and rocker. The distance d of
-A from
-B₀ decides everything:
+A₀ and B₀ are the fixed pivots, A the pin of the crank, B the joint of coupler and rocker. The distance d of A
+from B₀ decides everything:
 
-    d² = g² + r² − 2 g r cos(φ − γ)          cos μ = (c² + b² − d²)/(2 c b)          S = 4 c² d² − (d² + c² −
-    b²)²
+    d² = g² + r² − 2 g r cos(φ − γ)          cos μ = (c² + b² − d²)/(2 c b)
+    S = 4 c² d² − (d² + c² − b²)²
 
 with the frame g in the direction γ, crank r, coupler c, rocker b, and the transmission angle μ between
-coupler and rocker.
-The linkage closes where S ≥ 0.
+coupler and rocker. The linkage closes where S ≥ 0.
 
 Source: VDI 2127, VDI 2130; Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
 """

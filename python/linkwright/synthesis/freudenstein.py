@@ -5,11 +5,9 @@
     K₁ = g/r          K₂ = g/b          K₃ = (g² + r² + b² − c²)/(2 r b)
 
 with frame g, crank r, coupler c, rocker b, and both angles from the frame's direction. With start angles φ₀,
-ψ₀
-given it is linear in K: three points are met exactly, more in the least-squares sense. Each start angle left
-free
-is one more unknown and one more point that can be met exactly; the equations are then solved by the method of
-Levenberg and Marquardt from a grid of start angles, all at once.
+ψ₀ given it is linear in K: three points are met exactly, more in the least-squares sense. Each start angle
+left free is one more unknown and one more point that can be met exactly; the equations are then solved by the
+method of Levenberg and Marquardt from a grid of start angles, all at once.
 
 Source: F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955)
 853–861.

@@ -6,8 +6,7 @@ its precision points; between them it deviates by the structural error, which is
 machine again.
 
 Source: F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955)
-853–861;
-spacing by Chebyshev: Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
+853–861; spacing by Chebyshev: Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
 """
 
 from __future__ import annotations
@@ -122,9 +121,8 @@ def function_generator(task: FunctionTask) -> FunctionGenerator:
         fits = [fit for fit in fits if fit.residual < EXACT]
     if not fits:
         raise SynthesisError(
-            f"no linkage meets the {len(scale.points)} points: Freudenstein's equation has no real "
-            f"solution for them; change "
-            "crank_range or rocker_range, or ask for fewer points"
+            f"no linkage meets the {len(scale.points)} points: Freudenstein's equation has no real solution "
+            "for them; change crank_range or rocker_range, or ask for fewer points"
         )
     results, reasons = _usable(task, scale, fits)
     if not results and len(scale.points) > task.unknowns > 3:
@@ -232,6 +230,5 @@ def _none(fits: list[Fit], reasons: list[str]) -> str:
     n = f"{len(fits)} solution{'s' if len(fits) > 1 else ''}"
     return (
         f"Freudenstein's equation has {n}, none of which can be used: {told}. Change crank_range, "
-        f"rocker_range "
-        "or the start angles"
+        "rocker_range or the start angles"
     )

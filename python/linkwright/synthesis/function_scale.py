@@ -72,8 +72,8 @@ class Scale:
         y, y0, yn = function(points), *function(np.array(ends))
         if not np.isfinite(yn - y0) or abs(yn - y0) <= 1e-12 * max(abs(yn), abs(y0), 1e-300):
             raise InputError(
-                f"function: {y0:.6g} at both ends of the range, so rocker_range has no scale; "
-                f"expected different values"
+                f"function: {y0:.6g} at both ends of the range, so rocker_range has no scale; expected "
+                "different values"
             )
         per_angle = (yn - y0) / task.rocker_range
         part, over = (points - ends[0]) / (ends[1] - ends[0]), np.linspace(0, 1, _STEPS + 1)

@@ -117,8 +117,7 @@ def _evans(p: dict[str, float]) -> Tables:
     """Scott Russell's linkage with its slider carried by a long rocker instead ("grasshopper").
 
     The joint B swings about the line through the crank's pivot; the middle of the range is where the crank
-    lies along
-    that line, and the rod continues it, so B is 2 r away.
+    lies along that line, and the rod continues it, so B is 2 r away.
     """
     r, arm = p["crank"], p["arm"]
     # Sideways on the line B moves between 2 r and 2 r cos(range); the rocker stands upright half-way between.

@@ -1,12 +1,9 @@
 """Path generation: a four-bar linkage whose coupler point passes given points as its crank turns.
 
-A global search (`evolution`) over nine or ten numbers, each generation one batch of machines in the core,
-and then Gauss and
-Newton's method with damping on the best, where derivatives by lengths are differences in one more batch and
-those by
-crank angles are exact. With given crank angles the point is compared at those angles, else with the nearest
-place
-of the curve, and the places must follow one another in the order of the points.
+A global search (`evolution`) over nine or ten numbers, each generation one batch of machines in the core, and
+then Gauss and Newton's method with damping on the best, where derivatives by lengths are differences in one
+more batch and those by crank angles are exact. With given crank angles the point is compared at those angles,
+else with the nearest place of the curve, and the places must follow one another in the order of the points.
 
 Source: D. Nolle, K. H. Hunt, Optimum synthesis of planar linkages to generate coupler curves, Journal of
 Mechanisms 6 (1971) 267–287 for the statement as least squares; the search: see `evolution`.
@@ -77,8 +74,7 @@ class PathGenerator(Result):
         What the coupler point reaches there [m].
     history : ndarray, shape (generations,)
         Root of the mean square of the best machine's errors after each generation of both searches [m]; NaN
-        as
-        long as none keeps the constraints.
+        as long as none keeps the constraints.
     machine : Machine
         The linkage; its point ``P`` draws the path.
     """
@@ -240,9 +236,7 @@ def _none(task: PathTask, searches: list[_Search], evaluated: int) -> str:
     least = min(search.violation for search in searches)
     return (
         f"none of {evaluated} linkages keeps all constraints ({task.linkage}, transmission angle at least "
-        f"{np.degrees(task.transmission_angle_min):.4g}°, lengths within {task.length_ratio_max:g} "
-        f"to 1, points in order, pivots in "
-        f"their box); the nearest violates them by {least:.3g} in sum. Lower "
-        f"transmission_angle_min, raise length_ratio_max, widen "
-        "pivots, or give more generations"
+        f"{np.degrees(task.transmission_angle_min):.4g}°, lengths within {task.length_ratio_max:g} to 1, "
+        f"points in order, pivots in their box); the nearest violates them by {least:.3g} in sum. Lower "
+        "transmission_angle_min, raise length_ratio_max, widen pivots, or give more generations"
     )

@@ -1,8 +1,7 @@
 """Path generation as numbers: which rows stand for which linkages, what they cost, what they break.
 
 A row holds A₀ (x, y), B₀ (x, y), crank, coupler, rocker, and the coupler point along and across; where the
-points
-have crank angles, also the crank's direction at angle zero.
+points have crank angles, also the crank's direction at angle zero.
 """
 
 from __future__ import annotations

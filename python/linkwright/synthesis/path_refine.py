@@ -1,8 +1,7 @@
 """Least squares on the linkages of a search: the method of Levenberg and Marquardt with exact crank angles.
 
 Where timing is free, the crank angle of each point is one more unknown. Derivatives by the crank angle are
-exact, those by lengths are
-central differences, all linkages that they need computed as one batch.
+exact, those by lengths are central differences, all linkages that they need computed as one batch.
 
 Source: D. Marquardt, An algorithm for least-squares estimation of nonlinear parameters, SIAM 11 (1963)
 431–441.

@@ -1,10 +1,8 @@
 """Motion generation: a linkage whose coupler passes through two or three given poses.
 
-A point a of the body is at Z_i = p_i + a e^{iθ_i} in pose i. A link can hold it if its places lie on a
-circle about the
-link's fixed pivot. Of three places this circle is the only one; of two, any point on their mid-normal is a
-centre, and the
-angle that the link turns through chooses it.
+A point a of the body is at Z_i = p_i + a e^{iθ_i} in pose i. A link can hold it if its places lie on a circle
+about the link's fixed pivot. Of three places this circle is the only one; of two, any point on their
+mid-normal is a centre, and the angle that the link turns through chooses it.
 
 Source: Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964; Erdman, Sandor, Mechanism Design: Analysis
 and Synthesis: two and three prescribed positions by geometric construction.
@@ -30,8 +28,7 @@ from linkwright.synthesis.travel import listed, travel, way
 Floats = NDArray[np.float64]
 
 # Three places whose triangle is flatter than this lie on a straight line: the circle through them is a
-# million
-# times larger than they are apart.
+# million times larger than they are apart.
 _FLAT = 1e-6
 
 # Places nearer than this share of the poses' extent are one place.
@@ -147,9 +144,8 @@ def centre(places: Complexes, point: MovingPoint, key: str) -> complex:
     apart = min(abs(places[i] - places[i - 1]) for i in range(len(places)))
     if apart <= _SAME * max(1e-3, np.abs(places).max()):
         raise SynthesisError(
-            f"{key} is at the same place in two poses, ({places[0].real:.6g}, {places[0].imag:.6g}) "
-            f"m: it may be a fixed "
-            "pivot, not a crank pin; choose another point of the body"
+            f"{key} is at the same place in two poses, ({places[0].real:.6g}, {places[0].imag:.6g}) m: it "
+            "may be a fixed pivot, not a crank pin; choose another point of the body"
         )
     if len(places) == 2:
         assert point.turn is not None
@@ -159,8 +155,8 @@ def centre(places: Complexes, point: MovingPoint, key: str) -> complex:
     area = cross(u, v)
     if abs(area) <= _FLAT * reach**2:
         raise SynthesisError(
-            f"the three places of {key} lie on a straight line to {abs(area) / (2 * reach):.3g} m, "
-            f"so the centre of its link "
+            f"the three places of {key} lie on a straight line to {abs(area) / (2 * reach):.3g} m, so the "
+            "centre of its link "
             'is infinitely far; choose another point of the body, or a slider (linkage = "slider-crank")'
         )
     return complex(places[0] + 1j * (v * abs(u) ** 2 - u * abs(v) ** 2) / (-2 * area))
@@ -175,15 +171,15 @@ def _rocker_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> Pose
         raise SynthesisError("crank_point and rocker_point are one point; choose two different points")
     if abs(rocker_pivot - crank_pivot) <= _SAME * abs(pins[0] - crank_pivot):
         raise SynthesisError(
-            "both fixed pivots fall on one place: the body only turns about it; choose other points "
-            "of the body"
+            "both fixed pivots fall on one place: the body only turns about it; choose other points of the "
+            "body"
         )
     sides = [side_of(a, rocker_pivot, b) for a, b in zip(pins, joints, strict=True)]
     if len(set(sides)) > 1:
         raise SynthesisError(
-            f"the poses lie on different branches: the joint is on the {', '.join(sides)} of the "
-            f"line from pin to rocker "
-            "pivot in turn, and the linkage must be taken apart between them; choose other points of the body"
+            f"the poses lie on different branches: the joint is on the {', '.join(sides)} of the line from "
+            "pin to rocker pivot in turn, and the linkage must be taken apart between them; choose other "
+            "points of the body"
         )
     bar = FourBar(
         crank_pivot,
@@ -228,9 +224,9 @@ def _travelled(
     angles = travel(gap, list(directions - directions[0]), task.crank_point.turn)
     if angles is None:
         raise SynthesisError(
-            f"{what} meets the poses at crank directions {listed(directions)}, and can be driven "
-            f"through them in order in "
-            "neither direction: it does not close in between; choose other points of the body"
+            f"{what} meets the poses at crank directions {listed(directions)}, and can be driven through "
+            "them in order in neither direction: it does not close in between; choose other points of the "
+            "body"
         )
     return angles
 

@@ -1,16 +1,14 @@
 """Points of a body that stay on a straight line through three poses, and the slider-crank that uses one.
 
 The places of a point a are Z_i = p_i + a e^{iθ_i}. With u = p₂ − p₁, v = e^{iθ₂} − e^{iθ₁} and w, z likewise
-for the third
-pose, they are in line where
+for the third pose, they are in line where
 
     Im[(u + v a)* (w + z a)] = Im(v* z) |a|² + Im(u* z a + v* a* w) + Im(u* w) = 0
 
 This is a circle in the body, the circle of sliders.
 
 Source: Erdman, Sandor, Mechanism Design: Analysis and Synthesis: circle-point and centre-point circles,
-circle of
-sliders. The equation is derived here.
+circle of sliders. The equation is derived here.
 """
 
 from __future__ import annotations
@@ -138,9 +136,8 @@ def _on_line(line: complex, constant: float, wanted: complex, size: float) -> co
         if abs(constant) <= _ZERO * size**2:
             return wanted
         raise SynthesisError(
-            "the body does not turn between the poses and its places are not in line, so no point "
-            "of it stays on a straight "
-            "line; change a pose, or use a four-bar"
+            "the body does not turn between the poses and its places are not in line, so no point of it "
+            "stays on a straight line; change a pose, or use a four-bar"
         )
     unit = line / abs(line)
     return wanted - unit * (float(np.real(np.conj(unit) * wanted)) + constant / abs(line))
@@ -181,9 +178,8 @@ def guide_slider(task: PoseTask, pins: Complexes, crank_pivot: complex) -> Slide
     sides = np.sign(np.real(np.conj(along) * (sliders - pins)))
     if len(set(sides)) > 1:
         raise SynthesisError(
-            "the slider is ahead of the crank pin in one pose and behind it in another: the poses "
-            "lie on different branches; "
-            "choose other points of the body"
+            "the slider is ahead of the crank pin in one pose and behind it in another: the poses lie on "
+            "different branches; choose other points of the body"
         )
     # The direction of the guide in which the slider is ahead of the pin.
     along = along * sides[0]

@@ -1,8 +1,7 @@
 """Straight lines from a catalogue: a linkage scaled to a wanted length of line, and how straight that is.
 
 The deviation is the greatest distance of the point from the best straight line, which is the middle of the
-narrowest strip
-that holds the whole curve; one side of that strip is a side of the curve's convex hull.
+narrowest strip that holds the whole curve; one side of that strip is a side of the curve's convex hull.
 
 Source: ISO 1101 (straightness as the width of the narrowest strip); the kinds: see `line_kinds`.
 """
@@ -236,8 +235,8 @@ def _line(
         gap = float(np.degrees(angles[~closed][0]))
         raise SynthesisError(
             f"{kind.title} does not close over crank angles {np.degrees(span[0]):.4g}° to "
-            f"{np.degrees(span[1]):.4g}°: not at {gap:.4g}°, and in all over {closed.mean():.0%} of them; narrow "
-            "the range or change the proportions"
+            f"{np.degrees(span[1]):.4g}°: not at {gap:.4g}°, and in all over {closed.mean():.0%} of them; "
+            "narrow the range or change the proportions"
         )
     return table[0], table[1], np.hypot(table[2], table[3]), angles
 

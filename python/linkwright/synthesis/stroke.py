@@ -1,9 +1,8 @@
 """Dead-centre design of a slider-crank: a wanted stroke and time ratio, by the triangle of `dead_centre`.
 
 The chord h is the stroke, and the guide passes the crank's pivot at the height of the triangle, e = p q |sin
-δ|/h. The
-transmission angle between the rod and the normal of the guide is least where the pin is farthest from the
-guide, cos μ = (r + e)/c.
+δ|/h. The transmission angle between the rod and the normal of the guide is least where the pin is farthest
+from the guide, cos μ = (r + e)/c.
 
 Source: VDI 2130; Volmer, Getriebetechnik: Koppelgetriebe.
 """
@@ -90,9 +89,8 @@ def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = 
     delta = delta_of(time_ratio)
     if rod is None and delta == 0:
         raise InputError(
-            "a time ratio of 1 leaves the rod free, and the longer it is the better: give the rod, "
-            "such as 3 to 5 times "
-            f"half the stroke ({3 * stroke / 2:.4g} m to {5 * stroke / 2:.4g} m)"
+            "a time ratio of 1 leaves the rod free, and the longer it is the better: give the rod, such as "
+            f"3 to 5 times half the stroke ({3 * stroke / 2:.4g} m to {5 * stroke / 2:.4g} m)"
         )
     t, mu = best(lambda t: _slide_transmission(t, delta), float(np.sin(abs(delta) / 2)))
     if rod is not None:
@@ -144,6 +142,6 @@ def _no_slider_crank(stroke: float, time_ratio: float, rod: float | None, delta:
     if rod is None:
         return f"{what} and a crank that turns: bring the time ratio nearer to 1"
     return (
-        f"{what} and a rod of {rod:.4g} m: the rod must {limits}, and its crank must turn; change the rod, or "
-        "bring the time ratio nearer to 1"
+        f"{what} and a rod of {rod:.4g} m: the rod must {limits}, and its crank must turn; change the rod, "
+        "or bring the time ratio nearer to 1"
     )

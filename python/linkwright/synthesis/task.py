@@ -1,8 +1,7 @@
 """Tasks of a synthesis as they stand in a file: what a linkage shall do. All numbers are SI.
 
 Entries with several values are lists or one text with one unit, ``x = "0, 20, 35 mm"``, so that a task of
-many points
-is short.
+many points is short.
 """
 
 from __future__ import annotations
