@@ -9,6 +9,7 @@ __all__ = [
     "Plan",
     "gaps",
     "kinks",
+    "law_torques",
     "motions",
     "motor_torques",
     "reductions",
@@ -34,6 +35,7 @@ class Plan:
         table_starts: _Ints,
         table_x: _Floats,
         table_y: _Floats,
+        formulas: _Ints,
     ) -> Plan: ...
 
 def steady_state(
@@ -56,6 +58,9 @@ def gaps(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
 
 def reductions(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
     """J, J′, load, dry torque and viscous coefficient, turning forward (5, angles)."""
+
+def law_torques(plan: Plan, q: _Floats, phi: _Floats, omega: _Floats) -> _Floats:
+    """Resisting torque of the laws at angles and speeds (speeds, angles)."""
 
 def motor_torques(plan: Plan, q: _Floats, omega: _Floats) -> tuple[_Floats, _Floats]:
     """Motor torque at its shaft and at the crank, at crank speeds."""

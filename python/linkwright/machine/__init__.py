@@ -7,7 +7,8 @@
 | `motor` | the kinds of motor, and how their entries follow from one another |
 | `catalogue` | published motors |
 | `mechanism` | cranks, sliders, rockers, rigid points |
-| `body`, `load` | masses; forces and torques |
+| `body`, `loads` | masses; forces and torques |
+| `formula` | formulas as texts |
 | `curve` | curves given by points |
 | `outline` | names in a mechanism: what refers to what, in which order it is built |
 | `address`, `text` | entries by address |
@@ -19,17 +20,23 @@ from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.body import Body
 from linkwright.machine.catalogue import CatalogueMotor, motor, motors
 from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
-from linkwright.machine.load import (
+from linkwright.machine.loads import (
     AnyLoad,
+    BetweenPoints,
     ConstantForce,
     ConstantTorque,
+    Damper,
     DryFriction,
     ForcePosition,
+    FormulaLoad,
+    GasSpring,
     Gravity,
     Load,
     Spring,
     TorqueAngle,
     TorqueSpeed,
+    TorsionalDamper,
+    TorsionalSpring,
     ViscousFriction,
 )
 from linkwright.machine.machine import FORMAT, Machine, RunUp
@@ -48,6 +55,7 @@ __all__ = [
     "FORMAT",
     "AnyLoad",
     "AnyMotor",
+    "BetweenPoints",
     "Body",
     "Brake",
     "CatalogueMotor",
@@ -57,12 +65,15 @@ __all__ = [
     "ConstantTorqueMotor",
     "Coupling",
     "Crank",
+    "Damper",
     "DcMotor",
     "Drive",
     "DryFriction",
     "FixedPoint",
     "Flywheel",
     "ForcePosition",
+    "FormulaLoad",
+    "GasSpring",
     "Gearbox",
     "Gravity",
     "InductionMotor",
@@ -79,6 +90,8 @@ __all__ = [
     "TableMotor",
     "TorqueAngle",
     "TorqueSpeed",
+    "TorsionalDamper",
+    "TorsionalSpring",
     "ViscousFriction",
     "addresses",
     "get",
