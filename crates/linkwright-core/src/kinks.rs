@@ -6,12 +6,13 @@
 //! order keeps its order when it goes from kink to kink.
 
 use crate::cycle::Machine;
+use crate::further::{Further, stretch};
 use crate::law::{FormulaLoad, Law};
 use crate::linkage::{Motion, Slot};
 use crate::plan::Plan;
 use crate::plane::Angle;
 use crate::real::Real;
-use crate::reduce::{Load, stretch};
+use crate::reduce::Load;
 use std::f64::consts::TAU;
 
 /// A quantity whose zeros over the turn are kinks.
@@ -68,14 +69,16 @@ impl Plan {
                 watches.push(Watch::StretchTurns(from, to));
             }
         }
+        for load in &self.further {
+            if let Further::SpringTable { from, to, table } = *load {
+                let knots = self.tables[table].knots().iter();
+                watches.extend(knots.map(|&knot| Watch::StretchAt(from, to, knot)));
+            }
+        }
         for load in &self.loads {
             match *load {
                 Load::Spring { from, to, free_length, .. } => {
                     watches.push(Watch::Anchor(from, to, free_length));
-                }
-                Load::SpringTable { from, to, table } => {
-                    let knots = self.tables[table].knots().iter();
-                    watches.extend(knots.map(|&knot| Watch::StretchAt(from, to, knot)));
                 }
                 Load::DrySlide { slide, .. } => watches.push(Watch::SlideTurns(slide)),
                 Load::DryLink { link, .. } => watches.push(Watch::LinkTurns(link)),

@@ -9,11 +9,11 @@
 
 use crate::dual::Dual;
 use crate::formula::{Degree, Formula, Inputs, Variable};
+use crate::further::stretch;
 use crate::linkage::{Motion, Slot};
 use crate::plan::Plan;
 use crate::plane::Vec2;
 use crate::real::{Lift, Real};
-use crate::reduce::stretch;
 use std::f64::consts::TAU;
 
 /// What a formula acts on.
@@ -41,7 +41,11 @@ pub struct FormulaLoad {
 pub enum Law {
     Formula(FormulaLoad),
     /// Resistance between two points by a table over the speed at which they part.
-    Damper { from: usize, to: usize, table: usize },
+    Damper {
+        from: usize,
+        to: usize,
+        table: usize,
+    },
 }
 
 /// What a law needs to know of the machine at one crank angle.
@@ -79,7 +83,16 @@ impl<R: Real> Given<R> {
     #[inline(always)]
     fn nothing() -> Self {
         let zero = R::splat(0.0);
-        Given { phi: zero, p: Vec2::zero(), d1: Vec2::zero(), s: zero, path: zero, psi: zero, psi_d1: zero, g: zero }
+        Given {
+            phi: zero,
+            p: Vec2::zero(),
+            d1: Vec2::zero(),
+            s: zero,
+            path: zero,
+            psi: zero,
+            psi_d1: zero,
+            g: zero,
+        }
     }
 
     /// Values of the variables at speed ω and time t.
@@ -209,7 +222,14 @@ impl Plan {
     /// Torque on the crank that resists, by a formula of degree 0 (per unit of speed, of degree 1), at the
     /// speed `sense` = ±1.
     #[inline(always)]
-    pub fn formula_torque<R: Real>(&self, load: &FormulaLoad, q: &[R], phi: R, sense: f64, m: &Motion<R>) -> R {
+    pub fn formula_torque<R: Real>(
+        &self,
+        load: &FormulaLoad,
+        q: &[R],
+        phi: R,
+        sense: f64,
+        m: &Motion<R>,
+    ) -> R {
         let formula = &self.formulas[load.formula];
         let given = load.given(formula, q, phi, m);
         let sense = R::splat(sense);
@@ -220,10 +240,13 @@ impl Plan {
     #[inline(always)]
     pub fn give<R: Real>(&self, q: &[R], phi: R, m: &Motion<R>, to: &mut Vec<Given<R>>) {
         for law in &self.laws {
-            to.push(match *law {
-                Law::Formula(ref load) => load.given(&self.formulas[load.formula], q, phi, m),
-                Law::Damper { from, to, .. } => Given { g: stretch(m, from, to).1, ..Given::nothing() },
-            });
+            to.push(R::outline(
+                #[inline(always)]
+                || match *law {
+                    Law::Formula(ref load) => load.given(&self.formulas[load.formula], q, phi, m),
+                    Law::Damper { from, to, .. } => Given { g: stretch(m, from, to).1, ..Given::nothing() },
+                },
+            ));
         }
     }
 

@@ -10,6 +10,7 @@
 //! | [`linkage`] | positions and transfer functions of points, links and slides |
 //! | [`formula`] | what a user writes as text, as a program |
 //! | [`reduce`] | J_red(φ) and M_red(φ) of bodies and loads |
+//! | [`further`] | loads that few machines have |
 //! | [`law`] | loads by formulas and tables that depend on speed or time |
 //! | [`drive`] | motor, gearbox: torque on the crank over speed |
 //! | [`gauss`] | collocation of order 8 |
@@ -33,6 +34,7 @@ pub mod drive;
 pub mod dual;
 pub mod error;
 pub mod formula;
+pub mod further;
 pub mod gauss;
 pub mod kinks;
 pub mod lanes;

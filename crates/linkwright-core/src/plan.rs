@@ -6,6 +6,7 @@
 use crate::drive::{Drive, Motor, Span};
 use crate::error::PlanError;
 use crate::formula::{Degree, Formula, Op, Variable};
+use crate::further::Further;
 use crate::law::{Carrier, FormulaLoad, Law};
 use crate::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod};
 use crate::reduce::{Body, Load};
@@ -17,6 +18,7 @@ pub struct Plan {
     pub mechanism: Mechanism,
     pub bodies: Vec<Body>,
     pub loads: Vec<Load>,
+    pub further: Vec<Further>,
     pub drive: Drive,
     pub tables: Vec<Table>,
     pub formulas: Vec<Formula>,
@@ -127,16 +129,18 @@ impl Plan {
         let bodies = rows(code.bodies, ROW_WIDTH, "bodies")?
             .map(|row| decode_body(row, &bounds))
             .collect::<Result<_, _>>()?;
-        let (mut loads, mut speed_loads, mut laws) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut loads, mut further, mut speed_loads, mut laws) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for row in rows(code.loads, ROW_WIDTH, "loads")? {
             match row[0] {
                 LOAD_TORQUE_SPEED => speed_loads.push(bounds.table(row[1])?),
+                LOAD_FURTHER..LOAD_DAMPER_TABLE => further.push(decode_further(row, &bounds)?),
                 LOAD_DAMPER_TABLE => laws.push(decode_damper(row, &bounds)?),
                 LOAD_FORMULA.. => {
                     let load = decode_formula_load(row, &bounds)?;
                     match formulas[load.formula].degree {
-                        Degree::Any | Degree::Of(0) => loads.push(Load::Formula(load)),
-                        Degree::Of(1) => loads.push(Load::ViscousFormula(load)),
+                        Degree::Any | Degree::Of(0) => further.push(Further::Formula(load)),
+                        Degree::Of(1) => further.push(Further::ViscousFormula(load)),
                         _ => laws.push(Law::Formula(load)),
                     }
                 }
@@ -154,6 +158,7 @@ impl Plan {
             },
             bodies,
             loads,
+            further,
             drive: decode_drive(code.drive, speed_loads, &bounds)?,
             tables,
             formulas,
@@ -168,6 +173,9 @@ const FIXED_POINT: i32 = 0;
 
 /// A load that depends on speed alone belongs to the drive, not to the reduction.
 const LOAD_TORQUE_SPEED: i32 = 12;
+
+/// The first of the loads that few machines have.
+const LOAD_FURTHER: i32 = 14;
 
 /// A damper by a table is a law of its own.
 const LOAD_DAMPER_TABLE: i32 = 20;
@@ -277,10 +285,7 @@ fn decode_body(row: &[i32], b: &Bounds) -> Result<Body, PlanError> {
 /// `0–2 dry: slide|point|link size` · `3–5 viscous: slide|point|link damping` · `6 force: point x y` ·
 /// `7 torque: link torque` · `8 gravity: x y` · `9 spring: from to stiffness free_length preload` ·
 /// `10 force over position: slide forward back` · `11 torque over angle: table` ·
-/// `12 torque over speed: table` · `13 dry on the crank: torque` · `14 force that follows: point link along across` ·
-/// `15 damper: from to damping` · `16 spring over length: from to table` ·
-/// `17 torsional spring: link link stiffness cos sin` · `18 torsional damper: link link damping` ·
-/// `19 gas spring: from to force length column exponent`; of two links the second may be −1, the frame
+/// `12 torque over speed: table` · `13 dry on the crank: torque`
 fn decode_load(row: &[i32], b: &Bounds) -> Result<Load, PlanError> {
     Ok(match row[0] {
         0 => Load::DrySlide { slide: b.slide(row[1])?, force: b.slot(row[2])? },
@@ -304,27 +309,37 @@ fn decode_load(row: &[i32], b: &Bounds) -> Result<Load, PlanError> {
         }
         11 => Load::TorqueAngle { table: b.table(row[1])? },
         13 => Load::DryCrank { torque: b.slot(row[1])? },
-        14 => Load::Follow {
+        kind => return Err(PlanError::Kind { what: "load", kind }),
+    })
+}
+
+/// `14 force that follows: point link along across` · `15 damper: from to damping` ·
+/// `16 spring over length: from to table` · `17 torsional spring: link link stiffness cos sin` ·
+/// `18 torsional damper: link link damping` · `19 gas spring: from to force length column exponent`; of two
+/// links the second may be −1, the frame
+fn decode_further(row: &[i32], b: &Bounds) -> Result<Further, PlanError> {
+    Ok(match row[0] {
+        14 => Further::Follow {
             point: b.point(row[1])?,
             link: b.link(row[2])?,
             along: b.slot(row[3])?,
             across: b.slot(row[4])?,
         },
-        15 => Load::Damper { from: b.point(row[1])?, to: b.point(row[2])?, damping: b.slot(row[3])? },
-        16 => Load::SpringTable { from: b.point(row[1])?, to: b.point(row[2])?, table: b.table(row[3])? },
-        17 => Load::TorsionSpring {
+        15 => Further::Damper { from: b.point(row[1])?, to: b.point(row[2])?, damping: b.slot(row[3])? },
+        16 => Further::SpringTable { from: b.point(row[1])?, to: b.point(row[2])?, table: b.table(row[3])? },
+        17 => Further::TorsionSpring {
             link: b.link(row[1])?,
             other: b.link_or_frame(row[2])?,
             stiffness: b.slot(row[3])?,
             cos: b.slot(row[4])?,
             sin: b.slot(row[5])?,
         },
-        18 => Load::TorsionDamper {
+        18 => Further::TorsionDamper {
             link: b.link(row[1])?,
             other: b.link_or_frame(row[2])?,
             damping: b.slot(row[3])?,
         },
-        19 => Load::GasSpring {
+        19 => Further::GasSpring {
             from: b.point(row[1])?,
             to: b.point(row[2])?,
             force: b.slot(row[3])?,

@@ -173,7 +173,7 @@ impl Real for f64 {
     fn max_lane(self) -> f64 {
         self
     }
-    #[inline(always)]
+    #[inline(never)]
     fn outline<T>(f: impl FnOnce() -> T) -> T {
         f()
     }

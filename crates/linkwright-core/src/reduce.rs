@@ -8,7 +8,7 @@
 //! Source: e.g. Artobolevsky, *Theory of Mechanisms and Machines*, ch. 15 (reduced mass and force);
 //! paper 1, equations (5) and (10), for the slider-crank with rod.
 
-use crate::law::FormulaLoad;
+use crate::further::stretch;
 use crate::linkage::{Motion, Slot, on_link};
 use crate::plan::Plan;
 use crate::plane::{Angle, Place, Vec2};
@@ -57,13 +57,6 @@ pub enum Load {
         x: Slot,
         y: Slot,
     },
-    /// A force of fixed size that turns with a link: `along` it, and `across` to its left.
-    Follow {
-        point: usize,
-        link: usize,
-        along: Slot,
-        across: Slot,
-    },
     /// A torque on a link, counter-clockwise positive.
     Torque {
         link: usize,
@@ -82,42 +75,6 @@ pub enum Load {
         /// Pull at the free length.
         preload: Slot,
     },
-    /// Pull by a table over the length.
-    SpringTable {
-        from: usize,
-        to: usize,
-        table: usize,
-    },
-    /// Resistance in proportion to the speed at which two points part.
-    Damper {
-        from: usize,
-        to: usize,
-        damping: Slot,
-    },
-    /// Push `force`·(column/(column − way))ⁿ after being pressed in by the way from `length`.
-    GasSpring {
-        from: usize,
-        to: usize,
-        force: Slot,
-        length: Slot,
-        column: Slot,
-        exponent: Slot,
-    },
-    /// Torque against the turning of a link from where it stands at the free angle (`cos`, `sin`) to
-    /// another, or to the frame.
-    TorsionSpring {
-        link: usize,
-        other: Option<usize>,
-        stiffness: Slot,
-        cos: Slot,
-        sin: Slot,
-    },
-    /// Torque in proportion to the speed of a link against another, or against the frame.
-    TorsionDamper {
-        link: usize,
-        other: Option<usize>,
-        damping: Slot,
-    },
     /// Force opposing the motion of a slide by tables over its position, one for each direction.
     ForcePosition {
         slide: usize,
@@ -128,10 +85,6 @@ pub enum Load {
     TorqueAngle {
         table: usize,
     },
-    /// A formula that does not depend on the size of the speed.
-    Formula(FormulaLoad),
-    /// A formula in proportion to the speed.
-    ViscousFormula(FormulaLoad),
 }
 
 /// The machine reduced to the crank at one angle. The resisting torque at speed ω is
@@ -176,6 +129,13 @@ impl Plan {
         for load in &self.loads {
             self.add_load(load, q, angle, sense, m, &mut r);
         }
+        if !self.further.is_empty() {
+            let (load, viscous) = R::outline(
+                #[inline(always)]
+                || self.further_loads(q, angle.phi, sense, m),
+            );
+            (r.load, r.viscous) = (r.load + load, r.viscous + viscous);
+        }
         for &gap in &m.gaps {
             // A dyad without mass leaves no trace in J: where it does not close there is no motion either.
             r.J = gap.select_lt(R::splat(0.0), R::splat(f64::NAN), r.J + gap * 0.0);
@@ -216,40 +176,10 @@ impl Plan {
                 r.load = r.load - m.points[point].d1.dot(Vec2::new(q[x], q[y]));
             }
             Load::Torque { link, torque } => r.load = r.load - m.links[link].d1 * q[torque],
-            Load::Follow { point, link, along, across } => {
-                let e = m.links[link].e;
-                let force = (e * q[along]).plus(e.left(), q[across]);
-                r.load = r.load - m.points[point].d1.dot(force);
-            }
             Load::Spring { from, to, stiffness, free_length, preload } => {
                 let (length, length1) = stretch(m, from, to);
                 let pull = (length - q[free_length]).mul_add(q[stiffness], q[preload]);
                 r.load = pull.mul_add(length1, r.load);
-            }
-            Load::SpringTable { from, to, table } => {
-                let (length, length1) = stretch(m, from, to);
-                r.load = length.map(|x| self.tables[table].held(x)).mul_add(length1, r.load);
-            }
-            Load::Damper { from, to, damping } => {
-                r.viscous = stretch(m, from, to).1.squared().mul_add(q[damping], r.viscous);
-            }
-            Load::GasSpring { from, to, force, length, column, exponent } => {
-                let (now, length1) = stretch(m, from, to);
-                let left = q[column] - (q[length] - now);
-                let push = q[force] * ((q[column] / left).ln() * q[exponent]).exp();
-                r.load = r.load - push * length1;
-            }
-            Load::TorsionSpring { link, other, stiffness, cos, sin } => {
-                let turned = turned(m, link, other, Vec2::new(q[cos], q[sin]));
-                r.load = (turned * q[stiffness]).mul_add(relative(m, link, other), r.load);
-            }
-            Load::TorsionDamper { link, other, damping } => {
-                r.viscous = relative(m, link, other).squared().mul_add(q[damping], r.viscous);
-            }
-            Load::Formula(ref load) => r.load = r.load + self.formula_torque(load, q, angle.phi, sense, m),
-            Load::ViscousFormula(ref load) => {
-                let torque = self.formula_torque(load, q, angle.phi, sense, m);
-                r.viscous = torque.mul_add(R::splat(sense), r.viscous);
             }
             Load::ForcePosition { slide, forward, back } => {
                 let slide = &m.slides[slide];
@@ -262,47 +192,6 @@ impl Plan {
                 r.load = r.load + angle.phi.map(|phi| self.tables[table].periodic(phi));
             }
         }
-    }
-}
-
-/// Distance of two points and its transfer function L′ = u·u′/L; where the points meet, L′ jumps from −|u′| to
-/// |u′|, and zero, the mean, stands for it.
-#[inline(always)]
-pub(crate) fn stretch<R: Real>(m: &Motion<R>, from: usize, to: usize) -> (R, R) {
-    let u = m.points[to].p - m.points[from].p;
-    let length = u.dot(u).sqrt();
-    // There u·u′ is zero, so any length greater than zero will do.
-    let divisor = length.max(R::splat(f64::MIN_POSITIVE));
-    (length, u.dot(m.points[to].d1 - m.points[from].d1) / divisor)
-}
-
-/// dψ/dφ of a link against another, or against the frame.
-#[inline(always)]
-fn relative<R: Real>(m: &Motion<R>, link: usize, other: Option<usize>) -> R {
-    let own = m.links[link].d1;
-    other.map_or(own, |other| own - m.links[other].d1)
-}
-
-/// Angle by which a link is turned beyond its free angle to another, or to the frame; within ±π.
-#[inline(always)]
-fn turned<R: Real>(m: &Motion<R>, link: usize, other: Option<usize>, free: Vec2<R>) -> R {
-    let e = m.links[link].e;
-    let base = match other {
-        Some(other) => m.links[other].e,
-        None => Vec2::new(R::splat(1.0), R::splat(0.0)),
-    };
-    // Where the link would stand without torque: the base turned by the free angle.
-    let rest = (base * free.x).plus(base.left(), free.y);
-    e.dot(rest.left()).atan2(e.dot(rest))
-}
-
-impl Plan {
-    /// Loads of the reduction that are formulas.
-    pub(crate) fn formula_loads(&self) -> impl Iterator<Item = FormulaLoad> + '_ {
-        self.loads.iter().filter_map(|load| match *load {
-            Load::Formula(load) | Load::ViscousFormula(load) => Some(load),
-            _ => None,
-        })
     }
 }
 

@@ -108,6 +108,9 @@ impl Follower<'_> {
     /// Torque of the laws at an angle for which the mechanism has been placed.
     fn laws(&mut self, t: f64, phi: f64, omega: f64) -> f64 {
         let Machine { plan, q } = self.machine;
+        if plan.laws.is_empty() {
+            return 0.0;
+        }
         self.given.clear();
         plan.give(q, phi, &self.motion, &mut self.given);
         plan.law_torque(q, &self.given, omega, t)

@@ -157,6 +157,7 @@ impl Builder {
             mechanism: self.mechanism,
             bodies: self.bodies,
             loads: self.loads,
+            further: vec![],
             drive,
             tables: self.tables,
             formulas: vec![],
