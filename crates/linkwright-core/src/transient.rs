@@ -100,17 +100,18 @@ impl Follower<'_> {
         self.evaluations += 1;
         let [phi, omega] = *y;
         let r = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut self.motion);
-        let resisting = r.load + r.dry + r.viscous * omega + self.laws(t, phi, omega);
+        let mut resisting = r.load + r.dry + r.viscous * omega;
+        if !plan.laws.is_empty() {
+            resisting += self.laws(t, phi, omega);
+        }
         let net = plan.drive_torque(q, omega) - resisting - 0.5 * r.J_d1 * omega * omega;
         [omega, net / r.J]
     }
 
     /// Torque of the laws at an angle for which the mechanism has been placed.
+    #[inline(never)]
     fn laws(&mut self, t: f64, phi: f64, omega: f64) -> f64 {
         let Machine { plan, q } = self.machine;
-        if plan.laws.is_empty() {
-            return 0.0;
-        }
         self.given.clear();
         plan.give(q, phi, &self.motion, &mut self.given);
         plan.law_torque(q, &self.given, omega, t)
