@@ -37,6 +37,9 @@ class Plan:
         table_y: _Floats,
         formulas: _Ints,
     ) -> Plan: ...
+    @property
+    def has_laws(self) -> bool:
+        """Whether loads depend on both angle and speed in their own way, or on time."""
 
 def steady_state(
     plan: Plan, q: _Floats, accuracy: float, phi: _Floats

@@ -53,7 +53,7 @@ Floats = NDArray[np.float64]
 # Crank speed from which steady motion is sought when nothing in the machine suggests one [rad/s].
 _SPEED_UNKNOWN = 10.0
 
-# Variables and instructions of formulas in the core's order (`linkwright-core`, modules `formula` and `plan`).
+# Variables and instructions of formulas in the order of the core's modules `formula` and `plan`.
 _VARIABLES = ("phi", "omega", "t", "x", "y", "vx", "vy", "v", "s", "psi", "psi_dot")
 _INSTRUCTIONS = (
     *("number", "zero", "name", "+", "-", "*", "/", "negative", "power", "pow"),
@@ -89,6 +89,8 @@ class Compiled:
         Ratio, and the factor on torque times ratio while the motor drives and while the load does.
     speed_tables : tuple
         Tables of resisting torque over crank speed.
+    has_laws : bool
+        Whether loads depend on both angle and speed in their own way, or on time.
     """
 
     plan: _core.Plan
@@ -102,6 +104,7 @@ class Compiled:
     speed_guess: float
     gear_factors: tuple[float, float, float]
     speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
+    has_laws: bool
 
     @property
     def n_rows(self) -> int:
@@ -438,13 +441,13 @@ class _Translator:
     def _between(self, load: Any, ends: list[int]) -> list[int]:
         """A load along the line between two points."""
         match load:
-            case Spring(stiffness=None):
-                return [16, *ends, self.table(load.length, load.force)]
+            case Spring(length=tuple() as length, force=tuple() as force):
+                return [16, *ends, self.table(length, force)]
             case Spring():
-                numbers = (load.stiffness, load.free_length, load.preload)
-                return [9, *ends, *(self.slot(value) for value in numbers)]
-            case Damper(damping=None):
-                return [20, *ends, self.table(load.velocity, load.force)]
+                rest = [self.slot(load.free_length), self.slot(load.preload)]
+                return [9, *ends, self.slot(load.stiffness), *rest]
+            case Damper(velocity=tuple() as velocity, force=tuple() as force):
+                return [20, *ends, self.table(velocity, force)]
             case Damper():
                 return [15, *ends, self.slot(load.damping)]
         numbers = (load.force_extended, load.length_extended, gas_column(load), load.exponent)
@@ -467,7 +470,8 @@ class _Translator:
             kind, carrier = 21, [self.slides[load.on], self.points[load.on]]
         constants = {name: self.slot(value) for name, value in load.constants.items()}
         return [
-            [kind, self._formula(term, constants), *carrier] for term in formula.terms(formula.parse(load.text))
+            [kind, self._formula(term, constants), *carrier]
+            for term in formula.terms(formula.parse(load.text))
         ]
 
     def _formula(self, term: formula.Node, constants: dict[str, int]) -> int:
@@ -578,6 +582,7 @@ class _Translator:
             speed_guess=guess,
             gear_factors=(ratio, forward, reverse),
             speed_tables=tuple(self.tables[row[1]] for row in self.load_rows if row[0] == 12),
+            has_laws=plan.has_laws,
         )
 
 

@@ -81,13 +81,18 @@ const SWEEPS_MAX: u32 = 40;
 const SHRINK: f64 = 0.25;
 
 impl<R: Real> Machine<'_, R> {
-    /// Energy balance dE/dφ and its derivative by E.
+    /// Energy balance dE/dφ without laws, and its derivative by E.
     #[inline(always)]
-    pub fn balance(&self, row: &Row<R>, given: &[Given<R>], E: R) -> Dual<R> {
+    pub fn balance(&self, row: &Row<R>, E: R) -> Dual<R> {
         let omega = Dual::variable(E).sqrt() * Dual::constant(row.root);
         let torque = self.plan.drive_torque(self.q, omega);
-        let net = torque - Dual::constant(row.load) - Dual::constant(row.viscous) * omega;
-        if given.is_empty() { net } else { net - self.laws(given, omega) }
+        torque - Dual::constant(row.load) - Dual::constant(row.viscous) * omega
+    }
+
+    /// What the laws take from the balance, and its derivative by E.
+    #[inline(always)]
+    pub fn taken(&self, row: &Row<R>, given: &[Given<R>], E: R) -> Dual<R> {
+        self.laws(given, Dual::variable(E).sqrt() * Dual::constant(row.root))
     }
 
     /// Resisting torque of all laws at a stage; no time counts, since no turn differs from another.
@@ -106,13 +111,19 @@ impl<R: Real> Machine<'_, R> {
         &given[stage * n..(stage + 1) * n]
     }
 
-    /// [`Machine::balance`] at the stages of a step: values and derivatives.
+    /// The energy balance at the stages of a step: values and derivatives.
     #[inline(always)]
     fn balances(&self, rows: &[Row<R>; S], given: &[Given<R>], X: &[R; S]) -> ([R; S], [R; S]) {
         let (mut f, mut d) = (*X, *X);
         for i in 0..S {
-            let balance = self.balance(&rows[i], self.given_at(given, i), X[i]);
+            let balance = self.balance(&rows[i], X[i]);
             (f[i], d[i]) = (balance.value, balance.d);
+        }
+        if !given.is_empty() {
+            for i in 0..S {
+                let taken = self.taken(&rows[i], self.given_at(given, i), X[i]);
+                (f[i], d[i]) = (f[i] - taken.value, d[i] - taken.d);
+            }
         }
         (f, d)
     }
@@ -121,7 +132,9 @@ impl<R: Real> Machine<'_, R> {
     #[inline(always)]
     pub fn row<const ORDER: u8>(&self, phi: R, m: &mut Motion<R>, given: &mut Vec<Given<R>>) -> Row<R> {
         let r = self.plan.reduce::<R, ORDER>(self.q, Angle::new(phi), 1.0, m);
-        self.plan.give(self.q, phi, m, given);
+        if !self.plan.laws.is_empty() {
+            self.plan.give(self.q, phi, m, given);
+        }
         let root = (R::splat(2.0) / r.J).sqrt();
         Row { root, J_d1: r.J_d1, load: r.load + r.dry, viscous: r.viscous }
     }

@@ -258,7 +258,10 @@ impl<R: Real> Turn<R> {
         for step in &self.steps {
             given.clear();
             let row = machine.row::<2>(step.phi, m, &mut given);
-            let torque = machine.balance(&row, &given, step.E).value;
+            let mut torque = machine.balance(&row, step.E).value;
+            if !given.is_empty() {
+                torque = torque - machine.taken(&row, &given, step.E).value;
+            }
             let (omega, epsilon) = speed_and_gain(&row, step.E, torque);
             torques.push(torque);
             speeds.push(omega);
@@ -272,8 +275,11 @@ impl<R: Real> Turn<R> {
             let mut f = [torques[k]; N];
             f[S + 1] = torques_end[k];
             for i in 0..S {
-                let given = machine.given_at(&self.given, k * S + i);
-                f[i + 1] = machine.balance(&step.rows[i], given, step.X[i]).value;
+                f[i + 1] = machine.balance(&step.rows[i], step.X[i]).value;
+                if !self.given.is_empty() {
+                    let given = machine.given_at(&self.given, k * S + i);
+                    f[i + 1] = f[i + 1] - machine.taken(&step.rows[i], given, step.X[i]).value;
+                }
             }
             let mut sample = [(speeds[k], gains[k]); N];
             sample[S + 1] = (speeds_end[k], gains_end[k]);
@@ -284,8 +290,12 @@ impl<R: Real> Turn<R> {
                 }
                 doubt = doubt.max((E - step.X[i - 1]).abs() / E);
                 let row = &step.rows[i - 1];
-                let given = machine.given_at(&self.given, k * S + i - 1);
-                sample[i] = speed_and_gain(row, E, machine.balance(row, given, E).value);
+                let mut torque = machine.balance(row, E).value;
+                if !self.given.is_empty() {
+                    let given = machine.given_at(&self.given, k * S + i - 1);
+                    torque = torque - machine.taken(row, given, E).value;
+                }
+                sample[i] = speed_and_gain(row, E, torque);
             }
             samples.push(sample);
         }

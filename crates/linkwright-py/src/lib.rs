@@ -52,6 +52,11 @@ impl Plan {
         };
         CorePlan::decode(&code).map(Plan).map_err(plan_error)
     }
+
+    #[getter]
+    fn has_laws(&self) -> bool {
+        !self.0.laws.is_empty()
+    }
 }
 
 impl Plan {

@@ -76,7 +76,7 @@ Instruction = tuple[str, float | str | None]
 Program = tuple[Instruction, ...]
 
 
-class FormulaFault(Exception):
+class FormulaError(Exception):
     """What is wrong with a text: what belongs at a place, and what to change."""
 
     def __init__(self, expected: str, remedy: str = "") -> None:
@@ -101,7 +101,7 @@ def parse(text: str) -> Node:
 
     Raises
     ------
-    FormulaFault
+    FormulaError
         The text is no formula; says at which character.
     """
     return _Reader(text).formula()
@@ -256,8 +256,12 @@ class _Reader:
         if word in ("<", "<=", ">", ">=", "="):
             remedy = "a comparison stands in where(a < b, x, y) only"
         elif kind in ("name", "number") or word == "(":
-            remedy = f'write a product with a sign, as in "2*{word}"' if kind == "name" else "write products with *"
-        raise FormulaFault(f"an operator or the end at character {at}, where {_quoted(word)} stands", remedy)
+            remedy = (
+                f'write a product with a sign, as in "2*{word}"'
+                if kind == "name"
+                else "write products with *"
+            )
+        raise FormulaError(f"an operator or the end at character {at}, where {_quoted(word)} stands", remedy)
 
     def _here(self) -> tuple[str, str, int]:
         return self.tokens[self.place]
@@ -273,7 +277,7 @@ class _Reader:
     def _need(self, sign: str, remedy: str = "") -> None:
         _, word, at = self._here()
         if not self._take(sign):
-            raise FormulaFault(f"{_quoted(sign)} at character {at}, where {_quoted(word)} stands", remedy)
+            raise FormulaError(f"{_quoted(sign)} at character {at}, where {_quoted(word)} stands", remedy)
 
     def _sum(self) -> Node:
         left = self._product()
@@ -291,7 +295,7 @@ class _Reader:
         at = self._here()[2]
         self.nested += 1
         if self.nested > _NESTED:
-            raise FormulaFault(f"at most {_NESTED} brackets and signs inside one another", "simplify it")
+            raise FormulaError(f"at most {_NESTED} brackets and signs inside one another", "simplify it")
         sign = self._take("+", "-")
         inner = self._signed() if sign else self._power()
         self.nested -= 1
@@ -315,7 +319,7 @@ class _Reader:
             inner = self._sum()
             self._need(")", "close the bracket")
             return inner
-        raise FormulaFault(f"a number, a name or ( at character {at}, where {_quoted(word)} stands")
+        raise FormulaError(f"a number, a name or ( at character {at}, where {_quoted(word)} stands")
 
     def _call(self, name: str, at: int) -> Node:
         """A function with its arguments; its name and the bracket are read."""
@@ -323,14 +327,14 @@ class _Reader:
             from linkwright.machine.base import suggestion
 
             expected = f"a function at character {at}, where {_quoted(name)} stands"
-            raise FormulaFault(expected, suggestion(name, FUNCTIONS))
+            raise FormulaError(expected, suggestion(name, FUNCTIONS))
         args = [self._comparison() if name == "where" else self._sum()]
         while self._take(","):
             args.append(self._sum())
         least, most = FUNCTIONS[name]
         if len(args) < least or (most is not None and len(args) > most):
             wanted = f"{least} argument{'s' if least > 1 else ''}" if most else f"{least} arguments or more"
-            raise FormulaFault(f"{wanted} of {name} at character {at}, where {len(args)} stand")
+            raise FormulaError(f"{wanted} of {name} at character {at}, where {len(args)} stand")
         self._need(")", "close the bracket")
         return Node(name, tuple(args), position=at)
 
@@ -340,7 +344,7 @@ class _Reader:
         sign = self._take(*_COMPARISONS)
         if not sign:
             expected = f"a comparison <, <=, > or >= at character {at}, where {_quoted(word)} stands"
-            raise FormulaFault(expected, "as in where(a < b, x, y)")
+            raise FormulaError(expected, "as in where(a < b, x, y)")
         return Node(sign, (left, self._sum()), position=left.position)
 
 

@@ -35,9 +35,7 @@ def one_of(load: Load, for_points: str, for_links: str) -> Iterator[InitErrorDet
         yield fault(expected=f"{for_points} (on a point or a slider) or {for_links} (on a link)")
 
 
-def number_or_curve(
-    load: Load, number: str, argument: str, value: str
-) -> Iterator[InitErrorDetails]:
+def number_or_curve(load: Load, number: str, argument: str, value: str) -> Iterator[InitErrorDetails]:
     """The fault of a load that is not described by either one number or a curve of two lists."""
     curve = [name for name in (argument, value) if getattr(load, name) is not None]
     if getattr(load, number) is not None and curve:

@@ -15,7 +15,7 @@ from linkwright.machine.formula import (
     FUNCTIONS,
     NUMBERS,
     VARIABLES,
-    FormulaFault,
+    FormulaError,
     depth,
     names,
     parse,
@@ -84,7 +84,7 @@ def _used(text: str) -> dict[str, int] | None:
     """Names in a formula; None if it cannot be read."""
     try:
         return names(parse(text))
-    except FormulaFault:
+    except FormulaError:
         return None
 
 
@@ -92,7 +92,7 @@ def _text_faults(key: str, text: str, constants: dict[str, Any]) -> Iterator[Ini
     """A text that is no formula, and names in it that stand for nothing."""
     try:
         tree = parse(text)
-    except FormulaFault as found:
+    except FormulaError as found:
         yield fault(key, found=text, expected=found.expected, remedy=found.remedy)
         return
     known = [*VARIABLES, *NUMBERS, *constants]
@@ -108,12 +108,10 @@ def _text_faults(key: str, text: str, constants: dict[str, Any]) -> Iterator[Ini
 def _meant(name: str, known: list[str]) -> str:
     if name in FUNCTIONS:
         return f"a function has brackets: {name}(…)"
-    return suggestion(name, known) or f'define it: constants = {{ {name} = … }}'
+    return suggestion(name, known) or f"define it: constants = {{ {name} = … }}"
 
 
-def variable_faults(
-    key: str, text: object, known: frozenset[str], on: str
-) -> Iterator[tuple[str, str, str]]:
+def variable_faults(key: str, text: object, known: frozenset[str], on: str) -> Iterator[tuple[str, str, str]]:
     """Variables that what a load acts on does not have.
 
     Parameters

@@ -120,9 +120,7 @@ def _carrier_faults(
             yield fault("loads", name, kind, key, found=value, expected=expected, remedy=remedy)
 
 
-def _link_faults(
-    outline: Outline, name: str, load: object, kind: str, on: str
-) -> Iterator[InitErrorDetails]:
+def _link_faults(outline: Outline, name: str, load: object, kind: str, on: str) -> Iterator[InitErrorDetails]:
     """A further link that does not exist, or is the one that the load acts on."""
     for key in _LINKS:
         link = look(load, key)

@@ -1,4 +1,4 @@
-"""Loads by tables: a force over the position of a slider, a torque over the angle or the speed of the crank."""
+"""Loads by tables: force over a slider's position, torque over the angle or the speed of the crank."""
 
 from __future__ import annotations
 
