@@ -327,14 +327,14 @@ class _Reader:
             from linkwright.machine.base import suggestion
 
             expected = f"a function at character {at}, where {_quoted(name)} stands"
-            raise FormulaError(expected, suggestion(name, FUNCTIONS))
+            raise FormulaError(expected, suggestion(name, FUNCTIONS) or "there is " + ", ".join(FUNCTIONS))
         args = [self._comparison() if name == "where" else self._sum()]
         while self._take(","):
             args.append(self._sum())
         least, most = FUNCTIONS[name]
         if len(args) < least or (most is not None and len(args) > most):
             wanted = f"{least} argument{'s' if least > 1 else ''}" if most else f"{least} arguments or more"
-            raise FormulaError(f"{wanted} of {name} at character {at}, where {len(args)} stand")
+            raise FormulaError(f"{wanted} of {name} at character {at}, found {len(args)}")
         self._need(")", "close the bracket")
         return Node(name, tuple(args), position=at)
 

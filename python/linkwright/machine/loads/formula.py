@@ -96,7 +96,7 @@ def _text_faults(key: str, text: str, constants: dict[str, Any]) -> Iterator[Ini
         yield fault(key, found=text, expected=found.expected, remedy=found.remedy)
         return
     known = [*VARIABLES, *NUMBERS, *constants]
-    for name, at in names(tree).items():
+    for name, at in sorted(names(tree).items(), key=lambda each: each[1]):
         if name not in known:
             expected = f'a variable or constant at character {at}, where "{name}" stands'
             yield fault(key, found=text, expected=expected, remedy=_meant(name, known))
