@@ -42,7 +42,7 @@ fn pick<T: Copy>(random: &mut Random, from: &[T]) -> T {
 }
 
 fn tree(random: &mut Random, depth: usize) -> Tree {
-    let mut below = |random: &mut Random| Box::new(tree(random, depth - 1));
+    let below = |random: &mut Random| Box::new(tree(random, depth - 1));
     match if depth == 0 { random.between(0.0, 2.0) } else { random.between(0.0, 9.0) } {
         x if x < 1.0 => Tree::Number(pick(random, &[0, 1, 2])),
         x if x < 2.0 => Tree::Variable(pick(random, &VARIABLES)),
@@ -104,11 +104,8 @@ fn one(op: Op, x: f64) -> f64 {
         Op::Tanh => x.tanh(),
         Op::Abs => x.abs(),
         Op::Sign => {
-            if x == 0.0 {
-                0.0
-            } else {
-                x.signum()
-            }
+            // Unlike the library's, what is not finite has no sign.
+            if x == 0.0 || !x.is_finite() { x * 0.0 } else { x.signum() }
         }
         _ => unreachable!("not of one argument"),
     }

@@ -22,7 +22,6 @@ from linkwright.machine.catalogue import CatalogueMotor, motor, motors
 from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
 from linkwright.machine.loads import (
     AnyLoad,
-    BetweenPoints,
     ConstantForce,
     ConstantTorque,
     Damper,
@@ -55,7 +54,6 @@ __all__ = [
     "FORMAT",
     "AnyLoad",
     "AnyMotor",
-    "BetweenPoints",
     "Body",
     "Brake",
     "CatalogueMotor",

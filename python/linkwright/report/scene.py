@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from linkwright.analysis.closure import closure
 from linkwright.analysis.kinematics import Kinematics, kinematics
 from linkwright.analysis.study import Study
-from linkwright.machine import BetweenPoints, Machine
+from linkwright.machine import Machine
+from linkwright.machine.loads import BetweenPoints
 from linkwright.machine.outline import ORIGIN
 
 Floats = NDArray[np.float64]
