@@ -117,6 +117,8 @@ fn two(op: Op, a: f64, b: f64) -> f64 {
         Op::Sub => a - b,
         Op::Mul => a * b,
         Op::Div => a / b,
+        // Whole powers have an instruction of their own; here the base must not be negative.
+        Op::Pow if a < 0.0 => f64::NAN,
         Op::Pow => a.powf(b),
         Op::Atan2 => a.atan2(b),
         // Unlike the library's, a missing value does not vanish.
