@@ -11,6 +11,7 @@ __all__ = [
     "follow_group",
     "gaps",
     "kinks",
+    "law_torques",
     "motions",
     "motor_torques",
     "reductions",
@@ -37,7 +38,11 @@ class Plan:
         table_starts: _Ints,
         table_x: _Floats,
         table_y: _Floats,
+        formulas: _Ints,
     ) -> Plan: ...
+    @property
+    def has_laws(self) -> bool:
+        """Whether loads depend on both angle and speed in their own way, or on time."""
 
 def steady_state(
     plan: Plan, q: _Floats, accuracy: float, phi: _Floats
@@ -70,6 +75,9 @@ def gaps(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
 
 def reductions(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
     """J, J′, load, dry torque and viscous coefficient, turning forward (5, angles)."""
+
+def law_torques(plan: Plan, q: _Floats, phi: _Floats, omega: _Floats) -> _Floats:
+    """Resisting torque of the laws at angles and speeds (speeds, angles)."""
 
 def motor_torques(plan: Plan, q: _Floats, omega: _Floats) -> tuple[_Floats, _Floats]:
     """Motor torque at its shaft and at the crank, at crank speeds."""

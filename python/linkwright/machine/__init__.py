@@ -9,7 +9,8 @@
 | `element` | cranks, dyads, gears, cables, joints and bars |
 | `mechanism` | all elements by name |
 | `assembly` | in which order a mechanism is built; what is missing or too much |
-| `body`, `load` | masses; forces and torques |
+| `body`, `loads` | masses; forces and torques |
+| `formula` | formulas as texts |
 | `curve` | curves given by points |
 | `outline` | names in a mechanism: what refers to what, in which order it is built |
 | `address`, `text` | entries by address |
@@ -38,17 +39,22 @@ from linkwright.machine.element import (
     SlottedLever,
     Yoke,
 )
-from linkwright.machine.load import (
+from linkwright.machine.loads import (
     AnyLoad,
     ConstantForce,
     ConstantTorque,
+    Damper,
     DryFriction,
     ForcePosition,
+    FormulaLoad,
+    GasSpring,
     Gravity,
     Load,
     Spring,
     TorqueAngle,
     TorqueSpeed,
+    TorsionalDamper,
+    TorsionalSpring,
     ViscousFriction,
 )
 from linkwright.machine.machine import FORMAT, Machine, RunUp
@@ -79,12 +85,15 @@ __all__ = [
     "Coupling",
     "Crank",
     "Crossing",
+    "Damper",
     "DcMotor",
     "Drive",
     "DryFriction",
     "FixedPoint",
     "Flywheel",
     "ForcePosition",
+    "FormulaLoad",
+    "GasSpring",
     "Gear",
     "Gearbox",
     "Gravity",
@@ -107,6 +116,8 @@ __all__ = [
     "TableMotor",
     "TorqueAngle",
     "TorqueSpeed",
+    "TorsionalDamper",
+    "TorsionalSpring",
     "ViscousFriction",
     "Yoke",
     "addresses",

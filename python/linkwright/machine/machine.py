@@ -12,7 +12,8 @@ from linkwright.errors import MachineError
 from linkwright.machine.base import Description, faults_of, raise_faults
 from linkwright.machine.body import Body, body_faults
 from linkwright.machine.drive import Drive
-from linkwright.machine.load import AnyLoad, load_faults
+from linkwright.machine.loads import AnyLoad
+from linkwright.machine.loads.references import load_faults
 from linkwright.machine.mechanism import Mechanism
 from linkwright.machine.outline import Outline
 from linkwright.machine.plain import look
