@@ -60,7 +60,7 @@ def motions(
     """Motions of n machines at the angles `phi` into `out`, flat (n, numbers, angles)."""
 
 def third(plan: Plan, q: _Floats, phi: _Floats, what: _Ints) -> _Floats:
-    """Third transfer functions at the angles `phi`, (numbers, angles): two of a point, one of a link or slide."""
+    """Third transfer functions at the angles `phi`: two rows for a point, one for a link or slide."""
 
 def change_point(plan: Plan, q: _Floats, element: int, near: float) -> tuple[float, list[float]] | None:
     """Angle and series of S/δ at the change point of a dyad RRR near an angle; None if there is none."""

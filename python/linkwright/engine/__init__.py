@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
-from linkwright.elements import Rows
+from linkwright.engine.elements import Rows
+from linkwright.engine.settle import Settled
 from linkwright.errors import MachineError, Problem, ShapeError
 from linkwright.machine import (
     Body,
@@ -46,7 +47,6 @@ from linkwright.machine import (
     formula,
 )
 from linkwright.machine.outline import KINDS
-from linkwright.settle import Settled
 
 Floats = NDArray[np.float64]
 
