@@ -1,7 +1,7 @@
 """In which order a mechanism is built: single elements, dyads of joints, groups that are solved together.
 
 Elements that refer to what is placed already come one by one. The coordinates of joints are unknowns, bars
-and guides are equations: a matching of equations to unknowns tells what is missing or too much, and its strongly
+and guides are equations: a matching of equations to unknowns tells what is missing or too much; its strongly
 connected parts are the smallest groups that can be solved, one after another (Dulmage and Mendelsohn,
 *Coverings of bipartite graphs*, Canadian J. Math. 10 (1958); for linkages these parts are the Assur groups).
 """

@@ -230,7 +230,7 @@ class Outline:
                 name,
                 found="one condition too many",
                 expected="two bars or guides for each joint",
-                remedy="the mechanism moves without it, and is locked with it unless it fits in every position; "
+                remedy="the mechanism moves without it, and is locked with it unless it always fits; "
                 "remove it, or write redundant = true to have that checked",
             )
 
