@@ -229,7 +229,7 @@ _KNOWN_MAX = 8
 
 def _parts(machine: Machine) -> list[object]:
     """The frozen parts that a machine consists of, with their names."""
-    mechanism = machine.mechanism
+    mechanism = machine.linkage
     parts: list[object] = [machine, machine.drive]
     tables = (
         mechanism.points,
@@ -294,7 +294,7 @@ class _Translator:
 
     def mechanism(self) -> None:
         """Fixed points first, then the moving elements in build order."""
-        mechanism = self.machine.mechanism
+        mechanism = self.machine.linkage
         self.origin = self._fixed("", 0.0, 0.0)
         for name, point in mechanism.fixed_points().items():
             self._fixed(name, point.x, point.y)
@@ -329,7 +329,7 @@ class _Translator:
 
     def _slider(self, name: str, slider: Slider) -> None:
         pin = self.points[slider.crank]
-        driver = self.machine.mechanism.cranks.get(slider.crank)
+        driver = self.machine.linkage.cranks.get(slider.crank)
         through = self._fixed_or_origin(slider.through or (driver.pivot if driver else None))
         slide = self.slides.setdefault(name, len(self.slides))
         row = [2, self._point(name), self._link(f"{name}.rod", pin), slide, self._dyad(name), pin, through]
@@ -350,7 +350,7 @@ class _Translator:
 
     def bodies(self) -> None:
         """Masses on links and on points."""
-        lengths = {name: link.length for name, link in self.machine.mechanism.links().items()}
+        lengths = {name: link.length for name, link in self.machine.linkage.links().items()}
         for name, body in self.machine.bodies.items():
             carrier = body.on or name
             if carrier in self.links:

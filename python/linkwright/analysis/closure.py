@@ -158,7 +158,7 @@ def _first_open(found: Closure) -> float:
 
 def _sentence(found: Closure, machine: Machine) -> str:
     """What does not close, where, and the remedy."""
-    mechanism = machine.mechanism
+    mechanism = machine.linkage
     remedy = "change the lengths"
     what = found.element
     if found.change_point is not None:

@@ -7,6 +7,9 @@
 | `motor` | the kinds of motor, and how their entries follow from one another |
 | `catalogue` | published motors |
 | `mechanism` | cranks, sliders, rockers, rigid points |
+| `pumping_unit`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
+| `unit_catalogue` | published pumping units |
+| `linkage` | the whole mechanism: elements of the file, and what a pumping unit expands into |
 | `body`, `load` | masses; forces and torques |
 | `curve` | curves given by points |
 | `outline` | names in a mechanism: what refers to what, in which order it is built |
@@ -43,6 +46,9 @@ from linkwright.machine.motor import (
     Motor,
     TableMotor,
 )
+from linkwright.machine.pumping_unit import PolishedRodLoad, PumpingUnit
+from linkwright.machine.rod_rotator import RodRotator
+from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 
 __all__ = [
     "FORMAT",
@@ -51,6 +57,7 @@ __all__ = [
     "Body",
     "Brake",
     "CatalogueMotor",
+    "CatalogueUnit",
     "ConstantForce",
     "ConstantSpeedMotor",
     "ConstantTorque",
@@ -71,8 +78,11 @@ __all__ = [
     "Machine",
     "Mechanism",
     "Motor",
+    "PolishedRodLoad",
+    "PumpingUnit",
     "RigidPoint",
     "Rocker",
+    "RodRotator",
     "RunUp",
     "Slider",
     "Spring",
@@ -81,9 +91,11 @@ __all__ = [
     "TorqueSpeed",
     "ViscousFriction",
     "addresses",
+    "catalogue_unit",
     "get",
     "kind",
     "motor",
     "motors",
+    "pumping_units",
     "replace",
 ]

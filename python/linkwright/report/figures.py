@@ -10,14 +10,17 @@ from linkwright.analysis.study import Study
 from linkwright.machine import ConstantSpeedMotor
 from linkwright.plot import (
     attempt_figure,
+    gear_torque_figure,
     motor_figure,
+    polished_rod_figure,
     reduction_figure,
+    rotator_figure,
     run_up_figure,
     speed_figure,
     time_figure,
     torque_figure,
 )
-from linkwright.report.quantities import number
+from linkwright.report.quantities import degrees, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -49,10 +52,38 @@ def figures(study: Study) -> Iterator[Captioned]:
     Captioned
         In the order of the page.
     """
+    yield from _unit(study)
+    yield from _rotator(study)
     yield from _steady(study)
     yield from _motor(study)
     yield from _run_up(study)
     yield from _reduction(study)
+
+
+def _unit(study: Study) -> Iterator[Captioned]:
+    unit, gear = study.pumping_unit, study.gear_torque
+    if unit is None:
+        return
+    caption = (
+        f"The polished rod rises {number(unit.stroke)} m while the crank turns "
+        f"{degrees(unit.upstroke_angle)}. The torque "
+        f"factor runs from {number(unit.torque_factor_min)} to {number(unit.torque_factor_max)} m."
+    )
+    yield Captioned("polished_rod", "Polished rod over a turn", caption, polished_rod_figure(unit))
+    if gear is not None:
+        caption = (
+            f"Torque at the crank by the polished rod and by its counterbalance; their sum peaks at "
+            f"{number(max(gear.torque_net_up, gear.torque_net_down))} N m."
+        )
+        yield Captioned("gear_torque", "Torque of the gearbox", caption, gear_torque_figure(gear))
+
+
+def _rotator(study: Study) -> Iterator[Captioned]:
+    rotator = study.rotator
+    if rotator is None:
+        return
+    caption = f"The lever {rotator.verdict}."
+    yield Captioned("rotator", "Lever of the rotator", caption, rotator_figure(rotator))
 
 
 def _reduction(study: Study) -> Iterator[Captioned]:

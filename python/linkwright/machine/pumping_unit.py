@@ -1,0 +1,322 @@
+r"""Beam pumping units, described by the letters of API Spec 11E, and the mechanism that such a unit is.
+
+| letter | is |
+| --- | --- |
+| `A` | front arm: saddle bearing to the polished rod, the radius of the horsehead |
+| `C` | arm of the pitman: saddle bearing to the equalizer bearing |
+| `I` | horizontal distance of the saddle bearing from the crankshaft |
+| `H`, `G` | heights of the saddle bearing and of the crankshaft above the base |
+| `P` | pitman: equalizer bearing to crank pin |
+| `R` | crank: crankshaft to crank pin |
+| K | crankshaft to saddle bearing, :math:`K^2 = I^2 + (H - G)^2` |
+
+A conventional unit is a lever of class I: the pitman pulls behind the saddle bearing, and the shaft lies
+behind it. Mark II and air-balanced units are levers of class III: the pitman pushes between saddle and
+horsehead, and the shaft lies in front of the saddle.
+
+The crank angle is that of API: from 12 o'clock for class I, from 6 o'clock for class III, in the direction of
+rotation. Linkwright turns counter-clockwise, so a unit that turns clockwise, seen with the well to the
+right, is drawn from its other side, with the well to the left.
+
+Expressions are written with NumPy: an entry may be an array over many units.
+
+References
+----------
+.. [1] API Spec 11E, Specification for Pumping Units, 17th ed. 1994 (ISO 10431): annexes on torque factors of
+units
+   with rear-mounted geometry (class I) and front-mounted geometry (class III).
+.. [2] Takács, Sucker-Rod Pumping Handbook, 2015, 3.7: kinematics by API, rotation and zero of the three
+kinds.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal, NamedTuple, Self
+
+import numpy as np
+from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
+from pydantic_core import InitErrorDetails
+
+from linkwright.errors import UnitError
+from linkwright.machine.base import Description, fault, raise_faults, wrong
+from linkwright.machine.curve import curve_faults
+from linkwright.machine.mechanism import PositiveLength
+from linkwright.units import (
+    FORCE,
+    FRACTION,
+    LENGTH,
+    RATIO,
+    TORQUE,
+    Angle,
+    Angles,
+    Force,
+    Forces,
+    Length,
+    Quantity,
+    QuantityList,
+    not_negative,
+    parse,
+    show,
+)
+
+# Names of the parts that a unit expands into.
+CRANKSHAFT, SADDLE, CRANK, BEAM, ROD = "crankshaft", "saddle", "crank", "beam", "polished_rod"
+BEAM_LINK = f"{BEAM}.rocker"
+
+Geometry = Literal["conventional", "mark_ii", "air_balanced"]
+Rotation = Literal["clockwise", "counter_clockwise"]
+
+# Direction of rotation in API's tables, seen with the well to the right.
+_USUAL: dict[str, Rotation] = {
+    "conventional": "clockwise",
+    "mark_ii": "counter_clockwise",
+    "air_balanced": "clockwise",
+}
+
+_OPTIMAL = '"optimal", or a torque (N m) such as "20 kN m"'
+
+
+def _counterbalance(value: object) -> object:
+    """The moment of the counterweights: a torque, or the word for the best one."""
+    if value is None or value == "optimal":
+        return value
+    try:
+        return parse(value, TORQUE)
+    except UnitError:
+        raise wrong(show(value), _OPTIMAL) from None
+
+
+_COUNTERBALANCE_SCHEMA: dict[str, Any] = {
+    "anyOf": [
+        {"const": "optimal"},
+        {"type": "number"},
+        {"type": "string", "description": "torque with its unit"},
+    ]
+}
+
+
+class PolishedRodLoad(Description):
+    """Load on the polished rod over a stroke, and what balances it."""
+
+    angle: Angles | None = Field(None, description="Crank angles of the table, increasing, within one turn.")
+    force: Forces | None = Field(None, description="Load at each crank angle.")
+    position: Annotated[tuple[float, ...], QuantityList(RATIO)] | None = Field(
+        None, description="Positions of the rod, increasing, from 0 at the bottom to 1 at the top."
+    )
+    up: Forces | None = Field(None, description="Load at each position on the upstroke.")
+    down: Forces | None = Field(None, description="Load at each position on the downstroke.")
+    counterbalance: Annotated[
+        Annotated[float, Quantity(TORQUE)] | Literal["optimal"] | None,
+        BeforeValidator(_counterbalance),
+        WithJsonSchema(_COUNTERBALANCE_SCHEMA),
+    ] = Field(
+        "optimal",
+        description="Greatest moment of the counterweights about the crankshaft, or the one with which the "
+        "torques of both strokes have equal peaks. With an air cylinder, use counterbalance_effect.",
+    )
+    phase: Angle = Field(0.0, description="Angle τ by which the counterweights lead the crank.")
+    counterbalance_effect: Annotated[float, Quantity(FORCE)] | None = Field(
+        None, description="Force of an air cylinder at the polished rod. Without it, that of equal peaks."
+    )
+    efficiency: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
+        1.0, description="Of the structure between polished rod and crankshaft."
+    )
+
+    @model_validator(mode="after")
+    def _entries_fit(self) -> Self:
+        """Report entries that do not go together."""
+        raise_faults("PolishedRodLoad", self._faults())
+        return self
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        by_angle = self.angle is not None or self.force is not None
+        by_position = any(each is not None for each in (self.position, self.up, self.down))
+        if by_angle == by_position:
+            found = "both" if by_angle else None
+            yield fault(found=found, expected="either angle and force, or position, up and down")
+            return
+        names = ("angle", "force") if by_angle else ("position", "up", "down")
+        missing = [name for name in names if getattr(self, name) is None]
+        for name in missing:
+            yield fault(name, expected=f"a list; {', '.join(names)} belong together")
+        if not missing:
+            yield from curve_faults(self, names[0], names[1:])
+            yield from _range_faults(self)
+
+
+def _range_faults(load: PolishedRodLoad) -> Iterator[InitErrorDetails]:
+    """Positions outside the stroke; angles of more than a turn."""
+    if load.position and not (load.position[0] >= 0 and load.position[-1] <= 1):
+        yield fault("position", found="positions outside the stroke", expected="positions from 0 to 1")
+    if load.angle and load.angle[-1] - load.angle[0] > 2 * np.pi * (1 + 1e-9):
+        yield fault("angle", found="more than a turn", expected="angles within one turn")
+
+
+class PumpingUnit(Description):
+    """A beam pumping unit by the letters of API Spec 11E."""
+
+    geometry: Geometry = Field("conventional", description="Kind of unit.")
+    designation: str | None = Field(
+        None,
+        description="By API, such as C-114D-133-54: gear in 1000 lbf in, load in 100 lbf, stroke in inches.",
+    )
+    A: PositiveLength = Field(description="Saddle bearing to the polished rod.")
+    C: PositiveLength = Field(description="Saddle bearing to the equalizer bearing.")
+    I: Length = Field(  # noqa: E741
+        description="Saddle bearing from the crankshaft, horizontally."
+    )
+    P: PositiveLength = Field(description="Pitman.")
+    H: Length = Field(description="Saddle bearing above the base.")
+    G: Length = Field(description="Crankshaft above the base.")
+    R: PositiveLength = Field(description="Crank.")
+    rotation: Rotation | None = Field(
+        None,
+        description="With the well to the right. Without it, clockwise, a Mark II counter-clockwise.",
+    )
+    structural_unbalance: Force = Field(
+        0.0, description="Force at the polished rod that holds the beam level with the pitmans off."
+    )
+    cable: Annotated[float, not_negative(LENGTH)] = Field(
+        1.0,
+        description="Free length of the cable from the horsehead to the hanger, at the top of the stroke.",
+    )
+    load: PolishedRodLoad | None = Field(None, description="Load on the polished rod.")
+
+    @model_validator(mode="after")
+    def _entries_fit(self) -> Self:
+        """Report entries that do not go together."""
+        raise_faults("PumpingUnit", self._faults())
+        return self
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        load, is_air = self.load, self.geometry == "air_balanced"
+        if self.H == self.G and self.I == 0:
+            yield fault("H", found=self.H, expected="a saddle bearing away from the crankshaft")
+        if load is None:
+            return
+        if is_air and isinstance(load.counterbalance, float):
+            remedy = "an air-balanced unit has no counterweights: write counterbalance_effect"
+            yield fault(
+                "load", "counterbalance", found=load.counterbalance, expected="no moment", remedy=remedy
+            )
+        if not is_air and load.counterbalance_effect is not None:
+            remedy = "only air-balanced units have a cylinder: write counterbalance"
+            found = load.counterbalance_effect
+            yield fault("load", "counterbalance_effect", found=found, expected="nothing", remedy=remedy)
+
+    @property
+    def is_class_3(self) -> bool:
+        """Whether the pitman pushes between saddle and horsehead."""
+        return self.geometry != "conventional"
+
+    @property
+    def is_mirrored(self) -> bool:
+        """Whether it is drawn from its other side, with the well to the left, because it turns clockwise."""
+        return (self.rotation or _USUAL[self.geometry]) == "clockwise"
+
+    @property
+    def K(self) -> Any:
+        """Crankshaft to saddle bearing [m]."""
+        return np.hypot(self.I, self.H - self.G)
+
+    @property
+    def saddle(self) -> tuple[Any, Any]:
+        """Place of the saddle bearing from the crankshaft, as drawn [m]."""
+        toward_well = -self.I if self.is_class_3 else self.I
+        return (-toward_well if self.is_mirrored else toward_well), self.H - self.G
+
+    @property
+    def crank_phase(self) -> float:
+        """Direction of the crank at crank angle zero: 12 o'clock, or 6 o'clock for class III [rad]."""
+        return -np.pi / 2 if self.is_class_3 else np.pi / 2
+
+    def psi(self, reach: Any) -> Any:
+        """Angle ψ between C and K with equalizer bearing and crankshaft a distance apart [rad]."""
+        cosine = (self.C**2 + self.K**2 - reach**2) / (2 * self.C * self.K)
+        # A unit that does not close is told of by the analyses; it still has a place on paper.
+        return np.arccos(np.clip(cosine, -1.0, 1.0))
+
+    @property
+    def psi_bottom(self) -> Any:
+        """ψ at the bottom of the stroke: crank and pitman in line [rad]."""
+        return self.psi(self.P - self.R if self.is_class_3 else self.P + self.R)
+
+    @property
+    def psi_top(self) -> Any:
+        """ψ at the top of the stroke [rad]."""
+        return self.psi(self.P + self.R if self.is_class_3 else self.P - self.R)
+
+    @property
+    def stroke(self) -> Any:
+        """Stroke of the polished rod, exact [m]."""
+        return self.A * np.abs(self.psi_bottom - self.psi_top)
+
+    def arm_angle(self, psi: Any) -> Any:
+        """Direction of the arm C as drawn, from −π to π [rad], for an angle ψ [rad]."""
+        toward_shaft = np.arctan2(self.G - self.H, self.I if self.is_class_3 else -self.I)
+        angle = toward_shaft + (psi if self.is_class_3 else -psi)
+        angle = np.pi - angle if self.is_mirrored else angle
+        return np.arctan2(np.sin(angle), np.cos(angle))
+
+    def front_angle(self, psi: Any) -> Any:
+        """Angle of the front arm above the horizontal, up positive [rad], for an angle ψ [rad]."""
+        toward_shaft = np.arctan2(self.G - self.H, self.I if self.is_class_3 else -self.I)
+        angle = toward_shaft + (psi if self.is_class_3 else np.pi - psi)
+        return np.arctan2(np.sin(angle), np.cos(angle))
+
+    @property
+    def rating(self) -> Rating | None:
+        """What the designation says; None if it is none of API."""
+        return rating_of(self.designation) if self.designation else None
+
+
+class Rating(NamedTuple):
+    """What the designation of a unit says.
+
+    Attributes
+    ----------
+    torque : float
+        Peak torque of the gearbox [N m].
+    load : float
+        Greatest load of the polished rod [N].
+    stroke : float
+        Longest nominal stroke [m].
+    """
+
+    torque: float
+    load: float
+    stroke: float
+
+
+# Type, gear rating with D for double reduction, load, stroke; makers put further letters before the numbers.
+_DESIGNATION = re.compile(r"\s*([A-Z]{1,3})-?([A-Z]?)(\d+)([A-Z]{0,2})-(\d+)-(\d+)\s*", re.IGNORECASE)
+
+INCH = 0.0254
+POUND_FORCE = 4.4482216152605
+
+
+def rating_of(designation: str) -> Rating | None:
+    """Read a designation of API Spec 11E.
+
+    Parameters
+    ----------
+    designation : str
+        Such as ``"C-114D-133-54"``.
+
+    Returns
+    -------
+    Rating or None
+        In SI; None if the text has another form.
+
+    Examples
+    --------
+    >>> round(rating_of("C-114D-133-54").stroke, 4)
+    1.3716
+    """
+    match = _DESIGNATION.fullmatch(designation)
+    if match is None:
+        return None
+    torque, load, stroke = (float(match[n]) for n in (3, 5, 6))
+    return Rating(1e3 * torque * POUND_FORCE * INCH, 1e2 * load * POUND_FORCE, stroke * INCH)
