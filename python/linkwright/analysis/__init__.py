@@ -12,6 +12,6 @@
 | `run_down` | how long until it stands? |
 | `step_method` | what does the published step method give instead? |
 | `pumping_unit`, `gear_torque` | how does the polished rod move, and what does its gearbox carry? |
-| `rod_rotator` | how does the lever turn the rod string? |
+| `rod_rotator`, `lever` | how does the lever turn the rod string? |
 | `result` | scalars, curves and tables of a result |
 """

@@ -24,15 +24,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.closure import require_full_turn, turn_angles
-from linkwright.analysis.kinematics import motion_arrays
+from linkwright.analysis.closure import turn_angles
+from linkwright.analysis.lever import Lever, LeverMotion, swing_of, takes_along, turns_of, worm_turns_of
 from linkwright.analysis.pumping_unit import PolishedRod, turn_extreme
 from linkwright.analysis.result import Result
-from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import InputError
-from linkwright.machine import Machine, Mechanism, PumpingUnit, RodRotator
-from linkwright.machine.pumping_unit import ROD
-from linkwright.machine.rod_rotator import LEVER, LINK, PIN, Lengths, lengths
+from linkwright.machine import Machine, RodRotator
+from linkwright.machine.rod_rotator import Lengths
 
 Floats = NDArray[np.float64]
 
@@ -44,9 +42,6 @@ _ANGLES = 1440
 
 # Diagonals, and lengths, that differ by less than this share are the same: a hundred times rounding.
 _SAME = 1e-13
-
-# Difference between the way forward by samples and the swing of a lever that rocks once [rad].
-_ONCE = 1e-3
 
 # Sine of the angle between link and lever below which the link has no arm: at a change point it is rounding.
 _NO_ARM = 1e-6
@@ -186,9 +181,9 @@ def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
     speed = machine.drive.speed if machine.drive else None
     diagonal_ends = [turn_extreme(lambda at: lever.motion(at).diagonal, sign)[0] for sign in (-1, +1)]
     at_ends = lever.motion(np.array([rod.top, rod.bottom])).diagonal
-    turns, swing = _turns(fine), _swing(lever, fine)
-    worm_turns = _worm_turns(rotator, fine, swing)
-    takes = _takes_along(rotator, rod, lever)
+    turns, swing = turns_of(fine), swing_of(lever, fine)
+    worm_turns = worm_turns_of(rotator, fine, swing)
+    takes = takes_along(rotator, rod, lever)
     days = _days(rotator, speed, worm_turns)
     return RodRotatorMotion(
         crank_angle=curves.angles,
@@ -219,111 +214,6 @@ def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
         **_at_speed(rotator, takes(curves), curves, speed),
         **_forces(lever, rotator, takes, curves, fine),
     )
-
-
-@dataclass(frozen=True)
-class LeverMotion:
-    """Link and lever at crank angles, arrays (n,).
-
-    Attributes
-    ----------
-    angles : ndarray
-        Crank angles [rad].
-    link, lever : ndarray
-        φ_4 and φ_5, continuous over the angles [rad].
-    link_d1, link_d2, lever_d1, lever_d2 : ndarray
-        Their derivatives by the crank angle [–].
-    diagonal : ndarray
-        l_d [m].
-    residual : float
-        Greatest gap in the loop over the longest link [–].
-    """
-
-    angles: Floats
-    link: Floats
-    lever: Floats
-    link_d1: Floats
-    link_d2: Floats
-    lever_d1: Floats
-    lever_d2: Floats
-    diagonal: Floats
-    residual: float
-
-
-@dataclass(frozen=True)
-class Lever:
-    """Link and lever of a rotator as functions of the crank angle.
-
-    Attributes
-    ----------
-    compiled : Compiled
-        Unit and rotator alone.
-    lengths : Lengths
-        l_4 and l_5 [m].
-    """
-
-    compiled: Compiled
-    lengths: Lengths
-
-    @classmethod
-    def of(cls, machine: Machine, unit: PumpingUnit, rotator: RodRotator) -> Lever:
-        """The lever of a machine's rotator, whatever else the machine holds.
-
-        Parameters
-        ----------
-        machine : Machine
-            The machine.
-        unit, rotator : PumpingUnit, RodRotator
-            Its parts.
-
-        Raises
-        ------
-        AssemblyError
-            Link and lever cannot meet all round.
-        """
-        alone = machine.with_entries({"mechanism": Mechanism(), "bodies": {}, "loads": {}, "drive": None})
-        compiled = compile_machine(alone)
-        require_full_turn(compiled, alone)
-        return cls(compiled, lengths(unit, rotator))
-
-    def motion(self, angles: Floats) -> LeverMotion:
-        """Link and lever at crank angles [rad]."""
-        asked = [("points", PIN), ("points", ROD), ("links", LINK), ("links", LEVER)]
-        found = motion_arrays(self.compiled, np.ascontiguousarray(angles), asked)[0]
-        pin, hanger, link, lever = found[0:2], found[6:8], found[12:16], found[16:20]
-        l_4, l_5 = self.lengths
-        gap = pin + l_4 * link[:2] - hanger - l_5 * lever[:2]
-        return LeverMotion(
-            angles=angles,
-            link=np.unwrap(np.arctan2(link[1], link[0])),
-            lever=np.unwrap(np.arctan2(lever[1], lever[0])),
-            link_d1=link[2],
-            link_d2=link[3],
-            lever_d1=lever[2],
-            lever_d2=lever[3],
-            diagonal=np.hypot(*(pin - hanger)),
-            residual=float(np.hypot(*gap).max() / max(l_4, l_5)),
-        )
-
-
-def _turns(fine: LeverMotion) -> float:
-    """Whole turns of the lever in a turn of the crank, counter-clockwise positive."""
-    return float(np.round((fine.lever[-1] - fine.lever[0]) / (2 * np.pi)))
-
-
-def _swing(lever: Lever, fine: LeverMotion) -> float:
-    """Range of the lever's angle [rad]."""
-    if _turns(fine):
-        return 2 * np.pi
-    # Angles are taken about the middle of their range, where none comes near the cut of the arc tangent.
-    middle = 0.5 * (fine.lever.min() + fine.lever.max())
-
-    def angle(at: Floats) -> Floats:
-        off = lever.motion(at).lever - middle
-        near: Floats = off - 2 * np.pi * np.round(off / (2 * np.pi))
-        return near
-
-    return turn_extreme(angle, +1)[0] - turn_extreme(angle, -1)[0]
 
 
 def _change_points(known: Lengths, rod: PolishedRod, at_ends: Floats) -> tuple[float, ...]:
@@ -374,25 +264,6 @@ def _days(rotator: RodRotator, speed: float | None, worm_turns: float) -> float 
     if speed is None or rotator.worm_ratio is None or not worm_turns:
         return None
     return rotator.worm_ratio / worm_turns * (2 * np.pi / speed) / _DAY
-
-
-def _takes_along(rotator: RodRotator, rod: PolishedRod, lever: Lever) -> Callable[[LeverMotion], Floats]:
-    """1 where the lever turns the worm, 0 where the clutch slips: by its sense in the clutch's stroke."""
-    if rotator.regime == "continuous":
-        return lambda motion: np.ones(len(motion.angles))
-    start, end = (rod.bottom, rod.top) if rotator.clutch == "upstroke" else (rod.top, rod.bottom)
-    stroke = lever.motion(np.linspace(start, start + (end - start) % (2 * np.pi), _ANGLES)).lever
-    sense = np.sign(stroke[-1] - stroke[0])
-    return lambda motion: (sense * motion.lever_d1 > 0).astype(np.float64)
-
-
-def _worm_turns(rotator: RodRotator, fine: LeverMotion, swing: float) -> float:
-    """Turns of the worm in a turn of the crank."""
-    if rotator.regime == "continuous":
-        return abs(_turns(fine))
-    # What goes forward comes back; a lever that rocks once goes forward by its swing, which is known exactly.
-    forward = float(np.maximum(np.diff(fine.lever), 0).sum())
-    return (swing if abs(forward - swing) < _ONCE else forward) / (2 * np.pi)
 
 
 def _at_speed(rotator: RodRotator, takes: Floats, curves: LeverMotion, speed: float | None) -> dict[str, Any]:

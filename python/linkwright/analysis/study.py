@@ -52,9 +52,10 @@ class Study:
     ----------
     machine : Machine
         The machine.
-    reduction, constant_energy, steady_state, run_up, run_down, step_method, pumping_unit, rotator : Result
-    or None
+    reduction, constant_energy, steady_state, run_up, run_down, step_method : Result or None
         Results by analysis; None where there is none.
+    pumping_unit, rotator : Result or None
+        Motion of the polished rod and of its rotator.
     attempt : Transient or None
         The motion from the start to the stall, where the run-up fails on the way.
     findings : tuple of str

@@ -7,7 +7,7 @@
 | `motor` | the kinds of motor, and how their entries follow from one another |
 | `catalogue` | published motors |
 | `mechanism` | cranks, sliders, rockers, rigid points |
-| `pumping_unit`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
+| `pumping_unit`, `polished_rod_load`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
 | `unit_catalogue` | published pumping units |
 | `linkage` | the whole mechanism: elements of the file, and what a pumping unit expands into |
 | `body`, `load` | masses; forces and torques |
@@ -46,7 +46,8 @@ from linkwright.machine.motor import (
     Motor,
     TableMotor,
 )
-from linkwright.machine.pumping_unit import PolishedRodLoad, PumpingUnit
+from linkwright.machine.polished_rod_load import PolishedRodLoad
+from linkwright.machine.pumping_unit import PumpingUnit
 from linkwright.machine.rod_rotator import RodRotator
 from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 

@@ -9,7 +9,9 @@
 | `paper1_limit` | the constant-energy limit of a drive, and the inertia that would fit a published row |
 | `paper1_figures` | the figures of paper 1, computed anew |
 | `page` | paper 1 as one HTML page |
-| `paper4` | paper 4 computed anew: the unit that its numbers leave open, and the rotator in both regimes |
+| `paper4` | paper 4 computed anew: the rotator in both regimes |
+| `paper4_unit` | the pumping unit of paper 4, as far as its numbers leave it open |
+| `paper4_rows` | every printed number of paper 4 with its verdict |
 | `paper4_formulas` | the closed forms of paper 4, a second way beside the core |
 | `paper4_conclusions`, `paper4_figures`, `paper4_page` | what its numbers say; its figures; its page |
 """
