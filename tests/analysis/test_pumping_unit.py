@@ -111,7 +111,10 @@ def test_stroke_is_reached_at_its_ends() -> None:
 
 def test_cable_carries_the_same_stroke() -> None:
     """The slide of the cable and the turn of the beam are two ways to the polished rod."""
-    for unit in (catalogue_unit("C-114D-133-54").unit(), class_3("mark_ii"), class_3("air_balanced")):
+    known = catalogue_unit("C-114D-133-54").unit()
+    # Turning counter-clockwise, its rear arm swings across 180°.
+    other = PumpingUnit(**{**known.model_dump(exclude_none=True), "rotation": "counter_clockwise"})
+    for unit in (known, other, class_3("mark_ii"), class_3("air_balanced")):
         found = motion(unit)
         machine = lw.Machine(format=1, name="unit", pumping_unit=unit)
         moved = lw.kinematics(machine, found.crank_angle)

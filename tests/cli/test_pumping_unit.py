@@ -25,7 +25,7 @@ def test_new_writes_every_unit_of_the_catalogue(known) -> None:
     for hole in range(1, len(known.holes) + 1):
         text = run("new", "pumping-unit", "--designation", known.designation, "--hole", str(hole)).stdout
         unit, expected = loads(text).pumping_unit, known.unit(hole)
-        for letter in ("A", "C", "I", "P", "H", "G", "R", "structural_unbalance", "designation"):
+        for letter in ("A", "C", "I", "P", "H", "G", "R", "structural_unbalance"):
             assert getattr(unit, letter) == pytest.approx(getattr(expected, letter), rel=1e-12), letter
 
 

@@ -54,8 +54,6 @@ def mechanism_of(unit: PumpingUnit, rotator: RodRotator | None = None) -> Mechan
         Its elements, unchecked: a unit that does not close is told of by the analyses.
     """
     x, y = unit.saddle
-    # Seen from the crank pin, the equalizer bearing lies beyond the saddle from the well, or before it.
-    is_left = unit.is_class_3 == unit.is_mirrored
     parts: dict[str, dict[str, Any]] = {
         "points": {CRANKSHAFT: _made(FixedPoint, x=0.0, y=0.0), SADDLE: _made(FixedPoint, x=x, y=y)},
         "cranks": {CRANK: _made(Crank, radius=unit.R, phase=unit.crank_phase, pivot=CRANKSHAFT)},
@@ -66,7 +64,7 @@ def mechanism_of(unit: PumpingUnit, rotator: RodRotator | None = None) -> Mechan
                 pivot=SADDLE,
                 coupler=unit.P,
                 rocker=unit.C,
-                assembly="left" if is_left else "right",
+                assembly="left" if unit.is_left else "right",
             )
         },
         "cables": {
@@ -75,7 +73,7 @@ def mechanism_of(unit: PumpingUnit, rotator: RodRotator | None = None) -> Mechan
                 link=BEAM_LINK,
                 radius=unit.A,
                 length=unit.cable,
-                reference=unit.arm_angle(unit.psi_top),
+                reference=unit.turned_arm(unit.psi_top),
                 angle=-np.pi / 2,
                 # To the left of "down" is the right.
                 side="right" if unit.is_mirrored else "left",

@@ -158,6 +158,21 @@ class PumpingUnit(Description):
         """Stroke of the polished rod, exact [m]."""
         return self.A * np.abs(self.psi_bottom - self.psi_top)
 
+    @property
+    def is_left(self) -> bool:
+        """Whether the equalizer bearing lies to the left, as drawn, seen from the crank pin to the saddle."""
+        return self.is_class_3 == self.is_mirrored
+
+    def turned_arm(self, psi: Any) -> Any:
+        """`arm_angle` counted on from the angle that the arm has at crank angle zero [rad]."""
+        x, y = self.saddle
+        pin = (-x, -self.R - y) if self.is_class_3 else (-x, self.R - y)
+        J = np.hypot(*pin)
+        chi = np.arccos(np.clip((self.C**2 + J**2 - self.P**2) / (2 * self.C * J), -1.0, 1.0))
+        start = np.arctan2(pin[1], pin[0]) + (-chi if self.is_left else chi)
+        start, turn = np.arctan2(np.sin(start), np.cos(start)), self.arm_angle(psi) - start
+        return start + np.arctan2(np.sin(turn), np.cos(turn))
+
     def arm_angle(self, psi: Any) -> Any:
         """Direction of the arm C as drawn, from −π to π [rad], for an angle ψ [rad]."""
         toward_shaft = np.arctan2(self.G - self.H, self.I if self.is_class_3 else -self.I)
