@@ -1,4 +1,4 @@
-"""How fast does a rocking lever turn the rod string, and which swing spares its link?"""
+"""How fast does a rocking lever turn the rod string, and what does its swing cost the link?"""
 
 from pathlib import Path
 
@@ -15,16 +15,15 @@ def rotators(machine: lw.Machine) -> list:
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Turns in a day with the swing of the file, against the swing in turns; the swing of least force."""
+    """Turns in a day with the swing of the file, against the swing in turns; force in the link."""
     found = lw.rod_rotator(machine)
     strokes = machine.drive.speed / (2 * np.pi) * 86400
     by_swing = found.lever_swing / (2 * np.pi) / machine.rod_rotator.worm_ratio * strokes
-    forces = [each.link_force_max for each in rotators(machine)]
     return {
         "turns_per_day_over_closed_form": found.string_turns_per_day / by_swing,
         "turns_per_day": found.string_turns_per_day,
         "lever_length": found.lever_length,
-        "swing_of_least_force": float(np.degrees(SWINGS[int(np.argmin(forces))])),
+        "link_force_max": found.link_force_max,
     }
 
 

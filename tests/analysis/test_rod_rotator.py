@@ -123,6 +123,18 @@ def test_swing_comes_out_as_wanted(swing: float, assembly: str) -> None:
     assert sum(ends) == pytest.approx(0, abs=1e-12)
 
 
+def test_batch_over_swing_and_unit() -> None:
+    """Lengths are made for each row."""
+    swings, radii = np.radians([15.0, 60.0, 120.0]), np.array([1.0, 1.05, 1.1])
+    many = lw.replace(INTERMITTENT, {"rod_rotator.swing": swings, "pumping_unit.R": radii})
+    phi = np.linspace(0, 2 * np.pi, 91)
+    found = lw.kinematics(many, phi).links["rotator.rocker"].d1
+    for n, (swing, radius) in enumerate(zip(swings, radii, strict=True)):
+        one = lw.replace(INTERMITTENT, {"rod_rotator.swing": float(swing), "pumping_unit.R": float(radius)})
+        np.testing.assert_allclose(found[n], lw.kinematics(one, phi).links["rotator.rocker"].d1, atol=1e-11)
+        assert rod_rotator(one).lever_swing == pytest.approx(swing, abs=1e-10)
+
+
 def test_lengths_of_the_paper() -> None:
     """The printed lengths of the continuous regime, 3.704 m and 0.3 m, to their last digit."""
     link, lever = lengths(CONTINUOUS.pumping_unit, CONTINUOUS.rod_rotator)

@@ -97,14 +97,13 @@ def test_rotator_in_the_intermittent_regime() -> None:
     assert rotator["transfer_min"] < 0 < rotator["transfer_max"]
 
 
-def test_printed_lengths_are_a_finding() -> None:
+def test_printed_lengths_are_a_finding(tmp_path: Path) -> None:
     path = MACHINES / "rod_rotator_intermittent.toml"
     sets = ("--set", "rod_rotator.link_length=3.5", "--set", "rod_rotator.lever_length=0.3")
     text = path.read_text(encoding="utf-8").replace('swing = "90 deg"\n', "")
-    own = Path("printed.toml")
-    with CliRunner().isolated_filesystem():
-        own.write_text(text, encoding="utf-8")
-        done = run("run", own, "--json", *sets)
+    own = tmp_path / "printed.toml"
+    own.write_text(text, encoding="utf-8")
+    done = run("run", own, "--json", *sets)
     assert done.exit_code == 1
     found = json.loads(done.stdout)
     assert "rotator" in found["findings"][0]

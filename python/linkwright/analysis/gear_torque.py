@@ -214,8 +214,8 @@ def _equal_peaks(turn: _Stroke, is_up: NDArray[np.bool_]) -> float:
         if reach > _LARGEST:
             raise FindingError(
                 "no counterbalance gives both strokes equal peaks of torque: with this phase of the "
-                "counterweights "
-                "(pumping_unit.load.phase) their moment does not fall in one stroke and rise in the other"
+                "counterweights (pumping_unit.load.phase) their moment does not fall in one stroke and rise "
+                "in the other"
             )
     low, high = -reach, reach
     for _ in range(_HALVINGS):

@@ -53,17 +53,15 @@ def _stroke(unit: PumpingUnitMotion) -> Iterator[str]:
     if nominal is not None and unit.stroke > (1 + _STROKE_AGREES) * nominal:
         yield (
             f"The stroke of {unit.stroke:.4g} m is {100 * (unit.stroke / nominal - 1):.2g} % longer than "
-            "that of the "
-            f"designation, {nominal:.4g} m: check the dimensions."
+            f"that of the designation, {nominal:.4g} m: check the dimensions."
         )
 
 
 def _fall(unit: PumpingUnitMotion) -> Iterator[str]:
     if unit.rod_acceleration_min is not None and unit.rod_acceleration_min <= -_FREE_FALL:
         yield (
-            f"The horsehead falls away from the rods: its acceleration reaches "
-            f"{-unit.rod_acceleration_min:.4g} m/s² "
-            "downward; run more slowly."
+            "The horsehead falls away from the rods: its acceleration reaches "
+            f"{-unit.rod_acceleration_min:.4g} m/s² downward; run more slowly."
         )
 
 
@@ -72,8 +70,7 @@ def _gear(gear: GearTorque) -> Iterator[str]:
     if gear.torque_rated is not None and peak > gear.torque_rated:
         yield (
             f"The gearbox is overloaded: its torque reaches {peak:.4g} N m, "
-            f"{100 * peak / gear.torque_rated:.0f} % of its "
-            f"rating of {gear.torque_rated:.4g} N m."
+            f"{100 * peak / gear.torque_rated:.0f} % of its rating of {gear.torque_rated:.4g} N m."
         )
     if gear.load_rated is not None and gear.load_max > gear.load_rated:
         yield (
@@ -83,22 +80,21 @@ def _gear(gear: GearTorque) -> Iterator[str]:
     if gear.torque_net_min < -_SMALL * peak:
         yield (
             f"The torque of the gearbox falls to {gear.torque_net_min:.4g} N m: there the rods or the "
-            "counterweights "
-            "drive, and the gears change flanks."
+            "counterweights drive, and the gears change flanks."
         )
 
 
 def _lever(machine: Machine, rotator: RodRotatorMotion) -> Iterator[str]:
     if not rotator.extremes_coincide:
         yield (
-            "The diagonal from the beam's pin to the hanger has an extreme inside the stroke: the lengths of "
-            "equations (3) to (7) do not hold."
+            "The diagonal from the beam's pin to the hanger has an extreme inside the stroke: the lengths "
+            "of equations (3) to (7) do not hold."
         )
     if rotator.regime == "continuous" and rotator.lever_turns_per_cycle == 0:
         yield f"The lever of the continuous regime does not turn all round: it {rotator.verdict}."
     if rotator.change_points and rotator.worm_torque:
         yield (
-            f"Link and lever of the rotator are in line twice in each turn: there the link has no arm, and "
-            "the worm's "
-            f"torque of {rotator.worm_torque:.4g} N m must be overcome by the momentum of the lever."
+            "Link and lever of the rotator are in line twice in each turn: there the link has no arm, and "
+            f"the worm's torque of {rotator.worm_torque:.4g} N m must be overcome by the momentum of the "
+            "lever."
         )

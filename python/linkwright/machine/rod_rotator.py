@@ -33,7 +33,7 @@ References
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal, NamedTuple, Self
+from typing import Annotated, Any, Literal, NamedTuple, Self, TypeVar
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -43,6 +43,8 @@ from linkwright.machine.base import Description, fault, raise_faults
 from linkwright.machine.mechanism import PositiveLength
 from linkwright.machine.pumping_unit import PumpingUnit
 from linkwright.units import ANGLE, FRACTION, RATIO, TORQUE, Bound, Quantity, not_negative, positive
+
+P = TypeVar("P", bound=Description)
 
 # Names of the parts that a rotator expands into.
 PIN, ROTATOR = "rotator_pin", "rotator"
@@ -170,19 +172,67 @@ def lengths(unit: PumpingUnit, rotator: RodRotator) -> Lengths:
     m, M = diagonal_extremes(unit, rotator)
     if rotator.regime == "continuous":
         return Lengths(0.5 * (M + m), 0.5 * (M - m))
-    lever = 0.5 * (M - m) / np.sin(0.5 * _swing_on_diagonal(unit, rotator))
+    return _rocking(m, M, _swing_on_diagonal(unit, rotator))
+
+
+def _rocking(m: Any, M: Any, swing: Any) -> Lengths:
+    """Lengths whose lever swings against the diagonal evenly about 90°."""
+    lever = 0.5 * (M - m) / np.sin(0.5 * swing)
     return Lengths(np.sqrt(M * m + lever**2), lever)
 
 
 def _swing_on_diagonal(unit: PumpingUnit, rotator: RodRotator) -> Any:
-    """Swing against the diagonal for the wanted swing of the lever: the diagonal swings too."""
+    """Swing against the diagonal for the wanted swing of the lever: the diagonal swings too.
+
+    The lever swings from one end of the stroke to the other, but for small swings, where it turns back on
+    the way: there the swing is corrected until it fits.
+    """
     wanted = np.pi / 2 if rotator.swing is None else rotator.swing
-    bottom, top = (
-        np.arctan2(*diagonal(unit, rotator, unit.front_angle(psi))) for psi in (unit.psi_bottom, unit.psi_top)
-    )
+    unit, rotator = _as_columns(unit), _as_columns(rotator)
+    share = np.linspace(0.0, 1.0, _SAMPLES)
+    bottom, top = (unit.front_angle(psi) for psi in (unit.psi_bottom, unit.psi_top))
+    dx, dy = diagonal(unit, rotator, bottom + (top - bottom) * share)
+    distance = np.hypot(dx, dy)
     # From the vertical toward the beam, the diagonal leans by atan(l_dx/l_dy); with the well to the right
     # that is counter-clockwise. Seen from there, the lever turns clockwise from the diagonal for a joint on
     # the left.
-    turned = top - bottom
     is_left = (rotator.assembly == "left") != unit.is_mirrored
-    return wanted + (turned if is_left else -turned)
+    lean = np.arctan2(dx, dy) * (1.0 if is_left else -1.0)
+    goal = np.asarray(wanted)[..., None]
+    swing = goal + lean[..., -1:] - lean[..., :1]
+    for _ in range(_CORRECTIONS):
+        known = _rocking(distance[..., -1:], distance[..., :1], swing)
+        gamma = np.arccos((distance**2 + known.lever**2 - known.link**2) / (2 * distance * known.lever))
+        miss = goal - _spread(lean - gamma)
+        if np.abs(miss).max() < _CLOSE:
+            break
+        swing = swing + miss
+    return swing[..., 0] if np.ndim(swing) > 1 else float(swing[0])
+
+
+# Places over the stroke at which the lever's angle is looked at; a parabola between them errs by 1e-13.
+_SAMPLES = 2001
+
+# Corrections of a swing, each leaving a fraction of the last error, and the error that is rounding [rad].
+_CORRECTIONS = 60
+_CLOSE = 1e-14
+
+
+def _as_columns(part: P) -> P:
+    """The description with arrays over machines as columns, so that places over a stroke stand in rows."""
+    arrays = {name: value[:, None] for name, value in part if isinstance(value, np.ndarray)}
+    return part.with_entries(arrays) if arrays else part
+
+
+def _spread(angle: Any) -> Any:
+    """Greatest less least of each row of smooth values, an extreme between samples by the parabola there."""
+    ends = []
+    for sign in (1.0, -1.0):
+        values = sign * angle
+        best = np.clip(values.argmax(axis=-1), 1, values.shape[-1] - 2)[..., None]
+        left, middle, right = (np.take_along_axis(values, best + off, axis=-1) for off in (-1, 0, 1))
+        curvature, slope = left - 2 * middle + right, 0.5 * (right - left)
+        inside = (curvature < 0) & (np.abs(slope) <= np.abs(curvature))
+        vertex = middle - 0.5 * slope**2 / np.where(inside, curvature, 1.0)
+        ends.append(np.where(inside, vertex, values.max(axis=-1, keepdims=True)))
+    return ends[0] + ends[1]

@@ -43,11 +43,10 @@ def _about_unit(paper: Paper4) -> str:
     printed = paper.published["continuous"]
     return (
         f"The printed l_4 = {printed['l_4']} m and l_5 = {printed['l_5']} m mean extremes of the diagonal of "
-        f"{unit.extremes()[0]:.3f} and {unit.extremes()[1]:.3f} m. With the stroke S = 3 m, (5) and (6) "
-        "then give "
-        f"k_1 = {unit.k_1:.4f} m, φ_3max = {_deg(top)} and φ_3min = {_deg(bottom)}. With k_1 = 3 m and a "
-        "beam so placed "
-        f"that l_4 = {l_4:.3f} m comes out, l_5 = {l_5:.4f} m: the paper's k_1 is 3 m to the digits printed."
+        f"{unit.extremes()[0]:.3f} and {unit.extremes()[1]:.3f} m. With the stroke S = 3 m, (5) and (6) then "
+        f"give k_1 = {unit.k_1:.4f} m, φ_3max = {_deg(top)} and φ_3min = {_deg(bottom)}. With k_1 = 3 m and "
+        f"a beam so placed that l_4 = {l_4:.3f} m comes out, l_5 = {l_5:.4f} m, 0.3 m to the digit printed: "
+        "k_1 = 3 m serves as well."
     )
 
 
@@ -61,10 +60,9 @@ def _about_places(paper: Paper4) -> str:
     return (
         (
             "With r, L and k as printed, crank and pitman in line at both ends of the stroke put the "
-            "crankshaft at "
-            f"{' or at '.join(texts)}, from the saddle bearing. The second would jam; the machine files "
-            "take the "
-            f"first, with the upstroke over {_deg(chosen.upstroke)} of the crank, slow under load."
+            f"crankshaft at {' or at '.join(texts)}, from the saddle bearing. The second would jam; the "
+            f"machine files take the first, with the upstroke over {_deg(chosen.upstroke)} of the crank, "
+            "slow under load."
         )
         .replace("(-", "(−")
         .replace(", -", ", −")
@@ -75,10 +73,8 @@ def _about_turning(paper: Paper4) -> str:
     turning = paper.continuous
     return (
         f"Continuous regime: the lever makes {turning.lever_turns_per_cycle:.0f} turn in a turn of the "
-        "crank, with "
-        f"dφ_5/dφ_1 = {turning.transfer_min:.4f}…{turning.transfer_max:.4f}: one sign, never zero, as "
-        "printed. φ_5 stays "
-        f"within {_deg(paper.straightness)} of a straight line."
+        f"crank, with dφ_5/dφ_1 = {turning.transfer_min:.4f}…{turning.transfer_max:.4f}: one sign, never "
+        f"zero, as printed. φ_5 stays within {_deg(paper.straightness)} of a straight line."
     )
 
 
@@ -87,9 +83,8 @@ def _about_change_points(paper: Paper4) -> str:
     angles = " and ".join(_deg(each) for each in turning.change_points)
     return (
         f"At crank angles {angles} link and lever are in line: change points, where (11) to (17) give 0/0. "
-        "Without "
-        "friction the lever goes on in its sense; but the link has no arm there, so a string torque can "
-        "be overcome only by the lever's momentum, of which the paper says nothing."
+        "Without friction the lever goes on in its sense; but the link has no arm there, so a string torque "
+        "can be overcome only by the lever's momentum, of which the paper says nothing."
     )
 
 
@@ -99,11 +94,9 @@ def _about_printed(paper: Paper4) -> str:
     edges = " and ".join(_deg(each) for each in paper.closing)
     return (
         f"The printed lengths of the intermittent regime, l_4 = {printed.l_4} m and l_5 = {printed.l_5} m, "
-        "reach "
-        f"{printed.l_4 + printed.l_5:.1f} m, the diagonal {greatest:.3f} m. They close between crank angles "
-        f"{edges} "
-        "(from 12 o'clock, counter-clockwise) and not in the lower part of the stroke. Rocking needs "
-        f"l_4 + l_5 > {greatest:.3f} m and l_4 − l_5 < {least:.3f} m, hence l_5 > "
+        f"reach {printed.l_4 + printed.l_5:.1f} m, the diagonal {greatest:.3f} m. They close between crank "
+        f"angles {edges} (from 12 o'clock, counter-clockwise) and not in the lower part of the stroke. "
+        f"Rocking needs l_4 + l_5 > {greatest:.3f} m and l_4 − l_5 < {least:.3f} m, hence l_5 > "
         f"{0.5 * (greatest - least):.3f} m."
     )
 
@@ -112,7 +105,6 @@ def _about_swing(paper: Paper4) -> str:
     rocking = paper.intermittent
     return (
         f"Lengths that rock the lever through {_deg(rocking.lever_swing)}: l_4 = {rocking.link_length:.4f} "
-        "m, "
-        f"l_5 = {rocking.lever_length:.4f} m, with dφ_5/dφ_1 = "
+        f"m, l_5 = {rocking.lever_length:.4f} m, with dφ_5/dφ_1 = "
         f"{rocking.transfer_min:.4f}…{rocking.transfer_max:.4f}."
     ).replace("= -", "= −")

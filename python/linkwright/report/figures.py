@@ -66,13 +66,13 @@ def _unit(study: Study) -> Iterator[Captioned]:
         return
     caption = (
         f"The polished rod rises {number(unit.stroke)} m while the crank turns "
-        f"{degrees(unit.upstroke_angle)}. The torque "
-        f"factor runs from {number(unit.torque_factor_min)} to {number(unit.torque_factor_max)} m."
+        f"{degrees(unit.upstroke_angle)}. The torque factor runs from {number(unit.torque_factor_min)} to "
+        f"{number(unit.torque_factor_max)} m."
     )
     yield Captioned("polished_rod", "Polished rod over a turn", caption, polished_rod_figure(unit))
     if gear is not None:
         caption = (
-            f"Torque at the crank by the polished rod and by its counterbalance; their sum peaks at "
+            "Torque at the crank by the polished rod and by its counterbalance; their sum peaks at "
             f"{number(max(gear.torque_net_up, gear.torque_net_down))} N m."
         )
         yield Captioned("gear_torque", "Torque of the gearbox", caption, gear_torque_figure(gear))
@@ -109,8 +109,8 @@ def _steady(study: Study) -> Iterator[Captioned]:
     )
     yield Captioned("speed", "Speed and acceleration over a turn", caption, speed_figure(steady))
     caption = (
-        "Where the driving torque lies above the resisting one, the machine does not simply speed up: "
-        f"the reduced inertia changes too. The motor works {number(steady.energy_motor)} J in a turn."
+        "Where the driving torque lies above the resisting one, the machine does not simply speed up: the "
+        f"reduced inertia changes too. The motor works {number(steady.energy_motor)} J in a turn."
     )
     yield Captioned("torque", "Torque and power over a turn", caption, torque_figure(steady))
     caption = "The same motion against time: what a tachometer and the motor's winding feel."
@@ -134,8 +134,8 @@ def _run_up(study: Study) -> Iterator[Captioned]:
     if study.run_up is not None:
         run_up = study.run_up
         caption = (
-            f"Steady motion, to within {100 * run_up.settled:.3g} %, is reached after "
-            f"{number(run_up.time)} s and {number(run_up.turns)} turns."
+            f"Steady motion, to within {100 * run_up.settled:.3g} %, is reached after {number(run_up.time)} "
+            f"s and {number(run_up.turns)} turns."
         )
         yield Captioned("run_up", "Run-up", caption, run_up_figure(run_up, study.steady_state))
     elif study.attempt is not None and len(study.attempt.time) > 1:
