@@ -17,7 +17,7 @@ from linkwright.analysis.closure import closure
 from linkwright.analysis.kinematics import Kinematics, kinematics
 from linkwright.analysis.study import Study
 from linkwright.machine import Machine, Spring
-from linkwright.machine.outline import ORIGIN
+from linkwright.machine.outline import ORIGIN, Outline
 
 Floats = NDArray[np.float64]
 Scene = dict[str, Any]
@@ -86,7 +86,18 @@ def _points(machine: Machine, motion: Kinematics) -> dict[str, Floats]:
     still = np.zeros((len(motion.angles), 2))
     for name, point in machine.linkage.fixed_points().items():
         drawn.setdefault(name, still + np.array([point.x, point.y]))
+    links = machine.linkage.links()
+    for name, cable in machine.linkage.cables.items():
+        # Where the cable leaves its arc, to the left or right of its direction.
+        side = cable.angle + (np.pi / 2 if cable.side == "left" else -np.pi / 2)
+        off = cable.radius * np.array([np.cos(side), np.sin(side)])
+        drawn[_arc_end(name)] = drawn[links[cable.link].start] + off
     return drawn
+
+
+def _arc_end(cable: str) -> str:
+    """Name of the point where a cable leaves its arc."""
+    return f"{cable}, end of the arc"
 
 
 def _box(drawn: dict[str, Floats]) -> list[float]:
@@ -126,6 +137,9 @@ def _parts(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
     for name, link in machine.linkage.links().items():
         ends = {"from": link.start, "to": link.end}
         yield {"kind": "link", "role": link.role, "name": name, "series": series[link.element], **ends}
+    for name in machine.linkage.cables:
+        ends = {"from": _arc_end(name), "to": name}
+        yield {"kind": "link", "role": "rod", "name": name, "series": series[name], **ends}
     yield from _plates(machine, series)
     yield from _springs(machine)
     yield from _sliders(machine, series)
@@ -138,14 +152,13 @@ def _parts(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
 def _series(machine: Machine) -> dict[str, int]:
     """Number of the crank that moves each element, so that what moves together looks alike."""
     mechanism = machine.linkage
-    links = mechanism.links()
+    outline = Outline.of(mechanism)
+    makers = {name: name for name in outline.moving_points} | outline.links
+    references = {each.name: each.references.values() for each in outline.elements}
     number = {name: n for n, name in enumerate(mechanism.cranks)}
     for name in mechanism.build_order():
-        if name in mechanism.rigid_points:
-            number[name] = number[links[mechanism.rigid_points[name].link].element]
-        elif name not in number:
-            moved = mechanism.sliders.get(name) or mechanism.rockers[name]
-            number[name] = number[moved.crank]
+        movers = [makers[each] for each in references[name] if makers.get(each) in number]
+        number.setdefault(name, number[movers[0]] if movers else 0)
     return number
 
 
