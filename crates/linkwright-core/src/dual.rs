@@ -96,6 +96,7 @@ impl<R: Real> Mul<f64> for Dual<R> {
 
 impl<R: Real> Real for Dual<R> {
     const LANES: usize = R::LANES;
+    const ROUNDS: usize = R::ROUNDS + 1;
 
     #[inline(always)]
     fn splat(x: f64) -> Self {
@@ -129,6 +130,10 @@ impl<R: Real> Real for Dual<R> {
     fn sin_cos(self) -> (Self, Self) {
         let (s, c) = self.value.sin_cos();
         (Dual { value: s, d: c * self.d }, Dual { value: c, d: -(s * self.d) })
+    }
+    #[inline(always)]
+    fn atan(self) -> Self {
+        Dual { value: self.value.atan(), d: self.d / (self.value * self.value + 1.0) }
     }
     #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {

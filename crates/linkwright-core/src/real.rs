@@ -22,6 +22,8 @@ pub trait Real:
 {
     /// How many plain numbers the bundle holds.
     const LANES: usize;
+    /// Rounds of Newton's method, after the value has converged, until all derivatives carried along have.
+    const ROUNDS: usize = 0;
 
     /// The same number in every lane.
     fn splat(x: f64) -> Self;
@@ -37,6 +39,8 @@ pub trait Real:
     fn abs(self) -> Self;
     /// `(sin, cos)`, to about an ulp for |x| < 1e5.
     fn sin_cos(self) -> (Self, Self);
+    /// Arc tangent, in (−π/2, π/2).
+    fn atan(self) -> Self;
     /// Lane by lane: `below` where `self < limit`, else `other` (also where `self` is NaN).
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self;
     /// Applies a scalar function `x ↦ (value, slope)` lane by lane; only tables need it.
@@ -118,6 +122,10 @@ impl Real for f64 {
         f64::sin_cos(self)
     }
     #[inline(always)]
+    fn atan(self) -> Self {
+        f64::atan(self)
+    }
+    #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
         if self < limit { below } else { other }
     }
@@ -131,6 +139,10 @@ impl Real for f64 {
     }
     #[inline(always)]
     fn outline<T>(f: impl FnOnce() -> T) -> T {
-        f()
+        #[inline(never)]
+        fn call<T>(f: impl FnOnce() -> T) -> T {
+            f()
+        }
+        call(f)
     }
 }

@@ -6,7 +6,9 @@
 | `drive` | gearbox, coupling, flywheel, brake |
 | `motor` | the kinds of motor, and how their entries follow from one another |
 | `catalogue` | published motors |
-| `mechanism` | cranks, sliders, rockers, rigid points |
+| `element` | cranks, dyads, gears, cables, joints and bars |
+| `mechanism` | all elements by name |
+| `assembly` | in which order a mechanism is built; what is missing or too much |
 | `pumping_unit`, `polished_rod_load`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
 | `unit_catalogue` | published pumping units |
 | `linkage` | the whole mechanism: elements of the file, and what a pumping unit expands into |
@@ -22,6 +24,23 @@ from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.body import Body
 from linkwright.machine.catalogue import CatalogueMotor, motor, motors
 from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
+from linkwright.machine.element import (
+    Bar,
+    Cable,
+    Crank,
+    Crossing,
+    FixedPoint,
+    Gear,
+    Guide,
+    Joint,
+    LinearDriver,
+    Rack,
+    RigidPoint,
+    Rocker,
+    Slider,
+    SlottedLever,
+    Yoke,
+)
 from linkwright.machine.load import (
     AnyLoad,
     ConstantForce,
@@ -36,7 +55,7 @@ from linkwright.machine.load import (
     ViscousFriction,
 )
 from linkwright.machine.machine import FORMAT, Machine, RunUp
-from linkwright.machine.mechanism import Crank, FixedPoint, Link, Mechanism, RigidPoint, Rocker, Slider
+from linkwright.machine.mechanism import Link, Mechanism
 from linkwright.machine.motor import (
     AnyMotor,
     ConstantSpeedMotor,
@@ -55,8 +74,10 @@ __all__ = [
     "FORMAT",
     "AnyLoad",
     "AnyMotor",
+    "Bar",
     "Body",
     "Brake",
+    "Cable",
     "CatalogueMotor",
     "CatalogueUnit",
     "ConstantForce",
@@ -65,15 +86,20 @@ __all__ = [
     "ConstantTorqueMotor",
     "Coupling",
     "Crank",
+    "Crossing",
     "DcMotor",
     "Drive",
     "DryFriction",
     "FixedPoint",
     "Flywheel",
     "ForcePosition",
+    "Gear",
     "Gearbox",
     "Gravity",
+    "Guide",
     "InductionMotor",
+    "Joint",
+    "LinearDriver",
     "Link",
     "Load",
     "Machine",
@@ -81,16 +107,19 @@ __all__ = [
     "Motor",
     "PolishedRodLoad",
     "PumpingUnit",
+    "Rack",
     "RigidPoint",
     "Rocker",
     "RodRotator",
     "RunUp",
     "Slider",
+    "SlottedLever",
     "Spring",
     "TableMotor",
     "TorqueAngle",
     "TorqueSpeed",
     "ViscousFriction",
+    "Yoke",
     "addresses",
     "catalogue_unit",
     "get",

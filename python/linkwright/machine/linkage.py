@@ -17,7 +17,8 @@ from pydantic import BaseModel
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import fault
-from linkwright.machine.mechanism import Cable, Crank, FixedPoint, Mechanism, RigidPoint, Rocker
+from linkwright.machine.element import Cable, Crank, FixedPoint, RigidPoint, Rocker
+from linkwright.machine.mechanism import Mechanism
 from linkwright.machine.outline import KINDS, Outline
 from linkwright.machine.plain import keys, look
 from linkwright.machine.pumping_unit import BEAM, BEAM_LINK, CRANK, CRANKSHAFT, ROD, SADDLE, PumpingUnit

@@ -40,7 +40,7 @@ from pydantic import Field, model_validator
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Description, fault, raise_faults
-from linkwright.machine.mechanism import PositiveLength
+from linkwright.machine.element import PositiveLength
 from linkwright.machine.polished_rod_load import PolishedRodLoad
 from linkwright.units import LENGTH, Force, Length, not_negative
 

@@ -40,7 +40,7 @@ from pydantic import Field, model_validator
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Description, fault, raise_faults
-from linkwright.machine.mechanism import PositiveLength
+from linkwright.machine.element import PositiveLength
 from linkwright.machine.pumping_unit import PumpingUnit
 from linkwright.units import ANGLE, FRACTION, RATIO, TORQUE, Bound, Quantity, not_negative, positive
 
