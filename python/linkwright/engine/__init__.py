@@ -250,7 +250,7 @@ _KNOWN_MAX = 8
 
 def _parts(machine: Machine) -> list[object]:
     """The frozen parts that a machine consists of, with their names."""
-    mechanism = machine.mechanism
+    mechanism = machine.linkage
     parts: list[object] = [machine, machine.drive, mechanism.assembled_at]
     tables = [getattr(mechanism, kind.table) for kind in KINDS]
     for table in (*tables, machine.bodies, machine.loads):
@@ -264,7 +264,7 @@ class _Translator(Rows):
     """Collects parameters and rows while it walks through a description."""
 
     def __init__(self, machine: Machine) -> None:
-        super().__init__(machine.mechanism)
+        super().__init__(machine.linkage)
         self.machine = machine
         self.body_rows: list[list[int]] = []
         self.load_rows: list[list[int]] = []

@@ -9,6 +9,9 @@
 | `element` | cranks, dyads, gears, cables, joints and bars |
 | `mechanism` | all elements by name |
 | `assembly` | in which order a mechanism is built; what is missing or too much |
+| `pumping_unit`, `polished_rod_load`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
+| `unit_catalogue` | published pumping units |
+| `linkage` | the whole mechanism: elements of the file, and what a pumping unit expands into |
 | `body`, `loads` | masses; forces and torques |
 | `formula` | formulas as texts |
 | `curve` | curves given by points |
@@ -68,6 +71,10 @@ from linkwright.machine.motor import (
     Motor,
     TableMotor,
 )
+from linkwright.machine.polished_rod_load import PolishedRodLoad
+from linkwright.machine.pumping_unit import PumpingUnit
+from linkwright.machine.rod_rotator import RodRotator
+from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 
 __all__ = [
     "FORMAT",
@@ -78,6 +85,7 @@ __all__ = [
     "Brake",
     "Cable",
     "CatalogueMotor",
+    "CatalogueUnit",
     "ConstantForce",
     "ConstantSpeedMotor",
     "ConstantTorque",
@@ -106,9 +114,12 @@ __all__ = [
     "Machine",
     "Mechanism",
     "Motor",
+    "PolishedRodLoad",
+    "PumpingUnit",
     "Rack",
     "RigidPoint",
     "Rocker",
+    "RodRotator",
     "RunUp",
     "Slider",
     "SlottedLever",
@@ -121,9 +132,11 @@ __all__ = [
     "ViscousFriction",
     "Yoke",
     "addresses",
+    "catalogue_unit",
     "get",
     "kind",
     "motor",
     "motors",
+    "pumping_units",
     "replace",
 ]
