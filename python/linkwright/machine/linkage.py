@@ -3,7 +3,7 @@
 | description | makes |
 | --- | --- |
 | `pumping_unit` | points `crankshaft`, `saddle`; crank `crank`; rocker `beam`; cable `polished_rod` |
-| `rod_rotator` | point `rotator_pin` on the beam; rocker `rotator`: its coupler the link, its rocker the lever |
+| `rod_rotator` | point `rotator_pin` on the beam; rocker `rotator`: coupler the link, rocker the lever |
 """
 
 from __future__ import annotations
