@@ -39,6 +39,13 @@ _HOME = {
     "required_power": "sizing.power",
     "choose_motor": "sizing.motor",
     "choose_flywheel": "sizing.flywheel",
+    "crank_rocker": "synthesis.dead_centre",
+    "slider_crank": "synthesis.stroke",
+    "function_generator": "synthesis.function_generator",
+    "path_generator": "synthesis.path",
+    "pose_guide": "synthesis.pose",
+    "straight_line": "synthesis.straight_line",
+    "straight_lines": "synthesis.straight_line",
     "write_report": "report",
 }
 
@@ -84,3 +91,10 @@ if TYPE_CHECKING:
     from linkwright.sizing.motor import choose_motor as choose_motor
     from linkwright.sizing.power import required_power as required_power
     from linkwright.sweep.batch import steady_states as steady_states
+    from linkwright.synthesis.dead_centre import crank_rocker as crank_rocker
+    from linkwright.synthesis.function_generator import function_generator as function_generator
+    from linkwright.synthesis.path import path_generator as path_generator
+    from linkwright.synthesis.pose import pose_guide as pose_guide
+    from linkwright.synthesis.straight_line import straight_line as straight_line
+    from linkwright.synthesis.straight_line import straight_lines as straight_lines
+    from linkwright.synthesis.stroke import slider_crank as slider_crank

@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 __all__ = [
     "Plan",
+    "change_point",
+    "follow_group",
     "gaps",
     "kinks",
     "law_torques",
@@ -15,6 +17,7 @@ __all__ = [
     "reductions",
     "steady_rows",
     "steady_state",
+    "third",
     "transient",
 ]
 
@@ -55,6 +58,17 @@ def motions(
     plan: Plan, q: _Floats, slots: _Ints, values: _Floats, phi: _Floats, what: _Ints, out: _Floats
 ) -> None:
     """Motions of n machines at the angles `phi` into `out`, flat (n, numbers, angles)."""
+
+def third(plan: Plan, q: _Floats, phi: _Floats, what: _Ints) -> _Floats:
+    """Third transfer functions at the angles `phi`, (numbers, angles): two of a point, one of a link or slide."""
+
+def change_point(plan: Plan, q: _Floats, element: int, near: float) -> tuple[float, list[float]] | None:
+    """Angle and series of S/δ at the change point of a dyad RRR near an angle; None if there is none."""
+
+def follow_group(
+    plan: Plan, q: _Floats, element: int, phi: float, near: _Floats
+) -> tuple[_Floats, list[_Floats], int | None] | None:
+    """Crank angles, x and y of each joint of a group there, turns of a period; None if it does not close."""
 
 def gaps(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
     """Radicand of each dyad at each angle (dyads, angles); negative where it does not close."""

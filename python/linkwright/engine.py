@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
+from linkwright.elements import Rows
 from linkwright.errors import MachineError, Problem, ShapeError
 from linkwright.machine import (
     Body,
@@ -24,7 +25,6 @@ from linkwright.machine import (
     ConstantSpeedMotor,
     ConstantTorque,
     ConstantTorqueMotor,
-    Crank,
     Damper,
     DcMotor,
     Drive,
@@ -35,8 +35,6 @@ from linkwright.machine import (
     Gravity,
     InductionMotor,
     Machine,
-    Rocker,
-    Slider,
     Spring,
     TableMotor,
     TorqueAngle,
@@ -47,6 +45,8 @@ from linkwright.machine import (
     addresses,
     formula,
 )
+from linkwright.machine.outline import KINDS
+from linkwright.settle import Settled
 
 Floats = NDArray[np.float64]
 
@@ -61,7 +61,6 @@ _INSTRUCTIONS = (
     *("abs", "sign", "step", "min", "max", "where"),
 )
 
-_ELEMENT_WIDTH = 13
 _ROW_WIDTH = 8
 
 
@@ -223,7 +222,7 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
 
 def _translate(machine: Machine, *, motor: bool, brake: bool) -> Compiled:
     translator = _Translator(machine)
-    translator.mechanism()
+    translator.build()
     translator.bodies()
     translator.loads(brake=brake)
     translator.drive(motor=motor)
@@ -252,14 +251,8 @@ _KNOWN_MAX = 8
 def _parts(machine: Machine) -> list[object]:
     """The frozen parts that a machine consists of, with their names."""
     mechanism = machine.mechanism
-    parts: list[object] = [machine, machine.drive]
-    tables = (
-        mechanism.points,
-        mechanism.cranks,
-        mechanism.sliders,
-        mechanism.rockers,
-        mechanism.rigid_points,
-    )
+    parts: list[object] = [machine, machine.drive, mechanism.assembled_at]
+    tables = [getattr(mechanism, kind.table) for kind in KINDS]
     for table in (*tables, machine.bodies, machine.loads):
         parts.append(len(table))
         parts += table
@@ -267,114 +260,29 @@ def _parts(machine: Machine) -> list[object]:
     return parts
 
 
-class _Translator:
+class _Translator(Rows):
     """Collects parameters and rows while it walks through a description."""
 
     def __init__(self, machine: Machine) -> None:
+        super().__init__(machine.mechanism)
         self.machine = machine
-        self.parameters: list[Any] = []
-        self.varying: list[int] = []
-        self.points: dict[str, int] = {}
-        self.links: dict[str, int] = {}
-        self.slides: dict[str, int] = {}
-        self.dyads: list[str] = []
-        self.elements: list[list[int]] = []
         self.body_rows: list[list[int]] = []
         self.load_rows: list[list[int]] = []
         self.drive_row: list[int] = []
-        self.tables: list[tuple[Sequence[float], Sequence[float]]] = []
         self.formulas: list[int] = []
         self.n_formulas = 0
-        # Start point of each link, the origin being known even where an element bears its name.
-        self.starts: dict[str, int] = {}
-        self.origin = -1
-
-    def slot(self, value: Any) -> int:
-        """Adds a parameter; one that is an array varies from row to row."""
-        if isinstance(value, np.ndarray) and value.ndim:
-            self.varying.append(len(self.parameters))
-        self.parameters.append(value)
-        return len(self.parameters) - 1
 
     def table(self, x: Sequence[Any], y: Sequence[Any]) -> int:
         """Adds a table."""
         if any(np.ndim(value) for value in (*x, *y)):
             raise ShapeError("the points of a table cannot vary from machine to machine in a batch")
-        self.tables.append((x, y))
-        return len(self.tables) - 1
-
-    def _point(self, name: str) -> int:
-        return self.points.setdefault(name, len(self.points))
-
-    def _link(self, name: str, start: int) -> int:
-        self.starts[name] = start
-        return self.links.setdefault(name, len(self.links))
-
-    def _dyad(self, name: str) -> int:
-        self.dyads.append(name)
-        return len(self.dyads) - 1
-
-    # -- mechanism ---------------------------------------------------------------------------------------
-
-    def mechanism(self) -> None:
-        """Fixed points first, then the moving elements in build order."""
-        mechanism = self.machine.mechanism
-        self.origin = self._fixed("", 0.0, 0.0)
-        for name, point in mechanism.fixed_points().items():
-            self._fixed(name, point.x, point.y)
-        for name in mechanism.build_order():
-            if name in mechanism.cranks:
-                self._crank(name, mechanism.cranks[name])
-            elif name in mechanism.sliders:
-                self._slider(name, mechanism.sliders[name])
-            elif name in mechanism.rockers:
-                self._rocker(name, mechanism.rockers[name])
-            else:
-                part = mechanism.rigid_points[name]
-                link, start = self.links[part.link], self.starts[part.link]
-                place = [self.slot(part.along), self.slot(part.across)]
-                self.elements.append([4, self._point(name), link, start, *place])
-        # The hidden origin has served: nobody can ask for it by name.
-        self.points.pop("")
-
-    def _fixed(self, name: str, x: Any, y: Any) -> int:
-        point = self._point(name)
-        self.elements.append([0, point, self.slot(x), self.slot(y)])
-        return point
-
-    def _fixed_or_origin(self, name: str | None) -> int:
-        return self.origin if name is None else self.points[name]
-
-    def _crank(self, name: str, crank: Crank) -> None:
-        pivot = self._fixed_or_origin(crank.pivot)
-        numbers = (crank.radius, np.cos(crank.phase), np.sin(crank.phase))
-        row = [1, self._point(name), self._link(name, pivot), pivot]
-        self.elements.append(row + [self.slot(value) for value in numbers])
-
-    def _slider(self, name: str, slider: Slider) -> None:
-        pin = self.points[slider.crank]
-        driver = self.machine.mechanism.cranks.get(slider.crank)
-        through = self._fixed_or_origin(slider.through or (driver.pivot if driver else None))
-        slide = self.slides.setdefault(name, len(self.slides))
-        row = [2, self._point(name), self._link(f"{name}.rod", pin), slide, self._dyad(name), pin, through]
-        sign = 1.0 if slider.assembly == "positive" else -1.0
-        direction = (np.cos(slider.angle), np.sin(slider.angle))
-        numbers = (slider.rod, 1.0 / slider.rod, slider.offset, *direction, sign)
-        self.elements.append(row + [self.slot(value) for value in numbers])
-
-    def _rocker(self, name: str, rocker: Rocker) -> None:
-        pin, pivot = self.points[rocker.crank], self.points[rocker.pivot]
-        links = [self._link(f"{name}.coupler", pin), self._link(f"{name}.rocker", pivot)]
-        sign = 1.0 if rocker.assembly == "left" else -1.0
-        numbers = (rocker.coupler, rocker.rocker, 1.0 / rocker.coupler, 1.0 / rocker.rocker, sign)
-        row = [3, self._point(name), *links, self._dyad(name), pin, pivot]
-        self.elements.append(row + [self.slot(value) for value in numbers])
+        return self._table(x, y)
 
     # -- bodies ------------------------------------------------------------------------------------------
 
     def bodies(self) -> None:
         """Masses on links and on points."""
-        lengths = {name: link.length for name, link in self.machine.mechanism.links().items()}
+        lengths = {name: link.length for name, link in self.links_of.items()}
         for name, body in self.machine.bodies.items():
             carrier = body.on or name
             if carrier in self.links:
@@ -554,24 +462,13 @@ class _Translator:
 
     def result(self) -> Compiled:
         """Plan and parameters as arrays."""
-        # The hidden origin has no name but has its place.
-        sizes = [len(self.parameters), len(self.points) + 1, len(self.links), len(self.slides)]
-        starts = np.cumsum([0, *(len(x) for x, _ in self.tables)])
-        plan = _core.Plan(
-            _ints([*sizes, len(self.dyads)]),
-            _rows(self.elements, _ELEMENT_WIDTH),
-            _rows(self.body_rows, _ROW_WIDTH),
-            _rows(self.load_rows, _ROW_WIDTH),
-            _ints(self.drive_row),
-            _ints(starts),
-            np.array([value for x, _ in self.tables for value in x], dtype=np.float64),
-            np.array([value for _, y in self.tables for value in y], dtype=np.float64),
-            _ints(self.formulas),
-        )
         parameters, slots, values = _columns(self.parameters, self.varying)
+        settled = Settled(self, parameters, self._plan, self.mechanism.assembled_at)
+        settled.run()
+        parameters = settled.parameters
         ratio, forward, reverse, _, guess = (float(parameters[slot]) for slot in self.drive_row[5:10])
         return Compiled(
-            plan=plan,
+            plan=settled.plan,
             parameters=parameters,
             slots=slots,
             values=values,
@@ -582,7 +479,24 @@ class _Translator:
             speed_guess=guess,
             gear_factors=(ratio, forward, reverse),
             speed_tables=tuple(self.tables[row[1]] for row in self.load_rows if row[0] == 12),
-            has_laws=plan.has_laws,
+            has_laws=settled.plan.has_laws,
+        )
+
+    def _plan(self) -> _core.Plan:
+        """The rows as the core's plan."""
+        # The hidden origin has no name but has its place.
+        sizes = [len(self.parameters), len(self.points) + 1, len(self.links), len(self.slides)]
+        starts = np.cumsum([0, *(len(x) for x, _ in self.tables)])
+        return _core.Plan(
+            _ints([*sizes, len(self.dyads)]),
+            _ints([value for kind, *row in self.rows for value in (kind, len(row), *row)]),
+            _rows(self.body_rows, _ROW_WIDTH),
+            _rows(self.load_rows, _ROW_WIDTH),
+            _ints(self.drive_row),
+            _ints(starts),
+            np.array([value for x, _ in self.tables for value in x], dtype=np.float64),
+            np.array([value for _, y in self.tables for value in y], dtype=np.float64),
+            _ints(self.formulas),
         )
 
 

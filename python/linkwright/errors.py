@@ -10,6 +10,7 @@
 | `StartError` | finding | the drive does not start, stalls or runs backwards |
 | `SteadyStateError` | finding | there is no periodic motion |
 | `ConvergenceError` | finding | a method did not reach the accuracy asked for |
+| `SynthesisError` | finding | no linkage does what was asked for |
 
 An input error means exit code 2 of the command line, a finding exit code 1. Nothing here needs the
 compiled core.
@@ -162,3 +163,7 @@ class ConvergenceError(FindingError):
         self.method = method
         self.iterations = iterations
         self.residual = residual
+
+
+class SynthesisError(FindingError):
+    """No linkage of the kind does what was asked for; the message has the numbers and what to change."""

@@ -98,8 +98,9 @@ def test_shown_message_is_the_real_one(tmp_path: Path, monkeypatch: pytest.Monke
 def test_commands_are_listed() -> None:
     page = (DOCS / "cli.md").read_text(encoding="utf-8")
     listed = set(re.findall(r"^\| `linkwright (\w+)", page, re.MULTILINE))
-    commands = application().registered_commands
-    there = {command.name or getattr(command.callback, "__name__", "") for command in commands}
+    app = application()
+    there = {each.name or getattr(each.callback, "__name__", "") for each in app.registered_commands}
+    there |= {group.name for group in app.registered_groups}
     assert listed == there
 
 

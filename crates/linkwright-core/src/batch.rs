@@ -5,6 +5,7 @@
 //! done again one by one by [`crate::steady`], which also names the reason when there is no answer.
 
 use crate::cycle::{Machine, Turn};
+use crate::jet::Jet;
 use crate::lanes::{Job, in_lanes};
 use crate::linkage::Motion;
 use crate::measures::{Extremes, Totals};
@@ -403,6 +404,70 @@ impl Put<'_, '_, '_> {
         if let Some(list) = self.lists.next() {
             value.store(&mut list[self.at..]);
         }
+    }
+}
+
+/// Third transfer functions of one machine: x‴, y‴ of a point, ψ‴ of a link, s‴ of a slide, in the order of
+/// the channels. `out` is (numbers, angles). They come from positions alone, in jets of the crank angle.
+pub fn third(plan: &Plan, q: &[f64], phi: &[f64], channels: &[Channel], out: &mut [f64]) {
+    in_lanes(ThirdJob { plan, q, phi, channels, out });
+}
+
+struct ThirdJob<'a> {
+    plan: &'a Plan,
+    q: &'a [f64],
+    phi: &'a [f64],
+    channels: &'a [Channel],
+    out: &'a mut [f64],
+}
+
+impl Job for ThirdJob<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let n = self.phi.len();
+        let q: Vec<Jet<R, 4>> = self.q.iter().map(|&x| Jet::splat(x)).collect();
+        let mut m = Motion::new(&self.plan.mechanism, &q);
+        let mut lanes = vec![0.0; R::LANES];
+        for (block, phi) in self.phi.chunks(R::LANES).enumerate() {
+            lanes[..phi.len()].copy_from_slice(phi);
+            let angle = Angle::new(Jet::variable(R::load(&lanes)));
+            self.plan.mechanism.place::<Jet<R, 4>, 1>(&q, angle, &mut m);
+            let mut row = 0;
+            for channel in self.channels {
+                for value in third_of(*channel, &m).into_iter().take(channel.third_width()) {
+                    value.store(&mut lanes);
+                    let at = row * n + block * R::LANES;
+                    self.out[at..at + phi.len()].copy_from_slice(&lanes[..phi.len()]);
+                    row += 1;
+                }
+            }
+        }
+    }
+}
+
+impl Channel {
+    /// How many third derivatives it gives at each angle.
+    pub fn third_width(self) -> usize {
+        if matches!(self, Channel::Point(_)) { 2 } else { 1 }
+    }
+}
+
+/// Third derivatives of a channel; the second entry is used by points alone.
+#[inline(always)]
+fn third_of<R: Real>(channel: Channel, m: &Motion<Jet<R, 4>>) -> [R; 2] {
+    let zero = R::splat(0.0);
+    match channel {
+        Channel::Point(i) => [m.points[i].p.x.c[3] * 6.0, m.points[i].p.y.c[3] * 6.0],
+        Channel::Link(i) => {
+            // ψ′ = e × e′, so ψ‴ = e × e‴ + e′ × e″.
+            let (x, y) = (&m.links[i].e.x.c, &m.links[i].e.y.c);
+            let outer = x[0] * y[3] - y[0] * x[3];
+            let inner = x[1] * y[2] - y[1] * x[2];
+            [outer * 6.0 + inner * 2.0, zero]
+        }
+        Channel::Slide(i) => [m.slides[i].s.c[3] * 6.0, zero],
     }
 }
 

@@ -96,6 +96,7 @@ impl<R: Real> Mul<f64> for Dual<R> {
 
 impl<R: Real> Real for Dual<R> {
     const LANES: usize = R::LANES;
+    const ROUNDS: usize = R::ROUNDS + 1;
 
     #[inline(always)]
     fn splat(x: f64) -> Self {
@@ -131,6 +132,10 @@ impl<R: Real> Real for Dual<R> {
         (Dual { value: s, d: c * self.d }, Dual { value: c, d: -(s * self.d) })
     }
     #[inline(always)]
+    fn atan(self) -> Self {
+        Dual { value: self.value.atan(), d: self.d / (self.value * self.value + 1.0) }
+    }
+    #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
         Dual {
             value: self.value.select_lt(limit.value, below.value, other.value),
@@ -150,10 +155,6 @@ impl<R: Real> Real for Dual<R> {
     #[inline(always)]
     fn ln(self) -> Self {
         Dual { value: self.value.ln(), d: self.d / self.value }
-    }
-    #[inline(always)]
-    fn atan(self) -> Self {
-        Dual { value: self.value.atan(), d: self.d / (self.value.squared() + 1.0) }
     }
     #[inline(always)]
     fn max_lane(self) -> f64 {

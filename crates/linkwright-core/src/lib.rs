@@ -4,7 +4,7 @@
 //!
 //! | module | answers |
 //! | --- | --- |
-//! | [`real`], [`lanes`], [`dual`] | what a number is: scalar, SIMD lanes, value with derivative |
+//! | [`real`], [`lanes`], [`dual`], [`jet`] | what a number is: scalar, SIMD lanes, with a derivative, with many |
 //! | [`plane`], [`table`] | vectors and motions in the plane; tables |
 //! | [`plan`], [`error`] | a machine's structure as it crosses the border |
 //! | [`linkage`] | positions and transfer functions of points, links and slides |
@@ -36,6 +36,7 @@ pub mod error;
 pub mod formula;
 pub mod further;
 pub mod gauss;
+pub mod jet;
 pub mod kinks;
 pub mod lanes;
 pub mod law;

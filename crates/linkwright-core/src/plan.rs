@@ -8,7 +8,11 @@ use crate::error::PlanError;
 use crate::formula::{Degree, Formula, Op, Variable};
 use crate::further::Further;
 use crate::law::{Carrier, FormulaLoad, Law};
-use crate::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod};
+use crate::linkage::coupled::{AngleOf, Runner, Source, Sum, Turn};
+use crate::linkage::folding::{ChangePoint, Folding, TERMS};
+use crate::linkage::group::{Bar, Carried, Condition, Group};
+use crate::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
+use crate::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod, Slot};
 use crate::reduce::{Body, Load};
 use crate::table::Table;
 
@@ -33,7 +37,7 @@ pub struct Plan {
 pub struct Encoded<'a> {
     /// Numbers of parameters, points, links, slides and dyads.
     pub sizes: &'a [i32],
-    /// Rows of 13.
+    /// Rows of kind, number of entries, entries.
     pub elements: &'a [i32],
     /// Rows of 8.
     pub bodies: &'a [i32],
@@ -49,7 +53,6 @@ pub struct Encoded<'a> {
     pub formulas: &'a [i32],
 }
 
-const ELEMENT_WIDTH: usize = 13;
 const ROW_WIDTH: usize = 8;
 const SPAN_WIDTH: usize = 6;
 const DRIVE_HEAD: usize = 10;
@@ -120,10 +123,12 @@ impl Plan {
             formulas: formulas.len(),
         };
         let (mut ground, mut elements) = (Vec::new(), Vec::new());
-        for row in rows(code.elements, ELEMENT_WIDTH, "elements")? {
-            match row[0] {
-                FIXED_POINT => ground.push(decode_fixed(row, &bounds)?),
-                _ => elements.push(decode_element(row, &bounds)?),
+        let mut rest = code.elements;
+        while !rest.is_empty() {
+            let mut row = Row::first_of(&mut rest, &bounds, &tables)?;
+            match row.kind {
+                FIXED_POINT => ground.push(row.fixed()?),
+                _ => elements.push(row.element()?),
             }
         }
         let bodies = rows(code.bodies, ROW_WIDTH, "bodies")?
@@ -209,61 +214,261 @@ fn decode_tables(code: &Encoded<'_>) -> Result<Vec<Table>, PlanError> {
     starts.windows(2).enumerate().map(table).collect()
 }
 
-/// `0 fixed: point x y`
-fn decode_fixed(row: &[i32], b: &Bounds) -> Result<Fixed, PlanError> {
-    Ok(Fixed { point: b.point(row[1])?, x: b.slot(row[2])?, y: b.slot(row[3])? })
+/// One row of the elements, read from left to right.
+struct Row<'a> {
+    kind: i32,
+    rest: &'a [i32],
+    bounds: &'a Bounds,
+    tables: &'a [Table],
 }
 
-/// `1 crank: pin link pivot radius cos sin` ·
-/// `2 slider: point link slide gap pin through rod 1/rod offset cos sin sign` ·
-/// `3 rocker: joint coupler rocker gap pin pivot coupler rocker 1/coupler 1/rocker sign` ·
-/// `4 rigid point: point link origin along across`
-fn decode_element(row: &[i32], b: &Bounds) -> Result<Element, PlanError> {
-    Ok(match row[0] {
-        1 => Element::Crank {
-            pin: b.point(row[1])?,
-            link: b.link(row[2])?,
-            pivot: b.point(row[3])?,
-            radius: b.slot(row[4])?,
-            cos: b.slot(row[5])?,
-            sin: b.slot(row[6])?,
-        },
-        2 => Element::SliderRod(SliderRod {
-            point: b.point(row[1])?,
-            link: b.link(row[2])?,
-            slide: b.slide(row[3])?,
-            gap: b.gap(row[4])?,
-            pin: b.point(row[5])?,
-            through: b.point(row[6])?,
-            rod: b.slot(row[7])?,
-            inverse_rod: b.slot(row[8])?,
-            offset: b.slot(row[9])?,
-            cos: b.slot(row[10])?,
-            sin: b.slot(row[11])?,
-            sign: b.slot(row[12])?,
-        }),
-        3 => Element::Rocker(Rocker {
-            joint: b.point(row[1])?,
-            coupler_link: b.link(row[2])?,
-            rocker_link: b.link(row[3])?,
-            gap: b.gap(row[4])?,
-            pin: b.point(row[5])?,
-            pivot: b.point(row[6])?,
-            coupler: b.slot(row[7])?,
-            rocker: b.slot(row[8])?,
-            inverse_coupler: b.slot(row[9])?,
-            inverse_rocker: b.slot(row[10])?,
-            sign: b.slot(row[11])?,
-        }),
-        4 => Element::RigidPoint {
-            point: b.point(row[1])?,
-            link: b.link(row[2])?,
-            origin: b.point(row[3])?,
-            along: b.slot(row[4])?,
-            across: b.slot(row[5])?,
-        },
-        kind => return Err(PlanError::Kind { what: "element", kind }),
-    })
+impl<'a> Row<'a> {
+    /// Takes the first row off a list.
+    fn first_of(list: &mut &'a [i32], bounds: &'a Bounds, tables: &'a [Table]) -> Result<Self, PlanError> {
+        let short = |found, expected| PlanError::Length { what: "elements", found, expected };
+        let &[kind, length, ref rest @ ..] = *list else {
+            return Err(short(list.len(), 2));
+        };
+        let length = index(length, i32::MAX as usize, "length of a row")?;
+        let row = rest.get(..length).ok_or_else(|| short(rest.len(), length))?;
+        *list = &rest[length..];
+        Ok(Row { kind, rest: row, bounds, tables })
+    }
+
+    fn next(&mut self) -> Result<i32, PlanError> {
+        let (&first, rest) =
+            self.rest.split_first().ok_or(PlanError::Length { what: "element", found: 0, expected: 1 })?;
+        self.rest = rest;
+        Ok(first)
+    }
+
+    fn point(&mut self) -> Result<usize, PlanError> {
+        let value = self.next()?;
+        self.bounds.point(value)
+    }
+
+    fn link(&mut self) -> Result<usize, PlanError> {
+        let value = self.next()?;
+        self.bounds.link(value)
+    }
+
+    fn slide(&mut self) -> Result<usize, PlanError> {
+        let value = self.next()?;
+        self.bounds.slide(value)
+    }
+
+    fn gap(&mut self) -> Result<usize, PlanError> {
+        let value = self.next()?;
+        self.bounds.gap(value)
+    }
+
+    fn slot(&mut self) -> Result<Slot, PlanError> {
+        let value = self.next()?;
+        self.bounds.slot(value)
+    }
+
+    fn table(&mut self) -> Result<Table, PlanError> {
+        let value = self.next()?;
+        Ok(self.tables[self.bounds.table(value)?].clone())
+    }
+
+    /// A list: how many, then each.
+    fn list<T>(&mut self, each: impl Fn(&mut Self) -> Result<T, PlanError>) -> Result<Vec<T>, PlanError> {
+        let n = self.next()?;
+        (0..n).map(|_| each(self)).collect()
+    }
+
+    /// `through link cos sin offset`; the frame is the link after the last.
+    fn line(&mut self) -> Result<Line, PlanError> {
+        let through = self.point()?;
+        let link = self.next()?;
+        let link = index(link, self.bounds.links + 1, "link")?;
+        Ok(Line { through, link, cos: self.slot()?, sin: self.slot()?, offset: self.slot()? })
+    }
+
+    /// `start`, then a list of `source factor`; source −1 is the crank angle, another a slide.
+    fn sum(&mut self) -> Result<Sum, PlanError> {
+        let start = self.slot()?;
+        let term = |row: &mut Self| {
+            let source = match row.next()? {
+                -1 => Source::Drive,
+                slide => Source::Slide(row.bounds.slide(slide)?),
+            };
+            Ok((source, row.slot()?))
+        };
+        Ok(Sum { start, terms: self.list(term)? })
+    }
+
+    /// `joint coupler rocker gap pin pivot coupler rocker 1/coupler 1/rocker sign`
+    fn rocker(&mut self) -> Result<Rocker, PlanError> {
+        Ok(Rocker {
+            joint: self.point()?,
+            coupler_link: self.link()?,
+            rocker_link: self.link()?,
+            gap: self.gap()?,
+            pin: self.point()?,
+            pivot: self.point()?,
+            coupler: self.slot()?,
+            rocker: self.slot()?,
+            inverse_coupler: self.slot()?,
+            inverse_rocker: self.slot()?,
+            sign: self.slot()?,
+        })
+    }
+
+    /// `cos sin half_cos half_sin`, then the coefficients of the series
+    fn change_point(&mut self) -> Result<ChangePoint, PlanError> {
+        Ok(ChangePoint {
+            cos: self.slot()?,
+            sin: self.slot()?,
+            half_cos: self.slot()?,
+            half_sin: self.slot()?,
+            series: (0..TERMS).map(|_| self.slot()).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// `link from to 1/length`
+    fn bar(&mut self) -> Result<Bar, PlanError> {
+        Ok(Bar { link: self.link()?, from: self.point()?, to: self.point()?, inverse_length: self.slot()? })
+    }
+
+    /// `point from to along across`
+    fn carried(&mut self) -> Result<Carried, PlanError> {
+        Ok(Carried {
+            point: self.point()?,
+            from: self.point()?,
+            to: self.point()?,
+            along: self.slot()?,
+            across: self.slot()?,
+        })
+    }
+
+    /// `0 from to length` · `1 point line slide` · `2 point line slide bar`
+    fn condition(&mut self) -> Result<Condition, PlanError> {
+        Ok(match self.next()? {
+            0 => Condition::Distance { from: self.point()?, to: self.point()?, length: self.slot()? },
+            1 => Condition::OnLine { point: self.point()?, line: self.line()?, slide: self.slide()? },
+            2 => Condition::OnBar {
+                point: self.point()?,
+                line: self.line()?,
+                slide: self.slide()?,
+                bar: self.bar()?,
+            },
+            kind => return Err(PlanError::Kind { what: "condition", kind }),
+        })
+    }
+
+    /// `gap 1/turns repeats`, then lists of `unknown`, of `table` (x and y of each unknown), of carried
+    /// points, of bars, of conditions
+    fn group(&mut self) -> Result<Group, PlanError> {
+        let (gap, inverse_turns, repeats) = (self.gap()?, self.slot()?, self.next()? != 0);
+        let unknowns = self.list(Row::point)?;
+        let starts = self.list(Row::table)?;
+        let carried = self.list(Row::carried)?;
+        let bars = self.list(Row::bar)?;
+        let conditions = self.list(Row::condition)?;
+        for (what, found) in
+            [("starts of a group", starts.len()), ("conditions of a group", conditions.len())]
+        {
+            if found != 2 * unknowns.len() {
+                return Err(PlanError::Length { what, found, expected: 2 * unknowns.len() });
+            }
+        }
+        Ok(Group { unknowns, carried, bars, conditions, gap, starts, inverse_turns, repeats })
+    }
+
+    /// `0 fixed: point x y`
+    fn fixed(&mut self) -> Result<Fixed, PlanError> {
+        Ok(Fixed { point: self.point()?, x: self.slot()?, y: self.slot()? })
+    }
+
+    /// `1 crank: pin link pivot radius cos sin` ·
+    /// `2 slider: point link slide gap pin through rod 1/rod offset cos sin sign` · `3 rocker` ·
+    /// `4 rigid point: point link origin along across` ·
+    /// `5 guided rod: point link slide gap pin line rod 1/rod sign` ·
+    /// `6 slotted lever: link slide gap pin pivot offset sign` · `7 crossing: point slide slide gap line line` ·
+    /// `8 turn: link slide sum` · `9 runner: point slide line sum` · `10 angle: link slide winding centre` ·
+    /// `11 folding: rocker`, list of change points · `12 group` · `13 bar`
+    fn element(&mut self) -> Result<Element, PlanError> {
+        Ok(match self.kind {
+            1 => Element::Crank {
+                pin: self.point()?,
+                link: self.link()?,
+                pivot: self.point()?,
+                radius: self.slot()?,
+                cos: self.slot()?,
+                sin: self.slot()?,
+            },
+            2 => Element::SliderRod(SliderRod {
+                point: self.point()?,
+                link: self.link()?,
+                slide: self.slide()?,
+                gap: self.gap()?,
+                pin: self.point()?,
+                through: self.point()?,
+                rod: self.slot()?,
+                inverse_rod: self.slot()?,
+                offset: self.slot()?,
+                cos: self.slot()?,
+                sin: self.slot()?,
+                sign: self.slot()?,
+            }),
+            3 => Element::Rocker(self.rocker()?),
+            4 => Element::RigidPoint {
+                point: self.point()?,
+                link: self.link()?,
+                origin: self.point()?,
+                along: self.slot()?,
+                across: self.slot()?,
+            },
+            5 => Element::GuidedRod(GuidedRod {
+                point: self.point()?,
+                link: self.link()?,
+                slide: self.slide()?,
+                gap: self.gap()?,
+                pin: self.point()?,
+                line: self.line()?,
+                rod: self.slot()?,
+                inverse_rod: self.slot()?,
+                sign: self.slot()?,
+            }),
+            6 => Element::SlottedLever(SlottedLever {
+                link: self.link()?,
+                slide: self.slide()?,
+                gap: self.gap()?,
+                pin: self.point()?,
+                pivot: self.point()?,
+                offset: self.slot()?,
+                sign: self.slot()?,
+            }),
+            7 => Element::Crossing(Crossing {
+                point: self.point()?,
+                slides: [self.slide()?, self.slide()?],
+                gap: self.gap()?,
+                lines: [self.line()?, self.line()?],
+            }),
+            8 => Element::Turn(Turn { link: self.link()?, slide: self.slide()?, angle: self.sum()? }),
+            9 => Element::Runner(Runner {
+                point: self.point()?,
+                slide: self.slide()?,
+                line: self.line()?,
+                place: self.sum()?,
+            }),
+            10 => Element::AngleOf(AngleOf {
+                link: self.link()?,
+                slide: self.slide()?,
+                winding: self.slot()?,
+                centre: self.slot()?,
+            }),
+            11 => Element::Folding(Folding {
+                rocker: self.rocker()?,
+                change_points: self.list(Row::change_point)?,
+            }),
+            12 => Element::Group(self.group()?),
+            13 => Element::Bar(self.bar()?),
+            kind => return Err(PlanError::Kind { what: "element", kind }),
+        })
+    }
 }
 
 /// `0 mass: point mass` · `1 link: link origin along across mass inertia`

@@ -23,6 +23,8 @@ pub trait Real:
 {
     /// How many plain numbers the bundle holds.
     const LANES: usize;
+    /// Rounds of Newton's method, after the value has converged, until all derivatives carried along have.
+    const ROUNDS: usize = 0;
 
     /// The same number in every lane.
     fn splat(x: f64) -> Self;
@@ -38,6 +40,8 @@ pub trait Real:
     fn abs(self) -> Self;
     /// `(sin, cos)`, to about an ulp for |x| < 1e5.
     fn sin_cos(self) -> (Self, Self);
+    /// Arc tangent, in (−π/2, π/2).
+    fn atan(self) -> Self;
     /// Lane by lane: `below` where `self < limit`, else `other` (also where `self` is NaN).
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self;
     /// Applies a scalar function `x ↦ (value, slope)` lane by lane; only tables need it.
@@ -72,8 +76,8 @@ pub trait Real:
         Self::splat(1.0) / self
     }
 
-    /// eˣ. Like [`Real::ln`] and [`Real::atan`] it is done lane by lane with one derivative; a number that
-    /// carries more of them brings its own three, and everything below follows from those.
+    /// eˣ. Like [`Real::ln`] it is done lane by lane with one derivative; a number that carries more of them
+    /// brings its own two, and every other function of a formula follows from these, `sqrt`, `sin_cos` and `atan`.
     #[inline(always)]
     fn exp(self) -> Self {
         self.map(
@@ -91,15 +95,6 @@ pub trait Real:
         self.map(
             #[inline(always)]
             |x| (x.ln(), 1.0 / x),
-        )
-    }
-
-    /// Arc tangent, in (−π/2, π/2).
-    #[inline(always)]
-    fn atan(self) -> Self {
-        self.map(
-            #[inline(always)]
-            |x| (x.atan(), 1.0 / (1.0 + x * x)),
         )
     }
 
@@ -162,6 +157,10 @@ impl Real for f64 {
         f64::sin_cos(self)
     }
     #[inline(always)]
+    fn atan(self) -> Self {
+        f64::atan(self)
+    }
+    #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
         if self < limit { below } else { other }
     }
@@ -175,6 +174,10 @@ impl Real for f64 {
     }
     #[inline(never)]
     fn outline<T>(f: impl FnOnce() -> T) -> T {
-        f()
+        #[inline(never)]
+        fn call<T>(f: impl FnOnce() -> T) -> T {
+            f()
+        }
+        call(f)
     }
 }

@@ -18,6 +18,15 @@ fn checked(value: i32, bound: usize) -> PyResult<usize> {
         .ok_or_else(|| PyIndexError::new_err(format!("index {value} is not below {bound}")))
 }
 
+/// Refuses an index that is not below a bound.
+pub(crate) fn below(value: usize, bound: usize) -> PyResult<()> {
+    if value < bound {
+        Ok(())
+    } else {
+        Err(PyIndexError::new_err(format!("index {value} is not below {bound}")))
+    }
+}
+
 /// Indices below a bound.
 pub(crate) fn as_indices(list: &[i32], bound: usize) -> PyResult<Vec<usize>> {
     list.iter().map(|&value| checked(value, bound)).collect()

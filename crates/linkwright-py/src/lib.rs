@@ -6,11 +6,12 @@
 mod arrays;
 mod errors;
 
-use arrays::{as_indices, channels, column};
+use arrays::{as_indices, below, channels, column};
 use errors::plan_error;
 use linkwright_core::batch::{self, QUANTITIES, Rows};
 use linkwright_core::kinks as core_kinks;
 use linkwright_core::lanes::in_lanes;
+use linkwright_core::linkage::trace;
 use linkwright_core::plan::{Encoded, Plan as CorePlan};
 use linkwright_core::steady::{ReadCurves, steady};
 use linkwright_core::transient::{Start, follow};
@@ -79,6 +80,9 @@ type Solved<'py> = (u8, Option<Curve<'py>>, Option<Table<'py>>);
 type SolvedRows<'py> = (Bound<'py, PyArray1<u8>>, Table<'py>, u64);
 /// How it ended, torques there, evaluations, and t, φ, ω, ε.
 type Followed<'py> = (u8, [f64; 2], usize, Vec<Curve<'py>>);
+
+/// Crank angles, x and y of each joint there, and the turns after which the motion repeats.
+type Traced<'py> = (Curve<'py>, Vec<Curve<'py>>, Option<u32>);
 
 #[pyfunction]
 fn steady_state<'py>(
@@ -175,6 +179,52 @@ fn motions(
 }
 
 #[pyfunction]
+fn third<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    q: Floats<'_>,
+    phi: Floats<'_>,
+    what: PyReadonlyArray2<'_, i32>,
+) -> PyResult<Table<'py>> {
+    let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
+    let channels = channels(what.as_slice()?, &plan.0)?;
+    let width = channels.iter().map(|c| c.third_width()).sum();
+    let out = PyArray2::<f64>::zeros(py, [width, phi.len()], false);
+    {
+        let mut to = out.readwrite();
+        let to = to.as_slice_mut()?;
+        py.detach(|| batch::third(&plan.0, q, phi, &channels, to));
+    }
+    Ok(out)
+}
+
+#[pyfunction]
+fn change_point(plan: &Plan, q: Floats<'_>, element: usize, near: f64) -> PyResult<Option<(f64, Vec<f64>)>> {
+    let q = plan.parameters(&q)?;
+    below(element, plan.0.mechanism.elements.len())?;
+    let found = trace::change_point(&plan.0.mechanism, element, q, near);
+    Ok(found.map(|(phi, series)| (phi, series.to_vec())))
+}
+
+#[pyfunction]
+fn follow_group<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    q: Floats<'_>,
+    element: usize,
+    phi: f64,
+    near: Floats<'_>,
+) -> PyResult<Option<Traced<'py>>> {
+    let (q, near) = (plan.parameters(&q)?, near.as_slice()?);
+    below(element, plan.0.mechanism.elements.len())?;
+    let found = py.detach(|| trace::follow(&plan.0.mechanism, element, q, phi, near));
+    Ok(found.map(|path| {
+        let places = path.places.into_iter().map(|list| column(py, list)).collect();
+        (column(py, path.phi), places, path.turns)
+    }))
+}
+
+#[pyfunction]
 fn gaps<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>, phi: Floats<'_>) -> PyResult<Table<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let out = PyArray2::<f64>::zeros(py, [plan.0.mechanism.n_gaps, phi.len()], false);
@@ -259,7 +309,7 @@ fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Curve<'py
 mod _core {
     #[pymodule_export]
     use super::{
-        Plan, gaps, kinks, law_torques, motions, motor_torques, reductions, steady_rows, steady_state,
-        transient,
+        Plan, change_point, follow_group, gaps, kinks, law_torques, motions, motor_torques, reductions,
+        steady_rows, steady_state, third, transient,
     };
 }

@@ -1,7 +1,7 @@
 """The command line, ``linkwright COMMAND …``: one command a file.
 
 A module of a command is imported at every start, so it imports what it computes with inside its function.
-To add a command, write its file and put its function into `COMMANDS`.
+To add a command, write its file and put its function into `COMMANDS`, or with its own commands into `GROUPS`.
 """
 
 from __future__ import annotations
@@ -21,9 +21,13 @@ from linkwright.cli.papers import papers
 from linkwright.cli.run import run
 from linkwright.cli.schema import schema
 from linkwright.cli.size import size
+from linkwright.cli.synthesise import SYNTHESISE, synthesise
 
 # In the order of the help.
 COMMANDS: tuple[Callable[..., Any], ...] = (run, check, size, papers, new, schema)
+
+# Commands that have commands of their own: what the group does, and its commands.
+GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = ((synthesise, SYNTHESISE),)
 
 
 def _version(wanted: bool) -> None:
@@ -56,6 +60,11 @@ def application() -> typer.Typer:
     app.callback()(_top)
     for command in COMMANDS:
         app.command()(reports_errors(command))
+    for group, commands in GROUPS:
+        below = typer.Typer(no_args_is_help=True, rich_markup_mode=None)
+        for command in commands:
+            below.command()(reports_errors(command))
+        app.add_typer(below, name=group.__name__, help=group.__doc__)
     return app
 
 

@@ -10,9 +10,9 @@
 | `templates` | files to start from |
 """
 
-from linkwright.files.read import loads, read
+from linkwright.files.read import loads, loads_as, read, read_as
 from linkwright.files.schema import schema
 from linkwright.files.templates import template, templates
 from linkwright.files.write import dumps, write
 
-__all__ = ["dumps", "loads", "read", "schema", "template", "templates", "write"]
+__all__ = ["dumps", "loads", "loads_as", "read", "read_as", "schema", "template", "templates", "write"]

@@ -8,7 +8,9 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+from pydantic import BaseModel
 
 from linkwright.errors import MachineError, MachineFileError, Problem
 from linkwright.files.lines import key_lines, line_of
@@ -20,6 +22,8 @@ from linkwright.units import show
 # A machine file has a few kB. A thousand times that is some other file.
 _LARGEST = 4_000_000
 _TOO_LARGE = f"a machine file: a few kB of text, at most {_LARGEST // 1_000_000} MB"
+
+Model = TypeVar("Model", bound=BaseModel)
 
 Overrides = Sequence[str] | Mapping[str, Any]
 
@@ -51,7 +55,34 @@ def read(path: str | os.PathLike[str], overrides: Overrides = ()) -> Machine:
     InputError
         An override is malformed.
     """
-    return loads(_text(Path(path)), overrides, path=str(path))
+    return read_as(Machine, path, overrides)
+
+
+def read_as(model: type[Model], path: str | os.PathLike[str], overrides: Overrides = ()) -> Model:
+    """Read a description of some kind from a file, such as the task of a synthesis.
+
+    Parameters
+    ----------
+    model : type
+        The description; raises `MachineError` with all problems when it is validated.
+    path : path
+        A TOML file.
+    overrides : sequence of str or Mapping
+        As for `read`.
+
+    Returns
+    -------
+    Model
+        Checked, in SI.
+
+    Raises
+    ------
+    MachineFileError
+        The file cannot be read or describes no such thing; all problems are listed.
+    InputError
+        An override is malformed.
+    """
+    return loads_as(model, _text(Path(path)), overrides, path=str(path))
 
 
 def loads(text: str, overrides: Overrides = (), *, path: str = "") -> Machine:
@@ -78,11 +109,40 @@ def loads(text: str, overrides: Overrides = (), *, path: str = "") -> Machine:
     InputError
         An override is malformed.
     """
+    return loads_as(Machine, text, overrides, path=path)
+
+
+def loads_as(model: type[Model], text: str, overrides: Overrides = (), *, path: str = "") -> Model:
+    """Read a description of some kind from a TOML text.
+
+    Parameters
+    ----------
+    model : type
+        The description; raises `MachineError` with all problems when it is validated.
+    text : str
+        What such a file holds.
+    overrides : sequence of str or Mapping
+        As for `read`.
+    path : str
+        Name of the text in messages.
+
+    Returns
+    -------
+    Model
+        Checked, in SI.
+
+    Raises
+    ------
+    MachineFileError
+        The text describes no such thing; all problems are listed.
+    InputError
+        An override is malformed.
+    """
     tables = _tables(text, path)
     _check_format(tables, path, text)
     places = [(apply(tables, change), change) for change in parse_all(overrides)]
     try:
-        return Machine.model_validate(tables)
+        return model.model_validate(tables)
     except MachineError as error:
         raise MachineFileError(_located(error.problems, text, path, places)) from None
 

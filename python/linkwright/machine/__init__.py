@@ -6,7 +6,9 @@
 | `drive` | gearbox, coupling, flywheel, brake |
 | `motor` | the kinds of motor, and how their entries follow from one another |
 | `catalogue` | published motors |
-| `mechanism` | cranks, sliders, rockers, rigid points |
+| `element` | cranks, dyads, gears, cables, joints and bars |
+| `mechanism` | all elements by name |
+| `assembly` | in which order a mechanism is built; what is missing or too much |
 | `body`, `loads` | masses; forces and torques |
 | `formula` | formulas as texts |
 | `curve` | curves given by points |
@@ -20,6 +22,23 @@ from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.body import Body
 from linkwright.machine.catalogue import CatalogueMotor, motor, motors
 from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
+from linkwright.machine.element import (
+    Bar,
+    Cable,
+    Crank,
+    Crossing,
+    FixedPoint,
+    Gear,
+    Guide,
+    Joint,
+    LinearDriver,
+    Rack,
+    RigidPoint,
+    Rocker,
+    Slider,
+    SlottedLever,
+    Yoke,
+)
 from linkwright.machine.loads import (
     AnyLoad,
     ConstantForce,
@@ -39,7 +58,7 @@ from linkwright.machine.loads import (
     ViscousFriction,
 )
 from linkwright.machine.machine import FORMAT, Machine, RunUp
-from linkwright.machine.mechanism import Crank, FixedPoint, Link, Mechanism, RigidPoint, Rocker, Slider
+from linkwright.machine.mechanism import Link, Mechanism
 from linkwright.machine.motor import (
     AnyMotor,
     ConstantSpeedMotor,
@@ -54,8 +73,10 @@ __all__ = [
     "FORMAT",
     "AnyLoad",
     "AnyMotor",
+    "Bar",
     "Body",
     "Brake",
+    "Cable",
     "CatalogueMotor",
     "ConstantForce",
     "ConstantSpeedMotor",
@@ -63,6 +84,7 @@ __all__ = [
     "ConstantTorqueMotor",
     "Coupling",
     "Crank",
+    "Crossing",
     "Damper",
     "DcMotor",
     "Drive",
@@ -72,18 +94,24 @@ __all__ = [
     "ForcePosition",
     "FormulaLoad",
     "GasSpring",
+    "Gear",
     "Gearbox",
     "Gravity",
+    "Guide",
     "InductionMotor",
+    "Joint",
+    "LinearDriver",
     "Link",
     "Load",
     "Machine",
     "Mechanism",
     "Motor",
+    "Rack",
     "RigidPoint",
     "Rocker",
     "RunUp",
     "Slider",
+    "SlottedLever",
     "Spring",
     "TableMotor",
     "TorqueAngle",
@@ -91,6 +119,7 @@ __all__ = [
     "TorsionalDamper",
     "TorsionalSpring",
     "ViscousFriction",
+    "Yoke",
     "addresses",
     "get",
     "kind",

@@ -1,4 +1,4 @@
-"""The mechanism: cranks on the crankshaft, and the elements that they move, one built on another.
+"""The mechanism: drivers on the crankshaft, and the elements that they move, one built on another.
 
 Angles count counter-clockwise from the x axis. Elements refer to each other by name, in any order; `outline`
 says which points and links each of them makes.
@@ -6,67 +6,30 @@ says which points and links each of them makes.
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, NamedTuple, Self
+from typing import Any, Literal, NamedTuple, Self
 
 from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
 
+from linkwright.machine.assembly import Step
 from linkwright.machine.base import Description, Name, faults_of, raise_faults
+from linkwright.machine.element import (
+    Bar,
+    Cable,
+    Crank,
+    Crossing,
+    FixedPoint,
+    Gear,
+    Joint,
+    LinearDriver,
+    Rack,
+    RigidPoint,
+    Rocker,
+    Slider,
+    SlottedLever,
+    Yoke,
+)
 from linkwright.machine.outline import ORIGIN, Outline
-from linkwright.units import LENGTH, Angle, Length, positive
-
-PositiveLength = Annotated[float, positive(LENGTH)]
-
-
-class FixedPoint(Description):
-    """A point of the frame."""
-
-    x: Length = Field(0.0, description="To the right of the origin.")
-    y: Length = Field(0.0, description="Above the origin.")
-
-
-class Crank(Description):
-    """A crank on the crankshaft; all cranks turn together."""
-
-    radius: PositiveLength = Field(description="From the pivot to the pin.")
-    phase: Angle = Field(0.0, description="Angle of this crank when the crank angle is zero.")
-    pivot: str | None = Field(None, description="Fixed point that it turns about. Without it, the origin.")
-
-
-class Slider(Description):
-    """A slider on a straight guide, moved through a rod."""
-
-    crank: str = Field(description="Moving point that drives it: the pin of a crank, or another.")
-    rod: PositiveLength = Field(description="From the driving point to the slider.")
-    offset: Length = Field(0.0, description="Of the guide to the left of its direction.")
-    angle: Angle = Field(0.0, description="Direction of the guide.")
-    through: str | None = Field(
-        None,
-        description="Fixed point that the guide would pass through without offset. "
-        "Without it, the pivot of the crank, or the origin.",
-    )
-    assembly: Literal["positive", "negative"] = Field(
-        "positive", description="Side of the slider, along the guide, from the driving point."
-    )
-
-
-class Rocker(Description):
-    """A coupler and a rocker that meet in a joint."""
-
-    crank: str = Field(description="Moving point that drives the coupler.")
-    pivot: str = Field(description="Point that the rocker turns about; it may move.")
-    coupler: PositiveLength = Field(description="From the driving point to the joint.")
-    rocker: PositiveLength = Field(description="From the pivot to the joint.")
-    assembly: Literal["left", "right"] = Field(
-        "left", description="Side of the joint, seen from the driving point to the pivot."
-    )
-
-
-class RigidPoint(Description):
-    """A point fixed to a link."""
-
-    link: str = Field(description="Link that carries it.")
-    along: Length = Field(description="From the start of the link along it.")
-    across: Length = Field(0.0, description="To the left of the link.")
+from linkwright.units import Angle
 
 
 class Link(NamedTuple):
@@ -75,16 +38,16 @@ class Link(NamedTuple):
     Attributes
     ----------
     role : str
-        ``"crank"``, ``"rod"``, ``"coupler"`` or ``"rocker"``.
+        ``"crank"``, ``"rod"``, ``"coupler"``, ``"rocker"``, ``"lever"``, ``"bar"``, ``"gear"`` or ``"yoke"``.
     element : str
         Name of the element that makes it.
     start, end : str
-        Names of the points that it runs between.
+        Names of the points that it runs between; the same for a gear or a yoke, which has one point.
     length : float
-        Distance between them [m].
+        Distance between them [m]; zero where it is not given.
     """
 
-    role: Literal["crank", "rod", "coupler", "rocker"]
+    role: Literal["crank", "rod", "coupler", "rocker", "lever", "bar", "gear", "yoke"]
     element: str
     start: str
     end: str
@@ -100,6 +63,24 @@ class Mechanism(Description):
     rockers: dict[Name, Rocker] = Field(default_factory=dict, description="Rockers by name.")
     rigid_points: dict[Name, RigidPoint] = Field(
         default_factory=dict, description="Points fixed to links, by name."
+    )
+    linear_drivers: dict[Name, LinearDriver] = Field(
+        default_factory=dict, description="Points moved along a guide by the drive, by name."
+    )
+    slotted_levers: dict[Name, SlottedLever] = Field(
+        default_factory=dict, description="Slotted levers by name."
+    )
+    crossings: dict[Name, Crossing] = Field(default_factory=dict, description="Pins in two guides, by name.")
+    yokes: dict[Name, Yoke] = Field(default_factory=dict, description="Yokes by name.")
+    gears: dict[Name, Gear] = Field(default_factory=dict, description="Gears and pulleys by name.")
+    racks: dict[Name, Rack] = Field(default_factory=dict, description="Racks by name.")
+    cables: dict[Name, Cable] = Field(default_factory=dict, description="Cables on arcs, by name.")
+    joints: dict[Name, Joint] = Field(
+        default_factory=dict, description="Joints that bars and guides hold, by name."
+    )
+    bars: dict[Name, Bar] = Field(default_factory=dict, description="Bars between points, by name.")
+    assembled_at: Angle = Field(
+        0.0, description="Crank angle at which the joints are about where they are given."
     )
 
     @model_validator(mode="wrap")
@@ -120,12 +101,12 @@ class Mechanism(Description):
         return {name: own.get(name) or FixedPoint(x=0.0, y=0.0) for name in Outline.of(self).fixed_points}
 
     def moving_points(self) -> tuple[str, ...]:
-        """Names of the points that move: pins, sliders, joints and rigid points."""
+        """Names of the points that move."""
         return tuple(Outline.of(self).moving_points)
 
     def slides(self) -> tuple[str, ...]:
-        """Names of the points that move on a guide."""
-        return tuple(self.sliders)
+        """Names of the coordinates along guides."""
+        return tuple(Outline.of(self).slides)
 
     def links(self) -> dict[str, Link]:
         """The links by name.
@@ -143,8 +124,20 @@ class Mechanism(Description):
         for name, rocker in self.rockers.items():
             found[f"{name}.coupler"] = Link("coupler", name, rocker.crank, name, rocker.coupler)
             found[f"{name}.rocker"] = Link("rocker", name, rocker.pivot, name, rocker.rocker)
+        for name, lever in self.slotted_levers.items():
+            found[name] = Link("lever", name, lever.pivot, lever.pin, lever.length or 0.0)
+        for name in self.yokes:
+            found[name] = Link("yoke", name, name, name, 0.0)
+        for name, gear in self.gears.items():
+            found[name] = Link("gear", name, gear.pivot, gear.pivot, 0.0)
+        for name, bar in self.bars.items():
+            found[name] = Link("bar", name, bar.start, bar.end, bar.length)
         return found
+
+    def steps(self) -> list[Step]:
+        """The steps in which the mechanism is built."""
+        return Outline.of(self).build().steps
 
     def build_order(self) -> list[str]:
         """Names of the moving elements, each after those that it is built on."""
-        return Outline.of(self).order()
+        return [name for step in self.steps() for name in step.names]

@@ -1,12 +1,21 @@
 """The names in a mechanism: which elements there are, what each makes, and what each refers to.
 
-| element | makes the point | makes the links | refers to |
-| --- | --- | --- | --- |
-| fixed point `P` | `P` | – | – |
-| crank `A` | `A`, its pin | `A`, pivot → pin | a fixed point |
-| slider `S` | `S` | `S.rod`, driving point → slider | a moving point, a fixed point |
-| rocker `R` | `R`, joint | `R.coupler`, driving point → joint; `R.rocker`, pivot → joint | two points |
-| rigid point `K` | `K` | – | a link |
+| element | makes the point | makes the links | makes the slides | refers to |
+| --- | --- | --- | --- | --- |
+| fixed point `P` | `P` | – | – | – |
+| crank `A` | `A`, its pin | `A`, pivot → pin | – | a fixed point |
+| linear driver `D` | `D` | – | `D` | its guide |
+| slider `S` | `S` | `S.rod`, driving point → slider | `S` | a moving point, its guide |
+| rocker `R` | `R`, joint | `R.coupler`, driving point → joint; `R.rocker`, pivot → joint | – | two points |
+| slotted lever `L` | – | `L`, pivot → pin | `L`, distance along the slot | a moving point, a point |
+| crossing `X` | `X`, the pin | – | `X.first`, `X.second` | two guides |
+| yoke `Y` | `Y`, where slot and guide meet | `Y`, along the guide | `Y`; `Y.slot`, of the pin | a moving point, its guide |
+| rigid point `K` | `K` | – | – | a link |
+| gear `G` | – | `G` | – | a point, links |
+| rack `T` | `T` | – | `T` | a link, its guide |
+| cable `H` | `H`, its end | – | `H`, free length | a link |
+| joint `J` | `J` | – | `J`, if it has a guide | its guide |
+| bar `B` | – | `B`, start → end | – | two points |
 
 An outline is taken from a checked mechanism or from the raw tables of a file.
 """
@@ -20,6 +29,7 @@ from typing import Literal, NamedTuple
 
 from pydantic_core import InitErrorDetails
 
+from linkwright.machine.assembly import Build, Part, build
 from linkwright.machine.base import fault, suggestion
 from linkwright.machine.plain import keys, look
 
@@ -30,30 +40,89 @@ Wanted = Literal["moving point", "fixed point", "point", "link"]
 
 
 class ElementKind(NamedTuple):
-    """One table of the mechanism."""
+    """One table of the mechanism: what each element of it makes, as endings of its name, and refers to."""
 
     table: str
     word: str
-    links: tuple[str, ...]
-    references: dict[str, Wanted]
+    points: tuple[str, ...] = ("",)
+    links: tuple[str, ...] = ()
+    slides: tuple[str, ...] = ()
+    references: dict[str, Wanted] = {}
+
+
+def _guide(key: str) -> dict[str, Wanted]:
+    """What a guide under a key refers to."""
+    return {f"{key}.through": "point", f"{key}.on": "link"}
 
 
 KINDS = (
-    ElementKind("points", "fixed point", (), {}),
-    ElementKind("cranks", "crank", ("",), {"pivot": "fixed point"}),
-    ElementKind("sliders", "slider", (".rod",), {"crank": "moving point", "through": "fixed point"}),
-    ElementKind("rockers", "rocker", (".coupler", ".rocker"), {"crank": "moving point", "pivot": "point"}),
-    ElementKind("rigid_points", "rigid point", (), {"link": "link"}),
+    ElementKind("points", "fixed point"),
+    ElementKind("cranks", "crank", links=("",), references={"pivot": "fixed point"}),
+    ElementKind("linear_drivers", "linear driver", slides=("",), references=_guide("guide")),
+    ElementKind(
+        "sliders",
+        "slider",
+        links=(".rod",),
+        slides=("",),
+        references={"crank": "moving point", "through": "point", "on": "link"},
+    ),
+    ElementKind(
+        "rockers",
+        "rocker",
+        links=(".coupler", ".rocker"),
+        references={"crank": "moving point", "pivot": "point"},
+    ),
+    ElementKind(
+        "slotted_levers",
+        "slotted lever",
+        points=(),
+        links=("",),
+        slides=("",),
+        references={"pin": "moving point", "pivot": "point"},
+    ),
+    ElementKind(
+        "crossings",
+        "crossing",
+        slides=(".first", ".second"),
+        references=_guide("first") | _guide("second"),
+    ),
+    ElementKind(
+        "yokes",
+        "yoke",
+        links=("",),
+        slides=("", ".slot"),
+        references={"pin": "moving point"} | _guide("guide"),
+    ),
+    ElementKind("rigid_points", "rigid point", references={"link": "link"}),
+    ElementKind(
+        "gears",
+        "gear",
+        points=(),
+        links=("",),
+        references={"pivot": "point", "meshes": "link", "carrier": "link"},
+    ),
+    ElementKind("racks", "rack", slides=("",), references={"gear": "link"} | _guide("guide")),
+    ElementKind("cables", "cable", slides=("",), references={"link": "link"}),
+    ElementKind("joints", "joint", slides=("",), references=_guide("guide")),
+    ElementKind("bars", "bar", points=(), links=("",), references={"start": "point", "end": "point"}),
 )
+
+# Tables of the elements that the drive moves.
+DRIVERS = ("cranks", "linear_drivers")
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """One element: its kind, its name, and the names that it refers to by key."""
+    """One element: its kind, its name, the names that it refers to by key, and whether it is redundant."""
 
     kind: ElementKind
     name: str
     references: dict[str, str]
+    redundant: bool = False
+
+    def made(self, endings: tuple[str, ...]) -> tuple[str, ...]:
+        """Names of the points, links or slides with these endings."""
+        return tuple(self.name + ending for ending in endings)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,12 +155,20 @@ class Outline:
     @property
     def moving_points(self) -> list[str]:
         """Names of the points that move."""
-        return self.names("cranks", "sliders", "rockers", "rigid_points")
+        moving = (each for each in self.elements if each.kind.table != "points")
+        return [name for each in moving for name in each.made(each.kind.points)]
+
+    @property
+    def slides(self) -> list[str]:
+        """Names of the coordinates along guides."""
+        free = {each.name for each in self.elements if each.kind.table == "joints" and not each.references}
+        listed = (each for each in self.elements if each.name not in free)
+        return [name for each in listed for name in each.made(each.kind.slides)]
 
     @property
     def links(self) -> dict[str, str]:
         """Name of each link → name of the element that makes it."""
-        return {each.name + end: each.name for each in self.elements for end in each.kind.links}
+        return {name: each.name for each in self.elements for name in each.made(each.kind.links)}
 
     def candidates(self, wanted: Wanted) -> list[str]:
         """Names that a reference may have."""
@@ -100,16 +177,61 @@ class Outline:
         fixed = self.fixed_points if wanted != "moving point" else []
         return fixed + (self.moving_points if wanted != "fixed point" else [])
 
-    def order(self) -> list[str]:
-        """Names of the moving elements, each after the elements that it is built on."""
-        return list(TopologicalSorter(self._graph()).static_order())
+    def build(self) -> Build:
+        """The steps in which the mechanism is built, and what stands in their way."""
+        parts = {each.name: self._part(each) for each in self.elements if each.kind.table != "points"}
+        ignored = [each.name for each in self.elements if each.redundant]
+        return build(parts, self.fixed_points, ignored)
+
+    def _part(self, element: Element) -> Part:
+        """An element as the assembly sees it."""
+        roles: dict[str, Literal["joint", "bar", "carried"]] = {
+            "joints": "joint",
+            "bars": "bar",
+            "rigid_points": "carried",
+        }
+        kind = element.kind
+        makes = (*element.made(kind.points), *element.made(kind.links))
+        needs = tuple(dict.fromkeys(element.references.values()))
+        return Part(roles.get(kind.table, "element"), needs, makes)
 
     def faults(self) -> list[InitErrorDetails]:
-        """What is wrong with the names: the same name twice, references to nothing, circles."""
-        driven = self.names("sliders", "rockers", "rigid_points")
-        if driven and not self.names("cranks"):
-            return [*self._twice(), fault("cranks", expected="at least one crank, which moves the others")]
-        return [*self._twice(), *self._unknown(), *self._circles()]
+        """What is wrong: the same name twice, references to nothing, circles, joints held too little or too much."""
+        driven = [each for each in self.elements if each.kind.table not in ("points", *DRIVERS)]
+        if driven and not self.names(*DRIVERS):
+            remedy = "a linear driver would do as well"
+            expected = "at least one crank, which moves the others"
+            return [*self._twice(), fault("cranks", expected=expected, remedy=remedy)]
+        found = [*self._twice(), *self._unknown()]
+        return found or [*self._circles()] or [*self._mobility()]
+
+    def _mobility(self) -> Iterator[InitErrorDetails]:
+        """Joints that can still move, and bars that are too many."""
+        found = self.build()
+        kinds = {each.name: each.kind for each in self.elements}
+        for joint in found.loose:
+            holds = [
+                each.name
+                for each in self.elements
+                if joint in each.references.values() and not each.redundant
+            ]
+            yield fault(
+                "joints",
+                joint,
+                found="held by " + (", ".join(holds) or "nothing"),
+                expected="as many bars and guides as fix every joint: two for each",
+                remedy="it can still move while the crank stands; add a bar or a guide",
+            )
+        for name in dict.fromkeys(found.surplus):
+            kind = kinds[name]
+            yield fault(
+                kind.table,
+                name,
+                found="one condition too many",
+                expected="two bars or guides for each joint",
+                remedy="without it the mechanism moves already, and with it it is locked unless its length fits in "
+                "every position; remove it, or write redundant = true to have that checked",
+            )
 
     def _twice(self) -> Iterator[InitErrorDetails]:
         """Names that an earlier element has."""
@@ -123,10 +245,10 @@ class Outline:
     def _unknown(self) -> Iterator[InitErrorDetails]:
         """References to names that do not exist or are something else."""
         for each in self.elements:
-            for key, name in each.references.items():
-                wanted = each.kind.references[key]
-                if name not in self.candidates(wanted):
-                    yield self.unknown(name, wanted, each.kind.table, each.name, key)
+            for key, wanted in each.kind.references.items():
+                name = each.references.get(key)
+                if name is not None and name not in self.candidates(wanted):
+                    yield self.unknown(name, wanted, each.kind.table, each.name, *key.split("."))
 
     def unknown(self, name: str, wanted: Wanted, *place: str) -> InitErrorDetails:
         """The fault of a name that is not what is wanted at a place."""
@@ -143,12 +265,16 @@ class Outline:
         return f'"{name}" is a {word}' if word else ""
 
     def _graph(self) -> dict[str, list[str]]:
-        """Each moving element → the moving elements that it is built on."""
+        """Each moving element → the moving elements that it is built on; joints hang together by their bars."""
         makers = {name: name for name in self.moving_points} | self.links
-        moving = [each for each in self.elements if each.kind.table != "points"]
+        for each in self.elements:
+            makers.update(dict.fromkeys(each.made(each.kind.points), each.name))
+        free = ("points", "joints", "bars")
+        jointed = {each.name for each in self.elements if each.kind.table in free}
         return {
-            each.name: [makers[name] for name in each.references.values() if name in makers]
-            for each in moving
+            each.name: [m for n in each.references.values() if (m := makers.get(n)) and m not in jointed]
+            for each in self.elements
+            if each.kind.table not in free
         }
 
     def _circles(self) -> Iterator[InitErrorDetails]:
@@ -180,5 +306,14 @@ def _elements(kind: ElementKind, table: object) -> Iterator[Element]:
     """The elements of one table."""
     for name in keys(table):
         element = look(table, name)
-        found = {key: look(element, key) for key in kind.references}
-        yield Element(kind, name, {key: value for key, value in found.items() if isinstance(value, str)})
+        found: dict[str, object] = {}
+        for key in kind.references:
+            part: object = element
+            for step in key.split("."):
+                part = look(part, step)
+            found[key] = part
+        names = {key: value for key, value in found.items() if isinstance(value, str)}
+        if kind.table == "joints" and look(element, "guide") is not None and not names:
+            # A guide on the frame through the origin refers to nothing, and holds the joint all the same.
+            names["guide"] = ORIGIN
+        yield Element(kind, name, names, look(element, "redundant") is True)

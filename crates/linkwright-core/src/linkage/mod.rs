@@ -3,10 +3,30 @@
 //! Each element places points and turns links from those before it, with exact first and (where asked)
 //! second transfer functions. A further kind of element is one more function and one more arm here.
 //!
+//! | module | elements |
+//! | --- | --- |
+//! | here | crank, rod on a fixed guide (RRP), rocker (RRR), point of a link |
+//! | [`guided`] | guides that may turn: RRP, RPR, PRP, RPP |
+//! | [`coupled`] | gears, belts, racks, cables, linear drivers |
+//! | [`folding`] | the rocker through its change points |
+//! | [`group`] | groups that do not split into dyads |
+//! | [`trace`] | what the last two need to know of the motion beforehand |
+//!
 //! Source of the method: Assur groups solved in closed form, e.g. Artobolevsky, *Theory of Mechanisms and
 //! Machines*, chapters 4–5; the derivatives follow by differentiating the loop equations written at each
 //! function. A group that cannot be assembled gives NaN from its square root; its [`Motion::gaps`] entry,
 //! the radicand, says by how much.
+
+pub mod coupled;
+pub mod folding;
+pub mod group;
+pub mod guided;
+pub mod trace;
+
+use coupled::{AngleOf, Runner, Turn};
+use folding::Folding;
+use group::{Bar, Group};
+use guided::{Crossing, GuidedRod, SlottedLever};
 
 use crate::plane::{Angle, Heading, Place, Slide, Vec2};
 use crate::real::Real;
@@ -22,8 +42,9 @@ pub struct Fixed {
     pub y: Slot,
 }
 
-/// One element of a mechanism. Point, link and slide fields are indices into [`Motion`].
-#[derive(Clone, Copy, Debug)]
+/// One element of a mechanism. Point, link and slide fields are indices into [`Motion`]; where a guide may be
+/// fixed to the frame, the frame is the link after the last.
+#[derive(Clone, Debug)]
 pub enum Element {
     /// A crank turning with φ + phase about the point `pivot` of the ground; `cos`, `sin` are those of the phase.
     Crank { pin: usize, link: usize, pivot: usize, radius: Slot, cos: Slot, sin: Slot },
@@ -33,6 +54,24 @@ pub enum Element {
     Rocker(Rocker),
     /// A point fixed on a link, `along` it from its start and `across` to the left.
     RigidPoint { point: usize, link: usize, origin: usize, along: Slot, across: Slot },
+    /// A rod to a slider on a guide that may turn: the dyad RRP.
+    GuidedRod(GuidedRod),
+    /// A lever whose slot is moved by a pin: the dyad RPR.
+    SlottedLever(SlottedLever),
+    /// Where two guides cross: the dyads PRP and RPP.
+    Crossing(Crossing),
+    /// A link whose angle is a sum of other coordinates.
+    Turn(Turn),
+    /// A point on a guide whose coordinate is a sum of others.
+    Runner(Runner),
+    /// The continuous angle of a link.
+    AngleOf(AngleOf),
+    /// The dyad RRR through its change points.
+    Folding(Folding),
+    /// A group solved together.
+    Group(Group),
+    /// A link between two points that are placed already.
+    Bar(Bar),
 }
 
 /// Fields of the dyad RRP. The guide has direction (`cos`, `sin`) and passes `offset` to the left of point
@@ -100,7 +139,11 @@ impl<R: Real> Motion<R> {
         let zero = R::splat(0.0);
         let mut motion = Motion {
             points: vec![Place::fixed(Vec2::zero()); mechanism.n_points],
-            links: vec![Heading { e: Vec2::zero(), d1: zero, d2: zero }; mechanism.n_links],
+            // The frame is the link after the last, and stays as it is.
+            links: vec![
+                Heading { e: Vec2::new(R::splat(1.0), zero), d1: zero, d2: zero };
+                mechanism.n_links + 1
+            ],
             slides: vec![Slide { s: zero, d1: zero, d2: zero }; mechanism.n_slides],
             gaps: vec![zero; mechanism.n_gaps],
         };
@@ -122,7 +165,11 @@ impl Mechanism {
     pub fn arm_of(&self, carried: usize) -> Option<usize> {
         let is_ground = |point: usize| self.ground.iter().any(|fixed| fixed.point == point);
         self.elements.iter().find_map(|element| match *element {
-            Element::Rocker(ref e) if e.joint == carried && is_ground(e.pivot) => Some(e.rocker_link),
+            Element::Rocker(ref e) | Element::Folding(Folding { rocker: ref e, .. })
+                if e.joint == carried && is_ground(e.pivot) =>
+            {
+                Some(e.rocker_link)
+            }
             Element::RigidPoint { point, link, origin, .. } if point == carried && is_ground(origin) => {
                 Some(link)
             }
@@ -134,7 +181,13 @@ impl Mechanism {
     /// (second derivatives stay zero at order 1). `q` are the machine's parameters.
     #[inline(always)]
     pub fn place<R: Real, const ORDER: u8>(&self, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
-        for element in &self.elements {
+        self.place_first::<R, ORDER>(self.elements.len(), q, angle, m);
+    }
+
+    /// Places the first `n` elements.
+    #[inline(always)]
+    fn place_first<R: Real, const ORDER: u8>(&self, n: usize, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
+        for element in &self.elements[..n] {
             match *element {
                 Element::Crank { pin, link, pivot, radius, cos, sin } => {
                     let heading = crank_heading(q[cos], q[sin], angle);
@@ -149,7 +202,37 @@ impl Mechanism {
                     let place = on_link::<R, ORDER>(&m.points[origin], &m.links[link], q[along], q[across]);
                     m.points[point].set(place.p, place.d1, place.d2);
                 }
+                // A function of their own keeps the loop over the common elements small.
+                _ => R::outline(
+                    #[inline(always)]
+                    || element.place_rarer::<R, ORDER>(q, angle, m),
+                ),
             }
+        }
+    }
+}
+
+impl Element {
+    /// Places an element of the rarer kinds.
+    #[inline(always)]
+    fn place_rarer<R: Real, const ORDER: u8>(&self, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
+        match self {
+            Element::GuidedRod(e) => guided::guided_rod::<R, ORDER>(e, q, m),
+            Element::SlottedLever(e) => guided::slotted_lever::<R, ORDER>(e, q, m),
+            Element::Crossing(e) => guided::crossing::<R, ORDER>(e, q, m),
+            Element::Turn(e) => coupled::turn(e, q, angle, m),
+            Element::Runner(e) => coupled::runner::<R, ORDER>(e, q, angle, m),
+            Element::AngleOf(e) => coupled::angle_of(e, q, angle, m),
+            Element::Folding(e) => folding::folding(e, q, angle, m),
+            Element::Group(e) => e.place::<R, ORDER>(q, angle, m),
+            Element::Bar(e) => {
+                let (from, to) = (m.points[e.from], m.points[e.to]);
+                guided::bar(m, e.link, &from, &to, q[e.inverse_length]);
+            }
+            Element::Crank { .. }
+            | Element::SliderRod(_)
+            | Element::Rocker(_)
+            | Element::RigidPoint { .. } => {}
         }
     }
 }

@@ -1,0 +1,148 @@
+//! The dyad RRR through its change points, where coupler and rocker come into line.
+//!
+//! There the radicand g = S² of [`super::Rocker`] touches zero, both assemblies meet, and the motion that goes
+//! on without a break is the one where S changes sign: S is smooth, |S| is not. The rates of the links are
+//! 0/0 in the loop equations. Near a change point φ_c the root is therefore taken from g's Taylor series,
+//!
+//! ```text
+//! g = δ² h(δ),    S = δ √h(δ),    δ = φ − φ_c
+//! ```
+//!
+//! and positions and rates follow from S, S′, S″ without division by S:
+//!
+//! ```text
+//! C = A + P u + Q u⊥    P = ½ + (a² − b²)/(2U)    Q = S/(2U)    U = u², u from pin to pivot
+//! ```
+//!
+//! Away from it S = ±√g with the sign of Π sin((φ − φ_c)/2) over all change points: it changes at each of
+//! them and nowhere else.
+
+use super::guided::bar;
+use super::{Motion, Rocker, Slot};
+use crate::plane::{Angle, Place};
+use crate::real::Real;
+
+/// Coefficients kept of the series of S/δ.
+pub const TERMS: usize = 12;
+
+/// Distance from a change point \[rad\] within which the series is used. At its edge the direct root has lost
+/// some 1/δ² = 1e3 of its digits in S′ and the series of a linkage whose nearest other singularity is half
+/// a radian away is good to (0.03/0.5)¹² = 2e-15.
+const NEAR: f64 = 0.03;
+
+/// A change point: cos φ_c, sin φ_c, cos ½φ_c, sin ½φ_c and the coefficients of S/δ.
+#[derive(Clone, Debug)]
+pub struct ChangePoint {
+    pub cos: Slot,
+    pub sin: Slot,
+    pub half_cos: Slot,
+    pub half_sin: Slot,
+    pub series: Vec<Slot>,
+}
+
+/// A dyad RRR with its change points; the rocker's `sign` holds where the product of half-angle sines is
+/// positive.
+#[derive(Clone, Debug)]
+pub struct Folding {
+    pub rocker: Rocker,
+    pub change_points: Vec<ChangePoint>,
+}
+
+/// A quantity with its first and second derivative by φ.
+type Series<R> = [R; 3];
+
+/// U = u·u with two derivatives.
+#[inline(always)]
+fn square<R: Real>(pin: &Place<R>, pivot: &Place<R>) -> Series<R> {
+    let (u, u1, u2) = (pivot.p - pin.p, pivot.d1 - pin.d1, pivot.d2 - pin.d2);
+    [u.dot(u), u.dot(u1) * 2.0, (u1.dot(u1) + u.dot(u2)) * 2.0]
+}
+
+/// g = 4a²U − (U + a² − b²)² with two derivatives.
+#[inline(always)]
+pub(super) fn radicand<R: Real>(g: &Rocker, q: &[R], m: &Motion<R>) -> Series<R> {
+    let [U, U1, U2] = square(&m.points[g.pin], &m.points[g.pivot]);
+    let (a, b) = (q[g.coupler], q[g.rocker]);
+    let projected = U + (a - b) * (a + b);
+    let four = a.squared() * 4.0;
+    let slope = four - projected * 2.0;
+    [four * U - projected.squared(), slope * U1, slope * U2 - U1.squared() * 2.0]
+}
+
+/// δ = φ − φ_c by its sine, for |δ| a little above [`NEAR`] at most: the next term is below 1e-16.
+#[inline(always)]
+fn small_angle<R: Real>(sine: R) -> R {
+    let z = sine.squared();
+    // arcsin x = x (1 + x²/6 + 3x⁴/40 + 15x⁶/336 + 105x⁸/3456 + …)
+    let tail = (z * (105.0 / 3456.0) + 15.0 / 336.0) * z + 3.0 / 40.0;
+    sine * ((tail * z + 1.0 / 6.0) * z + 1.0)
+}
+
+/// δ·p(δ) with two derivatives.
+#[inline(always)]
+fn near<R: Real>(series: &[Slot], q: &[R], delta: R) -> Series<R> {
+    let zero = R::splat(0.0);
+    let (mut p, mut p1, mut p2) = (zero, zero, zero);
+    for &slot in series.iter().rev() {
+        p2 = p2.mul_add(delta, p1 * 2.0);
+        p1 = p1.mul_add(delta, p);
+        p = p.mul_add(delta, q[slot]);
+    }
+    [p * delta, p + p1 * delta, p1 * 2.0 + p2 * delta]
+}
+
+/// S with two derivatives at any crank angle.
+#[inline(always)]
+fn root<R: Real>(e: &Folding, q: &[R], angle: Angle<R>, g: Series<R>) -> Series<R> {
+    let mut side = q[e.rocker.sign];
+    let (half_sin, half_cos) = (angle.phi * 0.5).sin_cos();
+    for at in &e.change_points {
+        side = side * (half_sin * q[at.half_cos] - half_cos * q[at.half_sin]);
+    }
+    let one = R::splat(1.0);
+    let sign = side.select_lt(R::splat(0.0), -one, one);
+    let S = sign * g[0].sqrt();
+    let half = (S + S).recip();
+    let S1 = g[1] * half;
+    let mut found = [S, S1, (g[2] - S1.squared() * 2.0) * half];
+    for at in &e.change_points {
+        let sine = angle.sin * q[at.cos] - angle.cos * q[at.sin];
+        let cosine = angle.cos * q[at.cos] + angle.sin * q[at.sin];
+        // The opposite side of the turn has the same sine: it is put out of reach.
+        let distance = cosine.select_lt(R::splat(0.0), one, sine.abs());
+        let close = near(&at.series, q, small_angle(sine));
+        for k in 0..3 {
+            found[k] = distance.select_lt(R::splat(NEAR), close[k], found[k]);
+        }
+    }
+    found
+}
+
+#[inline(always)]
+pub(super) fn folding<R: Real>(e: &Folding, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
+    let g = &e.rocker;
+    let (pin, pivot) = (m.points[g.pin], m.points[g.pivot]);
+    let S = root(e, q, angle, radicand(g, q, m));
+    let (a, b) = (q[g.coupler], q[g.rocker]);
+    let [U, U1, U2] = square(&pin, &pivot);
+    let inverse = U.recip();
+    let (u, u1, u2) = (pivot.p - pin.p, pivot.d1 - pin.d1, pivot.d2 - pin.d2);
+    // P − ½ = k/U
+    let k = (a - b) * (a + b) * inverse * 0.5;
+    let (rate, bend) = (U1 * inverse, U2 * inverse);
+    let P = [k + 0.5, -(k * rate), k * (rate.squared() * 2.0 - bend)];
+    let Q0 = S[0] * inverse * 0.5;
+    let Q1 = S[1] * inverse * 0.5 - Q0 * rate;
+    let Q2 = S[2] * inverse * 0.5 - Q0 * bend - Q1 * rate * 2.0;
+    let arm = (u * P[0]).plus(u.left(), Q0);
+    let arm1 = (u * P[1]).plus(u1, P[0]).plus(u.left(), Q1).plus(u1.left(), Q0);
+    let bent = (u * P[2]).plus(u1, P[1] * 2.0).plus(u2, P[0]);
+    let arm2 = bent.plus(u.left(), Q2).plus(u1.left(), Q1 * 2.0).plus(u2.left(), Q0);
+    let mut joint = Place::fixed(pin.p + arm);
+    joint.d1 = pin.d1 + arm1;
+    joint.d2 = pin.d2 + arm2;
+    m.gaps[g.gap] = S[0].squared();
+    m.points[g.joint].set(joint.p, joint.d1, joint.d2);
+    bar(m, g.coupler_link, &pin, &joint, q[g.inverse_coupler]);
+    bar(m, g.rocker_link, &pivot, &joint, q[g.inverse_rocker]);
+}

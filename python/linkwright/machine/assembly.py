@@ -1,0 +1,230 @@
+"""In which order a mechanism is built: single elements, dyads of joints, and groups that are solved together.
+
+Elements that refer to what is placed already come one by one. The coordinates of joints are unknowns, bars and
+guides are equations: a matching of equations to unknowns tells what is missing or too much, and its strongly
+connected parts are the smallest groups that can be solved, one after another (Dulmage and Mendelsohn,
+*Coverings of bipartite graphs*, Canadian J. Math. 10 (1958); for linkages these parts are the Assur groups).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Literal, NamedTuple
+
+
+class Part(NamedTuple):
+    """One element as the assembly sees it.
+
+    Attributes
+    ----------
+    role : str
+        ``"element"``, ``"joint"``, ``"bar"`` or ``"carried"`` (a point fixed to a link).
+    needs : tuple of str
+        Points and links that must be placed before; of a bar its two ends, of a joint what its guide hangs on.
+    makes : tuple of str
+        Points and links that it places.
+    """
+
+    role: Literal["element", "joint", "bar", "carried"]
+    needs: tuple[str, ...]
+    makes: tuple[str, ...]
+
+
+class Step(NamedTuple):
+    """One step of the build.
+
+    Attributes
+    ----------
+    kind : str
+        ``"element"``, ``"dyad"`` or ``"group"``.
+    names : tuple of str
+        The element, or the joints.
+    conditions : tuple of str
+        Bars, and joints in place of their guides, that hold the joints.
+    """
+
+    kind: Literal["element", "dyad", "group"]
+    names: tuple[str, ...]
+    conditions: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Build:
+    """The steps, and what stands in the way.
+
+    Attributes
+    ----------
+    steps : list of Step
+        In order.
+    loose : list of str
+        Joints that can still move.
+    surplus : list of str
+        Bars, and joints in place of their guides, that are too many.
+    stuck : list of str
+        Elements that could not be placed.
+    """
+
+    steps: list[Step] = field(default_factory=list)
+    loose: list[str] = field(default_factory=list)
+    surplus: list[str] = field(default_factory=list)
+    stuck: list[str] = field(default_factory=list)
+
+
+def build(parts: Mapping[str, Part], placed: Iterable[str], ignored: Iterable[str] = ()) -> Build:
+    """Find the order.
+
+    Parameters
+    ----------
+    parts : mapping
+        Name of each element → what it needs and makes.
+    placed : iterable of str
+        What is there from the start: points at rest.
+    ignored : iterable of str
+        Bars that are redundant: they hold nothing.
+
+    Returns
+    -------
+    Build
+        The steps, as far as they go, and what is missing or too much.
+    """
+    return _Builder(dict(parts), set(placed), set(ignored)).run()
+
+
+@dataclass(slots=True)
+class _Builder:
+    parts: dict[str, Part]
+    placed: set[str]
+    ignored: set[str]
+    used: set[str] = field(default_factory=set)
+    found: Build = field(default_factory=Build)
+
+    def run(self) -> Build:
+        while self._single() or self._together():
+            pass
+        self.found.stuck.extend(self.parts)
+        return self.found
+
+    def _single(self) -> bool:
+        """Places the next element that hangs only on what is placed."""
+        for name, part in self.parts.items():
+            if part.role != "joint" and self.placed.issuperset(part.needs):
+                if part.role == "bar" and name not in self.used and name not in self.ignored:
+                    self.found.surplus.append(name)
+                self._place([name], Step("element", (name,)))
+                return True
+        return False
+
+    def _place(self, names: Iterable[str], step: Step) -> None:
+        self.found.steps.append(step)
+        for name in names:
+            self.placed.update(self.parts.pop(name).makes)
+
+    # -- joints ------------------------------------------------------------------------------------------
+
+    def _together(self) -> bool:
+        """Solves the first group of joints that hangs only on what is placed."""
+        system = self._system()
+        matched = _matching(system)
+        joints = {joint for joint, _ in matched.values()}
+        depends = {joint: set[str]() for joint in joints}
+        for condition, (joint, _) in matched.items():
+            depends[joint] |= system[condition]
+        held = {joint: [c for c, (j, _) in matched.items() if j == joint] for joint in joints}
+        full = {joint for joint in joints if len(held[joint]) == 2}
+        for group in _smallest(depends, full):
+            conditions = [c for c in system if c in matched and matched[c][0] in group]
+            self._group(sorted(group, key=list(self.parts).index), conditions)
+            return True
+        self._complain(system, matched)
+        return False
+
+    def _system(self) -> dict[str, set[str]]:
+        """Condition → the joints that it holds; conditions that hang on something else that is open are left out."""
+        system: dict[str, set[str]] = {}
+        for name, part in self.parts.items():
+            if name in self.ignored or part.role not in ("bar", "joint"):
+                continue
+            if part.role == "joint" and not part.needs:
+                continue
+            hangs = [self._joints_of(need) for need in part.needs]
+            own = {name} if part.role == "joint" else set[str]()
+            if None not in hangs:
+                held = own.union(*(each for each in hangs if each is not None))
+                if held:
+                    system[name] = held
+        return system
+
+    def _joints_of(self, need: str, depth: int = 0) -> set[str] | None:
+        """The open joints that a point or link hangs on; None if it hangs on something else that is open."""
+        if need in self.placed:
+            return set()
+        maker = next((name for name, part in self.parts.items() if need in part.makes), None)
+        if maker is None or depth > len(self.parts):
+            return None
+        part = self.parts[maker]
+        if part.role == "joint":
+            return {maker}
+        if part.role == "element":
+            return None
+        below = [self._joints_of(each, depth + 1) for each in part.needs]
+        return None if None in below else set().union(*(each for each in below if each is not None))
+
+    def _group(self, joints: list[str], conditions: list[str]) -> None:
+        self.used.update(conditions)
+        kind: Literal["dyad", "group"] = "group"
+        if len(joints) == 1 and not any(self._turns_with(condition, joints[0]) for condition in conditions):
+            kind = "dyad"
+        self._place(joints, Step(kind, tuple(joints), tuple(conditions)))
+
+    def _turns_with(self, condition: str, joint: str) -> bool:
+        """Whether a condition holds the joint by something else than the joint itself and what is placed."""
+        part = self.parts[condition]
+        return any(need not in self.placed and need != joint for need in part.needs)
+
+    def _complain(self, system: dict[str, set[str]], matched: dict[str, tuple[str, int]]) -> None:
+        """What is missing or too much among the joints that are left."""
+        taken = list(matched.values())
+        open_joints = [name for name, part in self.parts.items() if part.role == "joint"]
+        self.found.loose.extend(
+            joint for joint in open_joints if taken.count((joint, 0)) + taken.count((joint, 1)) < 2
+        )
+        self.found.surplus.extend(condition for condition in system if condition not in matched)
+
+
+def _matching(system: Mapping[str, set[str]]) -> dict[str, tuple[str, int]]:
+    """Gives each condition, if possible, one coordinate of a joint that it holds (augmenting paths)."""
+    owner: dict[tuple[str, int], str] = {}
+
+    def give(condition: str, seen: set[tuple[str, int]]) -> bool:
+        for coordinate in [(joint, k) for joint in sorted(system[condition]) for k in (0, 1)]:
+            if coordinate in seen:
+                continue
+            seen.add(coordinate)
+            if coordinate not in owner or give(owner[coordinate], seen):
+                owner[coordinate] = condition
+                return True
+        return False
+
+    for condition in system:
+        give(condition, set())
+    return {condition: coordinate for coordinate, condition in owner.items()}
+
+
+def _smallest(depends: Mapping[str, set[str]], full: set[str]) -> Iterator[set[str]]:
+    """Sets of joints that depend on nothing but themselves, all of them fully held; the smallest first."""
+    reach = {joint: _reach(joint, depends) for joint in depends}
+    for joint in sorted(reach, key=lambda each: (len(reach[each]), each)):
+        if reach[joint] <= full:
+            yield reach[joint]
+
+
+def _reach(joint: str, depends: Mapping[str, set[str]]) -> set[str]:
+    """All joints that one depends on, itself included."""
+    found, open_ = {joint}, [joint]
+    while open_:
+        for other in depends.get(open_.pop(), ()):
+            if other not in found:
+                found.add(other)
+                open_.append(other)
+    return found

@@ -1,0 +1,233 @@
+"""What has to be known of a mechanism's motion before it can be computed at any angle.
+
+| pending | is settled by |
+| --- | --- |
+| side of a joint given by its place | where that lies when the mechanism is assembled |
+| continuous angle of a link | its turns in a turn of the crank, and the middle of its swing about them |
+| change points of a dyad | the radicand's zeros, found exactly, and its series there |
+| start of a group | its motion, followed step by step over the turn |
+
+They are settled in build order, each with what stands before it. A machine without any of them passes untouched.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright import _core
+from linkwright.elements import Continuous, Foldable, Pending, Rows, Side, Solved
+from linkwright.errors import AssemblyError
+
+Floats = NDArray[np.float64]
+
+# Angles of a look at a radicand or a link over the turn.
+_LOOK = 720
+
+# A radicand above this share of its greatest at all those angles has no zero between them: a parabola that
+# touches zero is below a hundred-thousandth at the nearest.
+_NEAR_ZERO = 1e-3
+
+# Largest swing of a link about its mean turning that leaves its angle unambiguous, in radians.
+_SWING_MAX = 1.98 * np.pi
+
+# A whole number of turns is one to this.
+_WHOLE = 1e-6
+
+# Difference in length of a redundant bar, over its length, that counts as rounding.
+_FITS = 1e-9
+
+
+class Settled:
+    """Rows, tables and numbers of a mechanism with everything pending filled in."""
+
+    def __init__(
+        self, rows: Rows, parameters: Floats, plan: Callable[[], _core.Plan], assembled_at: float
+    ) -> None:
+        self.rows = rows
+        self.parameters = parameters
+        self.make_plan = plan
+        self.assembled_at = assembled_at
+        self.plan = plan()
+
+    def run(self) -> None:
+        """Settles all that is pending, in build order.
+
+        Raises
+        ------
+        AssemblyError
+            A group does not close where it is assembled, a link turns irregularly, or a redundant bar does not
+            fit.
+        """
+        for each in self.rows.pending:
+            self._settle(each)
+        self._check_redundant()
+
+    def _settle(self, each: Pending) -> None:
+        match each:
+            case Side():
+                self._side(each)
+            case Continuous():
+                self._continuous(each)
+            case Foldable():
+                self._fold(each)
+            case Solved():
+                self._follow(each)
+
+    def _motion(self, kind: int, index: int, angles: Floats) -> Floats:
+        """Numbers of a point (6), link (4) or slide (3) at crank angles."""
+        width = (6, 4, 3)[kind]
+        out = np.empty((width, len(angles)))
+        what = np.array([[kind, index]], dtype=np.int32)
+        none = np.empty(0, dtype=np.int32)
+        _core.motions(self.plan, self.parameters, none, np.empty((0, 1)), angles, what, out.reshape(-1))
+        return out
+
+    # -- sides -------------------------------------------------------------------------------------------
+
+    def _side(self, each: Side) -> None:
+        """Left of the line from pin to pivot, or ahead along the guide."""
+        at = np.array([self.assembled_at])
+        joint = self.rows.mechanism.joints[each.joint]
+        x, y = self._motion(0, each.pin, at)[:2, 0]
+        to = np.array([joint.x - x, joint.y - y], dtype=float)
+        if each.pivot is not None:
+            u, v = self._motion(0, each.pivot, at)[:2, 0] - (x, y)
+            side = u * to[1] - v * to[0]
+        else:
+            assert each.guide is not None
+            link, angle = each.guide
+            cos, sin = (1.0, 0.0) if link == self.rows.frame else self._motion(1, link, at)[:2, 0]
+            direction = np.array(
+                [cos * np.cos(angle) - sin * np.sin(angle), sin * np.cos(angle) + cos * np.sin(angle)]
+            )
+            side = float(direction @ to)
+        self.parameters[each.slot] = 1.0 if side > 0 else -1.0
+
+    # -- continuous angles -------------------------------------------------------------------------------
+
+    def _continuous(self, each: Continuous) -> None:
+        """Turns a turn of the crank, and the middle of the swing about them."""
+        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
+        cos, sin, *_ = self._motion(1, each.link, angles)
+        closes = np.isfinite(cos)
+        if not closes.any():
+            return
+        psi = np.unwrap(np.arctan2(sin[closes], cos[closes]))
+        at = angles[closes]
+        winding = 0.0
+        if closes.all():
+            winding = (psi[-1] - psi[0]) / (2 * np.pi)
+            winding = round(winding) if abs(winding - round(winding)) < _WHOLE else winding
+        rest = psi - winding * at
+        if np.ptp(rest) > _SWING_MAX:
+            raise AssemblyError(
+                f"the link {each.name} swings by {np.degrees(np.ptp(rest)):.0f}° about its mean turning; "
+                "a gear, a rack or a cable on it has no unambiguous place beyond 356°",
+                element=each.name,
+            )
+        # The middle is that of the swing, and the angle at the start is the one within half a turn of zero.
+        middle = 0.5 * (rest.min() + rest.max())
+        self.parameters[each.winding] = winding
+        self.parameters[each.centre] = middle
+
+    # -- change points -----------------------------------------------------------------------------------
+
+    def _fold(self, each: Foldable) -> None:
+        """Finds the change points of a dyad, and gives its row their series."""
+        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)[:-1]
+        gaps = _core.gaps(self.plan, self.parameters, angles)[each.gap]
+        if not np.isfinite(gaps).any():
+            return
+        size = np.nanmax(np.abs(gaps))
+        lowest = (gaps <= np.roll(gaps, 1)) & (gaps <= np.roll(gaps, -1)) & (np.abs(gaps) < _NEAR_ZERO * size)
+        element = sum(row[0] != 0 for row in self.rows.rows[: each.row])
+        found: dict[float, list[float]] = {}
+        for near in angles[lowest]:
+            point = _core.change_point(self.plan, self.parameters, element, float(near))
+            if point is not None and not any(_turns_apart(point[0], other) < _WHOLE for other in found):
+                found[point[0]] = point[1]
+        if found:
+            self._give_change_points(each, found)
+
+    def _give_change_points(self, each: Foldable, found: dict[float, list[float]]) -> None:
+        """Turns the row of a dyad into one with change points.
+
+        The given side is that at small positive crank angles; the series has the sign that the root has just
+        after its change point.
+        """
+        at = np.array(sorted(found))
+        just_after = 1e-7
+        # A side that varies from row to row does not exist.
+        wanted = self.parameters[each.sign]
+        sign = wanted * np.sign(np.prod(np.sin((just_after - at) / 2)))
+        self.parameters[each.sign] = sign
+        row = [11, *self.rows.rows[each.row][1:], len(at)]
+        numbers: list[float] = []
+        for phi in at:
+            after = sign * np.sign(np.prod(np.sin((phi + just_after - at) / 2)))
+            angles = (np.cos(phi), np.sin(phi), np.cos(phi / 2), np.sin(phi / 2))
+            numbers += [*angles, *(after * np.array(found[phi]))]
+        row += list(range(len(self.parameters), len(self.parameters) + len(numbers)))
+        self.parameters = np.concatenate([self.parameters, numbers])
+        self.rows.parameters += numbers
+        self.rows.rows[each.row] = row
+        self.plan = self.make_plan()
+
+    # -- groups ------------------------------------------------------------------------------------------
+
+    def _follow(self, each: Solved) -> None:
+        """Follows a group over the turn from where it is assembled."""
+        element = sum(row[0] != 0 for row in self.rows.rows[: each.row])
+        joints = [self.rows.mechanism.joints[name] for name in each.names]
+        near = np.array([value for joint in joints for value in (joint.x, joint.y)], dtype=np.float64)
+        path = _core.follow_group(self.plan, self.parameters, element, self.assembled_at, near)
+        if path is None:
+            names = " and ".join(each.names)
+            raise AssemblyError(
+                f"the joints {names} do not close near their given places at crank angle "
+                f"{np.degrees(self.assembled_at):.6g}°; give places from a drawing of that position, or change "
+                "the lengths",
+                element=each.names[0],
+                crank_angle=self.assembled_at,
+            )
+        phi, places, turns = path
+        span = float(phi[-1] - phi[0])
+        cycle = float(turns or max(1, int(np.ceil(span / (2 * np.pi) + _WHOLE))))
+        # The last angle of a motion that repeats is the first again.
+        for table, place in zip(each.tables, places, strict=True):
+            self.rows.tables[table] = (list(phi / cycle), list(place))
+        self.parameters[each.inverse_turns] = 1.0 / cycle
+        self.rows.rows[each.row][3] = int(turns is not None)
+        self.plan = self.make_plan()
+
+    # -- redundant bars ----------------------------------------------------------------------------------
+
+    def _check_redundant(self) -> None:
+        """A redundant bar must fit at every angle."""
+        mechanism = self.rows.mechanism
+        for name, bar in mechanism.bars.items():
+            if bar.redundant:
+                self._check_fit(name, self.rows.points[bar.start], self.rows.points[bar.end], bar.length)
+
+    def _check_fit(self, name: str, start: int, end: int, length: float) -> None:
+        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
+        u = self._motion(0, end, angles)[:2] - self._motion(0, start, angles)[:2]
+        off = np.abs(np.hypot(*u) - length)
+        off = np.where(np.isfinite(off), off, 0.0)
+        worst = int(off.argmax())
+        if off[worst] > _FITS * length:
+            raise AssemblyError(
+                f"the redundant bar {name} ({length:g} m) does not fit: at crank angle "
+                f"{np.degrees(angles[worst]):.4g}° its ends are {off[worst]:.3g} m farther apart or nearer than "
+                "its length, so the mechanism is locked; correct the length or remove the bar",
+                element=name,
+                crank_angle=float(angles[worst]),
+            )
+
+
+def _turns_apart(a: float, b: float) -> float:
+    """Distance of two angles on the circle [rad]."""
+    return abs((a - b + np.pi) % (2 * np.pi) - np.pi)

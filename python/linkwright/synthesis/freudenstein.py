@@ -1,0 +1,246 @@
+"""Freudenstein's equation: four-bar linkages whose rocker angles ψ_i belong to crank angles φ_i.
+
+    K₁ cos ψ − K₂ cos φ + K₃ = cos(φ − ψ)
+
+    K₁ = g/r          K₂ = g/b          K₃ = (g² + r² + b² − c²)/(2 r b)
+
+with frame g, crank r, coupler c, rocker b, and both angles from the frame's direction. With start angles φ₀,
+ψ₀ given it is linear in K: three points are met exactly, more in the least-squares sense. Each start angle
+left free is one more unknown and one more point that can be met exactly; the equations are then solved by the
+method of Levenberg and Marquardt from a grid of start angles, all at once.
+
+Source: F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955)
+853–861.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+# Start angles tried for each one that is free: every 15° where two are, every 2.5° where one is.
+_GRID = {1: 144, 2: 24}
+
+# Steps of Levenberg–Marquardt; from a good start it takes about ten.
+_STEPS = 60
+
+# Solutions that are handed on; least squares of many points may have a long valley instead of a few minima.
+_MOST = 40
+
+# A fit whose residual is smaller than this meets its points: cos of angles to rounding.
+EXACT = 1e-11
+
+# Start angles that agree to this [rad] are one solution, found from two places of the grid.
+_SAME = 1e-6
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A solution of Freudenstein's equation.
+
+    Attributes
+    ----------
+    K : ndarray, shape (3,)
+        K₁, K₂, K₃ [–].
+    crank_start, rocker_start : float
+        φ₀ and ψ₀ [rad].
+    residual : float
+        Root of the mean square of the equation's residuals [–].
+    """
+
+    K: Floats
+    crank_start: float
+    rocker_start: float
+    residual: float
+
+
+def lengths(K: Floats, frame: float = 1.0) -> tuple[float, float, float] | None:
+    """Crank, coupler and rocker of a solution.
+
+    Parameters
+    ----------
+    K : ndarray, shape (3,)
+        K₁, K₂, K₃ [–].
+    frame : float
+        Distance of the fixed pivots [m].
+
+    Returns
+    -------
+    tuple of float or None
+        r, c, b [m]; r or b is negative where its link points against the angle that describes it. None if no
+        such linkage exists.
+    """
+    if not np.isfinite(K).all() or min(abs(K[0]), abs(K[1])) < 1e-9:
+        return None
+    r, b = frame / K[0], frame / K[1]
+    square = frame**2 + r**2 + b**2 - 2 * r * b * K[2]
+    return (r, float(np.sqrt(square)), b) if square > 0 else None
+
+
+def solve(crank: Floats, rocker: Floats, crank_start: float | None, rocker_start: float | None) -> list[Fit]:
+    """All solutions that are found for pairs of angles.
+
+    Parameters
+    ----------
+    crank, rocker : ndarray, shape (n,)
+        Crank and rocker angles of the points, from their start angles [rad].
+    crank_start, rocker_start : float or None
+        Start angles from the frame [rad]; None where they are free.
+
+    Returns
+    -------
+    list of Fit
+        One if both are given; else the distinct ones, the smallest residual first.
+    """
+    free = np.array([crank_start is None, rocker_start is None])
+    starts = _grid(crank_start, rocker_start)
+    K = _linear(crank, rocker, starts)
+    if free.any():
+        K, starts = _positive(*_refined(crank, rocker, K, starts, free), free)
+    residuals = np.sqrt(np.mean(_residuals(crank, rocker, K, starts)[0] ** 2, axis=1))
+    order = np.argsort(residuals, kind="stable")
+    found: list[Fit] = []
+    for i in order:
+        if np.isfinite(residuals[i]):
+            phi, psi = (float(np.angle(np.exp(1j * start))) for start in starts[i])
+            found.append(Fit(K[i], phi, psi, float(residuals[i])))
+    return _distinct(found)
+
+
+def scan(crank: Floats, rocker: Floats, crank_start: float | None, rocker_start: float | None) -> list[Fit]:
+    """Least-squares fits for start angles all over, for a choice by something else than the residual.
+
+    Parameters
+    ----------
+    crank, rocker : ndarray, shape (n,)
+        Crank and rocker angles of the points, from their start angles [rad].
+    crank_start, rocker_start : float or None
+        Start angles from the frame [rad]; None where they are free.
+
+    Returns
+    -------
+    list of Fit
+        The smallest residual first.
+    """
+    starts = _grid(crank_start, rocker_start, {1: 720, 2: 90})
+    K = _linear(crank, rocker, starts)
+    residuals = np.sqrt(np.mean(_residuals(crank, rocker, K, starts)[0] ** 2, axis=1))
+    rows = [
+        (K[i], float(starts[i, 0]), float(starts[i, 1]), float(residuals[i])) for i in residuals.argsort()
+    ]
+    return [Fit(*row) for row in rows]
+
+
+def _grid(
+    crank_start: float | None, rocker_start: float | None, per_turn: Mapping[int, int] = _GRID
+) -> Floats:
+    """Start angles to begin with, (m, 2); so many a turn, by how many are free."""
+    n = per_turn.get((crank_start is None) + (rocker_start is None), 1)
+    turn = np.linspace(-np.pi, np.pi, n, endpoint=False)
+    axes = [turn if start is None else np.array([start]) for start in (crank_start, rocker_start)]
+    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+
+
+def _columns(crank: Floats, rocker: Floats, starts: Floats) -> tuple[Floats, Floats]:
+    """φ and ψ of all points for all starts, (m, n)."""
+    return crank + starts[:, :1], rocker + starts[:, 1:]
+
+
+def _linear(crank: Floats, rocker: Floats, starts: Floats) -> Floats:
+    """K by linear least squares for given start angles, (m, 3)."""
+    phi, psi = _columns(crank, rocker, starts)
+    A = np.stack([np.cos(psi), -np.cos(phi), np.ones_like(phi)], axis=-1)
+    return np.asarray(np.einsum("mkn,mn->mk", np.linalg.pinv(A), np.cos(phi - psi)))
+
+
+def _residuals(crank: Floats, rocker: Floats, K: Floats, starts: Floats) -> tuple[Floats, Floats]:
+    """Residuals (m, n) of the equation, and their derivatives by K₁, K₂, K₃, φ₀, ψ₀ (m, n, 5)."""
+    phi, psi = _columns(crank, rocker, starts)
+    K1, K2, K3 = (K[:, i : i + 1] for i in range(3))
+    residual = K1 * np.cos(psi) - K2 * np.cos(phi) + K3 - np.cos(phi - psi)
+    by_phi = K2 * np.sin(phi) + np.sin(phi - psi)
+    by_psi = -K1 * np.sin(psi) - np.sin(phi - psi)
+    columns = (np.cos(psi), -np.cos(phi), np.ones_like(phi), by_phi, by_psi)
+    return residual, np.stack(columns, axis=-1)
+
+
+def _refined(
+    crank: Floats, rocker: Floats, K: Floats, starts: Floats, free: NDArray[np.bool_]
+) -> tuple[Floats, Floats]:
+    """Levenberg–Marquardt from every start at once.
+
+    References
+    ----------
+    .. [1] D. Marquardt, An algorithm for least-squares estimation of nonlinear parameters, SIAM 11 (1963)
+    431–441.
+    """
+    moving = np.concatenate([np.ones(3, dtype=bool), free])
+    x = np.concatenate([K, starts], axis=1)
+    damping = np.full(len(x), 1e-3)
+    residual, J = _residuals(crank, rocker, x[:, :3], x[:, 3:])
+    cost = np.sum(residual**2, axis=1)
+    for _ in range(_STEPS):
+        step = _step(residual, J[:, :, moving], damping)
+        trial = x.copy()
+        trial[:, moving] += step
+        new, new_J = _residuals(crank, rocker, trial[:, :3], trial[:, 3:])
+        new_cost = np.sum(new**2, axis=1)
+        better = new_cost < cost
+        x[better], residual[better], J[better], cost[better] = (
+            trial[better],
+            new[better],
+            new_J[better],
+            new_cost[better],
+        )
+        damping = np.clip(np.where(better, damping / 10, damping * 10), 1e-15, 1e15)
+    return x[:, :3], x[:, 3:]
+
+
+def _step(residual: Floats, J: Floats, damping: Floats) -> Floats:
+    """Damped Gauss–Newton steps, (m, k): least squares of the Jacobian with the damping below it.
+
+    The augmented system is solved by orthogonal factors, so that the residual of an exact solution reaches
+    rounding.
+    """
+    k = J.shape[2]
+    scale = np.sqrt(damping)[:, None] * np.maximum(np.linalg.norm(J, axis=1), 1e-12)
+    below = scale[:, :, None] * np.eye(k)
+    tall = np.concatenate([J, below], axis=1)
+    right = np.concatenate([-residual, np.zeros((len(J), k))], axis=1)
+    Q, R = np.linalg.qr(tall)
+    step: Floats = np.linalg.solve(R, np.einsum("mnk,mn->mk", Q, right)[:, :, None])[:, :, 0]
+    return step
+
+
+def _positive(K: Floats, starts: Floats, free: NDArray[np.bool_]) -> tuple[Floats, Floats]:
+    """The same linkages with positive lengths, where a start angle is free to turn by π instead."""
+    K, starts = K.copy(), starts.copy()
+    for i in (0, 1):
+        turned = free[i] & (K[:, i] < 0)
+        starts[turned, i] += np.pi
+        # Turning φ by π changes the signs of cos φ and of the right side, hence of K₁ and K₃; ψ likewise.
+        K[turned, i] *= -1
+        K[turned, 2] *= -1
+    return K, starts
+
+
+def _distinct(fits: list[Fit]) -> list[Fit]:
+    """Solutions that differ in their start angles, or in K."""
+    kept: list[Fit] = []
+    for fit in fits:
+        if not any(_alike(fit, other) for other in kept):
+            kept.append(fit)
+        if len(kept) == _MOST:
+            break
+    return kept
+
+
+def _alike(a: Fit, b: Fit) -> bool:
+    """Whether two fits are one."""
+    turns = np.exp(1j * np.array([a.crank_start - b.crank_start, a.rocker_start - b.rocker_start]))
+    return bool(np.abs(turns - 1).max() < _SAME and np.allclose(a.K, b.K, rtol=1e-4, atol=1e-6))

@@ -1,0 +1,234 @@
+"""Function generation: a four-bar linkage whose rocker turns with y(x) while its crank turns with x.
+
+Both scales are linear: φ = φ₀ + Δφ (x − x₀)/(x_n − x₀) and ψ = ψ₀ + Δψ (y − y₀)/(y_n − y₀). The linkage
+meets the function at
+its precision points; between them it deviates by the structural error, which is found by analysing the
+machine again.
+
+Source: F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955)
+853–861; spacing by Chebyshev: Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.analysis.kinematics import motions
+from linkwright.analysis.result import Result
+from linkwright.errors import SynthesisError
+from linkwright.machine import Machine
+from linkwright.synthesis.four_bar import FourBar, side_of
+from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, scan, solve
+from linkwright.synthesis.function_scale import Scale
+from linkwright.synthesis.task import FunctionTask
+
+Floats = NDArray[np.float64]
+
+# Usable linkages among which the one of the least error is chosen; they come in the order of their residuals.
+_ENOUGH = 40
+
+SOURCE = "Synthesised by linkwright as a function generator"
+
+
+@dataclass(frozen=True)
+class FunctionGenerator(Result):
+    """A four-bar linkage that generates a function.
+
+    Attributes
+    ----------
+    type : str
+        Which links turn fully.
+    frame, crank, coupler, rocker : float
+        Lengths [m].
+    crank_start, rocker_start : float
+        Crank and rocker angle from the frame at the start of the range [rad].
+    rocker_opposite : bool
+        Whether the link ``B.rocker`` points against the rocker angle.
+    residual : float
+        Root of the mean square of the residuals of Freudenstein's equation [–]; 0 where all points are met.
+    angle_error_max, angle_error_rms : float
+        Structural error of the rocker angle over the range [rad].
+    function_error_max : float
+        The greatest one in the unit of y.
+    angle_error_points : float
+        Error of the rocker angle at the worst of the points [rad].
+    transmission_angle_min : float
+        Least transmission angle over the range [rad].
+    solutions : int
+        Linkages that were found; this is the one with the least structural error.
+    points : ndarray, shape (n,)
+        Arguments of the points.
+    x, wanted, generated : ndarray, shape (m,)
+        Arguments over the range, the function there, and what the machine gives.
+    machine : Machine
+        The linkage, its frame along x; crank angle zero is the start of the range.
+    """
+
+    type: str
+    frame: float
+    crank: float
+    coupler: float
+    rocker: float
+    crank_start: float
+    rocker_start: float
+    rocker_opposite: bool
+    residual: float
+    angle_error_max: float
+    angle_error_rms: float
+    function_error_max: float
+    angle_error_points: float
+    transmission_angle_min: float
+    solutions: int
+    x: Floats
+    wanted: Floats
+    generated: Floats
+    points: Floats
+    machine: Machine
+
+
+def function_generator(task: FunctionTask) -> FunctionGenerator:
+    """Find the four-bar linkage that generates a function.
+
+    Parameters
+    ----------
+    task : FunctionTask
+        The function, its range, its points, and the angles of crank and rocker.
+
+    Returns
+    -------
+    FunctionGenerator
+        Of all linkages that meet the points and can be driven through the range, the one with the least
+        structural error.
+
+    Raises
+    ------
+    InputError
+        The function cannot be read, or has no values in its range.
+    SynthesisError
+        No linkage meets the points, or none can be driven through them.
+
+    References
+    ----------
+    .. [1] F. Freudenstein, Approximate synthesis of four-bar linkages, Transactions of the ASME 77 (1955)
+    853–861.
+    """
+    scale = Scale.of(task)
+    fits = solve(scale.crank, scale.rocker, task.crank_start, task.rocker_start)
+    if len(scale.points) == task.unknowns:
+        fits = [fit for fit in fits if fit.residual < EXACT]
+    if not fits:
+        raise SynthesisError(
+            f"no linkage meets the {len(scale.points)} points: Freudenstein's equation has no real solution "
+            "for them; change crank_range or rocker_range, or ask for fewer points"
+        )
+    results, reasons = _usable(task, scale, fits)
+    if not results and len(scale.points) > task.unknowns > 3:
+        # The best fits break a limit; among the others the best that keeps it.
+        others = scan(scale.crank, scale.rocker, task.crank_start, task.rocker_start)
+        results = _usable(task, scale, others)[0]
+    if not results:
+        raise SynthesisError(_none(fits, reasons))
+    best = min(results, key=lambda each: each.angle_error_max)
+    return FunctionGenerator(**{**vars(best), "solutions": len(results)})
+
+
+def _usable(task: FunctionTask, scale: Scale, fits: list[Fit]) -> tuple[list[FunctionGenerator], list[str]]:
+    """Results of the solutions that keep all limits, and why the others do not."""
+    results: list[FunctionGenerator] = []
+    reasons: list[str] = []
+    for fit in fits:
+        try:
+            results.append(_generator(task, scale, fit))
+        except SynthesisError as reason:
+            reasons.append(str(reason))
+        if len(results) == _ENOUGH:
+            break
+    return results, reasons
+
+
+def _generator(task: FunctionTask, scale: Scale, fit: Fit) -> FunctionGenerator:
+    """The result of one solution; a finding if it cannot be driven through the range."""
+    found = lengths(fit.K, task.frame)
+    if found is None:
+        raise SynthesisError("its coupler would have an imaginary length")
+    r, c, b = found
+    size = (task.frame, abs(r), c, abs(b))
+    if max(size) > task.length_ratio_max * min(size):
+        ratio = max(size) / min(size)
+        raise SynthesisError(
+            f"its longest link is {ratio:.4g} times its shortest (length_ratio_max {task.length_ratio_max:g})"
+        )
+    bar = _bar(task, scale, fit, r, c, b)
+    mu = float(bar.transmission_angle(scale.crank_over).min())
+    if (bar.gap(scale.crank_over) < 0).any():
+        raise SynthesisError(f"as a {bar.type} it does not close over the whole range")
+    if mu < task.transmission_angle_min:
+        raise SynthesisError(
+            f"its transmission angle falls to {np.degrees(mu):.2f}° (transmission_angle_min "
+            f"{np.degrees(task.transmission_angle_min):.4g}°)"
+        )
+    name = task.name or f"Function generator, {task.function or 'table'}"
+    return _analysed(scale, fit, bar, bar.machine(name, source=SOURCE), b < 0, mu)
+
+
+def _bar(task: FunctionTask, scale: Scale, fit: Fit, r: float, c: float, b: float) -> FourBar:
+    """The linkage of a solution, on the branch of all its points."""
+    frame = task.frame
+    pins = r * np.exp(1j * (fit.crank_start + scale.crank))
+    joints = frame + b * np.exp(1j * (fit.rocker_start + scale.rocker))
+    sides = {side_of(a, frame + 0j, joint) for a, joint in zip(pins, joints, strict=True)}
+    if len(sides) > 1:
+        raise SynthesisError("its points lie on different branches")
+    phase = fit.crank_start + (np.pi if r < 0 else 0.0)
+    return FourBar(0j, complex(frame), abs(r), c, abs(b), sides.pop(), float(phase))
+
+
+def _analysed(
+    scale: Scale, fit: Fit, bar: FourBar, machine: Machine, opposite: bool, mu: float
+) -> FunctionGenerator:
+    """The machine analysed again over the range and at the points."""
+    start = fit.rocker_start + (np.pi if opposite else 0.0)
+    over = _rocker_angles(machine, scale.crank_over) - start
+    errors = np.angle(np.exp(1j * (over - scale.rocker_over)))
+    at_points = _rocker_angles(machine, scale.crank) - start - scale.rocker
+    return FunctionGenerator(
+        type=bar.type,
+        frame=float(bar.frame),
+        crank=float(bar.crank),
+        coupler=float(bar.coupler),
+        rocker=float(bar.rocker),
+        crank_start=fit.crank_start,
+        rocker_start=fit.rocker_start,
+        rocker_opposite=bool(opposite),
+        residual=fit.residual if fit.residual > EXACT else 0.0,
+        angle_error_max=float(np.abs(errors).max()),
+        angle_error_rms=float(np.sqrt(np.mean(errors**2))),
+        function_error_max=float(np.abs(errors).max() * abs(scale.per_angle)),
+        angle_error_points=float(np.abs(np.angle(np.exp(1j * at_points))).max()),
+        transmission_angle_min=mu,
+        solutions=1,
+        x=scale.x,
+        wanted=scale.wanted,
+        generated=scale.wanted + errors * scale.per_angle,
+        points=scale.points,
+        machine=machine,
+    )
+
+
+def _rocker_angles(machine: Machine, angles: Floats) -> Floats:
+    """Angles of the rocker by the core [rad]."""
+    table = motions(machine, angles, links=["B.rocker"])[0]
+    return np.asarray(np.arctan2(table[1], table[0]))
+
+
+def _none(fits: list[Fit], reasons: list[str]) -> str:
+    """Why none of the solutions can be used, the commonest reason with its numbers first."""
+    told = "; ".join(dict.fromkeys(reasons[:3]))
+    n = f"{len(fits)} solution{'s' if len(fits) > 1 else ''}"
+    return (
+        f"Freudenstein's equation has {n}, none of which can be used: {told}. Change crank_range, "
+        "rocker_range or the start angles"
+    )

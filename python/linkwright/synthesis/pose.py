@@ -1,0 +1,239 @@
+"""Motion generation: a linkage whose coupler passes through two or three given poses.
+
+A point a of the body is at Z_i = p_i + a e^{iθ_i} in pose i. A link can hold it if its places lie on a circle
+about the link's fixed pivot. Of three places this circle is the only one; of two, any point on their
+mid-normal is a centre, and the angle that the link turns through chooses it.
+
+Source: Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964; Erdman, Sandor, Mechanism Design: Analysis
+and Synthesis: two and three prescribed positions by geometric construction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.analysis.kinematics import motions
+from linkwright.analysis.result import Result
+from linkwright.errors import SynthesisError
+from linkwright.machine import Machine
+from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
+from linkwright.synthesis.slider_pose import guide_slider
+from linkwright.synthesis.task import MovingPoint, PoseTask
+from linkwright.synthesis.travel import listed, travel, way
+
+Floats = NDArray[np.float64]
+
+# Three places whose triangle is flatter than this lie on a straight line: the circle through them is a
+# million times larger than they are apart.
+_FLAT = 1e-6
+
+# Places nearer than this share of the poses' extent are one place.
+_SAME = 1e-9
+
+SOURCE = "Synthesised by linkwright for given poses"
+
+
+@dataclass(frozen=True)
+class PoseGuide(Result):
+    """A linkage whose coupler passes through given poses.
+
+    Attributes
+    ----------
+    linkage : str
+        ``"four-bar"`` or ``"slider-crank"``.
+    type : str
+        Which links turn fully.
+    frame : float or None
+        Distance of the fixed pivots [m]; of a four-bar.
+    crank, coupler : float
+        Lengths [m].
+    rocker, offset : float or None
+        Length of the rocker of a four-bar, offset of the guide of a slider-crank [m].
+    direction : str
+        In which the crank turns through the poses.
+    transmission_angle_min : float
+        Least transmission angle from the first pose to the last [rad].
+    pose_error : float
+        Greatest distance of the body's origin from its place, in the machine analysed again [m].
+    angle_error : float
+        Greatest deviation of its turning from pose to pose [rad].
+    crank_angles : ndarray, shape (n,)
+        Crank angles of the poses [rad].
+    machine : Machine
+        The linkage; its point ``P`` is the body's origin.
+    """
+
+    linkage: str
+    type: str
+    frame: float | None
+    crank: float
+    coupler: float
+    rocker: float | None
+    offset: float | None
+    direction: str
+    transmission_angle_min: float
+    pose_error: float
+    angle_error: float
+    crank_angles: Floats
+    machine: Machine
+
+
+def pose_guide(task: PoseTask) -> PoseGuide:
+    """Find the linkage whose coupler passes through given poses.
+
+    Parameters
+    ----------
+    task : PoseTask
+        Two or three poses, and the points of the body at which links hold it.
+
+    Returns
+    -------
+    PoseGuide
+        The linkage, verified by analysing it again.
+
+    Raises
+    ------
+    SynthesisError
+        A centre at infinity, poses on different branches or circuits, or met in another order.
+
+    References
+    ----------
+    .. [1] Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
+    """
+    places = body_places(task, task.crank_point)
+    crank_pivot = centre(places, task.crank_point, "crank_point")
+    if task.linkage == "slider-crank":
+        return _slider_guide(task, places, crank_pivot)
+    return _rocker_guide(task, places, crank_pivot)
+
+
+def body_places(task: PoseTask, point: MovingPoint) -> Complexes:
+    """Places of a point of the body in the poses, (n,) [m]."""
+    poses = task.poses
+    origin = np.asarray(poses.x) + 1j * np.asarray(poses.y)
+    return origin + complex(point.x, point.y) * np.exp(1j * np.asarray(poses.angle))
+
+
+def centre(places: Complexes, point: MovingPoint, key: str) -> complex:
+    """Centre of the circle through the places of a point.
+
+    Parameters
+    ----------
+    places : ndarray, shape (n,)
+        Two or three places [m].
+    point : MovingPoint
+        The point; its turn chooses the centre of two places.
+    key : str
+        Its key, for messages.
+
+    Returns
+    -------
+    complex
+        The centre [m].
+
+    Raises
+    ------
+    SynthesisError
+        Places that coincide, or lie on a straight line.
+    """
+    reach = np.abs(places - places.mean()).max()
+    apart = min(abs(places[i] - places[i - 1]) for i in range(len(places)))
+    if apart <= _SAME * max(1e-3, np.abs(places).max()):
+        raise SynthesisError(
+            f"{key} is at the same place in two poses, ({places[0].real:.6g}, {places[0].imag:.6g}) m: it "
+            "may be a fixed pivot, not a crank pin; choose another point of the body"
+        )
+    if len(places) == 2:
+        assert point.turn is not None
+        chord = places[1] - places[0]
+        return complex(places.mean() + 0.5j * chord / np.tan(0.5 * point.turn))
+    u, v = places[1] - places[0], places[2] - places[0]
+    area = cross(u, v)
+    if abs(area) <= _FLAT * reach**2:
+        raise SynthesisError(
+            f"the three places of {key} lie on a straight line to {abs(area) / (2 * reach):.3g} m, so the "
+            "centre of its link "
+            'is infinitely far; choose another point of the body, or a slider (linkage = "slider-crank")'
+        )
+    return complex(places[0] + 1j * (v * abs(u) ** 2 - u * abs(v) ** 2) / (-2 * area))
+
+
+def _rocker_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> PoseGuide:
+    """The four-bar for the poses."""
+    assert task.rocker_point is not None
+    joints = body_places(task, task.rocker_point)
+    rocker_pivot = centre(joints, task.rocker_point, "rocker_point")
+    if abs(joints[0] - pins[0]) <= _SAME * np.abs(pins[0] - crank_pivot):
+        raise SynthesisError("crank_point and rocker_point are one point; choose two different points")
+    if abs(rocker_pivot - crank_pivot) <= _SAME * abs(pins[0] - crank_pivot):
+        raise SynthesisError(
+            "both fixed pivots fall on one place: the body only turns about it; choose other points of the "
+            "body"
+        )
+    sides = [side_of(a, rocker_pivot, b) for a, b in zip(pins, joints, strict=True)]
+    if len(set(sides)) > 1:
+        raise SynthesisError(
+            f"the poses lie on different branches: the joint is on the {', '.join(sides)} of the line from "
+            "pin to rocker pivot in turn, and the linkage must be taken apart between them; choose other "
+            "points of the body"
+        )
+    bar = FourBar(
+        crank_pivot,
+        rocker_pivot,
+        abs(pins[0] - crank_pivot),
+        abs(joints[0] - pins[0]),
+        abs(joints[0] - rocker_pivot),
+        sides[0],
+        float(np.angle(pins[0] - crank_pivot)),
+    )
+    angles = _travelled(task, bar.gap, pins, crank_pivot, f"a {bar.type}")
+    origin = (body_origin(task) - pins[0]) / np.exp(1j * np.angle(joints[0] - pins[0]))
+    machine = bar.machine(task.name or "Four-bar through poses", points={"P": origin}, source=SOURCE)
+    mu = bar.transmission_angle(np.linspace(angles[0], angles[-1], 721)).min()
+    errors = _errors(task, machine, angles, "B.coupler")
+    lengths = (bar.frame, bar.crank, bar.coupler, bar.rocker, None)
+    return PoseGuide("four-bar", bar.type, *lengths, way(angles), float(mu), *errors, angles, machine)
+
+
+def _slider_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> PoseGuide:
+    """The slider-crank for the poses."""
+    guide = guide_slider(task, pins, crank_pivot)
+    angles = _travelled(task, guide.gap, pins, crank_pivot, "a slider-crank")
+    origin = (body_origin(task) - pins[0]) / np.exp(1j * np.angle(guide.slider - pins[0]))
+    machine = guide.machine(task.name or "Slider-crank through poses", origin, SOURCE)
+    mu = guide.transmission_angle(np.linspace(angles[0], angles[-1], 721)).min()
+    errors = _errors(task, machine, angles, "B.rod")
+    lengths = (None, guide.crank, guide.rod, None, guide.offset)
+    return PoseGuide("slider-crank", guide.type, *lengths, way(angles), float(mu), *errors, angles, machine)
+
+
+def body_origin(task: PoseTask) -> complex:
+    """Place of the body's origin in the first pose [m]."""
+    return complex(task.poses.x[0], task.poses.y[0])
+
+
+def _travelled(
+    task: PoseTask, gap: Callable[[Floats], Floats], pins: Complexes, pivot: complex, what: str
+) -> Floats:
+    """Crank angles of the poses from zero on, in the direction that passes them in order."""
+    directions = np.angle(pins - pivot)
+    angles = travel(gap, list(directions - directions[0]), task.crank_point.turn)
+    if angles is None:
+        raise SynthesisError(
+            f"{what} meets the poses at crank directions {listed(directions)}, and can be driven through "
+            "them in order in neither direction: it does not close in between; choose other points of the "
+            "body"
+        )
+    return angles
+
+
+def _errors(task: PoseTask, machine: Machine, angles: Floats, link: str) -> tuple[float, float]:
+    """How far the analysed machine is from the poses, in place [m] and in turning [rad]."""
+    table = motions(machine, angles, points=["P"], links=[link])[0]
+    place = np.abs(table[0] + 1j * table[1] - np.asarray(task.poses.x) - 1j * np.asarray(task.poses.y))
+    turned = (table[6] + 1j * table[7]) * np.exp(-1j * np.asarray(task.poses.angle))
+    return float(place.max()), float(np.abs(np.angle(turned / turned[0])).max())

@@ -1,0 +1,147 @@
+"""Dead-centre design of a slider-crank: a wanted stroke and time ratio, by the triangle of `dead_centre`.
+
+The chord h is the stroke, and the guide passes the crank's pivot at the height of the triangle, e = p q |sin
+δ|/h. The transmission angle between the rod and the normal of the guide is least where the pin is farthest
+from the guide, cos μ = (r + e)/c.
+
+Source: VDI 2130; Volmer, Getriebetechnik: Koppelgetriebe.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.analysis.result import Result
+from linkwright.errors import InputError, SynthesisError
+from linkwright.machine import Machine
+from linkwright.synthesis.dead_centre import SOURCE, best, check, delta_of, joints
+from linkwright.synthesis.four_bar import cross, machine_of
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class StrokeCrank(Result):
+    """A slider-crank for a given stroke and time ratio.
+
+    Attributes
+    ----------
+    stroke : float
+        Way of the slider between the dead centres [m].
+    crank_angle_forward : float
+        Crank angle φ₀ from the outer dead centre to the inner one [rad].
+    time_ratio : float
+        φ₀ over the rest of the turn [–].
+    crank, rod, offset : float
+        Lengths [m].
+    transmission_angle_min : float
+        Least angle between the rod and the normal of the guide [rad].
+    crank_angle_outer, crank_angle_inner : float
+        Crank angles of the dead centres in the machine [rad].
+    machine : Machine
+        The linkage, its guide along x.
+    """
+
+    stroke: float
+    crank_angle_forward: float
+    time_ratio: float
+    crank: float
+    rod: float
+    offset: float
+    transmission_angle_min: float
+    crank_angle_outer: float
+    crank_angle_inner: float
+    machine: Machine
+
+
+def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = None) -> StrokeCrank:
+    """Find the slider-crank for a stroke and a time ratio.
+
+    Parameters
+    ----------
+    stroke : float
+        Way of the slider between its dead centres [m].
+    time_ratio : float
+        Crank angle from the outer dead centre to the inner one over the rest of the turn [–].
+    rod : float, optional
+        Its rod [m]. Without it, the rod of the best transmission angle; at a time ratio of 1 there is none.
+
+    Returns
+    -------
+    StrokeCrank
+        The linkage. Its crank turns counter-clockwise.
+
+    Raises
+    ------
+    InputError
+        A stroke, time ratio or rod that is not positive, or no rod at a time ratio of 1.
+    SynthesisError
+        No slider-crank has this stroke, time ratio and rod.
+
+    References
+    ----------
+    .. [1] VDI 2130.
+    """
+    check(stroke=(stroke, np.inf), time_ratio=(time_ratio, np.inf), rod=(1.0 if rod is None else rod, np.inf))
+    delta = delta_of(time_ratio)
+    if rod is None and delta == 0:
+        raise InputError(
+            "a time ratio of 1 leaves the rod free, and the longer it is the better: give the rod, such as "
+            f"3 to 5 times half the stroke ({3 * stroke / 2:.4g} m to {5 * stroke / 2:.4g} m)"
+        )
+    t, mu = best(lambda t: _slide_transmission(t, delta), float(np.sin(abs(delta) / 2)))
+    if rod is not None:
+        t = stroke / (2 * rod)
+        mu = float(_slide_transmission(np.array([t]), delta)[0]) if np.sin(abs(delta) / 2) < t < 1 else np.nan
+    if not mu > 0:
+        raise SynthesisError(_no_slider_crank(stroke, time_ratio, rod, delta))
+    return _stroke_crank(stroke, time_ratio, delta, t, mu)
+
+
+def _slide_transmission(t: Floats, delta: float) -> Floats:
+    """Least transmission angle of a slider-crank in its turn; NaN where its crank does not turn."""
+    crank, coupler, outer, inner = joints(t, delta)
+    offset = np.abs(cross(outer, inner)) / np.abs(outer - inner)
+    ahead = np.real(np.conj(outer - inner) * inner) > 0
+    good = ahead & (coupler > crank + offset) & (crank > 0)
+    with np.errstate(invalid="ignore"):
+        return np.where(good, np.arccos((crank + offset) / coupler), np.nan)
+
+
+def _stroke_crank(stroke: float, time_ratio: float, delta: float, t: float, mu: float) -> StrokeCrank:
+    """The slider-crank in its wanted size, with its guide along x."""
+    crank, rod, outer, inner = (0.5 * stroke * each[0] for each in joints(np.array([t]), delta))
+    along = (outer - inner) / abs(outer - inner)
+    outer, inner = outer / along, inner / along
+    offset = float(outer.imag)
+    slider = {"crank": "A", "rod": float(rod), "offset": offset}
+    mechanism = {"cranks": {"A": {"radius": float(crank)}}, "sliders": {"B": slider}}
+    name = f"Slider-crank, stroke {stroke:.6g} m, time ratio {time_ratio:.6g}"
+    return StrokeCrank(
+        stroke=float(stroke),
+        crank_angle_forward=float(np.pi + delta),
+        time_ratio=float(time_ratio),
+        crank=float(crank),
+        rod=float(rod),
+        offset=offset,
+        transmission_angle_min=float(mu),
+        crank_angle_outer=float(np.angle(outer)) % (2 * np.pi),
+        crank_angle_inner=float(np.angle(-inner)) % (2 * np.pi),
+        machine=machine_of(name, mechanism, SOURCE),
+    )
+
+
+def _no_slider_crank(stroke: float, time_ratio: float, rod: float | None, delta: float) -> str:
+    """What rods, or time ratios, are possible."""
+    least, most = stroke / 2, stroke / 2 / np.sin(abs(delta) / 2) if delta else np.inf
+    what = f"no slider-crank has a stroke of {stroke:.4g} m, a time ratio of {time_ratio:.4g}"
+    limits = f"lie between {least:.4g} m and {most:.4g} m" if delta else f"be longer than {least:.4g} m"
+    if rod is None:
+        return f"{what} and a crank that turns: bring the time ratio nearer to 1"
+    return (
+        f"{what} and a rod of {rod:.4g} m: the rod must {limits}, and its crank must turn; change the rod, "
+        "or bring the time ratio nearer to 1"
+    )

@@ -1,0 +1,252 @@
+"""Tasks of a synthesis as they stand in a file: what a linkage shall do. All numbers are SI.
+
+Entries with several values are lists or one text with one unit, ``x = "0, 20, 35 mm"``, so that a task of
+many points is short.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic_core import InitErrorDetails
+
+from linkwright.errors import MachineError
+from linkwright.machine.base import Description, fault, raise_faults
+from linkwright.machine.problems import problems
+from linkwright.units import (
+    ANGLE,
+    LENGTH,
+    RATIO,
+    Angle,
+    Angles,
+    Length,
+    Lengths,
+    QuantityList,
+    Ratio,
+    not_negative,
+    positive,
+)
+
+PositiveLength = Annotated[float, positive(LENGTH)]
+Ratios = Annotated[tuple[float, ...], QuantityList(RATIO)]
+
+
+class Task(Description):
+    """What all tasks share: a task is checked as a whole, and all its problems are told."""
+
+    name: str = Field("", description="What the linkage is for; the name of the machine.")
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Report problems in the words of the file."""
+        try:
+            task = handler(data)
+            raise_faults(cls.__name__, task._faults())
+        except ValidationError as error:
+            raise MachineError(problems(error, cls, data)) from None
+        return task
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        """Entries that do not go together."""
+        yield from ()
+
+
+class Poses(Description):
+    """Poses of a body in their order: its origin and its angle."""
+
+    x: Lengths = Field(description="To the right, one value a pose.")
+    y: Lengths = Field(description="Up, one value a pose.")
+    angle: Angles = Field(description="Of the body's own x axis, one value a pose.")
+
+
+class MovingPoint(Description):
+    """A point of the body, in the body's own axes."""
+
+    x: Length = Field(description="Along the body's x axis from its origin.")
+    y: Length = Field(0.0, description="Along the body's y axis.")
+    turn: Angle | None = Field(
+        None,
+        description="Angle that the link at this point turns through between two poses; signed.",
+    )
+
+
+class PoseTask(Task):
+    """Two or three poses of a body that the coupler of a linkage shall pass through."""
+
+    linkage: Literal["four-bar", "slider-crank"] = Field(
+        "four-bar", description="What carries the body: crank and rocker, or crank and slider."
+    )
+    poses: Poses = Field(description="The poses.")
+    crank_point: MovingPoint = Field(description="Point of the body at the crank pin.")
+    rocker_point: MovingPoint | None = Field(
+        None, description="Point of the body at the rocker; for a four-bar."
+    )
+    slider_point: MovingPoint | None = Field(
+        None,
+        description="Point of the body at the slider; for a slider-crank. With three poses the nearest point "
+        "that stays on a straight line is taken.",
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        n = len(self.poses.x)
+        if n not in (2, 3):
+            yield fault("poses", "x", found=values(n), expected="2 or 3 values, one a pose")
+        for key in ("y", "angle"):
+            yield from same_length(("poses", key), len(getattr(self.poses, key)), n, "pose")
+        wanted = "rocker_point" if self.linkage == "four-bar" else "slider_point"
+        other = "slider_point" if self.linkage == "four-bar" else "rocker_point"
+        if getattr(self, wanted) is None:
+            yield fault(wanted, expected=f"a table; a {self.linkage} needs it")
+        if getattr(self, other) is not None:
+            yield fault(other, found="a table", expected=f"nothing; a {self.linkage} has no such point")
+        turning = ("crank_point", "rocker_point")
+        for key in (*turning, "slider_point"):
+            yield from self._turn_faults(key, needed=n == 2 and key in turning)
+
+    def _turn_faults(self, key: str, *, needed: bool) -> Iterator[InitErrorDetails]:
+        """An angle of turn that is missing, or has no meaning."""
+        point: MovingPoint | None = getattr(self, key)
+        if point is None:
+            return
+        if needed and point.turn is None:
+            yield fault(key, "turn", expected='an angle such as "60 deg"; two poses leave it free')
+        if needed and point.turn is not None and not 0 < abs(point.turn) < 6.28:
+            yield fault(key, "turn", found=point.turn, expected="an angle other than zero, less than a turn")
+        if not needed and point.turn is not None:
+            yield fault(key, "turn", found=point.turn, expected="nothing; it follows from the poses")
+
+
+class FunctionTask(Task):
+    """A function y(x) that the angle of a rocker shall follow as the crank turns."""
+
+    function: str | None = Field(
+        None,
+        description='The function, such as "log10(x)", of x, numbers, + − * / ^ and the usual functions.',
+    )
+    x: Ratios | None = Field(None, description="Arguments at which the function shall be met.")
+    y: Ratios | None = Field(None, description="Its values there; instead of `function`.")
+    range: Ratios | None = Field(None, description="First and last argument; without it, those of `x`.")
+    points: int = Field(3, ge=3, le=1000, description="How many points are met, if `x` is not given.")
+    spacing: Literal["chebyshev", "even"] = Field("chebyshev", description="How they are spread.")
+    crank_range: Angle = Field(description="Angle that the crank turns through over the range; signed.")
+    rocker_range: Angle = Field(description="Angle that the rocker turns through over the range; signed.")
+    crank_start: Angle | None = Field(
+        None, description="Crank angle from the frame at the start of the range; without it, it is found."
+    )
+    rocker_start: Angle | None = Field(
+        None, description="Rocker angle from the frame at the start of the range; without it, it is found."
+    )
+    frame: PositiveLength = Field(1.0, description="Distance of the fixed pivots.")
+    transmission_angle_min: Annotated[float, not_negative(ANGLE)] = Field(
+        0.0, description="Least transmission angle over the range."
+    )
+    length_ratio_max: Annotated[float, positive(RATIO)] = Field(
+        20.0, description="Longest over shortest link, at most."
+    )
+
+    @property
+    def unknowns(self) -> int:
+        """How many numbers are free: three lengths and the start angles that are not given."""
+        return 3 + (self.crank_start is None) + (self.rocker_start is None)
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if (self.function is None) == (self.y is None):
+            expected = "the function, or a list y of its values; one of the two"
+            yield fault("function", found=self.function, expected=expected)
+        if self.y is not None:
+            yield from self._table_faults(self.y)
+        elif self.x is None and self.range is None:
+            yield fault("range", expected='first and last argument, such as "1, 2"')
+        if self.range is not None and (len(self.range) != 2 or self.range[0] == self.range[1]):
+            yield fault("range", found=str(list(self.range)), expected="two different values")
+        for key in ("crank_range", "rocker_range"):
+            if not 0 < abs(getattr(self, key)) < 6.28:
+                yield fault(
+                    key, found=getattr(self, key), expected="an angle other than zero, less than a turn"
+                )
+        yield from self._count_faults()
+
+    def _table_faults(self, y: tuple[float, ...]) -> Iterator[InitErrorDetails]:
+        if self.x is None:
+            yield fault("x", expected="a list of arguments, one for each value of y")
+        else:
+            yield from same_length(("y",), len(y), len(self.x), "x")
+
+    def _count_faults(self) -> Iterator[InitErrorDetails]:
+        """Fewer points than unknowns."""
+        n = self.points if self.x is None else len(self.x)
+        if n < self.unknowns:
+            key = "points" if self.x is None else "x"
+            expected = f"at least {self.unknowns} points for {self.unknowns} unknowns"
+            remedy = "give crank_start and rocker_start" if n == 3 else "give crank_start or rocker_start"
+            yield fault(key, found=values(n), expected=expected, remedy=remedy)
+
+
+class Box(Description):
+    """A rectangle in which something must lie."""
+
+    x: Lengths = Field(description="Left and right end.")
+    y: Lengths = Field(description="Lower and upper end.")
+
+
+class PathTask(Task):
+    """Points that a coupler point shall pass in their order while the crank turns round."""
+
+    x: Lengths = Field(description="To the right, one value a point.")
+    y: Lengths = Field(description="Up, one value a point.")
+    crank_angle: Angles | None = Field(
+        None,
+        description="Crank angle at each point, counted from anywhere; without it, timing is free.",
+    )
+    pivots: Box | None = Field(
+        None,
+        description="Where the fixed pivots may lie; without it, within four sizes of the path around it.",
+    )
+    linkage: Literal["crank-rocker", "double-crank", "any"] = Field(
+        "crank-rocker", description="What the linkage must be; in any case its crank turns round."
+    )
+    transmission_angle_min: Annotated[float, not_negative(ANGLE)] = Field(
+        0.0, description="Least transmission angle in the turn."
+    )
+    length_ratio_max: Annotated[float, positive(RATIO)] = Field(
+        10.0, description="Longest over shortest link, at most."
+    )
+    length_max: PositiveLength | None = Field(
+        None, description="Longest link; without it, four sizes of the path."
+    )
+    seed: int = Field(
+        1, ge=0, description="Start of the random numbers; the same seed gives the same linkage."
+    )
+    population: int = Field(120, ge=20, le=100_000, description="Linkages in a generation.")
+    generations: int = Field(600, ge=1, le=1_000_000, description="Generations at most, for each assembly.")
+    accuracy: Ratio = Field(1e-6, description="Error over size of the path at which the search ends.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        n = len(self.x)
+        if n < 3:
+            yield fault("x", found=values(n), expected="at least 3 values, one a point")
+        yield from same_length(("y",), len(self.y), n, "point")
+        if self.crank_angle is not None:
+            yield from same_length(("crank_angle",), len(self.crank_angle), n, "point")
+        if len(self.y) == n and n and max(self.x) == min(self.x) and max(self.y) == min(self.y):
+            yield fault("x", found="points at one place", expected="points at different places")
+        for key in ("x", "y") if self.pivots else ():
+            ends: tuple[float, ...] = getattr(self.pivots, key)
+            if len(ends) != 2 or ends[0] >= ends[1]:
+                yield fault(
+                    "pivots", key, found=str(list(ends)), expected="two values, the smaller one first"
+                )
+
+
+def same_length(place: tuple[str, ...], found: int, wanted: int, what: str) -> Iterator[InitErrorDetails]:
+    """The fault of a list that has not one value for each of something."""
+    if found != wanted:
+        yield fault(*place, found=values(found), expected=f"{values(wanted)}, one a {what}")
+
+
+def values(n: int) -> str:
+    """A number of values in words."""
+    return "1 value" if n == 1 else f"{n} values"
