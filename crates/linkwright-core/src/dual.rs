@@ -153,6 +153,10 @@ impl<R: Real> Real for Dual<R> {
         Dual { value: self.value.ln(), d: self.d / self.value }
     }
     #[inline(always)]
+    fn atan(self) -> Self {
+        Dual { value: self.value.atan(), d: self.d / (self.value.squared() + 1.0) }
+    }
+    #[inline(always)]
     fn max_lane(self) -> f64 {
         self.value.max_lane()
     }

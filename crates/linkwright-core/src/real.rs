@@ -74,8 +74,8 @@ pub trait Real:
         Self::splat(1.0) / self
     }
 
-    /// eˣ. Like [`Real::ln`] it is done lane by lane with one derivative; a number that carries more of them
-    /// brings its own two, and every other function of a formula follows from these, `sqrt`, `sin_cos` and `atan`.
+    /// eˣ. Like [`Real::ln`] and [`Real::atan`] it is done lane by lane with one derivative; a number that
+    /// carries more of them brings its own three, and everything below follows from those.
     #[inline(always)]
     fn exp(self) -> Self {
         self.map(
@@ -93,6 +93,15 @@ pub trait Real:
         self.map(
             #[inline(always)]
             |x| (x.ln(), 1.0 / x),
+        )
+    }
+
+    /// Arc tangent, in (−π/2, π/2).
+    #[inline(always)]
+    fn atan(self) -> Self {
+        self.map(
+            #[inline(always)]
+            |x| (x.atan(), 1.0 / (1.0 + x * x)),
         )
     }
 

@@ -50,6 +50,8 @@ class Continuous(NamedTuple):
     link: int
     winding: int
     centre: int
+    # The turn is the one in which the angle at the start is nearest to this.
+    near: Any = 0.0
 
 
 class Foldable(NamedTuple):
@@ -295,11 +297,14 @@ class Rows:
     def _angle(self, link: str) -> int:
         """The slide that holds the continuous angle of a link; made where it is first asked for."""
         name = _angle_name(link)
-        if name not in self.slides:
-            row = [10, self.links[link], self._slide(name), *self.slots(0.0, 0.0)]
-            self.pending.append(Continuous(link, row[1], row[-2], row[-1]))
-            self.rows.append(row)
-        return self.slides[name]
+        return self.slides[name] if name in self.slides else self._angle_near(link, name, 0.0)
+
+    def _angle_near(self, link: str, name: str, near: Any) -> int:
+        """A slide with the continuous angle of a link, in the turn in which it starts nearest to an angle."""
+        row = [10, self.links[link], self._slide(name), *self.slots(0.0, 0.0)]
+        self.pending.append(Continuous(link, row[1], row[-2], row[-1], near))
+        self.rows.append(row)
+        return row[2]
 
     def _gear(self, name: str, gear: Gear) -> None:
         """ψ = (1 − κ) ψ_carrier + κ ψ_other + phase, κ = −z_other/z where the sense is reversed."""
@@ -325,7 +330,8 @@ class Rows:
         radius = cable.radius if cable.side == "left" else -cable.radius
         line = Placed(self.starts[cable.link], self.frame, cable.angle, radius)
         start = cable.length + radius * cable.reference
-        self._runner(name, line, start, [(self._angle(cable.link), -radius)])
+        angle = self._angle_near(cable.link, _angle_name(name), cable.reference)
+        self._runner(name, line, start, [(angle, -radius)])
 
     # -- joints and bars ---------------------------------------------------------------------------------
 

@@ -128,10 +128,10 @@ class Settled:
                 "a gear, a rack or a cable on it has no unambiguous place beyond 356°",
                 element=each.name,
             )
-        # The middle is that of the swing, and the angle at the start is the one within half a turn of zero.
-        middle = 0.5 * (rest.min() + rest.max())
+        near = float(np.ravel(each.near)[0])
+        turns = np.round((near - psi[0]) / (2 * np.pi))
         self.parameters[each.winding] = winding
-        self.parameters[each.centre] = middle
+        self.parameters[each.centre] = 0.5 * (rest.min() + rest.max()) + 2 * np.pi * turns
 
     # -- change points -----------------------------------------------------------------------------------
 
