@@ -12,7 +12,8 @@
 | `pumping_unit`, `polished_rod_load`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
 | `unit_catalogue` | published pumping units |
 | `linkage` | the whole mechanism: elements of the file, and what a pumping unit expands into |
-| `body`, `load` | masses; forces and torques |
+| `body`, `loads` | masses; forces and torques |
+| `formula` | formulas as texts |
 | `curve` | curves given by points |
 | `outline` | names in a mechanism: what refers to what, in which order it is built |
 | `address`, `text` | entries by address |
@@ -41,17 +42,22 @@ from linkwright.machine.element import (
     SlottedLever,
     Yoke,
 )
-from linkwright.machine.load import (
+from linkwright.machine.loads import (
     AnyLoad,
     ConstantForce,
     ConstantTorque,
+    Damper,
     DryFriction,
     ForcePosition,
+    FormulaLoad,
+    GasSpring,
     Gravity,
     Load,
     Spring,
     TorqueAngle,
     TorqueSpeed,
+    TorsionalDamper,
+    TorsionalSpring,
     ViscousFriction,
 )
 from linkwright.machine.machine import FORMAT, Machine, RunUp
@@ -87,12 +93,15 @@ __all__ = [
     "Coupling",
     "Crank",
     "Crossing",
+    "Damper",
     "DcMotor",
     "Drive",
     "DryFriction",
     "FixedPoint",
     "Flywheel",
     "ForcePosition",
+    "FormulaLoad",
+    "GasSpring",
     "Gear",
     "Gearbox",
     "Gravity",
@@ -118,6 +127,8 @@ __all__ = [
     "TableMotor",
     "TorqueAngle",
     "TorqueSpeed",
+    "TorsionalDamper",
+    "TorsionalSpring",
     "ViscousFriction",
     "Yoke",
     "addresses",

@@ -13,7 +13,8 @@ from linkwright.machine.base import Description, fault, faults_of, raise_faults
 from linkwright.machine.body import Body, body_faults
 from linkwright.machine.drive import Drive
 from linkwright.machine.linkage import expansion_faults, merged, outline_of
-from linkwright.machine.load import AnyLoad, load_faults
+from linkwright.machine.loads import AnyLoad
+from linkwright.machine.loads.references import load_faults
 from linkwright.machine.mechanism import Mechanism
 from linkwright.machine.plain import look
 from linkwright.machine.problems import problems

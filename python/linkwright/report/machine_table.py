@@ -101,7 +101,10 @@ def _part(group: str, machine: Machine, place: Place) -> Part:
     entries = [
         Entry(key.replace("_", " "), _value(machine, (*place, key), value), key not in assumed)
         for key, value in found.items()
-        if value is not None and not isinstance(value, BaseModel) and not (key in assumed and value == 0)
+        if value is not None
+        and value != {}
+        and not isinstance(value, BaseModel)
+        and not (key in assumed and value == 0)
     ]
     return Part(group, place[-1].replace("_", " ") if len(place) < 3 else place[-1], entries)
 
@@ -116,12 +119,15 @@ def _not_given(node: object) -> set[str]:
 
 def _value(machine: Machine, place: Place, value: Any) -> str:
     """One entry as text, with its unit."""
+    if isinstance(value, dict):
+        return ", ".join(f"{name} = {_value(machine, (*place, name), each)}" for name, each in value.items())
     if isinstance(value, tuple):
         if value and isinstance(value[0], str):
             return ", ".join(value)
         return _list(machine, place, value)
     if isinstance(value, bool | str):
-        return str(value).replace("_", " ")
+        is_formula = place[-1] in ("force", "torque")
+        return str(value) if is_formula else str(value).replace("_", " ")
     quantity = kind(machine, join(place))
     unit = quantity.unit if quantity else ""
     return degrees(value) if unit == "rad" else f"{number(value, 6)} {pretty_unit(unit)}".rstrip()

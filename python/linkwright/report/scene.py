@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from linkwright.analysis.closure import closure
 from linkwright.analysis.kinematics import Kinematics, kinematics
 from linkwright.analysis.study import Study
-from linkwright.machine import Machine, Spring
+from linkwright.machine import Machine
+from linkwright.machine.loads import BetweenPoints
 from linkwright.machine.outline import ORIGIN, Outline
 
 Floats = NDArray[np.float64]
@@ -184,7 +185,8 @@ def _grounds(machine: Machine) -> Iterator[Scene]:
     pivots += [rocker.pivot for rocker in mechanism.rockers.values()]
     fixed = mechanism.fixed_points()
     used = [name for name in dict.fromkeys(pivots) if name in fixed]
-    sprung = [end for load in machine.loads.values() if isinstance(load, Spring) for end in load.between]
+    joined = [load for load in machine.loads.values() if isinstance(load, BetweenPoints)]
+    sprung = [end for load in joined for end in load.between]
     for name in dict.fromkeys([*used, *(end for end in sprung if end in fixed)]):
         yield {"kind": "ground", "name": name}
 
@@ -205,7 +207,7 @@ def _plates(machine: Machine, series: dict[str, int]) -> Iterator[Scene]:
 
 def _springs(machine: Machine) -> Iterator[Scene]:
     for name, load in machine.loads.items():
-        if isinstance(load, Spring):
+        if isinstance(load, BetweenPoints):
             yield {"kind": "spring", "name": name, "from": load.between[0], "to": load.between[1]}
 
 

@@ -313,7 +313,7 @@ class Rows:
         self._turn(name, gear.phase, terms)
 
     def _rack(self, name: str, rack: Rack) -> None:
-        """s = start ± R (ψ − ψ_guide): what lies to the right of the gear goes ahead as it turns to the left."""
+        """s = start ± R (ψ − ψ_guide): right of a gear that turns to the left the rack goes ahead."""
         radius = rack.radius if rack.side == "right" else -rack.radius
         terms = [(self._angle(rack.gear), radius)]
         if rack.guide.on is not None:
@@ -321,7 +321,7 @@ class Rows:
         self._runner(name, self._guide(rack.guide), rack.start, terms)
 
     def _cable(self, name: str, cable: Cable) -> None:
-        """s = length ± R (reference − ψ): an arc to the left of the cable draws it in as it turns to the left."""
+        """s = length ± R (reference − ψ): an arc to the left draws the cable in as it turns to the left."""
         radius = cable.radius if cable.side == "left" else -cable.radius
         line = Placed(self.starts[cable.link], self.frame, cable.angle, radius)
         start = cable.length + radius * cable.reference
@@ -337,7 +337,7 @@ class Rows:
         self.rows.append([13, self._link(name), *ends, self.slot(1.0 / bar.length)])
 
     def _hidden_links(self, step: Step) -> int:
-        """How many links a dyad of bars needs beside the bars themselves: one for each that ends at its joint's start."""
+        """How many links a dyad of bars needs beside the bars: one for each that starts at the joint."""
         if step.kind != "dyad":
             return 0
         return sum(
@@ -348,14 +348,14 @@ class Rows:
         return self.mechanism.bars[bar].start == joint
 
     def _held(self, bar: str, joint: str) -> tuple[str, str, Any]:
-        """Link, far end and length of a bar that holds a joint; a link of its own where the bar runs the other way."""
+        """Link, far end and length of a bar that holds a joint; one that starts there has a hidden link."""
         found = self.mechanism.bars[bar]
         if self._is_reversed(bar, joint):
             return f"{bar} reversed", found.end, found.length
         return bar, found.start, found.length
 
     def _dyad_of_bars(self, step: Step) -> None:
-        """A joint held by two bars, or by a bar and a guide; its side is that of the place where it is given."""
+        """A joint held by two bars, or by a bar and a guide, on the side where it is given."""
         joint = step.names[0]
         held = [self._held(bar, joint) for bar in step.conditions if bar in self.mechanism.bars]
         if len(held) == 2:
