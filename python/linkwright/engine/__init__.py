@@ -53,14 +53,6 @@ Floats = NDArray[np.float64]
 # Crank speed from which steady motion is sought when nothing in the machine suggests one [rad/s].
 _SPEED_UNKNOWN = 10.0
 
-# Variables and instructions of formulas in the order of the core's modules `formula` and `plan`.
-_VARIABLES = ("phi", "omega", "t", "x", "y", "vx", "vy", "v", "s", "psi", "psi_dot")
-_INSTRUCTIONS = (
-    *("number", "zero", "name", "+", "-", "*", "/", "negative", "power", "pow"),
-    *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "sqrt", "tanh"),
-    *("abs", "sign", "step", "min", "max", "where"),
-)
-
 _ROW_WIDTH = 8
 
 
@@ -269,8 +261,6 @@ class _Translator(Rows):
         self.body_rows: list[list[int]] = []
         self.load_rows: list[list[int]] = []
         self.drive_row: list[int] = []
-        self.formulas: list[int] = []
-        self.n_formulas = 0
 
     def table(self, x: Sequence[Any], y: Sequence[Any]) -> int:
         """Adds a table."""
@@ -381,32 +371,6 @@ class _Translator(Rows):
             [kind, self._formula(term, constants), *carrier]
             for term in formula.terms(formula.parse(load.text))
         ]
-
-    def _formula(self, term: formula.Node, constants: dict[str, int]) -> int:
-        """Adds the instructions of a formula."""
-        code: list[int] = []
-        for op, operand in formula.program(term):
-            code += self._instruction(op, operand, constants)
-        self.formulas += [len(code) // 2, *code]
-        self.n_formulas += 1
-        return self.n_formulas - 1
-
-    def _instruction(self, op: str, operand: Any, constants: dict[str, int]) -> list[int]:
-        """One instruction as the core reads it."""
-        match op:
-            case "number" if operand == 0:
-                return [1, 0]
-            case "number":
-                return [0, self.slot(operand)]
-            case "name" if operand in constants:
-                return [0, constants[operand]]
-            case "name" if operand in formula.NUMBERS:
-                return [0, self.slot(formula.NUMBERS[operand])]
-            case "name":
-                return [2, _VARIABLES.index(operand)]
-            case "power":
-                return [8, operand]
-        return [_INSTRUCTIONS.index(op), 0]
 
     def _vector(self, size: Any, direction: Any) -> list[int]:
         return [self.slot(size * np.cos(direction)), self.slot(size * np.sin(direction))]
