@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.closure import require_full_turn
+from linkwright.analysis.closure import require_angles
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import MachineError, Problem, ShapeError
 from linkwright.machine import Machine
@@ -119,7 +119,7 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None) -> Kinematics:
     what = [(part, name) for part, known in names.items() for name in known]
     out = motion_arrays(compiled, phi, what)
     if np.isnan(out).any():
-        require_full_turn(compiled, machine)
+        require_angles(compiled, machine, phi)
     single = compiled.n_rows == 1 and not len(compiled.slots)
     table = out[0] if single else out
     return _collect(phi, table, what)

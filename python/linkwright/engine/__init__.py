@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -74,6 +74,10 @@ class Compiled:
         Index of each point, link and slide by name.
     dyads : tuple of str
         Names of the elements that must close.
+    passing : frozenset of str
+        Those of them that pass change points, where their radicand touches zero and the motion goes on.
+    one_turn : bool
+        Whether all motions repeat after one turn of the crank by the kinds of the elements alone.
     speed_guess : float
         Crank speed from which steady motion is sought [rad/s].
     gear_factors : tuple of float
@@ -92,6 +96,8 @@ class Compiled:
     links: dict[str, int]
     slides: dict[str, int]
     dyads: tuple[str, ...]
+    passing: frozenset[str]
+    one_turn: bool
     speed_guess: float
     gear_factors: tuple[float, float, float]
     speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
@@ -101,6 +107,12 @@ class Compiled:
     def n_rows(self) -> int:
         """How many machines."""
         return int(self.values.shape[1])
+
+    def first(self) -> Compiled:
+        """The first machine alone."""
+        if not len(self.slots):
+            return self
+        return replace(self, slots=np.empty(0, dtype=np.int32), values=np.empty((0, 1)))
 
     @property
     def one(self) -> Floats:
@@ -230,6 +242,11 @@ def _not_usable(machine: Machine, reason: str) -> MachineError:
     ]
     return MachineError(wrong or [Problem("", "entries that cannot be computed with", reason)])
 
+
+# Kinds of rows: a dyad with change points; sums over the crank angle and links, and groups, whose motion may
+# take several turns or never repeat.
+_FOLDING = 11
+_RUNNING = (8, 9, 12)
 
 # Entries beyond this size, or below its reciprocal, are named when a machine cannot be computed.
 _SIZE_MAX = 1e100
@@ -440,6 +457,8 @@ class _Translator(Rows):
             links=self.links,
             slides=self.slides,
             dyads=tuple(self.dyads),
+            passing=frozenset(self.dyads[row[4]] for row in self.rows if row[0] == _FOLDING),
+            one_turn=not any(row[0] in _RUNNING for row in self.rows),
             speed_guess=guess,
             gear_factors=(ratio, forward, reverse),
             speed_tables=tuple(self.tables[row[1]] for row in self.load_rows if row[0] == 12),
