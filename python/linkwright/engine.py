@@ -74,6 +74,8 @@ class Compiled:
         Ratio, and the factor on torque times ratio while the motor drives and while the load does.
     speed_tables : tuple
         Tables of resisting torque over crank speed.
+    rows : tuple of tuple of int
+        The core's program: kind and entries of each element, in build order.
     """
 
     plan: _core.Plan
@@ -87,6 +89,7 @@ class Compiled:
     speed_guess: float
     gear_factors: tuple[float, float, float]
     speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
+    rows: tuple[tuple[int, ...], ...] = ()
 
     @property
     def n_rows(self) -> int:
@@ -112,6 +115,11 @@ class Compiled:
     def gaps(self, angles: Floats) -> Floats:
         """Radicand of each dyad at crank angles, (dyads, n) [m² or m⁴]; negative where it does not close."""
         return _core.gaps(self.plan, self.parameters, angles)
+
+    def third(self, angles: Floats, what: Sequence[tuple[int, int]]) -> Floats:
+        """Third transfer functions of the first row at crank angles, (numbers, n); see `_core.third`."""
+        channels = _ints([list(row) for row in what]).reshape(-1, 2)
+        return _core.third(self.plan, self.parameters, angles, channels)
 
     def kinks(self) -> Floats:
         """Crank angles from 0 to 2π [rad] between which everything is smooth."""
@@ -383,6 +391,7 @@ class _Translator(Rows):
             speed_guess=guess,
             gear_factors=(ratio, forward, reverse),
             speed_tables=tuple(self.tables[row[1]] for row in self.load_rows if row[0] == 12),
+            rows=tuple(tuple(row) for row in self.rows),
         )
 
     def _plan(self) -> _core.Plan:

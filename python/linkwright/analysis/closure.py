@@ -7,20 +7,21 @@ are u apart. The angles where it changes sign bound the ranges in which the mech
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.roots import minima, zeros
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import AssemblyError, InputError
 from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
 
-# A radicand below this share of its greatest is looked into: a parabola that falls to zero between two of the
-# angles below is a few millionths at the nearer one.
+# A radicand whose parabola through three angles dips below this share of its greatest is looked into.
 _CLOSE = 1e-3
 
 # A radicand below this share counts as zero: links in line to a hundred-thousandth of their length.
@@ -31,9 +32,12 @@ _ZERO = 1e-10
 _FEW = 180
 _AMPLE = 0.02
 
-# Angles at which closure is looked at; a gap narrower than a quarter of a degree may go unseen here, and is
-# then found by the analysis that meets it.
+# Angles at which closure is looked at; gaps and openings between two of them are found by the minima and maxima
+# that the parabolas through three angles promise.
 _ANGLES = 1440
+
+# Kind of a row that carries a dyad through its change points (`crates/linkwright-core/src/plan.rs`).
+_FOLDING = 11
 
 
 @dataclass(frozen=True)
@@ -43,8 +47,8 @@ class Closure:
     Attributes
     ----------
     ranges : tuple of (float, float)
-        Ranges of crank angle in which every element closes [rad]; one range of a full turn if it turns
-        fully, none if it never closes. A range may pass 2π.
+        Ranges of crank angle in which every element closes [rad], their ends located to rounding; one range of
+        a full turn if it turns fully, none if it never closes. A range may pass 2π.
     element : str
         Name of the first element that does not close; empty if all do.
     change_point : float or None
@@ -81,61 +85,109 @@ def closure(machine: Machine) -> Closure:
 def closure_of(compiled: Compiled) -> Closure:
     """`closure` of a compiled machine."""
     full = Closure(((0.0, 2 * np.pi),), "")
-    if not compiled.dyads:
+    limiting = limiting_dyads(compiled)
+    if not limiting:
         return full
-    gaps = compiled.gaps(turn_angles(_FEW))
+    gaps = compiled.gaps(turn_angles(_FEW))[limiting]
     if (gaps.min(axis=1) > _AMPLE * gaps.max(axis=1)).all():
         return full
-    angles = turn_angles(_ANGLES)[:-1]
-    gaps = compiled.gaps(angles)
-    # Links in line leave zero, or by rounding a little less.
-    is_open = ~(gaps >= -_ZERO * np.nan_to_num(gaps).max(axis=1, keepdims=True))
-    if not is_open.any():
-        return _change_point(compiled, gaps) or full
-    element = compiled.dyads[int(np.argmax(is_open.any(axis=1)))]
-    closes = ~is_open.any(axis=0)
-    starts = np.flatnonzero(closes & ~np.roll(closes, 1))
-    ends = np.flatnonzero(closes & ~np.roll(closes, -1))
-    ranges = []
-    for start in starts:
-        end = ends[np.searchsorted(ends, start) % len(ends)]
-        low = _edge(compiled, angles[start], -1)
-        high = _edge(compiled, angles[end], +1)
-        ranges.append((float(low), float(high if high > low else high + 2 * np.pi)))
-    return Closure(tuple(ranges), element)
+    return _Search(compiled, limiting).run() or full
 
 
-def _change_point(compiled: Compiled, gaps: Floats) -> Closure | None:
-    """The first dyad whose radicand falls to zero at some angle between those looked at; None if none does.
-
-    There the dyad is stretched or folded: the rates of its links have no limit that the positions alone
-    could tell.
-    """
-    sizes, lows = gaps.max(axis=1), gaps.min(axis=1)
-    for dyad in np.flatnonzero(lows < _CLOSE * sizes):
-        centre, reach = float(turn_angles(_ANGLES)[gaps[dyad].argmin()]), 2 * np.pi / _ANGLES
-        # The radicand is a parabola there: its zero is met when its square root is, at 1e-7 of the size.
-        for _ in range(6):
-            angles = np.linspace(centre - reach, centre + reach, 41)
-            near = compiled.gaps(angles)[dyad]
-            centre, reach = float(angles[near.argmin()]), reach / 20
-        if near.min() <= _ZERO * sizes[dyad]:
-            at = centre % (2 * np.pi)
-            return Closure(((at, at + 2 * np.pi),), compiled.dyads[dyad], at)
-    return None
+def limiting_dyads(compiled: Compiled) -> list[int]:
+    """Indices of the dyads that may fail to close; those that pass their change points always close."""
+    passing = {row[4] for row in compiled.rows if row[0] == _FOLDING}
+    return [dyad for dyad in range(len(compiled.dyads)) if dyad not in passing]
 
 
-def _edge(compiled: Compiled, inside: float, way: int) -> float:
-    """The angle, within one interval of an angle inside a range, at which the range ends; by bisection."""
-    good, bad = inside, inside + way * 2 * np.pi / _ANGLES
-    # Fifty halvings of a quarter of a degree go beyond rounding.
-    for _ in range(50):
-        middle = 0.5 * (good + bad)
-        if (compiled.gaps(np.array([middle])) >= 0).all():
-            good = middle
-        else:
-            bad = middle
-    return good
+class _Search:
+    """The angles of a fine look over the turn, with those added where something happens between them."""
+
+    def __init__(self, compiled: Compiled, limiting: list[int]) -> None:
+        self.compiled, self.limiting = compiled, limiting
+        self.angles: Floats = turn_angles(_ANGLES)[:-1].copy()
+        gaps = compiled.gaps(self.angles)[limiting]
+        # A dyad that closes nowhere is measured by how far it is from closing.
+        known = np.abs(gaps) if not (gaps > 0).any() else gaps
+        self.sizes: Floats = np.nan_to_num(known).max(axis=1, keepdims=True)
+        self.sizes[self.sizes <= 0] = np.nan_to_num(np.abs(gaps)).max() or 1.0
+        self.room = self._least(gaps)
+
+    def _least(self, gaps: Floats) -> Floats:
+        # A dyad behind one that does not close is NaN, and that one is negative.
+        return np.fmin.reduce(gaps / self.sizes, axis=0)
+
+    def spare(self, angles: Floats) -> Floats:
+        """Least radicand of all dyads as a share of its greatest, at crank angles."""
+        return self._least(self.compiled.gaps(angles)[self.limiting])
+
+    def limiter(self, angle: float) -> str:
+        """Name of the dyad with the least radicand at an angle."""
+        gaps = self.compiled.gaps(np.array([angle]))[self.limiting] / self.sizes
+        return self.compiled.dyads[self.limiting[int(np.nanargmin(gaps[:, 0]))]]
+
+    def run(self) -> Closure | None:
+        """The closure; None if it closes all round."""
+        touch = self._between(+1)
+        self._between(-1)
+        # Links in line leave zero, or by rounding a little less.
+        closes = self.room >= -_ZERO
+        if closes.all():
+            return None if touch is None else self._touched(touch)
+        return Closure(tuple(self._ranges(closes)), self._element(closes))
+
+    def _between(self, sign: int) -> float | None:
+        """Adds minima below zero between closing angles (+1), or maxima above zero between open ones (−1).
+
+        Gives the angle of a minimum that touches zero.
+        """
+        room = sign * self.room
+        before, after = np.roll(room, 1), np.roll(room, -1)
+        bend = np.maximum(before + after - 2 * room, 1e-300)
+        lowest = room - (after - before) ** 2 / (8 * bend)
+        found = np.flatnonzero((room <= before) & (room <= after) & (room >= -_ZERO) & (lowest < _CLOSE))
+        if not len(found):
+            return None
+        step = 2 * np.pi / _ANGLES
+        near = self.angles[found]
+        at, least = minima(lambda x: sign * self.spare(x), near - step, near + step)
+        missed = least < -_ZERO
+        order = np.argsort(angles := np.concatenate([self.angles, at[missed] % (2 * np.pi)]))
+        room = np.concatenate([self.room, sign * least[missed]])
+        self.angles, self.room = angles[order], room[order]
+        touching = at[np.abs(least) <= _ZERO]
+        return float(touching[0]) % (2 * np.pi) if len(touching) else None
+
+    def _touched(self, at: float) -> Closure:
+        """A dyad is stretched or folded: the positions alone do not tell the rates of its links there."""
+        return Closure(((at, at + 2 * np.pi),), self.limiter(at), at)
+
+    def _element(self, closes: NDArray[np.bool_]) -> str:
+        """The first dyad in build order that does not close somewhere."""
+        gaps = self.compiled.gaps(self.angles[~closes])[self.limiting]
+        fails = (gaps < -_ZERO * self.sizes).any(axis=1)
+        return self.compiled.dyads[self.limiting[int(np.argmax(fails))]]
+
+    def _ranges(self, closes: NDArray[np.bool_]) -> Iterator[tuple[float, float]]:
+        starts = np.flatnonzero(closes & ~np.roll(closes, 1))
+        ends = np.flatnonzero(closes & ~np.roll(closes, -1))
+        if not len(starts):
+            return
+        inside = self.angles[np.concatenate([starts, ends])]
+        around = np.concatenate([np.roll(self.angles, 1)[starts], np.roll(self.angles, -1)[ends]])
+        # The neighbour across the end of the turn.
+        around = inside + (around - inside + np.pi) % (2 * np.pi) - np.pi
+        edges = self._edges(inside, around)
+        for low, start in zip(edges[: len(starts)], starts, strict=True):
+            high = edges[len(starts) + np.searchsorted(ends, start) % len(ends)]
+            yield float(low), float(high if high >= low else high + 2 * np.pi)
+
+    def _edges(self, inside: Floats, outside: Floats) -> Floats:
+        """Where the ranges end, between angles that close and their neighbours that do not."""
+        near, far = zeros(self.spare, inside, outside)
+        edges = np.where(self.spare(near) >= 0, near, far)
+        # An angle that closes by rounding alone is the edge itself.
+        return np.where(self.spare(inside) > 0, edges, inside)
 
 
 def require_full_turn(compiled: Compiled, machine: Machine) -> None:
