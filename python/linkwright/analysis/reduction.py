@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.closure import require_full_turn, turn_angles
+from linkwright.analysis.period import require_one_turn
 from linkwright.analysis.result import Result
 from linkwright.engine import Compiled, compile_machine
 from linkwright.machine import Machine
@@ -94,6 +95,8 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     ------
     AssemblyError
         The mechanism does not close all round.
+    FindingError
+        It does not repeat after one turn of the crank.
 
     Notes
     -----
@@ -106,6 +109,7 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
+    require_one_turn(compiled, machine)
     return reduction_of(compiled, n)
 
 

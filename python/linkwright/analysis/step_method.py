@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.closure import require_full_turn, turn_angles
+from linkwright.analysis.period import require_one_turn
 from linkwright.analysis.result import Result
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError, StartError, SteadyStateError
@@ -113,6 +114,7 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
+    require_one_turn(compiled, machine)
     n = whole_steps(step)
     phi = turn_angles(n)[:-1]
     J, _, load, dry, viscous = compiled.reductions(phi)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.analysis.period import require_one_turn
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.machine import ConstantSpeedMotor, Machine, get, replace
@@ -147,6 +148,8 @@ def steady_states(
         Arrays of different lengths.
     InputError
         The machine has no motor, or one of constant speed.
+    FindingError
+        The first machine does not repeat after one turn of the crank.
     """
     if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
@@ -156,6 +159,7 @@ def steady_states(
     compiled = compile_machine(replace(machine, arrays))
     if not len(compiled.slots):
         raise InputError("none of the entries has an effect on the motion")
+    require_one_turn(compiled, machine)
     status, table, turns = compiled.steady_rows(accuracy)
     columns = dict(zip(_COLUMNS, np.ascontiguousarray(table.T), strict=False))
     return SteadyStates(entries=arrays, status=status, turns_swept=turns, **columns)
