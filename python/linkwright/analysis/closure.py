@@ -100,6 +100,11 @@ def limiting_dyads(compiled: Compiled) -> list[int]:
     return [dyad for dyad in range(len(compiled.dyads)) if dyad not in passing]
 
 
+def limiter_at(compiled: Compiled, angle: float) -> str:
+    """Name of the dyad that limits the motion at an end of a range."""
+    return _Search(compiled, limiting_dyads(compiled)).limiter(angle)
+
+
 class _Search:
     """The angles of a fine look over the turn, with those added where something happens between them."""
 
