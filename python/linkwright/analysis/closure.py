@@ -209,6 +209,31 @@ def require_full_turn(compiled: Compiled, machine: Machine) -> None:
     raise AssemblyError(_sentence(found, machine), element=found.element, crank_angle=_first_open(found))
 
 
+def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None:
+    """Raise if the mechanism does not close at one of some crank angles.
+
+    Raises
+    ------
+    AssemblyError
+        Says which element does not close, where the mechanism closes, and what to change.
+    """
+    limiting = limiting_dyads(compiled)
+    if not limiting:
+        return
+    gaps = compiled.gaps(angles)[limiting]
+    closes = (gaps >= 0).all(axis=0)
+    if closes.all():
+        return
+    at = float(angles[int(np.argmin(closes))])
+    found = closure_of(compiled)
+    if found.turns_fully:
+        # Less than nothing by rounding alone.
+        return
+    raise AssemblyError(
+        f"at crank angle {_deg(at)}° {_sentence(found, machine)}", element=found.element, crank_angle=at
+    )
+
+
 def _first_open(found: Closure) -> float:
     return found.ranges[0][1] % (2 * np.pi) if found.ranges else 0.0
 

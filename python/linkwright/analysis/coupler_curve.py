@@ -8,6 +8,7 @@ r"""The path of a point: length, extent, curvature, its straightest portion, dou
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -216,10 +217,15 @@ class _Path:
         path = np.concatenate([self.place[:-1], self.place]) if self.cycle.repeats else self.place
         coarse = _longest(path[::stride], n // stride, straight)
         _, start, end = max(_longest(path, min(n, 2 * stride), straight), _scaled(coarse, stride))
-        chord, error = _chord(path, start, end)
-        for first in range(max(0, start - stride), start + stride + 1):
-            for last in range(end - stride, min(end + stride, first + n, len(path) - 1) + 1):
-                found = _chord(path, first, last) if last > first else (0.0, 0.0)
+        if self.cycle.repeats and start <= stride:
+            start, end = start + n, end + n
+        (chord, error), before = _chord(path, start, end), -1.0
+        while chord > before:
+            before = chord
+            around = range(max(0, start - stride), start + stride + 1), range(end - stride, end + stride + 1)
+            for first, last in product(*around):
+                fits = 0 < last - first <= n and last < len(path)
+                found = _chord(path, first, last) if fits else (0.0, 0.0)
                 if found[0] > chord and found[1] <= straight * found[0]:
                     start, end, (chord, error) = first, last, found
         low, high = self.cycle.angles[0] + self.cycle.span / n * np.array([start, end])

@@ -142,6 +142,14 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool
     return with_third(compiled, found, what) if third else found
 
 
+def kinematics_of(
+    compiled: Compiled, angles: Floats, what: list[tuple[str, str]], *, third: bool = False
+) -> Kinematics:
+    """`kinematics` of one compiled machine at angles where it closes; ``what`` holds pairs of part and name."""
+    found = _collect(angles, motion_arrays(compiled, angles, what)[0], what)
+    return with_third(compiled, found, what) if third else found
+
+
 def everything(compiled: Compiled) -> list[tuple[str, str]]:
     """Pairs of part and name of all that has a name in the machine: not what the core keeps for itself."""
     names = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
