@@ -36,6 +36,14 @@ _AMPLE = 0.02
 # that the parabolas through three angles promise.
 _ANGLES = 1440
 
+# Distance from a change point at which rates are compared [rad], and the difference, over one and their size,
+# that they may have there: a rate that is smooth changes by a hundredth of this.
+_BESIDE = 1e-5
+_JUMP = 1e-3
+
+# Number of a link among what the core can give the motion of.
+_LINK = 1
+
 # Kind of a row that carries a dyad through its change points (`crates/linkwright-core/src/plan.rs`).
 _FOLDING = 11
 
@@ -160,8 +168,8 @@ class _Search:
         order = np.argsort(angles := np.concatenate([self.angles, at[missed] % (2 * np.pi)]))
         room = np.concatenate([self.room, sign * least[missed]])
         self.angles, self.room = angles[order], room[order]
-        touching = at[np.abs(least) <= _ZERO]
-        return float(touching[0]) % (2 * np.pi) if len(touching) else None
+        touching = [float(x) for x in at[np.abs(least) <= _ZERO] if not _passes(self.compiled, float(x))]
+        return touching[0] % (2 * np.pi) if touching else None
 
     def _touched(self, at: float) -> Closure:
         """A dyad is stretched or folded: the positions alone do not tell the rates of its links there."""
@@ -193,6 +201,19 @@ class _Search:
         edges = np.where(self.spare(near) >= 0, near, far)
         # An angle that closes by rounding alone is the edge itself.
         return np.where(self.spare(inside) > 0, edges, inside)
+
+
+def _passes(compiled: Compiled, at: float) -> bool:
+    """Whether the links go on through a change point: their rates just before and just after it agree.
+
+    Where the core does not carry a dyad on, its joint stays on its side and the rates jump.
+    """
+    angles = np.array([at - _BESIDE, at + _BESIDE])
+    out = np.empty((compiled.n_rows, 4 * len(compiled.links), 2))
+    compiled.motions(angles, [(_LINK, index) for index in compiled.links.values()], out.reshape(-1))
+    rates = out[0, 2::4]
+    jumps = np.abs(rates[:, 1] - rates[:, 0])
+    return bool((jumps <= _JUMP * (1 + np.abs(rates).max(axis=1))).all())
 
 
 def require_full_turn(compiled: Compiled, machine: Machine) -> None:
@@ -240,7 +261,7 @@ def _first_open(found: Closure) -> float:
 
 def _sentence(found: Closure, machine: Machine) -> str:
     """What does not close, where, and the remedy."""
-    mechanism = machine.mechanism
+    mechanism = machine.linkage
     remedy = "change the lengths"
     what = found.element
     if found.change_point is not None:

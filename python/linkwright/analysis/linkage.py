@@ -222,7 +222,7 @@ def linkage(machine: Machine) -> Linkage:
         )
     period = period_of(compiled) if where.turns_fully else None
     cycle = Cycle.of(where, period)
-    swept = sweep(compiled, machine.mechanism, cycle)
+    swept = sweep(compiled, machine.linkage, cycle)
     loops = {each.element: each for each in four_bars(compiled)}
     return Linkage(
         crank_angle=cycle.angles,

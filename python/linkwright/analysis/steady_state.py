@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.closure import require_full_turn, turn_angles
 from linkwright.analysis.period import require_one_turn
-from linkwright.analysis.reduction import NO_INERTIA, mean_over_turn, turn_nodes
+from linkwright.analysis.reduction import NO_INERTIA, mean_laws, mean_over_turn, turn_nodes
 from linkwright.analysis.result import Result
+from linkwright.analysis.sound_loads import require_same_turns, require_sound_loads
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
@@ -217,6 +218,8 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
     require_one_turn(compiled, machine)
+    require_same_turns(machine)
+    require_sound_loads(compiled, machine)
     phi = turn_angles(n)
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
         return _at_constant_speed(machine, compiled, phi)
@@ -290,6 +293,8 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
         """J, resisting torque, and driving torque that the motion needs."""
         J, J_d1, load, dry, viscous = compiled.reductions(angles)
         resisting = load + dry + viscous * omega + compiled.speed_load(omega)
+        if compiled.has_laws:
+            resisting = resisting + compiled.law_torques(angles, omega)[0]
         return J, resisting, resisting + 0.5 * J_d1 * omega**2
 
     J, torque_load, torque_drive = needs(phi)
@@ -351,7 +356,7 @@ def _what_lacks(compiled: Compiled) -> str:
     top = 1.5 * compiled.speed_guess
     omega = np.linspace(0.0, top, _SPEEDS + 1)[1:]
     drive = compiled.motor_torques(omega)[1]
-    resisting = load + viscous * omega + compiled.speed_load(omega)
+    resisting = load + viscous * omega + compiled.speed_load(omega) + mean_laws(compiled, omega)
     best = int(np.argmax(drive - resisting))
     if drive[best] < resisting[best]:
         return (
