@@ -84,6 +84,8 @@ class Compiled:
         Ratio, and the factor on torque times ratio while the motor drives and while the load does.
     speed_tables : tuple
         Tables of resisting torque over crank speed.
+    rows : tuple of tuple of int
+        The core's program: kind and entries of each element, in build order.
     has_laws : bool
         Whether loads depend on both angle and speed in their own way, or on time.
     """
@@ -102,6 +104,7 @@ class Compiled:
     gear_factors: tuple[float, float, float]
     speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
     has_laws: bool
+    rows: tuple[tuple[int, ...], ...] = ()
 
     @property
     def n_rows(self) -> int:
@@ -133,6 +136,11 @@ class Compiled:
     def gaps(self, angles: Floats) -> Floats:
         """Radicand of each dyad at crank angles, (dyads, n) [m² or m⁴]; negative where it does not close."""
         return _core.gaps(self.plan, self.parameters, angles)
+
+    def third(self, angles: Floats, what: Sequence[tuple[int, int]]) -> Floats:
+        """Third transfer functions of the first row at crank angles, (numbers, n); see `_core.third`."""
+        channels = _ints([list(row) for row in what]).reshape(-1, 2)
+        return _core.third(self.plan, self.parameters, angles, channels)
 
     def kinks(self) -> Floats:
         """Crank angles from 0 to 2π [rad] between which everything is smooth."""
@@ -243,10 +251,10 @@ def _not_usable(machine: Machine, reason: str) -> MachineError:
     return MachineError(wrong or [Problem("", "entries that cannot be computed with", reason)])
 
 
-# Kinds of rows: a dyad with change points; sums over the crank angle and links, and groups, whose motion may
-# take several turns or never repeat.
-_FOLDING = 11
-_RUNNING = (8, 9, 12)
+# Kinds of rows: dyads with change points, and where the number of these stands; sums over the crank angle and
+# links, groups, and laws, whose motion may take several turns or never repeat.
+_FOLDING = {11: 12, 15: 14}
+_RUNNING = (8, 9, 12, 14)
 
 # Entries beyond this size, or below its reciprocal, are named when a machine cannot be computed.
 _SIZE_MAX = 1e100
@@ -457,11 +465,12 @@ class _Translator(Rows):
             links=self.links,
             slides=self.slides,
             dyads=tuple(self.dyads),
-            passing=frozenset(self.dyads[row[4]] for row in self.rows if row[0] == _FOLDING),
-            one_turn=not any(row[0] in _RUNNING for row in self.rows),
+            passing=frozenset(self.dyads[row[4]] for row in self.rows if row[0] in _FOLDING),
+            one_turn=not any(_may_run_on(row) for row in self.rows),
             speed_guess=guess,
             gear_factors=(ratio, forward, reverse),
             speed_tables=tuple(self.tables[row[1]] for row in self.load_rows if row[0] == 12),
+            rows=tuple(tuple(row) for row in self.rows),
             has_laws=settled.plan.has_laws,
         )
 
@@ -481,6 +490,12 @@ class _Translator(Rows):
             np.array([value for _, y in self.tables for value in y], dtype=np.float64),
             _ints(self.formulas),
         )
+
+
+def _may_run_on(row: list[int]) -> bool:
+    """Whether the motion of a row may need more than one turn: an odd number of change points takes two."""
+    count = _FOLDING.get(row[0])
+    return row[0] in _RUNNING or (count is not None and row[count] % 2 == 1)
 
 
 def link_body(body: Body, length: Any) -> tuple[Any, Any, Any, Any]:
