@@ -10,6 +10,7 @@ the motion is not determined.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.obstacle import describe
 from linkwright.analysis.period import turns_to_repeat
+from linkwright.analysis.roots import minima, zeros
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import AssemblyError, InputError
 from linkwright.machine import Machine
@@ -25,15 +27,8 @@ from linkwright.machine import Machine
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# A radicand below this share of its greatest is looked into: a parabola that falls to zero between two of the
-# angles below is a few millionths at the nearer one.
+# A radicand whose parabola through three angles dips below this share of its greatest is looked into.
 _CLOSE = 1e-3
-
-# Difference in what the crank feels from one turn to the next, over its size, that counts as rounding.
-_SAME = 1e-7
-
-# Doublings of the turns looked at in a motion that never repeats: some 8000 turns either way.
-_DOUBLINGS = 13
 
 # A radicand below this share counts as zero: links in line to a hundred-thousandth of their length.
 _ZERO = 1e-10
@@ -43,9 +38,23 @@ _ZERO = 1e-10
 _FEW = 180
 _AMPLE = 0.02
 
-# Angles at which closure is looked at; a gap narrower than a quarter of a degree may go unseen here, and is
-# then found by the analysis that meets it.
+# Angles at which closure is looked at; gaps and openings between two of them are found by the minima and
+# maxima that the parabolas through three angles promise.
 _ANGLES = 1440
+
+# Distance from a change point at which rates are compared [rad], and the difference, over one and their size,
+# that they may have there: a rate that is smooth changes by a hundredth of this.
+_BESIDE = 1e-5
+_JUMP = 1e-3
+
+# Difference in what the crank feels from one turn to the next, over its size, that counts as rounding.
+_SAME = 1e-7
+
+# Doublings of the turns looked at in a motion that never repeats: some 8000 turns either way.
+_DOUBLINGS = 13
+
+# Number of a link among what the core can give the motion of.
+_LINK = 1
 
 
 @dataclass(frozen=True)
@@ -96,112 +105,169 @@ def closure(machine: Machine) -> Closure:
 def closure_of(compiled: Compiled) -> Closure:
     """`closure` of a compiled machine."""
     turns = turns_to_repeat(compiled)
+    limiting = limiting_dyads(compiled)
     if turns is None:
-        return _endless(compiled)
+        return _endless(compiled, limiting)
     full = Closure(((0.0, 2 * np.pi * turns),), "", turns=turns)
-    if not compiled.dyads:
+    if not limiting:
         return full
-    gaps = compiled.gaps(turn_angles(_FEW) if turns == 1 else _over(turns, _FEW))
+    gaps = compiled.gaps(_over(turns, _FEW))[limiting]
     if (gaps.min(axis=1) > _AMPLE * gaps.max(axis=1)).all():
         return full
-    angles = _over(turns, _ANGLES)[:-1]
-    gaps = compiled.gaps(angles)
-    is_open = _open(gaps)
-    if not is_open.any():
-        return _change_point(compiled, angles, gaps) or full
-    ranges = _ranges(compiled, angles, _closing(is_open), 2 * np.pi * turns)
-    return Closure(ranges, _first_of(compiled, is_open), turns=turns)
+    return _Search(compiled, limiting, turns).run() or full
 
 
 def _over(turns: int, per_turn: int) -> Floats:
+    """Crank angles of a whole period, its end included."""
+    if turns == 1:
+        return turn_angles(per_turn)
     return np.linspace(0.0, 2 * np.pi * turns, per_turn * turns + 1)
 
 
-def _open(gaps: Floats) -> Flags:
-    """Where each dyad does not close, (dyads, n). Links in line leave zero, or by rounding a little less."""
-    sizes = np.nan_to_num(gaps).max(axis=1, keepdims=True)
-    closes: Flags = (gaps >= -_ZERO * sizes) & (sizes > 0)
-    return np.logical_not(closes)
+def limiting_dyads(compiled: Compiled) -> list[int]:
+    """Indices of the dyads that may fail to close; those that pass their change points always close."""
+    return [nth for nth, name in enumerate(compiled.dyads) if name not in compiled.passing]
 
 
-def _closing(is_open: Flags) -> Flags:
-    """At which angles every dyad closes, (n,)."""
-    closes: Flags = np.logical_not(np.any(is_open, axis=0))
-    return closes
+def limiter_at(compiled: Compiled, angle: float) -> str:
+    """Name of the dyad that limits the motion at an end of a range."""
+    return _Search(compiled, limiting_dyads(compiled), 1).limiter(angle)
 
 
-def _first_of(compiled: Compiled, is_open: Flags) -> str:
-    return compiled.dyads[int(np.argmax(is_open.any(axis=1)))]
+class _Search:
+    """The angles of a fine look over the period, with those added where something happens between them."""
+
+    def __init__(self, compiled: Compiled, limiting: list[int], turns: int) -> None:
+        self.compiled, self.limiting, self.turns = compiled, limiting, turns
+        self.period = 2 * np.pi * turns
+        self.angles: Floats = _over(turns, _ANGLES)[:-1].copy()
+        gaps = compiled.gaps(self.angles)[limiting]
+        # A dyad that closes nowhere is measured by how far it is from closing.
+        known = np.abs(gaps) if not (gaps > 0).any() else gaps
+        self.sizes: Floats = np.nan_to_num(known).max(axis=1, keepdims=True)
+        self.sizes[self.sizes <= 0] = np.nan_to_num(np.abs(gaps)).max() or 1.0
+        self.room = self._least(gaps)
+
+    def _least(self, gaps: Floats) -> Floats:
+        # A dyad behind one that does not close is NaN, and that one is negative.
+        return np.fmin.reduce(gaps / self.sizes, axis=0)
+
+    def spare(self, angles: Floats) -> Floats:
+        """Least radicand of all dyads as a share of its greatest, at crank angles."""
+        return self._least(self.compiled.gaps(angles)[self.limiting])
+
+    def limiter(self, angle: float) -> str:
+        """Name of the dyad with the least radicand at an angle."""
+        gaps = self.compiled.gaps(np.array([angle]))[self.limiting] / self.sizes
+        return self.compiled.dyads[self.limiting[int(np.nanargmin(gaps[:, 0]))]]
+
+    def run(self) -> Closure | None:
+        """The closure; None if it closes all round."""
+        touch = self._between(+1)
+        self._between(-1)
+        # Links in line leave zero, or by rounding a little less.
+        closes = self.room >= -_ZERO
+        if closes.all():
+            return None if touch is None else self._touched(touch)
+        return Closure(tuple(self._ranges(closes)), self._element(closes), turns=self.turns)
+
+    def _between(self, sign: int) -> float | None:
+        """Adds minima below zero between closing angles (+1), or maxima above zero between open ones (−1).
+
+        Gives the angle of a minimum that touches zero.
+        """
+        room = sign * self.room
+        before, after = np.roll(room, 1), np.roll(room, -1)
+        bend = np.maximum(before + after - 2 * room, 1e-300)
+        lowest = room - (after - before) ** 2 / (8 * bend)
+        found = np.flatnonzero((room <= before) & (room <= after) & (room >= -_ZERO) & (lowest < _CLOSE))
+        if not len(found):
+            return None
+        step = 2 * np.pi / _ANGLES
+        near = self.angles[found]
+        at, least = minima(lambda x: sign * self.spare(x), near - step, near + step)
+        missed = least < -_ZERO
+        order = np.argsort(angles := np.concatenate([self.angles, at[missed] % self.period]))
+        room = np.concatenate([self.room, sign * least[missed]])
+        self.angles, self.room = angles[order], room[order]
+        touching = [float(x) for x in at[np.abs(least) <= _ZERO] if not _passes(self.compiled, float(x))]
+        return touching[0] % self.period if touching else None
+
+    def _touched(self, at: float) -> Closure:
+        """A dyad is stretched or folded: the positions alone do not tell the rates of its links there."""
+        return Closure(((at, at + self.period),), self.limiter(at), at, self.turns)
+
+    def _element(self, closes: NDArray[np.bool_]) -> str:
+        """The first dyad in build order that does not close somewhere."""
+        gaps = self.compiled.gaps(self.angles[~closes])[self.limiting]
+        fails = (gaps < -_ZERO * self.sizes).any(axis=1)
+        return self.compiled.dyads[self.limiting[int(np.argmax(fails))]]
+
+    def _ranges(self, closes: NDArray[np.bool_]) -> Iterator[tuple[float, float]]:
+        starts = np.flatnonzero(closes & ~np.roll(closes, 1))
+        ends = np.flatnonzero(closes & ~np.roll(closes, -1))
+        if not len(starts):
+            return
+        inside = self.angles[np.concatenate([starts, ends])]
+        around = np.concatenate([np.roll(self.angles, 1)[starts], np.roll(self.angles, -1)[ends]])
+        # The neighbour across the end of the period.
+        around = inside + (around - inside + self.period / 2) % self.period - self.period / 2
+        edges = self._edges(inside, around)
+        for low, start in zip(edges[: len(starts)], starts, strict=True):
+            high = edges[len(starts) + np.searchsorted(ends, start) % len(ends)]
+            yield float(low), float(high if high >= low else high + self.period)
+
+    def _edges(self, inside: Floats, outside: Floats) -> Floats:
+        """Where the ranges end, between angles that close and their neighbours that do not."""
+        near, far = zeros(self.spare, inside, outside)
+        edges = np.where(self.spare(near) >= 0, near, far)
+        # An angle that closes by rounding alone is the edge itself.
+        return np.where(self.spare(inside) > 0, edges, inside)
 
 
-def _ranges(
-    compiled: Compiled, angles: Floats, closes: Flags, period: float
-) -> tuple[tuple[float, float], ...]:
-    """The ranges of a motion that repeats; the last may go on into the next period."""
-    starts = np.flatnonzero(closes & ~np.roll(closes, 1))
-    ends = np.flatnonzero(closes & ~np.roll(closes, -1))
-    step = 2 * np.pi / _ANGLES
-    ranges = []
-    for start in starts:
-        end = ends[np.searchsorted(ends, start) % len(ends)]
-        low = _edge(compiled, angles[start], -step)
-        high = _edge(compiled, angles[end], step)
-        ranges.append((float(low), float(high if high > low else high + period)))
-    return tuple(ranges)
-
-
-def _endless(compiled: Compiled) -> Closure:
+def _endless(compiled: Compiled, limiting: list[int]) -> Closure:
     """A motion that never repeats: from where it is at angle zero as far as it goes, both ways."""
     reach = 2 * np.pi
-    for _ in range(_DOUBLINGS):
+    for _ in range(_DOUBLINGS if limiting else 0):
         angles = np.linspace(-reach, reach, 2 * _ANGLES + 1)
-        is_open = _open(compiled.gaps(angles)) if compiled.dyads else np.zeros((1, len(angles)), dtype=bool)
-        closes = _closing(is_open)
+        gaps = compiled.gaps(angles)[limiting]
+        closes = _closing(gaps)
+        element = compiled.dyads[limiting[int(np.argmin(np.nan_to_num(gaps, nan=-1.0).min(axis=1)))]]
         if not closes[_ANGLES]:
-            return Closure((), _first_of(compiled, is_open), turns=None)
-        step = angles[1] - angles[0]
+            return Closure((), element, turns=None)
         ahead, behind = closes[_ANGLES:], closes[_ANGLES::-1]
         if not ahead.all() and not behind.all():
-            high = _edge(compiled, float((np.argmin(ahead) - 1) * step), step)
-            low = _edge(compiled, float(-(np.argmin(behind) - 1) * step), -step)
-            return Closure(((low, high),), _first_of(compiled, is_open), turns=None)
+            inside = np.array([-(np.argmin(behind) - 1), np.argmin(ahead) - 1]) * (angles[1] - angles[0])
+            outside = inside + np.array([-1.0, 1.0]) * (angles[1] - angles[0])
+
+            def least(at: Floats) -> Floats:
+                found: Floats = np.fmin.reduce(compiled.gaps(at)[limiting], axis=0)
+                return found
+
+            low, high = zeros(least, inside, outside)[0]
+            return Closure(((float(low), float(high)),), element, turns=None)
         reach *= 2
     return Closure(((0.0, 2 * np.pi),), "", turns=None)
 
 
-def _change_point(compiled: Compiled, angles: Floats, gaps: Floats) -> Closure | None:
-    """The first dyad whose radicand falls to zero at some angle between those looked at; None if none does.
+def _closing(gaps: Floats) -> Flags:
+    """At which angles every dyad closes, (n,). Links in line leave zero, or by rounding a little less."""
+    sizes = np.nan_to_num(gaps).max(axis=1, keepdims=True)
+    closes: Flags = ((gaps >= -_ZERO * sizes) & (sizes > 0)).all(axis=0)
+    return closes
 
-    There the dyad is stretched or folded: the rates of its links have no limit that the positions alone
-    could tell. Dyads that are known to pass their change points are left out.
+
+def _passes(compiled: Compiled, at: float) -> bool:
+    """Whether the links go on through a change point: their rates just before and just after it agree.
+
+    Where the core does not carry a dyad on, its joint stays on its side and the rates jump.
     """
-    sizes, lows = gaps.max(axis=1), gaps.min(axis=1)
-    for dyad in np.flatnonzero(lows < _CLOSE * sizes):
-        if compiled.dyads[dyad] in compiled.passing:
-            continue
-        centre, reach = float(angles[gaps[dyad].argmin()]), 2 * np.pi / _ANGLES
-        # The radicand is a parabola there: its zero is met when its square root is, at 1e-7 of the size.
-        for _ in range(6):
-            near_by = np.linspace(centre - reach, centre + reach, 41)
-            near = compiled.gaps(near_by)[dyad]
-            centre, reach = float(near_by[near.argmin()]), reach / 20
-        if near.min() <= _ZERO * sizes[dyad]:
-            at = centre % (2 * np.pi)
-            return Closure(((at, at + 2 * np.pi),), compiled.dyads[dyad], at)
-    return None
-
-
-def _edge(compiled: Compiled, inside: float, step: float) -> float:
-    """The angle, within one step of an angle inside a range, at which the range ends; by bisection."""
-    good, bad = inside, inside + step
-    # Fifty halvings of a quarter of a degree go beyond rounding.
-    for _ in range(50):
-        middle = 0.5 * (good + bad)
-        if (compiled.gaps(np.array([middle])) >= 0).all():
-            good = middle
-        else:
-            bad = middle
-    return good
+    angles = np.array([at - _BESIDE, at + _BESIDE])
+    out = np.empty((1, 4 * len(compiled.links), 2))
+    compiled.first().motions(angles, [(_LINK, index) for index in compiled.links.values()], out.reshape(-1))
+    rates = out[0, 2::4]
+    jumps = np.abs(rates[:, 1] - rates[:, 0])
+    return bool((jumps <= _JUMP * (1 + np.abs(rates).max(axis=1))).all())
 
 
 def require_full_turn(compiled: Compiled, machine: Machine) -> None:
@@ -215,8 +281,22 @@ def require_full_turn(compiled: Compiled, machine: Machine) -> None:
     found = closure_of(compiled)
     if not found.turns_fully:
         raise _error(found, machine)
-    if found.turns != 1 and not _feels_one_turn(compiled):
-        after = f"only after {found.turns} turns" if found.turns else "never"
+    require_one_turn(compiled)
+
+
+def require_one_turn(compiled: Compiled) -> None:
+    """Raise if the crank does not feel the same masses and loads again after one turn.
+
+    Raises
+    ------
+    AssemblyError
+        Says after how many turns it does, and what to change.
+    """
+    if compiled.one_turn:
+        return
+    turns = turns_to_repeat(compiled)
+    if turns != 1 and not _feels_one_turn(compiled):
+        after = f"only after {turns} turns" if turns else "never"
         raise AssemblyError(
             f"masses and loads are {after} again where they were, so one turn of the crank does not tell the "
             "motion; let the crank be the part that turns slowest, or give masses and loads to parts that "
@@ -231,27 +311,28 @@ def _feels_one_turn(compiled: Compiled) -> bool:
     return bool((np.abs(next_ - first) <= _SAME * sizes).all())
 
 
-def require_angles(compiled: Compiled, machine: Machine, angles: Floats) -> None:
-    """Raise with the reason if the mechanism does not close at one of some crank angles [rad].
+def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None:
+    """Raise if the mechanism does not close at one of some crank angles.
 
     Raises
     ------
     AssemblyError
         Says which element does not close, where the mechanism closes, and what to change.
     """
+    limiting = limiting_dyads(compiled)
+    if not limiting:
+        return
+    gaps = compiled.gaps(angles)[limiting]
+    closes = (gaps >= 0).all(axis=0)
+    if closes.all():
+        return
+    at = float(angles[int(np.argmin(closes))])
     found = closure_of(compiled)
-    if not found.turns_fully:
-        raise _error(found, machine)
-    if compiled.dyads:
-        is_open = _open(compiled.gaps(angles))
-        if is_open.any():
-            element = _first_of(compiled, is_open)
-            at = float(angles[int(np.argmax(is_open.any(axis=0)))])
-            raise AssemblyError(
-                f"the mechanism does not close at crank angle {_deg(at)}°: {describe(element, machine)[0]}",
-                element=element,
-                crank_angle=at,
-            )
+    if found.turns_fully:
+        # Less than nothing by rounding alone.
+        return
+    text = f"at crank angle {_deg(at)}° {_sentence(found, machine)}"
+    raise AssemblyError(text, element=found.element, crank_angle=at)
 
 
 def _error(found: Closure, machine: Machine) -> AssemblyError:

@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.engine import Compiled
+from linkwright.engine import Compiled, compile_machine
+from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
 
@@ -22,6 +23,22 @@ _ANGLES = np.array([0.317, 1.291, 2.053, 3.371, 4.423, 5.687])
 # Difference over the size of the mechanism that counts as rounding: that of an angle of a thousand radians is
 # far below, a tooth of the largest gear far above.
 _ROUNDING = 1e-9
+
+
+def period_turns(machine: Machine) -> int | None:
+    """Turns of the crank after which every point and link is again where it was.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    int or None
+        The least number up to 240; None if there is none, as with a rack on a gear that turns on and on.
+    """
+    return turns_to_repeat(compile_machine(machine))
 
 
 def turns_to_repeat(compiled: Compiled) -> int | None:

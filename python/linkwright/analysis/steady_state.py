@@ -193,6 +193,8 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
     ------
     AssemblyError
         The mechanism does not close all round.
+    FindingError
+        It does not repeat after one turn of the crank.
     SteadyStateError
         There is no periodic motion; says what the drive lacks.
     ConvergenceError
