@@ -93,7 +93,9 @@ def circuits(machine: Machine) -> tuple[Circuit, ...]:
     compiled = first_row(compile_machine(machine))
     slots = _slots(compiled, machine)
     branches = [
-        branch for signs in product((1.0, -1.0), repeat=len(slots)) for branch in _branches(compiled, slots, signs)
+        branch
+        for signs in product((1.0, -1.0), repeat=len(slots))
+        for branch in _branches(compiled, slots, signs)
     ]
     return tuple(Circuit(tuple(each for each, _ in group)) for group in _joined(branches))
 
@@ -132,7 +134,10 @@ def _branches(compiled: Compiled, slots: dict[str, int], signs: tuple[float, ...
     words = dict(zip(slots, ("given" if sign > 0 else "other" for sign in signs), strict=True))
     whole = where.turns_fully
     return [
-        (Branch(words, low, high, whole), [] if whole else [(end, limiter_at(other, end)) for end in (low, high)])
+        (
+            Branch(words, low, high, whole),
+            [] if whole else [(end, limiter_at(other, end)) for end in (low, high)],
+        )
         for low, high in where.ranges
     ]
 

@@ -140,7 +140,9 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
         raise MachineError([Problem("point", point, f"one of {', '.join(compiled.points)}")])
     where = closure_of(compiled)
     if not where.ranges:
-        raise AssemblyError("the mechanism closes at no crank angle; change the lengths", element=where.element)
+        raise AssemblyError(
+            "the mechanism closes at no crank angle; change the lengths", element=where.element
+        )
     cycle = Cycle.of(where, period_of(compiled) if where.turns_fully else None)
     return _Path(compiled, compiled.points[point], cycle).result(point, straight)
 
@@ -275,7 +277,10 @@ class _Path:
         at, least = minima(lambda phi: np.hypot(*self.at(phi)[2:4]), angles[inner - 1], angles[inner + 1])
         at = at[least <= _STANDS * speed.max()]
         places = self.at(at)
-        return [Cusp(float(x), float(y), float(phi) % (2 * np.pi)) for x, y, phi in zip(*places[:2], at, strict=True)]
+        return [
+            Cusp(float(x), float(y), float(phi) % (2 * np.pi))
+            for x, y, phi in zip(*places[:2], at, strict=True)
+        ]
 
 
 Portion = tuple[float, int, int]

@@ -89,7 +89,9 @@ def _columns(head: str, path: Path, at: Any) -> dict[str, Floats]:
     return places
 
 
-def motion(machine: Machine, law: Law | Callable[[Any], Any] | Sequence[ArrayLike], times: ArrayLike) -> Motion:
+def motion(
+    machine: Machine, law: Law | Callable[[Any], Any] | Sequence[ArrayLike], times: ArrayLike
+) -> Motion:
     """Motion of every point, link and slide over time under a law of the crank.
 
     Parameters
@@ -121,7 +123,9 @@ def motion(machine: Machine, law: Law | Callable[[Any], Any] | Sequence[ArrayLik
     compiled = first_row(compile_machine(machine))
     rates = driver.at(t)
     if not np.isfinite(rates).all():
-        raise ShapeError(f"the law gives no finite angle or rate at t = {t[int(np.argmin(np.isfinite(rates).all(axis=0)))]:g} s")
+        raise ShapeError(
+            f"the law gives no finite angle or rate at t = {t[int(np.argmin(np.isfinite(rates).all(axis=0)))]:g} s"
+        )
     _require_within(compiled, machine, driver, t)
     found = kinematics_of(compiled, np.ascontiguousarray(rates[0]), everything(compiled), third=True)
     columns = rates[:, :, None]

@@ -136,7 +136,9 @@ def _quotient(a: Taylor, b: Taylor) -> Taylor:
     return Taylor(np.array(c))
 
 
-def _solution(value: Callable[[Floats], Floats], slope: Callable[[Taylor, Taylor], Taylor], x: Taylor) -> Taylor:
+def _solution(
+    value: Callable[[Floats], Floats], slope: Callable[[Taylor, Taylor], Taylor], x: Taylor
+) -> Taylor:
     """y(x) with y′ = slope(x, y): each round is right in one coefficient more."""
     y = Taylor(np.zeros_like(x.c))
     y.c[0] = value(x.c[0])
@@ -177,7 +179,9 @@ def _sine(x: Taylor, shift: float) -> Taylor:
     d = [np.sin(x.c[0] + shift + 0.5 * np.pi * k) for k in range(TERMS)]
     c1, c2, c3 = x.c[1:]
     return Taylor(
-        np.array([d[0], d[1] * c1, d[1] * c2 + d[2] * c1**2 / 2, d[1] * c3 + d[2] * c1 * c2 + d[3] * c1**3 / 6])
+        np.array(
+            [d[0], d[1] * c1, d[1] * c2 + d[2] * c1**2 / 2, d[1] * c3 + d[2] * c1 * c2 + d[3] * c1**3 / 6]
+        )
     )
 
 

@@ -191,7 +191,9 @@ class Swept:
         k = next((k for k, each in enumerate(self.dyads) if each.name == element), None)
         if k is None:
             return None
-        at = np.concatenate([self._zeros[k], self.dyads[k].change_points, self.cycle.ends, self.cycle.angles[:1]])
+        at = np.concatenate(
+            [self._zeros[k], self.dyads[k].change_points, self.cycle.ends, self.cycle.angles[:1]]
+        )
         values = self._at(at)[0][k]
         low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
         turn = 2 * np.pi if self.cycle.span < 2 * np.pi * 1.01 else np.inf
