@@ -15,7 +15,6 @@ import numpy as np
 
 from linkwright.analysis.closure import closure_of, limiter_at
 from linkwright.analysis.dyads import dyads_of
-from linkwright.analysis.period import first_row
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import InputError
 from linkwright.machine import Machine
@@ -90,7 +89,7 @@ def circuits(machine: Machine) -> tuple[Circuit, ...]:
         More than 8 dyads have two assemblies, or the linkage has gears on swinging links, change points or groups:
         these are known in the given assembly alone.
     """
-    compiled = first_row(compile_machine(machine))
+    compiled = compile_machine(machine).first()
     slots = _slots(compiled, machine)
     branches = [
         branch

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.closure import closure_of
 from linkwright.analysis.dyads import POINT, evaluate
-from linkwright.analysis.period import first_row, period_of
+from linkwright.analysis.period import turns_to_repeat
 from linkwright.analysis.result import Result
 from linkwright.analysis.roots import brackets, minima, zeros
 from linkwright.analysis.turning import Cycle
@@ -135,7 +135,7 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
     """
     if not 0 < straight < 1:
         raise ShapeError(f"straight = {straight:g}: expected a number between 0 and 1")
-    compiled = first_row(compile_machine(machine))
+    compiled = compile_machine(machine).first()
     if point not in compiled.points:
         raise MachineError([Problem("point", point, f"one of {', '.join(compiled.points)}")])
     where = closure_of(compiled)
@@ -143,7 +143,7 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
         raise AssemblyError(
             "the mechanism closes at no crank angle; change the lengths", element=where.element
         )
-    cycle = Cycle.of(where, period_of(compiled) if where.turns_fully else None)
+    cycle = Cycle.of(where, turns_to_repeat(compiled) if where.turns_fully else None)
     return _Path(compiled, compiled.points[point], cycle).result(point, straight)
 
 

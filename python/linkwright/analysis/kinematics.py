@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.closure import require_full_turn
+from linkwright.analysis.closure import require_closed
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import MachineError, Problem, ShapeError
 from linkwright.machine import Machine
@@ -136,7 +136,7 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool
     what = everything(compiled)
     out = motion_arrays(compiled, phi, what)
     if np.isnan(out).any():
-        require_full_turn(compiled, machine)
+        require_closed(compiled, machine, phi)
     single = compiled.n_rows == 1 and not len(compiled.slots)
     found = _collect(phi, out[0] if single else out, what)
     return with_third(compiled, found, what) if third else found

@@ -20,7 +20,7 @@ from linkwright.analysis.closure import Closure, closure_of
 from linkwright.analysis.dead_points import DeadPoint, dead_points
 from linkwright.analysis.grashof import FourBar, four_bars
 from linkwright.analysis.outputs import Output
-from linkwright.analysis.period import first_row, period_of
+from linkwright.analysis.period import turns_to_repeat
 from linkwright.analysis.result import Result
 from linkwright.analysis.turning import Cycle, Swept, sweep
 from linkwright.engine import compile_machine
@@ -216,14 +216,14 @@ def linkage(machine: Machine) -> Linkage:
     .. [1] Norton, Design of Machinery: transmission angle, mechanical advantage, time ratio.
     .. [2] VDI 2123: transmission angle.
     """
-    compiled = first_row(compile_machine(machine))
+    compiled = compile_machine(machine).first()
     where = closure_of(compiled)
     if not where.ranges:
         raise AssemblyError(
             f"the mechanism does not close at any crank angle: {where.element} cannot reach; change the lengths",
             element=where.element,
         )
-    period = period_of(compiled) if where.turns_fully else None
+    period = turns_to_repeat(compiled) if where.turns_fully else None
     cycle = Cycle.of(where, period)
     swept = sweep(compiled, machine.linkage, cycle)
     loops = {each.element: each for each in four_bars(compiled)}

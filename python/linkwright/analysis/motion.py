@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.closure import closure_of, require_closed
 from linkwright.analysis.kinematics import checked_angles, everything, kinematics_of
 from linkwright.analysis.law import Law, as_law
-from linkwright.analysis.period import first_row
 from linkwright.analysis.result import Result
 from linkwright.analysis.roots import brackets, zeros
 from linkwright.engine import Compiled, compile_machine
@@ -120,7 +119,7 @@ def motion(
     if len(t) == 0 or (np.diff(t) <= 0).any():
         raise ShapeError("times must increase, and there must be at least one")
     driver = as_law(law)
-    compiled = first_row(compile_machine(machine))
+    compiled = compile_machine(machine).first()
     rates = driver.at(t)
     if not np.isfinite(rates).all():
         raise ShapeError(

@@ -1,32 +1,28 @@
 """After how many turns of the crank a mechanism is again where it was.
 
-A linkage of cranks and dyads repeats every turn. Gears make it repeat when all of them have come round; a dyad with an
-odd number of change points, and a group, may need two turns and more.
+Cranks and dyads repeat after one turn. Gears and belts of other ratios take several, a screw or a rack on the
+crank never comes back, and a group may close only after its branch has been run through twice.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
+from numpy.typing import NDArray
 
-from linkwright.analysis.closure import require_full_turn
 from linkwright.engine import Compiled, compile_machine
-from linkwright.errors import FindingError
 from linkwright.machine import Machine
 
-# Turns after which a mechanism counts as not periodic.
-TURNS_MAX = 24
+Floats = NDArray[np.float64]
 
-# Kinds of rows that may need more than a turn: gears, what runs along with them, continuous angles, dyads with
-# change points, groups (`crates/linkwright-core/src/plan.rs`).
-_SLOW = frozenset((8, 9, 10, 11, 12))
+# Turns after which a motion counts as one that does not repeat: trains of gears with up to so many teeth.
+_TURNS_MAX = 240
 
-# Crank angles at which positions are compared: no simple share of the turn.
-_LOOKS = np.array([0.123, 1.357, 2.718, 4.321, 5.813])
+# Crank angles that are compared, spread unevenly over the turn so that no symmetry hides a difference [rad].
+_ANGLES = np.array([0.317, 1.291, 2.053, 3.371, 4.423, 5.687])
 
-# Difference in position, over the mechanism's size, that is rounding after some turns.
-_SAME = 1e-9
+# Difference over the size of the mechanism that counts as rounding: that of an angle of a thousand radians is
+# far below, a tooth of the largest gear far above.
+_ROUNDING = 1e-9
 
 
 def period_turns(machine: Machine) -> int | None:
@@ -40,72 +36,43 @@ def period_turns(machine: Machine) -> int | None:
     Returns
     -------
     int or None
-        The least number up to 24; None if there is none, as with a rack on a gear that turns on and on.
-
-    Raises
-    ------
-    AssemblyError
-        The mechanism does not close all round.
+        The least number up to 240; None if there is none, as with a rack on a gear that turns on and on.
     """
-    compiled = compile_machine(machine)
-    require_full_turn(compiled, machine)
-    return period_of(compiled)
+    return turns_to_repeat(compile_machine(machine))
 
 
-def period_of(compiled: Compiled) -> int | None:
-    """`period_turns` of a compiled machine that closes all round."""
-    if not _SLOW.intersection(row[0] for row in compiled.rows):
+def turns_to_repeat(compiled: Compiled) -> int | None:
+    """Turns of the crank after which all points and links are where they were.
+
+    Parameters
+    ----------
+    compiled : Compiled
+        A compiled machine.
+
+    Returns
+    -------
+    int or None
+        None if they do not come back within 240 turns.
+    """
+    if compiled.one_turn:
         return 1
-    places = _places(compiled)
-    off = np.abs(places[:, 1:] - places[:, :1])
-    # NaN must not pass for the same.
-    same = (off <= _SAME * _size(places)).all(axis=(0, 2))
-    return int(np.argmax(same)) + 1 if same.any() else None
+    turns = np.arange(_TURNS_MAX + 1)
+    angles = (2 * np.pi * turns[:, None] + _ANGLES).ravel()
+    places = _places(compiled, angles).reshape(-1, len(turns), len(_ANGLES))
+    apart = np.abs(places - places[:, :1]).max(axis=(0, 2), initial=0.0)
+    same = np.flatnonzero(apart[1:] <= _ROUNDING)
+    return int(same[0]) + 1 if len(same) else None
 
 
-def _places(compiled: Compiled) -> np.ndarray:
-    """Coordinates of points and directions of links, (numbers, turns + 1, looks)."""
-    phi = (_LOOKS + 2 * np.pi * np.arange(TURNS_MAX + 1)[:, None]).ravel()
-    what = [(0, point) for point in compiled.points.values()]
-    what += [(1, link) for link in compiled.links.values()]
-    n = 6 * len(compiled.points) + 4 * len(compiled.links)
-    out = np.empty((1, n, len(phi)))
-    first_row(compiled).motions(phi, what, out.reshape(-1))
-    points = out[0, : 6 * len(compiled.points)].reshape(-1, 6, len(phi))[:, :2]
-    links = out[0, 6 * len(compiled.points) :].reshape(-1, 4, len(phi))[:, :2]
-    rows = np.concatenate([points.reshape(-1, len(phi)), links.reshape(-1, len(phi))])
-    return rows.reshape(len(rows), TURNS_MAX + 1, len(_LOOKS))
-
-
-def first_row(compiled: Compiled) -> Compiled:
-    """The first machine of a batch, or the machine itself."""
-    return replace(compiled, slots=np.empty(0, dtype=np.int32), values=np.empty((0, 1)))
-
-
-def _size(places: np.ndarray) -> np.ndarray:
-    """Spread of each number over the first turn, and at least that of a unit vector where it stands still."""
-    spread = np.ptp(places[:, 0], axis=1)
-    largest = max(float(spread.max(initial=0.0)), 1e-300)
-    return np.maximum(spread, 1e-3 * largest)[:, None, None]
-
-
-def require_one_turn(compiled: Compiled, machine: Machine) -> None:
-    """Raise if the mechanism does not repeat after one turn of the crank.
-
-    Raises
-    ------
-    FindingError
-        Says after how many turns it does, and what to change.
-    """
-    turns = period_of(compiled)
-    if turns == 1:
-        return
-    repeats = (
-        f"does not repeat within {TURNS_MAX} turns of the crank"
-        if turns is None
-        else f"repeats only after {turns} turns of the crank"
-    )
-    raise FindingError(
-        f"{machine.name} {repeats}, and masses and loads are reduced over one turn; change the ratio of its gears, "
-        "or let the turning crank be one that turns once in a whole period"
-    )
+def _places(compiled: Compiled, angles: Floats) -> Floats:
+    """Points over the mechanism's size, and directions of links, (numbers, n); zero where nothing closes."""
+    what = [(0, index) for index in compiled.points.values()]
+    what += [(1, index) for index in compiled.links.values()]
+    n_points = len(compiled.points)
+    out = np.empty((1, 6 * n_points + 4 * len(compiled.links), len(angles)))
+    compiled.first().motions(angles, what, out.reshape(-1))
+    points = out[0, : 6 * n_points].reshape(n_points, 6, -1)[:, :2].reshape(2 * n_points, -1)
+    links = out[0, 6 * n_points :].reshape(len(compiled.links), 4, -1)[:, :2].reshape(-1, len(angles))
+    size = np.nanmax(np.abs(points), initial=0.0)
+    places: Floats = np.nan_to_num(np.concatenate([points / (size or 1.0), links]))
+    return places

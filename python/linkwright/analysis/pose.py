@@ -13,7 +13,6 @@ import numpy as np
 from linkwright.analysis.closure import require_closed
 from linkwright.analysis.dyads import dyads_of, evaluate, transmission, transmission_channels
 from linkwright.analysis.kinematics import everything, kinematics_of
-from linkwright.analysis.period import first_row
 from linkwright.engine import compile_machine
 from linkwright.errors import ShapeError
 from linkwright.machine import Machine
@@ -117,7 +116,7 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
             f"finite numbers are needed for angle, speed and acceleration of the crank, found {crank_angle!r}, "
             f"{speed!r}, {acceleration!r}"
         )
-    compiled = first_row(compile_machine(machine))
+    compiled = compile_machine(machine).first()
     at = np.array([crank_angle], dtype=np.float64)
     require_closed(compiled, machine, at)
     found = kinematics_of(compiled, at, everything(compiled))

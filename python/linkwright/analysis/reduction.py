@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.closure import require_full_turn, turn_angles
-from linkwright.analysis.period import require_one_turn
 from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_sound_loads
 from linkwright.engine import Compiled, compile_machine
@@ -112,7 +111,6 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
-    require_one_turn(compiled, machine)
     require_sound_loads(compiled, machine)
     return reduction_of(compiled, n)
 

@@ -22,7 +22,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.closure import require_full_turn, turn_angles
-from linkwright.analysis.period import require_one_turn
 from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_same_turns
 from linkwright.engine import compile_machine
@@ -115,7 +114,6 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
-    require_one_turn(compiled, machine)
     require_same_turns(machine)
     n = whole_steps(step)
     phi = turn_angles(n)[:-1]

@@ -26,7 +26,8 @@ from pydantic import Field, model_validator
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Description, fault, raise_faults
-from linkwright.units import LENGTH, RATIO, Angle, Length, Quantity, positive
+from linkwright.machine.formula_faults import constant_faults, text_faults
+from linkwright.units import LENGTH, RATIO, Angle, AnyQuantity, Length, Quantity, positive
 
 PositiveLength = Annotated[float, positive(LENGTH)]
 PositiveNumber = Annotated[float, positive(RATIO)]
@@ -53,20 +54,56 @@ class Guide(Description):
     offset: Length = Field(0.0, description="Of the guide to the left of its direction.")
 
 
-class Crank(Description):
-    """A crank on the crankshaft; all cranks turn together."""
+class Driver(Description):
+    """What all drivers have in common: they may follow a law of the crank angle."""
+
+    law: str | None = Field(None, description="Formula in phi.")
+    constants: dict[str, Annotated[float, AnyQuantity()]] = Field(
+        default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
+    )
+
+    @model_validator(mode="after")
+    def _law_fits(self) -> Self:
+        raise_faults(type(self).__name__, self._law_faults())
+        return self
+
+    def _law_faults(self) -> Iterator[InitErrorDetails]:
+        """A law that is no formula of the crank angle."""
+        yield from constant_faults(self.constants, self.law or "")
+        if self.law is None and self.constants:
+            yield fault("law", expected="a law that asks for the constants")
+        if self.law is not None:
+            yield from text_faults("law", self.law, self.constants, ("phi",))
+
+
+class Crank(Driver):
+    """A crank; its angle is that of the crankshaft, or follows it by a law."""
+
+    law: str | None = Field(
+        None,
+        description="Angle of the crank in rad as a formula in phi, to which the phase is added: "
+        '"0.6*sin(phi)" swings to and fro. Without it, phi.',
+    )
 
     radius: PositiveLength = Field(description="From the pivot to the pin.")
     phase: Angle = Field(0.0, description="Angle of this crank when the crank angle is zero.")
     pivot: str | None = Field(None, description="Fixed point that it turns about. Without it, the origin.")
 
 
-class LinearDriver(Description):
-    """A point that the drive moves along a guide, in proportion to the crank angle."""
+class LinearDriver(Driver):
+    """A point that the drive moves along a guide, in proportion to the crank angle or by a law."""
+
+    law: str | None = Field(None, description="Distance from the start in m as a formula in phi.")
 
     guide: Guide = Field(default_factory=Guide, description="What it moves along.")
     start: Length = Field(0.0, description="Place along the guide when the crank angle is zero.")
-    per_turn: Length = Field(description="Distance for a turn of the crankshaft.")
+    per_turn: Length | None = Field(None, description="Distance for a turn of the crankshaft.")
+
+    def _law_faults(self) -> Iterator[InitErrorDetails]:
+        yield from super()._law_faults()
+        if (self.law is None) == (self.per_turn is None):
+            found = "neither" if self.law is None else "both"
+            yield fault(found=found, expected="either per_turn or law")
 
 
 class Slider(Description):

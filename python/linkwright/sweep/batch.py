@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.period import require_one_turn
+from linkwright.analysis.closure import require_one_turn
 from linkwright.analysis.sound_loads import require_same_turns
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError, MachineError, Problem, ShapeError
@@ -163,7 +163,7 @@ def steady_states(
     compiled = compile_machine(replace(machine, arrays))
     if not len(compiled.slots):
         raise InputError("none of the entries has an effect on the motion")
-    require_one_turn(compiled, machine)
+    require_one_turn(compiled)
     status, table, turns = compiled.steady_rows(accuracy)
     columns = dict(zip(_COLUMNS, np.ascontiguousarray(table.T), strict=False))
     return SteadyStates(entries=arrays, status=status, turns_swept=turns, **columns)
