@@ -184,10 +184,13 @@ class Linkage(Result):
         return found
 
     def curves(self) -> dict[str, np.ndarray]:
-        """The curves by name: ``R.transmission_angle``, ``R.rocker.velocity_ratio``."""
+        """The curves by name: ``R.transmission_angle``, ``R.rocker.velocity_ratio``, ``S.stroke_ratio``."""
         found = {"crank_angle": self.crank_angle}
         found |= {f"{name}.transmission_angle": curve for name, curve in self.transmission_angles.items()}
-        return found | {f"{name}.velocity_ratio": curve for name, curve in self.velocity_ratios.items()}
+        slides = {each.output for each in self.elements if each.stroke is not None}
+        for name, curve in self.velocity_ratios.items():
+            found[f"{name}.stroke_ratio" if name in slides else f"{name}.velocity_ratio"] = curve
+        return found
 
 
 def linkage(machine: Machine) -> Linkage:

@@ -6,7 +6,8 @@
 | 2 | `steady_state` | a motor |
 | 3 | `run_up` | steady motion to settle to |
 | 4 | `run_down` | a brake, and steady motion to begin with |
-| 5 | `pumping_unit`, `rod_rotator` | such a unit, such a rotator; nothing of the above |
+| 5 | `linkage` | a linkage that closes somewhere |
+| 6 | `pumping_unit`, `rod_rotator` | such a unit, such a rotator; nothing of the above |
 
 What fails becomes a finding, and the study goes on with what does not depend on it.
 """
@@ -21,6 +22,7 @@ from typing import Any, TypeVar
 from linkwright.analysis.cautions import cautions, has_inertia
 from linkwright.analysis.constant_energy import ConstantEnergy, constant_energy_of
 from linkwright.analysis.gear_torque import GearTorque
+from linkwright.analysis.linkage import Linkage, linkage
 from linkwright.analysis.pumping_unit import PumpingUnitMotion, pumping_unit
 from linkwright.analysis.reduction import Reduction, reduction
 from linkwright.analysis.result import Result
@@ -56,6 +58,8 @@ class Study:
         Results by analysis; None where there is none.
     pumping_unit, rotator : Result or None
         Motion of the polished rod and of its rotator.
+    linkage : Linkage or None
+        Extreme positions, transmission angles and Grashof classes.
     attempt : Transient or None
         The motion from the start to the stall, where the run-up fails on the way.
     findings : tuple of str
@@ -74,6 +78,7 @@ class Study:
     attempt: Transient | None = None
     pumping_unit: PumpingUnitMotion | None = None
     rotator: RodRotatorMotion | None = None
+    linkage: Linkage | None = None
     findings: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
 
@@ -84,7 +89,7 @@ class Study:
 
     def results(self) -> dict[str, Result]:
         """The results that there are, by analysis."""
-        first = ("pumping_unit", "gear_torque", "rotator")
+        first = ("linkage", "pumping_unit", "gear_torque", "rotator")
         names = (*first, "reduction", "constant_energy", "steady_state", "step_method", "run_up", "run_down")
         found = {name: getattr(self, name) for name in names}
         return {name: result for name, result in found.items() if result is not None}
@@ -137,11 +142,14 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     found = _Findings()
     unit = found.of(pumping_unit, machine, n=_INTERVALS) if machine.pumping_unit else None
     rotator = found.of(rod_rotator, machine, n=_INTERVALS) if machine.rod_rotator else None
+    # A linkage that closes nowhere is told of by what follows.
+    moved = _Findings().of(linkage, machine)
     driven = Study(machine) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
     return replace(
         driven,
         pumping_unit=unit,
         rotator=rotator,
+        linkage=moved if moved is not None and moved.elements else None,
         findings=found.sentences(),
         warnings=(*unit_cautions(machine, unit, rotator), *driven.warnings),
     )

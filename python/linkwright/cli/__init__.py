@@ -16,6 +16,7 @@ import typer
 
 from linkwright.cli.check import check
 from linkwright.cli.common import reports_errors
+from linkwright.cli.motion import motion
 from linkwright.cli.new import new
 from linkwright.cli.papers import papers
 from linkwright.cli.run import run
@@ -24,7 +25,7 @@ from linkwright.cli.size import size
 from linkwright.cli.synthesise import SYNTHESISE, synthesise
 
 # In the order of the help.
-COMMANDS: tuple[Callable[..., Any], ...] = (run, check, size, papers, new, schema)
+COMMANDS: tuple[Callable[..., Any], ...] = (run, motion, check, size, papers, new, schema)
 
 # Commands that have commands of their own: what the group does, and its commands.
 GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = ((synthesise, SYNTHESISE),)
