@@ -48,10 +48,10 @@ def scene(study: Study) -> Scene | None:
     Returns
     -------
     dict or None
-        ``angles`` [rad], ``times`` [s], ``speeds`` [rad/s], ``points``, x and y [m] by name, and ``headings``,
-        angles of links [rad] by name, at the same instants; ``parts`` to draw; ``box``, least and greatest x
-        and y; ``swings``, whether the motion goes to and fro; ``true_speed``, whether the times are those of
-        steady motion. None if the mechanism closes nowhere, or nothing moves.
+        ``angles`` [rad], ``times`` [s], ``speeds`` [rad/s], ``points``, x and y [m] by name, ``headings``,
+        angles of links [rad] by name, all at the same instants; ``parts`` to draw; ``box``, least and
+        greatest x and y; ``swings``, whether the motion goes to and fro; ``true_speed``, whether the times
+        are those of steady motion. None if the mechanism closes nowhere, or nothing moves.
     """
     machine = study.machine
     found = closure(machine)
