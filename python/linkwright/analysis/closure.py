@@ -178,7 +178,7 @@ class _Search:
         """
         room = sign * self.room
         before, after = np.roll(room, 1), np.roll(room, -1)
-        bend = np.maximum(before + after - 2 * room, 1e-300)
+        bend = np.maximum(before + after - 2 * room, 1e-30)
         lowest = room - (after - before) ** 2 / (8 * bend)
         found = np.flatnonzero((room <= before) & (room <= after) & (room >= -_ZERO) & (lowest < _CLOSE))
         if not len(found):
