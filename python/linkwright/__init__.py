@@ -20,6 +20,7 @@ _HOME = {
     "addresses": "machine",
     "get": "machine",
     "motors": "machine",
+    "pumping_units": "machine",
     "replace": "machine",
     "read": "files",
     "loads": "files",
@@ -34,6 +35,8 @@ _HOME = {
     "run_up": "analysis.run_up",
     "run_down": "analysis.run_down",
     "step_method": "analysis.step_method",
+    "pumping_unit": "analysis.pumping_unit",
+    "rod_rotator": "analysis.rod_rotator",
     "study": "analysis.study",
     "steady_states": "sweep.batch",
     "required_power": "sizing.power",
@@ -71,7 +74,9 @@ if TYPE_CHECKING:
     from linkwright.analysis.constant_energy import constant_energy as constant_energy
     from linkwright.analysis.kinematics import kinematics as kinematics
     from linkwright.analysis.kinematics import motions as motions
+    from linkwright.analysis.pumping_unit import pumping_unit as pumping_unit
     from linkwright.analysis.reduction import reduction as reduction
+    from linkwright.analysis.rod_rotator import rod_rotator as rod_rotator
     from linkwright.analysis.run_down import run_down as run_down
     from linkwright.analysis.run_up import run_up as run_up
     from linkwright.analysis.steady_state import steady_state as steady_state
@@ -85,6 +90,7 @@ if TYPE_CHECKING:
     from linkwright.machine import addresses as addresses
     from linkwright.machine import get as get
     from linkwright.machine import motors as motors
+    from linkwright.machine import pumping_units as pumping_units
     from linkwright.machine import replace as replace
     from linkwright.report import write_report as write_report
     from linkwright.sizing.flywheel import choose_flywheel as choose_flywheel

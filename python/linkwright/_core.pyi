@@ -11,6 +11,7 @@ __all__ = [
     "follow_group",
     "gaps",
     "kinks",
+    "law_torques",
     "motions",
     "motor_torques",
     "reductions",
@@ -37,7 +38,11 @@ class Plan:
         table_starts: _Ints,
         table_x: _Floats,
         table_y: _Floats,
+        formulas: _Ints,
     ) -> Plan: ...
+    @property
+    def has_laws(self) -> bool:
+        """Whether loads depend on both angle and speed in their own way, or on time."""
 
 def steady_state(
     plan: Plan, q: _Floats, accuracy: float, phi: _Floats
@@ -55,7 +60,7 @@ def motions(
     """Motions of n machines at the angles `phi` into `out`, flat (n, numbers, angles)."""
 
 def third(plan: Plan, q: _Floats, phi: _Floats, what: _Ints) -> _Floats:
-    """Third transfer functions at the angles `phi`, (numbers, angles): two of a point, one of a link or slide."""
+    """Third transfer functions at the angles `phi`: two rows for a point, one for a link or slide."""
 
 def change_point(plan: Plan, q: _Floats, element: int, near: float) -> tuple[float, list[float]] | None:
     """Angle and series of S/δ at the change point of a dyad RRR near an angle; None if there is none."""
@@ -70,6 +75,9 @@ def gaps(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
 
 def reductions(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
     """J, J′, load, dry torque and viscous coefficient, turning forward (5, angles)."""
+
+def law_torques(plan: Plan, q: _Floats, phi: _Floats, omega: _Floats) -> _Floats:
+    """Resisting torque of the laws at angles and speeds (speeds, angles)."""
 
 def motor_torques(plan: Plan, q: _Floats, omega: _Floats) -> tuple[_Floats, _Floats]:
     """Motor torque at its shaft and at the crank, at crank speeds."""

@@ -263,6 +263,39 @@ def parse(value: object, kind: Kind) -> float:
         raise _wrong(value, kind, "the number is too large") from None
 
 
+def parse_any(value: object) -> float:
+    """Read a number, or a text with a unit of whatever quantity.
+
+    Parameters
+    ----------
+    value : object
+        A real number, taken as SI, or a text such as ``"200 N/m"``.
+
+    Returns
+    -------
+    float
+        The value in the coherent SI unit of its quantity, finite.
+
+    Raises
+    ------
+    UnitError
+        The value is no number, or its unit is not known.
+
+    Examples
+    --------
+    >>> parse_any("2 kN/m"), parse_any(3)
+    (2000.0, 3.0)
+    """
+    if not isinstance(value, str):
+        return parse(value, RATIO)
+    number, unit = _split(value, RATIO)
+    text = _normal(unit)
+    known = _FACTORS.get(text) or _from_pint(text)
+    if known is None:
+        raise _wrong(value, RATIO, _unknown_unit(unit, text))
+    return _finite(float(number) * known[0], value, RATIO)
+
+
 def parse_list(value: object, kind: Kind) -> list[float]:
     """Read a list of numbers and texts, or one text with one unit, as quantities of one kind.
 
@@ -542,6 +575,32 @@ class QuantityList:
         }
 
 
+@dataclass(frozen=True, slots=True)
+class AnyQuantity:
+    """Mark of a field that holds a number of whatever quantity: accepts it in any unit, stores SI."""
+
+    @property
+    def expected(self) -> str:
+        """What belongs into the field."""
+        return 'a number, or a text with any unit, such as "200 N/m"'
+
+    def read(self, value: object) -> float:
+        """Read one value, for pydantic."""
+        try:
+            return parse_any(value)
+        except UnitError as error:
+            raise _reported(error.problem, self.expected) from None
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_before_validator_function(self.read, core_schema.float_schema())
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        text = {"type": "string", "description": "a number with its unit", "examples": ["200 N/m"]}
+        return {"anyOf": [{"type": "number", "description": "a number in SI units"}, text]}
+
+
 Length = Annotated[float, Quantity(LENGTH)]
 Angle = Annotated[float, Quantity(ANGLE)]
 Mass = Annotated[float, Quantity(MASS)]
@@ -565,5 +624,6 @@ Ratio = Annotated[float, Quantity(RATIO)]
 Lengths = Annotated[tuple[float, ...], QuantityList(LENGTH)]
 Angles = Annotated[tuple[float, ...], QuantityList(ANGLE)]
 Speeds = Annotated[tuple[float, ...], QuantityList(SPEED)]
+Velocities = Annotated[tuple[float, ...], QuantityList(VELOCITY)]
 Forces = Annotated[tuple[float, ...], QuantityList(FORCE)]
 Torques = Annotated[tuple[float, ...], QuantityList(TORQUE)]

@@ -199,9 +199,11 @@ fn retry(
     out: &mut [f64],
 ) -> u64 {
     let mut sweeps = 0;
+    // Where a law has its kinks is only known with the motion.
+    let moves_kinks = !plan.moving_kinks().is_empty();
     for (i, (status, row)) in status.iter_mut().zip(out.chunks_exact_mut(QUANTITIES)).enumerate() {
         let q = rows.row(first + i);
-        let passes_kink = || plan.speed_kinks(&q).iter().any(|&s| row[0] < s && s < row[1]);
+        let passes_kink = || moves_kinks || plan.speed_kinks(&q).iter().any(|&s| row[0] < s && s < row[1]);
         let is_good = row.iter().all(|x| x.is_finite()) && row[0] > 0.0;
         if *status == Status::Ok && is_good && !passes_kink() {
             continue;
@@ -511,6 +513,20 @@ pub fn reductions(plan: &Plan, q: &[f64], phi: &[f64], out: &mut [f64]) {
         let r = plan.reduce::<f64, 2>(q, Angle::new(phi_i), 1.0, &mut m);
         for (k, value) in [r.J, r.J_d1, r.load, r.dry, r.viscous].into_iter().enumerate() {
             out[k * n + i] = value;
+        }
+    }
+}
+
+/// Torque of all laws at each angle and each of some speeds. `out` is (speeds, angles).
+pub fn law_torques(plan: &Plan, q: &[f64], phi: &[f64], omega: &[f64], out: &mut [f64]) {
+    let mut m = Motion::new(&plan.mechanism, q);
+    let mut given = Vec::new();
+    for (i, &phi_i) in phi.iter().enumerate() {
+        plan.mechanism.place::<f64, 1>(q, Angle::new(phi_i), &mut m);
+        given.clear();
+        plan.give(q, phi_i, &m, &mut given);
+        for (k, &omega_k) in omega.iter().enumerate() {
+            out[k * phi.len() + i] = plan.law_torque(q, &given, omega_k, f64::NAN);
         }
     }
 }

@@ -12,11 +12,12 @@
 
 use crate::dual::Dual;
 use crate::gauss::{B, C, S, StageNewton, stage_newton};
+use crate::law::Given;
 use crate::layout::{Layout, bundle};
 use crate::linkage::Motion;
 use crate::plan::Plan;
 use crate::plane::Angle;
-use crate::real::Real;
+use crate::real::{Lift, Real};
 use std::f64::consts::TAU;
 
 /// The reduced machine at one stage: all that the energy equation needs besides E.
@@ -52,6 +53,8 @@ pub struct Step<R> {
 pub struct Turn<R> {
     /// The steps from φ = 0 to 2π.
     pub steps: Vec<Step<R>>,
+    /// What the laws need to know at the stages, law by law, stage by stage, step by step.
+    pub given: Vec<Given<R>>,
     /// What the lanes hold.
     pub layout: Layout,
     /// Derivative of the turn-to-turn map.
@@ -78,7 +81,7 @@ const SWEEPS_MAX: u32 = 40;
 const SHRINK: f64 = 0.25;
 
 impl<R: Real> Machine<'_, R> {
-    /// Energy balance dE/dφ and its derivative by E.
+    /// Energy balance dE/dφ without laws, and its derivative by E.
     #[inline(always)]
     pub fn balance(&self, row: &Row<R>, E: R) -> Dual<R> {
         let omega = Dual::variable(E).sqrt() * Dual::constant(row.root);
@@ -86,31 +89,68 @@ impl<R: Real> Machine<'_, R> {
         torque - Dual::constant(row.load) - Dual::constant(row.viscous) * omega
     }
 
-    /// [`Machine::balance`] at the stages of a step: values and derivatives.
+    /// What the laws take from the balance, and its derivative by E.
     #[inline(always)]
-    fn balances(&self, rows: &[Row<R>; S], X: &[R; S]) -> ([R; S], [R; S]) {
+    pub fn taken(&self, row: &Row<R>, given: &[Given<R>], E: R) -> Dual<R> {
+        self.laws(given, Dual::variable(E).sqrt() * Dual::constant(row.root))
+    }
+
+    /// Resisting torque of all laws at a stage; no time counts, since no turn differs from another.
+    #[inline(always)]
+    pub fn laws<N: Lift<R>>(&self, given: &[Given<R>], omega: N) -> N {
+        N::outline(
+            #[inline(always)]
+            || self.plan.law_torque(self.q, given, omega, N::splat(f64::NAN)),
+        )
+    }
+
+    /// What the laws need to know at one stage of several.
+    #[inline(always)]
+    pub fn given_at<'a>(&self, given: &'a [Given<R>], stage: usize) -> &'a [Given<R>] {
+        let n = self.plan.laws.len();
+        &given[stage * n..(stage + 1) * n]
+    }
+
+    /// The energy balance at the stages of a step: values and derivatives.
+    #[inline(always)]
+    fn balances(&self, rows: &[Row<R>; S], given: &[Given<R>], X: &[R; S]) -> ([R; S], [R; S]) {
         let (mut f, mut d) = (*X, *X);
         for i in 0..S {
             let balance = self.balance(&rows[i], X[i]);
             (f[i], d[i]) = (balance.value, balance.d);
         }
+        if !given.is_empty() {
+            for i in 0..S {
+                let taken = self.taken(&rows[i], self.given_at(given, i), X[i]);
+                (f[i], d[i]) = (f[i] - taken.value, d[i] - taken.d);
+            }
+        }
         (f, d)
     }
 
-    /// The reduced machine at a crank angle.
+    /// The reduced machine at a crank angle; what its laws need to know there is added to `given`.
     #[inline(always)]
-    pub fn row<const ORDER: u8>(&self, phi: R, m: &mut Motion<R>) -> Row<R> {
+    pub fn row<const ORDER: u8>(&self, phi: R, m: &mut Motion<R>, given: &mut Vec<Given<R>>) -> Row<R> {
         let r = self.plan.reduce::<R, ORDER>(self.q, Angle::new(phi), 1.0, m);
+        if !self.plan.laws.is_empty() {
+            self.plan.give(self.q, phi, m, given);
+        }
         let root = (R::splat(2.0) / r.J).sqrt();
         Row { root, J_d1: r.J_d1, load: r.load + r.dry, viscous: r.viscous }
     }
 
     /// The four stages of a step.
     #[inline(always)]
-    fn rows<const ORDER: u8>(&self, phi: R, h: R, m: &mut Motion<R>) -> [Row<R>; S] {
+    fn rows<const ORDER: u8>(
+        &self,
+        phi: R,
+        h: R,
+        m: &mut Motion<R>,
+        given: &mut Vec<Given<R>>,
+    ) -> [Row<R>; S] {
         let mut rows = [Row { root: h, J_d1: h, load: h, viscous: h }; S];
         for i in 0..S {
-            rows[i] = self.row::<ORDER>(h.mul_add(R::splat(C[i]), phi), m);
+            rows[i] = self.row::<ORDER>(h.mul_add(R::splat(C[i]), phi), m, given);
         }
         rows
     }
@@ -132,12 +172,13 @@ impl<R: Real> Machine<'_, R> {
     /// One step solved on its own, and the energy at its end.
     #[inline(always)]
     fn step_from(&self, phi: R, E: R, h: R, m: &mut Motion<R>) -> (Step<R>, R) {
-        let rows = self.rows::<1>(phi, h, m);
+        let mut given = Vec::new();
+        let rows = self.rows::<1>(phi, h, m, &mut given);
         let mut X = [E; S];
         let mut end = E;
         // From E itself, off by some percent, Newton squares the error: 1e-3, 1e-7, 1e-14.
         for _ in 0..3 {
-            let (f, d) = self.balances(&rows, &X);
+            let (f, d) = self.balances(&rows, &given, &X);
             let newton = stage_newton(E, h, &f, &d, &X);
             for i in 0..S {
                 X[i] = X[i] + newton.p[i];
@@ -150,13 +191,18 @@ impl<R: Real> Machine<'_, R> {
     /// Steady speed of a crank with constant load: where the drive's torque balances mean load and viscous
     /// drag, by Newton from the drive's starting speed. A first guess only, so it need not converge.
     #[inline(always)]
-    fn guess_speed(&self, load: R, viscous: R) -> R {
+    fn guess_speed(&self, turn: &Turn<R>) -> R {
+        let (load, viscous) = turn.mean_load();
         let start = self.q[self.plan.drive.speed_start];
         let (low, high) = (start * 0.02, start * 3.0);
         let mut omega = start;
         for _ in 0..6 {
             let w = Dual::variable(omega);
-            let net = self.plan.drive_torque(self.q, w) - Dual::constant(load) - Dual::constant(viscous) * w;
+            let mut net =
+                self.plan.drive_torque(self.q, w) - Dual::constant(load) - Dual::constant(viscous) * w;
+            if !turn.given.is_empty() {
+                net = net - turn.mean_laws(self, w);
+            }
             let next = omega - net.value / net.d;
             omega = next.max(low).min(high);
         }
@@ -200,21 +246,21 @@ impl<R: Real> Turn<R> {
     fn tabulate(machine: &Machine<'_, R>, steps: Vec<(R, R)>, layout: Layout, m: &mut Motion<R>) -> Self {
         let zero = R::splat(0.0);
         let mut tabulated = Vec::with_capacity(steps.len());
+        let mut given = Vec::with_capacity(steps.len() * S * machine.plan.laws.len());
         for (phi, h) in steps {
             let rows = R::outline(
                 #[inline(always)]
-                || machine.rows::<2>(phi, h, m),
+                || machine.rows::<2>(phi, h, m, &mut given),
             );
             tabulated.push(Step { phi, h, rows, E: zero, X: [zero; S] });
         }
-        Turn { steps: tabulated, layout, multiplier: zero, sweeps: 0, correction: f64::INFINITY }
+        Turn { steps: tabulated, given, layout, multiplier: zero, sweeps: 0, correction: f64::INFINITY }
     }
 
     /// Starts every energy from one constant speed that balances the mean load.
     #[inline(always)]
     pub fn start_from_balance(&mut self, machine: &Machine<'_, R>) {
-        let (load, viscous) = self.mean_load();
-        let omega = machine.guess_speed(load, viscous);
+        let omega = machine.guess_speed(self);
         for step in &mut self.steps {
             for i in 0..S {
                 step.X[i] = (omega / step.rows[i].root).squared();
@@ -235,6 +281,19 @@ impl<R: Real> Turn<R> {
             }
         }
         (self.layout.total(load), self.layout.total(viscous))
+    }
+
+    /// Mean over the turn of the laws' resisting torque at one constant speed.
+    #[inline(always)]
+    fn mean_laws(&self, machine: &Machine<'_, R>, omega: Dual<R>) -> Dual<R> {
+        let mut sum = Dual::constant(R::splat(0.0));
+        for (k, step) in self.steps.iter().enumerate() {
+            for i in 0..S {
+                let torque = machine.laws(machine.given_at(&self.given, k * S + i), omega);
+                sum = torque * Dual::constant(step.h * (B[i] / TAU)) + sum;
+            }
+        }
+        Dual { value: self.layout.total(sum.value), d: self.layout.total(sum.d) }
     }
 
     /// Solves for the periodic motion until no lane's correction exceeds `tolerance` (relative), or until
@@ -261,8 +320,10 @@ impl<R: Real> Turn<R> {
     fn sweep(&mut self, machine: &Machine<'_, R>, work: &mut Vec<StageNewton<R>>) {
         work.clear();
         let mut starts = Vec::with_capacity(self.steps.len());
-        for step in &self.steps {
-            let (f, d) = machine.balances(&step.rows, &step.X);
+        let laws = S * machine.plan.laws.len();
+        for (k, step) in self.steps.iter().enumerate() {
+            let given = &self.given[k * laws..(k + 1) * laws];
+            let (f, d) = machine.balances(&step.rows, given, &step.X);
             work.push(stage_newton(step.E, step.h, &f, &d, &step.X));
             starts.push(step.E);
         }

@@ -132,10 +132,6 @@ impl<R: Real> Real for Dual<R> {
         (Dual { value: s, d: c * self.d }, Dual { value: c, d: -(s * self.d) })
     }
     #[inline(always)]
-    fn atan(self) -> Self {
-        Dual { value: self.value.atan(), d: self.d / (self.value * self.value + 1.0) }
-    }
-    #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
         Dual {
             value: self.value.select_lt(limit.value, below.value, other.value),
@@ -146,6 +142,19 @@ impl<R: Real> Real for Dual<R> {
     fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
         let slope = self.value.map(|x| (f(x).1, 0.0));
         Dual { value: self.value.map(&f), d: slope * self.d }
+    }
+    #[inline(always)]
+    fn exp(self) -> Self {
+        let e = self.value.exp();
+        Dual { value: e, d: e * self.d }
+    }
+    #[inline(always)]
+    fn ln(self) -> Self {
+        Dual { value: self.value.ln(), d: self.d / self.value }
+    }
+    #[inline(always)]
+    fn atan(self) -> Self {
+        Dual { value: self.value.atan(), d: self.d / (self.value.squared() + 1.0) }
     }
     #[inline(always)]
     fn max_lane(self) -> f64 {

@@ -13,6 +13,8 @@ pub enum PlanError {
     Kind { what: &'static str, kind: i32 },
     /// A table whose knots do not increase or are not finite.
     Table { number: usize },
+    /// A formula that does not leave one number, or keeps too many at once.
+    Formula { number: usize },
 }
 
 impl fmt::Display for PlanError {
@@ -27,6 +29,9 @@ impl fmt::Display for PlanError {
             PlanError::Kind { what, kind } => write!(f, "there is no {what} of kind {kind}"),
             PlanError::Table { number } => {
                 write!(f, "table {number}: knots must be finite and increase, with one value each")
+            }
+            PlanError::Formula { number } => {
+                write!(f, "formula {number} does not leave one number, or keeps too many at once")
             }
         }
     }

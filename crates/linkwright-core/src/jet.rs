@@ -234,6 +234,43 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
             },
         )
     }
+    /// y′ = x′ y.
+    #[inline(always)]
+    fn exp(self) -> Self {
+        R::outline(
+            #[inline(always)]
+            || {
+                let mut y = Self::constant(self.c[0].exp());
+                for k in 1..N {
+                    let mut sum = R::splat(0.0);
+                    for i in 1..=k {
+                        sum = (self.c[i] * i as f64).mul_add(y.c[k - i], sum);
+                    }
+                    y.c[k] = sum * (1.0 / k as f64);
+                }
+                y
+            },
+        )
+    }
+    /// x y′ = x′.
+    #[inline(always)]
+    fn ln(self) -> Self {
+        R::outline(
+            #[inline(always)]
+            || {
+                let inverse = self.c[0].recip();
+                let mut y = Self::constant(self.c[0].ln());
+                for k in 1..N {
+                    let mut sum = self.c[k] * k as f64;
+                    for i in 1..k {
+                        sum = sum - y.c[i] * self.c[k - i] * i as f64;
+                    }
+                    y.c[k] = sum * inverse * (1.0 / k as f64);
+                }
+                y
+            },
+        )
+    }
     /// (1 + x²) y′ = x′.
     #[inline(always)]
     fn atan(self) -> Self {
@@ -287,12 +324,12 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
 mod tests {
     use super::*;
 
-    /// Derivatives of √(1 + x²)/(2 + sin x) + atan x² against central differences of the next lower one.
+    /// Derivatives of √(1 + x²)/(2 + sin x) + arctan x² + ln(eˣ + x) against central differences of the next lower one.
     #[test]
     fn every_coefficient_is_the_derivative_of_the_one_before() {
         let f = |at: f64| {
             let x = Jet::<f64, 6>::variable(at);
-            (x * x + 1.0).sqrt() / (x.sin_cos().0 + 2.0) + (x * x).atan()
+            (x * x + 1.0).sqrt() / (x.sin_cos().0 + 2.0) + (x * x).atan() + (x.exp() + x).ln()
         };
         let (at, h) = (0.7, 1e-4);
         let (low, mid, high) = (f(at - h), f(at), f(at + h));

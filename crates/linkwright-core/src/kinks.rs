@@ -1,11 +1,14 @@
 //! Where over the turn the reduced machine is not smooth: dead centres under dry friction, knots of tables.
 //!
 //! A dry resistance enters the energy equation as F·|s′|, which has a kink where the slide turns back
-//! (s′ = 0); a table has one at each knot. Between these angles everything is smooth, so a method of high
+//! (s′ = 0); a table has one at each knot; a formula where the argument of `abs`, `sign`, `step`, `min`, `max`
+//! or `where` changes sign. Between these angles everything is smooth, so a method of high
 //! order keeps its order when it goes from kink to kink.
 
 use crate::cycle::Machine;
-use crate::linkage::Motion;
+use crate::further::{Further, stretch};
+use crate::law::{FormulaLoad, Law};
+use crate::linkage::{Motion, Slot};
 use crate::plan::Plan;
 use crate::plane::Angle;
 use crate::real::Real;
@@ -13,7 +16,7 @@ use crate::reduce::Load;
 use std::f64::consts::TAU;
 
 /// A quantity whose zeros over the turn are kinks.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Watch {
     /// The slide turns back.
     SlideTurns(usize),
@@ -21,7 +24,18 @@ enum Watch {
     LinkTurns(usize),
     /// The slide passes a knot of a table.
     SlideAt(usize, f64),
+    /// Two points stop parting or nearing each other.
+    StretchTurns(usize, usize),
+    /// The distance of two points passes a knot of a table.
+    StretchAt(usize, usize, f64),
+    /// A spring of this free length passes, or nearly passes, through its own anchor.
+    Anchor(usize, usize, Slot),
+    /// A switch of a formula.
+    Switch(FormulaLoad, usize),
 }
+
+/// A spring that gets shorter than this share of its free length turns round so fast that it counts as a kink.
+const SHORT: f64 = 0.1;
 
 /// Angles at which zeros are looked for. Two zeros between neighbours go unseen: that costs accuracy:
 /// the comparison of meshes may then err by some tens of times the accuracy asked for.
@@ -35,10 +49,37 @@ const SHIFT: f64 = 0.37;
 const WRAP: f64 = 1e-7;
 
 impl Plan {
+    /// All quantities to be watched, each once: two loads may ask for the same.
     fn watches(&self) -> Vec<Watch> {
         let mut watches = Vec::new();
+        for watch in self.all_watches() {
+            if !watches.contains(&watch) {
+                watches.push(watch);
+            }
+        }
+        watches
+    }
+
+    fn all_watches(&self) -> Vec<Watch> {
+        let mut watches = Vec::new();
+        let switches = self.still_switches().into_iter();
+        watches.extend(switches.map(|(load, at)| Watch::Switch(load, at)));
+        for law in &self.laws {
+            if let Law::Damper { from, to, .. } = *law {
+                watches.push(Watch::StretchTurns(from, to));
+            }
+        }
+        for load in &self.further {
+            if let Further::SpringTable { from, to, table } = *load {
+                let knots = self.tables[table].knots().iter();
+                watches.extend(knots.map(|&knot| Watch::StretchAt(from, to, knot)));
+            }
+        }
         for load in &self.loads {
             match *load {
+                Load::Spring { from, to, free_length, .. } => {
+                    watches.push(Watch::Anchor(from, to, free_length));
+                }
                 Load::DrySlide { slide, .. } => watches.push(Watch::SlideTurns(slide)),
                 Load::DryLink { link, .. } => watches.push(Watch::LinkTurns(link)),
                 Load::DryPoint { point, .. } => {
@@ -67,17 +108,31 @@ impl Plan {
     }
 }
 
-/// The watched quantity and its derivative by φ.
+/// ½ d(L²)/dφ of the distance L of two points, and its derivative.
 #[inline(always)]
-fn watched<R: Real>(watch: Watch, m: &Motion<R>) -> (R, R) {
-    match watch {
-        Watch::SlideTurns(slide) => (m.slides[slide].d1, m.slides[slide].d2),
-        Watch::LinkTurns(link) => (m.links[link].d1, m.links[link].d2),
-        Watch::SlideAt(slide, knot) => (m.slides[slide].s - R::splat(knot), m.slides[slide].d1),
-    }
+fn stretch_turns<R: Real>(from: usize, to: usize, m: &Motion<R>) -> (R, R) {
+    let (a, b) = (&m.points[from], &m.points[to]);
+    let (u, u1, u2) = (b.p - a.p, b.d1 - a.d1, b.d2 - a.d2);
+    (u.dot(u1), u1.dot(u1) + u.dot(u2))
 }
 
 impl<R: Real> Machine<'_, R> {
+    /// The watched quantity and its derivative by φ.
+    #[inline(always)]
+    fn watched(&self, watch: Watch, phi: R, m: &Motion<R>) -> (R, R) {
+        match watch {
+            Watch::SlideTurns(slide) => (m.slides[slide].d1, m.slides[slide].d2),
+            Watch::LinkTurns(link) => (m.links[link].d1, m.links[link].d2),
+            Watch::SlideAt(slide, knot) => (m.slides[slide].s - R::splat(knot), m.slides[slide].d1),
+            Watch::StretchTurns(from, to) | Watch::Anchor(from, to, _) => stretch_turns(from, to, m),
+            Watch::StretchAt(from, to, knot) => {
+                let (length, length1) = stretch(m, from, to);
+                (length - R::splat(knot), length1)
+            }
+            Watch::Switch(load, at) => self.plan.switch_over_angle((load, at), self.q, phi, m),
+        }
+    }
+
     /// Ends of the smooth pieces of the turn: increasing from 0 to 2π, as many in every lane (a lane with
     /// fewer kinks repeats 2π).
     #[inline(always)]
@@ -108,9 +163,10 @@ impl<R: Real> Machine<'_, R> {
     fn scan(&self, watches: &[Watch], m: &mut Motion<R>) -> Vec<f64> {
         let mut values = vec![0.0; watches.len() * SCAN * R::LANES];
         for i in 0..SCAN {
-            self.plan.mechanism.place::<R, 1>(self.q, Angle::new(R::splat(scan_angle(i))), m);
+            let phi = R::splat(scan_angle(i));
+            self.plan.mechanism.place::<R, 1>(self.q, Angle::new(phi), m);
             for (w, watch) in watches.iter().enumerate() {
-                watched(*watch, m).0.store(&mut values[(w * SCAN + i) * R::LANES..]);
+                self.watched(*watch, phi, m).0.store(&mut values[(w * SCAN + i) * R::LANES..]);
             }
         }
         values
@@ -155,8 +211,13 @@ impl<R: Real> Machine<'_, R> {
         // The guess is good to (2π/48)² ~ 1e-2; Newton squares it: 1e-4, 1e-8, 1e-16.
         for _ in 0..4 {
             self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
-            let (value, slope) = watched(watch, m);
+            let (value, slope) = self.watched(watch, phi, m);
             phi = (phi - value / slope).max(low).min(high);
+        }
+        if let Watch::Anchor(from, to, free_length) = watch {
+            // Where the spring stays long its extremes are smooth: no break there.
+            let length = stretch(m, from, to).0;
+            phi = length.select_lt(self.q[free_length] * SHORT, phi, R::splat(f64::NAN));
         }
         phi
     }

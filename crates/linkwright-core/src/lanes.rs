@@ -147,10 +147,6 @@ impl<S: Simd> Real for V<S> {
         )
     }
     #[inline(always)]
-    fn atan(self) -> Self {
-        self.map(|x| (x.atan(), 0.0))
-    }
-    #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
         let simd = token::<S>();
         V(simd.select_f64s(simd.less_than_f64s(self.0, limit.0), below.0, other.0))
@@ -277,10 +273,6 @@ impl<R: Real> Real for Pair<R> {
     fn sin_cos(self) -> (Self, Self) {
         let ((s0, c0), (s1, c1)) = (self.0.sin_cos(), self.1.sin_cos());
         (Pair(s0, s1), Pair(c0, c1))
-    }
-    #[inline(always)]
-    fn atan(self) -> Self {
-        Pair(self.0.atan(), self.1.atan())
     }
     #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {

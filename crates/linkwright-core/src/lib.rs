@@ -8,7 +8,10 @@
 //! | [`plane`], [`table`] | vectors and motions in the plane; tables |
 //! | [`plan`], [`error`] | a machine's structure as it crosses the border |
 //! | [`linkage`] | positions and transfer functions of points, links and slides |
+//! | [`formula`] | what a user writes as text, as a program |
 //! | [`reduce`] | J_red(φ) and M_red(φ) of bodies and loads |
+//! | [`further`] | loads that few machines have |
+//! | [`law`] | loads by formulas and tables that depend on speed or time |
 //! | [`drive`] | motor, gearbox: torque on the crank over speed |
 //! | [`gauss`] | collocation of order 8 |
 //! | [`kinks`] | where the reduced machine is not smooth |
@@ -30,10 +33,13 @@ pub mod cycle;
 pub mod drive;
 pub mod dual;
 pub mod error;
+pub mod formula;
+pub mod further;
 pub mod gauss;
 pub mod jet;
 pub mod kinks;
 pub mod lanes;
+pub mod law;
 pub mod layout;
 pub mod linkage;
 pub mod measures;

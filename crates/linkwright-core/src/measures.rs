@@ -179,6 +179,11 @@ impl<R: Real> Machine<'_, R> {
         if !self.plan.drive.speed_loads.is_empty() {
             load_torque = load_torque + self.plan.speed_load(omega);
         }
+        if !self.plan.laws.is_empty() {
+            let mut given = Vec::with_capacity(self.plan.laws.len());
+            self.plan.give(self.q, phi, m, &mut given);
+            load_torque = load_torque + self.laws(&given, omega);
+        }
         let net = drive_torque - load_torque - r.J_d1 * squared * 0.5;
         State { omega, epsilon: net * inverse, motor_torque, drive_torque, load_torque, J: r.J }
     }
@@ -192,14 +197,17 @@ impl<R: Real> Turn<R> {
         let (plan, q) = (machine.plan, machine.q);
         let (mut period, mut motor, mut crank, mut load) = (zero, zero, zero, zero);
         let (mut mean, mut square) = (zero, zero);
-        for step in &self.steps {
+        for (k, step) in self.steps.iter().enumerate() {
             for i in 0..S {
                 let row = &step.rows[i];
                 let dphi = step.h * B[i];
                 let omega = row.root * step.X[i].sqrt();
                 let dt = dphi / omega;
                 let torque: R = plan.motor_torque(q, omega);
-                let drag = row.viscous.mul_add(omega, row.load) + plan.speed_load(omega);
+                let mut drag = row.viscous.mul_add(omega, row.load) + plan.speed_load(omega);
+                if !self.given.is_empty() {
+                    drag = drag + machine.laws(machine.given_at(&self.given, k * S + i), omega);
+                }
                 period = period + dt;
                 motor = (torque * q[plan.drive.ratio]).mul_add(dphi, motor);
                 crank = plan.geared_torque(q, torque).mul_add(dphi, crank);
@@ -246,9 +254,14 @@ impl<R: Real> Turn<R> {
         let n = self.steps.len();
         let (mut torques, mut speeds, mut gains) =
             (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
+        let mut given = Vec::with_capacity(machine.plan.laws.len());
         for step in &self.steps {
-            let row = machine.row::<2>(step.phi, m);
-            let torque = machine.balance(&row, step.E).value;
+            given.clear();
+            let row = machine.row::<2>(step.phi, m, &mut given);
+            let mut torque = machine.balance(&row, step.E).value;
+            if !given.is_empty() {
+                torque = torque - machine.taken(&row, &given, step.E).value;
+            }
             let (omega, epsilon) = speed_and_gain(&row, step.E, torque);
             torques.push(torque);
             speeds.push(omega);
@@ -263,6 +276,10 @@ impl<R: Real> Turn<R> {
             f[S + 1] = torques_end[k];
             for i in 0..S {
                 f[i + 1] = machine.balance(&step.rows[i], step.X[i]).value;
+                if !self.given.is_empty() {
+                    let given = machine.given_at(&self.given, k * S + i);
+                    f[i + 1] = f[i + 1] - machine.taken(&step.rows[i], given, step.X[i]).value;
+                }
             }
             let mut sample = [(speeds[k], gains[k]); N];
             sample[S + 1] = (speeds_end[k], gains_end[k]);
@@ -273,7 +290,12 @@ impl<R: Real> Turn<R> {
                 }
                 doubt = doubt.max((E - step.X[i - 1]).abs() / E);
                 let row = &step.rows[i - 1];
-                sample[i] = speed_and_gain(row, E, machine.balance(row, E).value);
+                let mut torque = machine.balance(row, E).value;
+                if !self.given.is_empty() {
+                    let given = machine.given_at(&self.given, k * S + i - 1);
+                    torque = torque - machine.taken(row, given, E).value;
+                }
+                sample[i] = speed_and_gain(row, E, torque);
             }
             samples.push(sample);
         }

@@ -5,6 +5,9 @@
 
 use crate::drive::{Drive, Motor, Span};
 use crate::error::PlanError;
+use crate::formula::{Degree, Formula, Op, Variable};
+use crate::further::Further;
+use crate::law::{Carrier, FormulaLoad, Law};
 use crate::linkage::coupled::{AngleOf, Runner, Source, Sum, Turn};
 use crate::linkage::folding::{ChangePoint, Folding, TERMS};
 use crate::linkage::group::{Bar, Carried, Condition, Group};
@@ -19,8 +22,12 @@ pub struct Plan {
     pub mechanism: Mechanism,
     pub bodies: Vec<Body>,
     pub loads: Vec<Load>,
+    pub further: Vec<Further>,
     pub drive: Drive,
     pub tables: Vec<Table>,
+    pub formulas: Vec<Formula>,
+    /// Loads that depend on the speed in their own way, or on time.
+    pub laws: Vec<Law>,
     /// How many parameters the plan refers to.
     pub n_parameters: usize,
 }
@@ -42,6 +49,8 @@ pub struct Encoded<'a> {
     pub table_starts: &'a [i32],
     pub table_x: &'a [f64],
     pub table_y: &'a [f64],
+    /// Formulas end to end, each with its number of instructions in front.
+    pub formulas: &'a [i32],
 }
 
 const ROW_WIDTH: usize = 8;
@@ -56,6 +65,7 @@ struct Bounds {
     slides: usize,
     gaps: usize,
     tables: usize,
+    formulas: usize,
 }
 
 fn index(value: i32, bound: usize, what: &'static str) -> Result<usize, PlanError> {
@@ -81,6 +91,13 @@ impl Bounds {
     fn table(&self, value: i32) -> Result<usize, PlanError> {
         index(value, self.tables, "table")
     }
+    fn formula(&self, value: i32) -> Result<usize, PlanError> {
+        index(value, self.formulas, "formula")
+    }
+    /// A link, or −1 for the frame.
+    fn link_or_frame(&self, value: i32) -> Result<Option<usize>, PlanError> {
+        if value == -1 { Ok(None) } else { self.link(value).map(Some) }
+    }
 }
 
 impl Plan {
@@ -94,13 +111,16 @@ impl Plan {
         };
         let tables = decode_tables(code)?;
         let size = |value, what| index(value, i32::MAX as usize, what);
+        let parameters = size(parameters, "parameter")?;
+        let formulas = decode_formulas(code.formulas, parameters)?;
         let bounds = Bounds {
-            parameters: size(parameters, "parameter")?,
+            parameters,
             points: size(points, "point")?,
             links: size(links, "link")?,
             slides: size(slides, "slide")?,
             gaps: size(gaps, "dyad")?,
             tables: tables.len(),
+            formulas: formulas.len(),
         };
         let (mut ground, mut elements) = (Vec::new(), Vec::new());
         let mut rest = code.elements;
@@ -114,10 +134,21 @@ impl Plan {
         let bodies = rows(code.bodies, ROW_WIDTH, "bodies")?
             .map(|row| decode_body(row, &bounds))
             .collect::<Result<_, _>>()?;
-        let (mut loads, mut speed_loads) = (Vec::new(), Vec::new());
+        let (mut loads, mut further, mut speed_loads, mut laws) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for row in rows(code.loads, ROW_WIDTH, "loads")? {
             match row[0] {
                 LOAD_TORQUE_SPEED => speed_loads.push(bounds.table(row[1])?),
+                LOAD_FURTHER..LOAD_DAMPER_TABLE => further.push(decode_further(row, &bounds)?),
+                LOAD_DAMPER_TABLE => laws.push(decode_damper(row, &bounds)?),
+                LOAD_FORMULA.. => {
+                    let load = decode_formula_load(row, &bounds)?;
+                    match formulas[load.formula].degree {
+                        Degree::Any | Degree::Of(0) => further.push(Further::Formula(load)),
+                        Degree::Of(1) => further.push(Further::ViscousFormula(load)),
+                        _ => laws.push(Law::Formula(load)),
+                    }
+                }
                 _ => loads.push(decode_load(row, &bounds)?),
             }
         }
@@ -132,8 +163,11 @@ impl Plan {
             },
             bodies,
             loads,
+            further,
             drive: decode_drive(code.drive, speed_loads, &bounds)?,
             tables,
+            formulas,
+            laws,
             n_parameters: bounds.parameters,
         })
     }
@@ -144,6 +178,15 @@ const FIXED_POINT: i32 = 0;
 
 /// A load that depends on speed alone belongs to the drive, not to the reduction.
 const LOAD_TORQUE_SPEED: i32 = 12;
+
+/// The first of the loads that few machines have.
+const LOAD_FURTHER: i32 = 14;
+
+/// A damper by a table is a law of its own.
+const LOAD_DAMPER_TABLE: i32 = 20;
+
+/// The first of the loads by a formula, whose degree says where they belong.
+const LOAD_FORMULA: i32 = 21;
 
 fn rows<'a>(
     flat: &'a [i32],
@@ -445,7 +488,7 @@ fn decode_body(row: &[i32], b: &Bounds) -> Result<Body, PlanError> {
 }
 
 /// `0–2 dry: slide|point|link size` · `3–5 viscous: slide|point|link damping` · `6 force: point x y` ·
-/// `7 torque: link torque` · `8 gravity: x y` · `9 spring: from to stiffness free_length` ·
+/// `7 torque: link torque` · `8 gravity: x y` · `9 spring: from to stiffness free_length preload` ·
 /// `10 force over position: slide forward back` · `11 torque over angle: table` ·
 /// `12 torque over speed: table` · `13 dry on the crank: torque`
 fn decode_load(row: &[i32], b: &Bounds) -> Result<Load, PlanError> {
@@ -464,6 +507,7 @@ fn decode_load(row: &[i32], b: &Bounds) -> Result<Load, PlanError> {
             to: b.point(row[2])?,
             stiffness: b.slot(row[3])?,
             free_length: b.slot(row[4])?,
+            preload: b.slot(row[5])?,
         },
         10 => {
             Load::ForcePosition { slide: b.slide(row[1])?, forward: b.table(row[2])?, back: b.table(row[3])? }
@@ -471,6 +515,117 @@ fn decode_load(row: &[i32], b: &Bounds) -> Result<Load, PlanError> {
         11 => Load::TorqueAngle { table: b.table(row[1])? },
         13 => Load::DryCrank { torque: b.slot(row[1])? },
         kind => return Err(PlanError::Kind { what: "load", kind }),
+    })
+}
+
+/// `14 force that follows: point link along across` · `15 damper: from to damping` ·
+/// `16 spring over length: from to table` · `17 torsional spring: link link stiffness cos sin` ·
+/// `18 torsional damper: link link damping` · `19 gas spring: from to force length column exponent`; of two
+/// links the second may be −1, the frame
+fn decode_further(row: &[i32], b: &Bounds) -> Result<Further, PlanError> {
+    Ok(match row[0] {
+        14 => Further::Follow {
+            point: b.point(row[1])?,
+            link: b.link(row[2])?,
+            along: b.slot(row[3])?,
+            across: b.slot(row[4])?,
+        },
+        15 => Further::Damper { from: b.point(row[1])?, to: b.point(row[2])?, damping: b.slot(row[3])? },
+        16 => Further::SpringTable { from: b.point(row[1])?, to: b.point(row[2])?, table: b.table(row[3])? },
+        17 => Further::TorsionSpring {
+            link: b.link(row[1])?,
+            other: b.link_or_frame(row[2])?,
+            stiffness: b.slot(row[3])?,
+            cos: b.slot(row[4])?,
+            sin: b.slot(row[5])?,
+        },
+        18 => Further::TorsionDamper {
+            link: b.link(row[1])?,
+            other: b.link_or_frame(row[2])?,
+            damping: b.slot(row[3])?,
+        },
+        19 => Further::GasSpring {
+            from: b.point(row[1])?,
+            to: b.point(row[2])?,
+            force: b.slot(row[3])?,
+            length: b.slot(row[4])?,
+            column: b.slot(row[5])?,
+            exponent: b.slot(row[6])?,
+        },
+        kind => return Err(PlanError::Kind { what: "load", kind }),
+    })
+}
+
+/// `20 damper: from to table`
+fn decode_damper(row: &[i32], b: &Bounds) -> Result<Law, PlanError> {
+    Ok(Law::Damper { from: b.point(row[1])?, to: b.point(row[2])?, table: b.table(row[3])? })
+}
+
+/// `21 on a slide: formula slide point` · `22 on a point: formula point cos sin` ·
+/// `23 on a point, along a link: formula point link cos sin` · `24 on a link: formula link`
+fn decode_formula_load(row: &[i32], b: &Bounds) -> Result<FormulaLoad, PlanError> {
+    let carrier = match row[0] {
+        21 => Carrier::Slide { slide: b.slide(row[2])?, point: b.point(row[3])? },
+        22 => Carrier::Point { point: b.point(row[2])?, cos: b.slot(row[3])?, sin: b.slot(row[4])? },
+        23 => Carrier::Along {
+            point: b.point(row[2])?,
+            link: b.link(row[3])?,
+            cos: b.slot(row[4])?,
+            sin: b.slot(row[5])?,
+        },
+        24 => Carrier::Link { link: b.link(row[2])? },
+        kind => return Err(PlanError::Kind { what: "load", kind }),
+    };
+    Ok(FormulaLoad { formula: b.formula(row[1])?, carrier })
+}
+
+/// Number of instructions of each formula, then these: two numbers each, what it does and what with.
+fn decode_formulas(mut code: &[i32], parameters: usize) -> Result<Vec<Formula>, PlanError> {
+    let mut formulas = Vec::new();
+    while let Some((&n, rest)) = code.split_first() {
+        let length = 2 * index(n, rest.len() / 2 + 1, "instruction")?;
+        let (own, others) = rest.split_at(length);
+        let ops = own.chunks_exact(2).map(|op| decode_op(op[0], op[1], parameters));
+        let number = formulas.len();
+        let formula = Formula::new(ops.collect::<Result<_, _>>()?);
+        formulas.push(formula.ok_or(PlanError::Formula { number })?);
+        code = others;
+    }
+    Ok(formulas)
+}
+
+/// `0 number: slot` · `1 zero` · `2 variable: which` · `8 whole power: exponent`; the others have no operand.
+fn decode_op(code: i32, operand: i32, parameters: usize) -> Result<Op, PlanError> {
+    let unknown = PlanError::Kind { what: "instruction", kind: code };
+    Ok(match code {
+        0 => Op::Number(index(operand, parameters, "parameter")?),
+        1 => Op::Zero,
+        2 => Op::Variable(Variable::of(operand).ok_or(unknown)?),
+        3 => Op::Add,
+        4 => Op::Sub,
+        5 => Op::Mul,
+        6 => Op::Div,
+        7 => Op::Neg,
+        8 => Op::Power(operand),
+        9 => Op::Pow,
+        10 => Op::Sin,
+        11 => Op::Cos,
+        12 => Op::Tan,
+        13 => Op::Asin,
+        14 => Op::Acos,
+        15 => Op::Atan,
+        16 => Op::Atan2,
+        17 => Op::Exp,
+        18 => Op::Log,
+        19 => Op::Sqrt,
+        20 => Op::Tanh,
+        21 => Op::Abs,
+        22 => Op::Sign,
+        23 => Op::Step,
+        24 => Op::Min,
+        25 => Op::Max,
+        26 => Op::Where,
+        _ => return Err(unknown),
     })
 }
 

@@ -6,6 +6,7 @@
 //!
 //! There are no masks: a choice is [`Real::select_lt`], so a lane that goes wrong (NaN) stays alone.
 
+use std::f64::consts::FRAC_PI_2;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A real number, or a bundle of them that is worked on together.
@@ -39,8 +40,6 @@ pub trait Real:
     fn abs(self) -> Self;
     /// `(sin, cos)`, to about an ulp for |x| < 1e5.
     fn sin_cos(self) -> (Self, Self);
-    /// Arc tangent, in (−π/2, π/2).
-    fn atan(self) -> Self;
     /// Lane by lane: `below` where `self < limit`, else `other` (also where `self` is NaN).
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self;
     /// Applies a scalar function `x ↦ (value, slope)` lane by lane; only tables need it.
@@ -73,6 +72,49 @@ pub trait Real:
     #[inline(always)]
     fn recip(self) -> Self {
         Self::splat(1.0) / self
+    }
+
+    /// eˣ. Like [`Real::ln`] and [`Real::atan`] it is done lane by lane with one derivative; a number that
+    /// carries more of them brings its own three, and everything below follows from those.
+    #[inline(always)]
+    fn exp(self) -> Self {
+        self.map(
+            #[inline(always)]
+            |x| {
+                let e = x.exp();
+                (e, e)
+            },
+        )
+    }
+
+    /// Natural logarithm; NaN below zero.
+    #[inline(always)]
+    fn ln(self) -> Self {
+        self.map(
+            #[inline(always)]
+            |x| (x.ln(), 1.0 / x),
+        )
+    }
+
+    /// Arc tangent, in (−π/2, π/2).
+    #[inline(always)]
+    fn atan(self) -> Self {
+        self.map(
+            #[inline(always)]
+            |x| (x.atan(), 1.0 / (1.0 + x * x)),
+        )
+    }
+
+    /// Angle of the vector (`x`, `self`), in (−π, π]; NaN for the null vector, which has none.
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        let (y, zero) = (self, Self::splat(0.0));
+        let (size, other) = (x.abs(), y.abs());
+        // Beyond 45° from the x axis the angle is counted from the y axis, so that quotients stay below 1.
+        let quotient = size.select_lt(other, -x, y) / size.select_lt(other, y, x);
+        let half = y.select_lt(zero, Self::splat(-FRAC_PI_2), Self::splat(FRAC_PI_2));
+        let whole = x.select_lt(zero, half + half, zero);
+        size.select_lt(other, half, whole) + quotient.atan()
     }
 }
 
@@ -122,10 +164,6 @@ impl Real for f64 {
         f64::sin_cos(self)
     }
     #[inline(always)]
-    fn atan(self) -> Self {
-        f64::atan(self)
-    }
-    #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
         if self < limit { below } else { other }
     }
@@ -137,7 +175,7 @@ impl Real for f64 {
     fn max_lane(self) -> f64 {
         self
     }
-    #[inline(always)]
+    #[inline(never)]
     fn outline<T>(f: impl FnOnce() -> T) -> T {
         #[inline(never)]
         fn call<T>(f: impl FnOnce() -> T) -> T {

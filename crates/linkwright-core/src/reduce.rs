@@ -8,6 +8,7 @@
 //! Source: e.g. Artobolevsky, *Theory of Mechanisms and Machines*, ch. 15 (reduced mass and force);
 //! paper 1, equations (5) and (10), for the slider-crank with rod.
 
+use crate::further::stretch;
 use crate::linkage::{Motion, Slot, on_link};
 use crate::plan::Plan;
 use crate::plane::{Angle, Place, Vec2};
@@ -71,6 +72,8 @@ pub enum Load {
         to: usize,
         stiffness: Slot,
         free_length: Slot,
+        /// Pull at the free length.
+        preload: Slot,
     },
     /// Force opposing the motion of a slide by tables over its position, one for each direction.
     ForcePosition {
@@ -126,6 +129,13 @@ impl Plan {
         for load in &self.loads {
             self.add_load(load, q, angle, sense, m, &mut r);
         }
+        if !self.further.is_empty() {
+            let (load, viscous) = R::outline(
+                #[inline(always)]
+                || self.further_loads(q, angle.phi, sense, m),
+            );
+            (r.load, r.viscous) = (r.load + load, r.viscous + viscous);
+        }
         for &gap in &m.gaps {
             // A dyad without mass leaves no trace in J: where it does not close there is no motion either.
             r.J = gap.select_lt(R::splat(0.0), R::splat(f64::NAN), r.J + gap * 0.0);
@@ -166,11 +176,10 @@ impl Plan {
                 r.load = r.load - m.points[point].d1.dot(Vec2::new(q[x], q[y]));
             }
             Load::Torque { link, torque } => r.load = r.load - m.links[link].d1 * q[torque],
-            Load::Spring { from, to, stiffness, free_length } => {
-                let u = m.points[to].p - m.points[from].p;
-                let length = u.dot(u).sqrt();
-                let length1 = u.dot(m.points[to].d1 - m.points[from].d1) / length;
-                r.load = (length - q[free_length]).mul_add(q[stiffness] * length1, r.load);
+            Load::Spring { from, to, stiffness, free_length, preload } => {
+                let (length, length1) = stretch(m, from, to);
+                let pull = (length - q[free_length]).mul_add(q[stiffness], q[preload]);
+                r.load = pull.mul_add(length1, r.load);
             }
             Load::ForcePosition { slide, forward, back } => {
                 let slide = &m.slides[slide];

@@ -8,6 +8,7 @@
 use crate::cycle::{Machine, Step, Turn};
 use crate::gauss::S;
 use crate::lanes::{Job, in_lanes};
+use crate::law::Moving;
 use crate::layout::unbundle;
 use crate::linkage::Motion;
 use crate::measures::{Extreme, Extremes, Totals};
@@ -70,15 +71,16 @@ pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Status> {
     let mut m = Motion::new(&plan.mechanism, q);
     let accuracy = accuracy.max(ROUNDING);
     let breaks = machine.breaks(&mut m);
-    let speeds = plan.speed_kinks(q);
+    let (speeds, moving) = (plan.speed_kinks(q), plan.moving_kinks());
     let mut mesh = Mesh { plan, q, breaks: &breaks, n: FIRST, tolerance: accuracy * 1e-2, last: None };
     let (mut crossings, mut sweeps) = (Vec::new(), 0);
     while mesh.n <= FINEST {
         let with_crossings = merged(&breaks, &crossings);
         let found = in_lanes(Mesh { breaks: &with_crossings, ..mesh })?;
         sweeps += found.sweeps;
-        let passed: Vec<f64> = speeds.iter().copied().filter(|&speed| found.may_pass(speed)).collect();
-        let next = crossings_of(&found.marks, &machine, &passed, &mut m);
+        let passed = speeds.iter().copied().filter(|&speed| found.may_pass(speed)).map(Event::Speed);
+        let events: Vec<Event> = passed.chain(moving.iter().copied().map(Event::Law)).collect();
+        let next = crossings_of(&found.marks, &machine, &events, &mut m);
         if let Some((difference, extremes)) = found.agreed.filter(|_| next.len() == crossings.len()) {
             let Solved { marks, multiplier, totals, .. } = found;
             return Ok(Steady { marks, multiplier, extremes, totals, difference, sweeps });
@@ -253,25 +255,59 @@ impl<R: Real> Extremes<R> {
     }
 }
 
-/// Angles at which the speed passes one of the given ones.
-fn crossings_of(marks: &[Mark], machine: &Machine<'_, f64>, speeds: &[f64], m: &mut Motion<f64>) -> Vec<f64> {
-    if speeds.is_empty() {
-        return Vec::new();
+/// What the motion may pass where its equation has a kink.
+#[derive(Clone, Copy)]
+enum Event {
+    /// A speed of the crank.
+    Speed(f64),
+    /// A kink of a law.
+    Law(Moving),
+}
+
+impl Event {
+    /// The quantity whose zero it is.
+    fn value(self, machine: &Machine<'_, f64>, phi: f64, E: f64, m: &mut Motion<f64>) -> f64 {
+        let omega = machine.state(phi, E, m).omega;
+        match self {
+            Event::Speed(speed) => omega - speed,
+            Event::Law(kink) => {
+                let mut given = Vec::new();
+                machine.plan.give(machine.q, phi, m, &mut given);
+                machine.plan.moving_value(machine.q, kink, &given, omega)
+            }
+        }
     }
-    let omega: Vec<f64> = marks.iter().map(|mark| machine.state(mark.phi, mark.E, m).omega).collect();
+
+    /// The size of the quantity, against which a value counts as zero.
+    fn size(self, values: &[f64]) -> f64 {
+        match self {
+            Event::Speed(speed) => speed,
+            Event::Law(_) => values.iter().fold(0.0, |size, value| value.abs().max(size)),
+        }
+    }
+}
+
+/// Angles at which the motion passes one of the given events.
+fn crossings_of(
+    marks: &[Mark],
+    machine: &Machine<'_, f64>,
+    events: &[Event],
+    m: &mut Motion<f64>,
+) -> Vec<f64> {
     let mut crossings = Vec::new();
-    for (k, mark) in marks.iter().enumerate() {
-        let h = marks.get(k + 1).map_or(TAU, |next| next.phi) - mark.phi;
-        let (a, b) = (omega[k], omega[(k + 1) % omega.len()]);
-        for &speed in speeds {
-            let (left, right) = (a - speed, b - speed);
-            if left.abs() <= ON_KINK * speed {
+    for event in events {
+        let values: Vec<f64> = marks.iter().map(|mark| event.value(machine, mark.phi, mark.E, m)).collect();
+        let near = ON_KINK * event.size(&values);
+        for (k, mark) in marks.iter().enumerate() {
+            let h = marks.get(k + 1).map_or(TAU, |next| next.phi) - mark.phi;
+            let (left, right) = (values[k], values[(k + 1) % values.len()]);
+            if left.abs() <= near {
                 // The crossing of the mesh before: it stays an end of steps.
                 crossings.push(mark.phi);
-            } else if left * right < 0.0 && right.abs() > ON_KINK * speed {
+            } else if left * right < 0.0 && right.abs() > near {
                 let excess = |h: f64| {
                     let E = machine.advance(mark.phi, mark.E, h, m);
-                    machine.state(mark.phi + h, E, m).omega - speed
+                    event.value(machine, mark.phi + h, E, m)
                 };
                 crossings.push(mark.phi + crossing(excess, h, left, right));
             }

@@ -9,6 +9,7 @@
 //! At standstill the dry loads decide: what is left of the drive's torque must exceed them to move on.
 
 use crate::cycle::Machine;
+use crate::law::Given;
 use crate::linkage::Motion;
 use crate::plan::Plan;
 use crate::plane::Angle;
@@ -87,34 +88,52 @@ type Y = [f64; 2];
 struct Follower<'a> {
     machine: Machine<'a, f64>,
     motion: Motion<f64>,
+    given: Vec<Given<f64>>,
+    speed_scale: f64,
     evaluations: usize,
 }
 
 impl Follower<'_> {
     /// (ω, ε)
-    fn derivative(&mut self, y: &Y) -> Y {
+    fn derivative(&mut self, t: f64, y: &Y) -> Y {
         let Machine { plan, q } = self.machine;
         self.evaluations += 1;
         let [phi, omega] = *y;
         let r = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut self.motion);
-        let resisting = r.load + r.dry + r.viscous * omega;
+        let mut resisting = r.load + r.dry + r.viscous * omega;
+        if !plan.laws.is_empty() {
+            resisting += self.laws(t, phi, omega);
+        }
         let net = plan.drive_torque(q, omega) - resisting - 0.5 * r.J_d1 * omega * omega;
         [omega, net / r.J]
     }
 
-    /// Drive's and needed torque at standstill, and which way the machine goes from there: +1, 0 or −1.
-    fn balance_at_rest(&mut self, phi: f64) -> (f64, f64, i8) {
+    /// Torque of the laws at an angle for which the mechanism has been placed.
+    #[inline(never)]
+    fn laws(&mut self, t: f64, phi: f64, omega: f64) -> f64 {
         let Machine { plan, q } = self.machine;
-        let ahead = plan.reduce::<f64, 1>(q, Angle::new(phi), 1.0, &mut self.motion);
-        let back = plan.reduce::<f64, 1>(q, Angle::new(phi), -1.0, &mut self.motion);
+        self.given.clear();
+        plan.give(q, phi, &self.motion, &mut self.given);
+        plan.law_torque(q, &self.given, omega, t)
+    }
+
+    /// Drive's and needed torque at standstill, and which way the machine goes from there: +1, 0 or −1. Laws
+    /// count as at a vanishing speed in that direction, so that one with a jump at rest holds there.
+    fn balance_at_rest(&mut self, t: f64, phi: f64) -> (f64, f64, i8) {
+        let Machine { plan, q } = self.machine;
+        let slow = AT_REST * self.speed_scale;
+        let mut ahead = plan.reduce::<f64, 1>(q, Angle::new(phi), 1.0, &mut self.motion);
+        ahead.load += self.laws(t, phi, slow);
+        let mut back = plan.reduce::<f64, 1>(q, Angle::new(phi), -1.0, &mut self.motion);
+        back.load += self.laws(t, phi, -slow);
         let drive = plan.geared_torque(q, plan.motor_torque(q, 0.0));
         // At rest a load over speed holds in either direction, like a dry one; a driving one drives.
         let over_speed: f64 = plan.speed_load(0.0);
         let holding = over_speed.max(0.0);
-        let free = drive - ahead.load - over_speed.min(0.0);
-        let way = if free > ahead.dry + holding {
+        let free = drive - over_speed.min(0.0);
+        let way = if free - ahead.load > ahead.dry + holding {
             1
-        } else if free < -(back.dry + holding) {
+        } else if free - back.load < -(back.dry + holding) {
             -1
         } else {
             0
@@ -128,7 +147,8 @@ pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
     let machine = Machine { plan, q };
     let mut motion = Motion::new(&plan.mechanism, q);
     let kinks = machine.breaks(&mut motion);
-    let mut follower = Follower { machine, motion, evaluations: 0 };
+    let speed_scale = q[plan.drive.speed_start].max(start.omega);
+    let mut follower = Follower { machine, motion, given: Vec::new(), speed_scale, evaluations: 0 };
     let mut path = Path::new(plan, q, start, kinks);
     path.run(&mut follower);
     path.finish(&mut follower)
@@ -186,7 +206,7 @@ impl Path {
         let (_, y) = self.now();
         if y[1] <= AT_REST * self.speed_scale {
             self.trajectory.omega[0] = 0.0;
-            let way = follower.balance_at_rest(y[0]).2;
+            let way = follower.balance_at_rest(0.0, y[0]).2;
             if way != 1 {
                 self.trajectory.end = if way == 0 { End::DoesNotStart } else { End::StartsBackwards };
                 return;
@@ -195,7 +215,7 @@ impl Path {
         // A hundredth of a radian at working speed: small against any feature, soon grown tenfold.
         let mut h = 0.01 / self.speed_scale;
         let (_, y) = self.now();
-        let mut k0 = follower.derivative(&y);
+        let mut k0 = follower.derivative(0.0, &y);
         for _ in 0..STEPS_MAX {
             self.trajectory.epsilon.push(k0[1]);
             let (t, y) = self.now();
@@ -211,10 +231,10 @@ impl Path {
             self.trajectory.t.push(t + step.h);
             self.trajectory.phi.push(step.y[0]);
             self.trajectory.omega.push(step.y[1]);
-            k0 = follower.derivative(&step.y);
+            k0 = follower.derivative(t + step.h, &step.y);
             if step.at_rest {
                 self.trajectory.epsilon.push(k0[1]);
-                if self.stays_at_rest(follower, step.y[0]) {
+                if self.stays_at_rest(follower, t + step.h, step.y[0]) {
                     return;
                 }
                 self.trajectory.epsilon.pop();
@@ -236,8 +256,8 @@ impl Path {
     }
 
     /// At standstill on the way: ends the motion unless the drive takes it on.
-    fn stays_at_rest(&mut self, follower: &mut Follower<'_>, phi: f64) -> bool {
-        let way = follower.balance_at_rest(phi).2;
+    fn stays_at_rest(&mut self, follower: &mut Follower<'_>, t: f64, phi: f64) -> bool {
+        let way = follower.balance_at_rest(t, phi).2;
         if way < 1 {
             self.trajectory.end = if way < 0 { End::Reversal } else { End::Stall };
         }
@@ -253,7 +273,7 @@ impl Path {
         let scale = |n: usize, size: f64| {
             if n == 0 { self.accuracy } else { self.accuracy * (size + 0.01 * self.speed_scale) }
         };
-        let mut derivative = |_t: f64, y: &Y| follower.derivative(y);
+        let mut derivative = |t: f64, y: &Y| follower.derivative(t, y);
         let mut attempt = |h: f64| try_step(&mut derivative, from, h, &scale);
         let mut growth_max = f64::INFINITY;
         // Forty reductions by a tenth to nine tenths reach any length that still changes t.
@@ -316,12 +336,12 @@ impl Path {
     }
 
     fn finish(mut self, follower: &mut Follower<'_>) -> Trajectory {
-        let (_, y) = self.now();
+        let (t, y) = self.now();
         let path = &mut self.trajectory;
         if path.epsilon.len() < path.t.len() {
-            path.epsilon.push(follower.derivative(&y)[1]);
+            path.epsilon.push(follower.derivative(t, &y)[1]);
         }
-        (path.drive_torque, path.load_torque, _) = follower.balance_at_rest(y[0]);
+        (path.drive_torque, path.load_torque, _) = follower.balance_at_rest(t, y[0]);
         path.evaluations = follower.evaluations;
         self.trajectory
     }

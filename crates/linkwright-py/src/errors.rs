@@ -9,8 +9,9 @@ pub(crate) fn plan_error(error: PlanError) -> PyErr {
     let text = error.to_string();
     match error {
         PlanError::Index { .. } => PyIndexError::new_err(text),
-        PlanError::Length { .. } | PlanError::Kind { .. } | PlanError::Table { .. } => {
-            PyValueError::new_err(text)
-        }
+        PlanError::Length { .. }
+        | PlanError::Kind { .. }
+        | PlanError::Table { .. }
+        | PlanError::Formula { .. } => PyValueError::new_err(text),
     }
 }

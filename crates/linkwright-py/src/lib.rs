@@ -38,6 +38,7 @@ impl Plan {
         table_starts: Ints<'_>,
         table_x: Floats<'_>,
         table_y: Floats<'_>,
+        formulas: Ints<'_>,
     ) -> PyResult<Self> {
         let code = Encoded {
             sizes: sizes.as_slice()?,
@@ -48,8 +49,14 @@ impl Plan {
             table_starts: table_starts.as_slice()?,
             table_x: table_x.as_slice()?,
             table_y: table_y.as_slice()?,
+            formulas: formulas.as_slice()?,
         };
         CorePlan::decode(&code).map(Plan).map_err(plan_error)
+    }
+
+    #[getter]
+    fn has_laws(&self) -> bool {
+        !self.0.laws.is_empty()
     }
 }
 
@@ -242,6 +249,24 @@ fn reductions<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>, phi: Floats<'_>)
 }
 
 #[pyfunction]
+fn law_torques<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    q: Floats<'_>,
+    phi: Floats<'_>,
+    omega: Floats<'_>,
+) -> PyResult<Table<'py>> {
+    let (q, phi, omega) = (plan.parameters(&q)?, phi.as_slice()?, omega.as_slice()?);
+    let out = PyArray2::<f64>::zeros(py, [omega.len(), phi.len()], false);
+    {
+        let mut to = out.readwrite();
+        let to = to.as_slice_mut()?;
+        py.detach(|| batch::law_torques(&plan.0, q, phi, omega, to));
+    }
+    Ok(out)
+}
+
+#[pyfunction]
 fn motor_torques<'py>(
     py: Python<'py>,
     plan: &Plan,
@@ -284,7 +309,7 @@ fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Curve<'py
 mod _core {
     #[pymodule_export]
     use super::{
-        Plan, change_point, follow_group, gaps, kinks, motions, motor_torques, reductions, steady_rows,
-        steady_state, third, transient,
+        Plan, change_point, follow_group, gaps, kinks, law_torques, motions, motor_torques, reductions,
+        steady_rows, steady_state, third, transient,
     };
 }

@@ -11,5 +11,7 @@
 | `run_up` | does it start, and how long does that take? |
 | `run_down` | how long until it stands? |
 | `step_method` | what does the published step method give instead? |
+| `pumping_unit`, `gear_torque` | how does the polished rod move, and what does its gearbox carry? |
+| `rod_rotator`, `lever` | how does the lever turn the rod string? |
 | `result` | scalars, curves and tables of a result |
 """

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.reduction import Reduction, reduction
+from linkwright.analysis.reduction import Reduction, mean_laws, reduction
 from linkwright.analysis.result import Result
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError
@@ -94,7 +94,8 @@ def characteristic(
     top = max((1 + _BEYOND) * compiled.speed_guess * ratio, speed_max)
     speed = np.linspace(0.0, top, n + 1)
     crank = speed / ratio
-    load = reduced.torque_load_mean + reduced.viscous_mean * crank + compiled.speed_load(crank)
+    load = reduced.torque_load_mean + reduced.viscous_mean * crank
+    load = load + compiled.speed_load(crank) + mean_laws(compiled, crank)
     return Characteristic(
         speed=speed,
         torque=compiled.motor_torques(crank)[0],

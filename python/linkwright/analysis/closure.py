@@ -31,6 +31,14 @@ _ZERO = 1e-10
 _FEW = 180
 _AMPLE = 0.02
 
+# Distance from a change point at which rates are compared [rad], and the difference, over one and their size,
+# that they may have there: a rate that is smooth changes by a hundredth of this.
+_BESIDE = 1e-5
+_JUMP = 1e-3
+
+# Number of a link among what the core can give the motion of.
+_LINK = 1
+
 # Angles at which closure is looked at; a gap narrower than a quarter of a degree may go unseen here, and is
 # then found by the analysis that meets it.
 _ANGLES = 1440
@@ -119,10 +127,23 @@ def _change_point(compiled: Compiled, gaps: Floats) -> Closure | None:
             angles = np.linspace(centre - reach, centre + reach, 41)
             near = compiled.gaps(angles)[dyad]
             centre, reach = float(angles[near.argmin()]), reach / 20
-        if near.min() <= _ZERO * sizes[dyad]:
-            at = centre % (2 * np.pi)
+        at = centre % (2 * np.pi)
+        if near.min() <= _ZERO * sizes[dyad] and not _passes(compiled, at):
             return Closure(((at, at + 2 * np.pi),), compiled.dyads[dyad], at)
     return None
+
+
+def _passes(compiled: Compiled, at: float) -> bool:
+    """Whether the links go on through a change point: their rates just before and just after it agree.
+
+    Where the core does not carry a dyad on, its joint stays on its side and the rates jump.
+    """
+    angles = np.array([at - _BESIDE, at + _BESIDE])
+    out = np.empty((compiled.n_rows, 4 * len(compiled.links), 2))
+    compiled.motions(angles, [(_LINK, index) for index in compiled.links.values()], out.reshape(-1))
+    rates = out[0, 2::4]
+    jumps = np.abs(rates[:, 1] - rates[:, 0])
+    return bool((jumps <= _JUMP * (1 + np.abs(rates).max(axis=1))).all())
 
 
 def _edge(compiled: Compiled, inside: float, way: int) -> float:
@@ -158,7 +179,7 @@ def _first_open(found: Closure) -> float:
 
 def _sentence(found: Closure, machine: Machine) -> str:
     """What does not close, where, and the remedy."""
-    mechanism = machine.mechanism
+    mechanism = machine.linkage
     remedy = "change the lengths"
     what = found.element
     if found.change_point is not None:

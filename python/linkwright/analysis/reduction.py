@@ -12,10 +12,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.closure import require_full_turn, turn_angles
 from linkwright.analysis.result import Result
+from linkwright.analysis.sound_loads import require_sound_loads
 from linkwright.engine import Compiled, compile_machine
 from linkwright.machine import Machine
 
@@ -45,7 +46,8 @@ class Reduction(Result):
     inertia_reduced_d1 : ndarray
         dJ/dφ [kg m²/rad].
     torque_load : ndarray
-        Resisting torque of all loads that do not depend on speed, crank turning forward [N m].
+        Resisting torque of all loads that do not depend on the size of the speed, crank turning forward
+        [N m].
     torque_dry : ndarray
         Share of it that always opposes the motion [N m].
     viscous : ndarray
@@ -94,6 +96,8 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     ------
     AssemblyError
         The mechanism does not close all round.
+    FindingError
+        A load has no value at some angle.
 
     Notes
     -----
@@ -106,6 +110,7 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
+    require_sound_loads(compiled, machine)
     return reduction_of(compiled, n)
 
 
@@ -138,6 +143,16 @@ def mean_over_turn(compiled: Compiled) -> tuple[float, float]:
     phi, weights = turn_nodes(compiled)
     _, _, load, dry, viscous = compiled.reductions(phi)
     return float(weights @ (load + dry)), float(weights @ viscous)
+
+
+def mean_laws(compiled: Compiled, speeds: ArrayLike) -> Floats:
+    """Mean over the crank angle of the torque of laws at constant speeds of the crank, shape (n,) [N m]."""
+    omega = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
+    if not compiled.has_laws:
+        return np.zeros_like(omega)
+    phi, weights = turn_nodes(compiled)
+    mean: Floats = compiled.law_torques(phi, omega) @ weights
+    return mean
 
 
 def turn_nodes(compiled: Compiled) -> tuple[Floats, Floats]:

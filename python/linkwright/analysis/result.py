@@ -12,13 +12,13 @@ if TYPE_CHECKING:
 
 
 class Result:
-    """Base of the frozen results of analyses: dataclasses of SI scalars and arrays.
+    """Base of the frozen results of analyses: dataclasses of SI scalars, tables (tuples) and arrays.
 
     Arrays whose length is that of the first array are the result's curves.
     """
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Scalars by name, with ``curves`` also the arrays as lists.
+        """Scalars and tables by name, with ``curves`` also the arrays as lists.
 
         Parameters
         ----------
@@ -35,6 +35,8 @@ class Result:
             if isinstance(value, np.ndarray):
                 if curves:
                     found[name] = value.tolist()
+            elif isinstance(value, tuple):
+                found[name] = list(value)
             elif isinstance(value, np.generic):
                 found[name] = value.item()
             elif value is None or isinstance(value, bool | int | float | str):

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.closure import require_full_turn, turn_angles
-from linkwright.analysis.reduction import NO_INERTIA, mean_over_turn, turn_nodes
+from linkwright.analysis.reduction import NO_INERTIA, mean_laws, mean_over_turn, turn_nodes
 from linkwright.analysis.result import Result
+from linkwright.analysis.sound_loads import require_same_turns, require_sound_loads
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
@@ -213,6 +214,8 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
         raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
+    require_same_turns(machine)
+    require_sound_loads(compiled, machine)
     phi = turn_angles(n)
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
         return _at_constant_speed(machine, compiled, phi)
@@ -286,6 +289,8 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
         """J, resisting torque, and driving torque that the motion needs."""
         J, J_d1, load, dry, viscous = compiled.reductions(angles)
         resisting = load + dry + viscous * omega + compiled.speed_load(omega)
+        if compiled.has_laws:
+            resisting = resisting + compiled.law_torques(angles, omega)[0]
         return J, resisting, resisting + 0.5 * J_d1 * omega**2
 
     J, torque_load, torque_drive = needs(phi)
@@ -347,7 +352,7 @@ def _what_lacks(compiled: Compiled) -> str:
     top = 1.5 * compiled.speed_guess
     omega = np.linspace(0.0, top, _SPEEDS + 1)[1:]
     drive = compiled.motor_torques(omega)[1]
-    resisting = load + viscous * omega + compiled.speed_load(omega)
+    resisting = load + viscous * omega + compiled.speed_load(omega) + mean_laws(compiled, omega)
     best = int(np.argmax(drive - resisting))
     if drive[best] < resisting[best]:
         return (

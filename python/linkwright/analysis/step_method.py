@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.closure import require_full_turn, turn_angles
 from linkwright.analysis.result import Result
+from linkwright.analysis.sound_loads import require_same_turns
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError, StartError, SteadyStateError
 from linkwright.machine import Machine
@@ -113,13 +114,16 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
+    require_same_turns(machine)
     n = whole_steps(step)
     phi = turn_angles(n)[:-1]
     J, _, load, dry, viscous = compiled.reductions(phi)
 
     def torque(k: int, omega: float) -> float:
         drive = float(compiled.motor_torques(omega)[1][0])
-        return drive - float(load[k] + dry[k] + viscous[k] * omega) - float(compiled.speed_load(omega))
+        laws = compiled.law_torques(phi[k], omega)[0, 0] if compiled.has_laws else 0.0
+        resisting = float(load[k] + dry[k] + viscous[k] * omega) + float(compiled.speed_load(omega))
+        return drive - resisting - float(laws)
 
     return by_steps(J, torque, step=2 * np.pi / n)
 

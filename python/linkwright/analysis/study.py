@@ -6,6 +6,7 @@
 | 2 | `steady_state` | a motor |
 | 3 | `run_up` | steady motion to settle to |
 | 4 | `run_down` | a brake, and steady motion to begin with |
+| 5 | `pumping_unit`, `rod_rotator` | such a unit, such a rotator; nothing of the above |
 
 What fails becomes a finding, and the study goes on with what does not depend on it.
 """
@@ -14,18 +15,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 from linkwright.analysis.cautions import cautions, has_inertia
 from linkwright.analysis.constant_energy import ConstantEnergy, constant_energy_of
+from linkwright.analysis.gear_torque import GearTorque
+from linkwright.analysis.pumping_unit import PumpingUnitMotion, pumping_unit
 from linkwright.analysis.reduction import Reduction, reduction
 from linkwright.analysis.result import Result
+from linkwright.analysis.rod_rotator import RodRotatorMotion, rod_rotator
 from linkwright.analysis.run_down import RunDown, run_down
 from linkwright.analysis.run_up import RunUp, run_up, start_of
 from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.analysis.step_method import StepMotion, step_method
 from linkwright.analysis.transient import Transient, transient
+from linkwright.analysis.unit_cautions import unit_cautions
 from linkwright.errors import FindingError
 from linkwright.machine import ConstantSpeedMotor, Machine
 
@@ -49,6 +54,8 @@ class Study:
         The machine.
     reduction, constant_energy, steady_state, run_up, run_down, step_method : Result or None
         Results by analysis; None where there is none.
+    pumping_unit, rotator : Result or None
+        Motion of the polished rod and of its rotator.
     attempt : Transient or None
         The motion from the start to the stall, where the run-up fails on the way.
     findings : tuple of str
@@ -65,12 +72,20 @@ class Study:
     run_down: RunDown | None = None
     step_method: StepMotion | None = None
     attempt: Transient | None = None
+    pumping_unit: PumpingUnitMotion | None = None
+    rotator: RodRotatorMotion | None = None
     findings: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
 
+    @property
+    def gear_torque(self) -> GearTorque | None:
+        """Torque of the gearbox of a pumping unit under its load."""
+        return self.pumping_unit.gear if self.pumping_unit else None
+
     def results(self) -> dict[str, Result]:
         """The results that there are, by analysis."""
-        names = ("reduction", "constant_energy", "steady_state", "step_method", "run_up", "run_down")
+        first = ("pumping_unit", "gear_torque", "rotator")
+        names = (*first, "reduction", "constant_energy", "steady_state", "step_method", "run_up", "run_down")
         found = {name: getattr(self, name) for name in names}
         return {name: result for name, result in found.items() if result is not None}
 
@@ -120,9 +135,28 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         The accuracy or the step makes no sense.
     """
     found = _Findings()
+    unit = found.of(pumping_unit, machine, n=_INTERVALS) if machine.pumping_unit else None
+    rotator = found.of(rod_rotator, machine, n=_INTERVALS) if machine.rod_rotator else None
+    driven = Study(machine) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
+    return replace(
+        driven,
+        pumping_unit=unit,
+        rotator=rotator,
+        findings=found.sentences(),
+        warnings=(*unit_cautions(machine, unit, rotator), *driven.warnings),
+    )
+
+
+def _is_motion_alone(machine: Machine) -> bool:
+    """Whether a pumping unit is described by its dimensions, without masses, loads and motor."""
+    return machine.pumping_unit is not None and not (machine.bodies or machine.loads or _has_motor(machine))
+
+
+def _driven(machine: Machine, found: _Findings, accuracy: float, step: float | None) -> Study:
+    """What follows from bodies, loads and drive."""
     reduced = found.of(reduction, machine, n=_INTERVALS)
     if reduced is None:
-        return Study(machine, findings=found.sentences())
+        return Study(machine)
     # Without inertia at some angle there is no energy to stay constant.
     limit = constant_energy_of(reduced) if has_inertia(reduced) else None
     if not _has_motor(machine):
@@ -140,8 +174,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         stopped,
         stepped,
         attempt,
-        found.sentences(),
-        cautions(machine, reduced, steady),
+        warnings=cautions(machine, reduced, steady),
     )
 
 

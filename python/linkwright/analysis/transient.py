@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.closure import require_full_turn
 from linkwright.analysis.reduction import NO_INERTIA
 from linkwright.analysis.result import Result
+from linkwright.analysis.sound_loads import require_sound_loads
 from linkwright.engine import compile_machine
 from linkwright.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
@@ -183,6 +184,7 @@ def transient(
     end, torques, evaluations, curves = compiled.transient((angle, speed), duration, turns, accuracy)
     if end == End.DOES_NOT_CLOSE:
         require_full_turn(compiled, machine)
+        require_sound_loads(compiled, machine)
         raise SteadyStateError(NO_INERTIA)
     if end == End.INACCURATE:
         raise ConvergenceError(

@@ -52,7 +52,7 @@ def _motor(machine: Machine) -> str:
 
 def _mechanism(machine: Machine) -> list[tuple[str, str]]:
     """The names of the elements, kind by kind."""
-    mechanism = machine.mechanism
+    mechanism = machine.linkage
     tables = ("points", "cranks", "sliders", "rockers", "rigid_points")
     return [(table.replace("_", " "), ", ".join(getattr(mechanism, table))) for table in tables]
 

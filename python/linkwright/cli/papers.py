@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
 from linkwright.cli.common import Json
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.console import Console
     from rich.table import Table
 
     from linkwright.papers.paper1 import Drive, Paper1
+    from linkwright.papers.paper4 import Paper4
     from linkwright.papers.published import PublishedDrive
 
 Number = Annotated[
@@ -41,23 +44,66 @@ def papers(number: Number = None, json: Json = False, out: Folder = None) -> Non
 
     Each value with its deviation and a verdict. That a value is not reproduced is a result, not an error.
     """
-    from linkwright.papers.published import PAPERS, published
+    from linkwright.papers.published import PAPERS, known_paper
 
     if number is None:
         typer.echo("\n".join(f"  {n}  {title}" for n, title in PAPERS.items()))
         return
-    published(number)
-    from linkwright.papers.paper1 import paper1
-
-    paper = paper1(track=_tracked)
+    paper = _first() if known_paper(number) == 1 else _fourth()
     if out:
         _write(paper, out)
     if json:
         _print_json(paper)
     else:
-        _print(paper)
+        paper.show()
         if out:
             typer.echo(f"\nwritten: {out / f'papers{number}.html'} and its figures")
+
+
+class _Shown(NamedTuple):
+    """A paper computed anew, and how it is shown."""
+
+    number: int
+    title: str
+    entries: dict[str, Any]
+    figures: Callable[[], dict[str, Figure]]
+    page: Callable[[dict[str, Figure]], str]
+    show: Callable[[], None]
+
+
+def _first() -> _Shown:
+    """Paper 1."""
+    from linkwright.papers.page import page
+    from linkwright.papers.paper1 import paper1
+    from linkwright.papers.paper1_figures import drive_figure, evenness_figure
+
+    paper = paper1(track=_tracked)
+
+    def figures() -> dict[str, Figure]:
+        drawn = {each.published.machine: drive_figure(each) for each in paper.drives}
+        return drawn | {"evenness": evenness_figure(paper)}
+
+    return _Shown(
+        paper.published.number,
+        paper.published.title,
+        paper.to_dict(),
+        figures,
+        partial(page, paper),
+        partial(_print, paper),
+    )
+
+
+def _fourth() -> _Shown:
+    """Paper 4."""
+    from linkwright.papers.paper4 import paper4
+    from linkwright.papers.paper4_figures import figures
+    from linkwright.papers.paper4_page import page
+
+    paper = paper4()
+    show = partial(_print4, paper)
+    return _Shown(
+        paper.number, paper.title, paper.to_dict(), partial(figures, paper), partial(page, paper), show
+    )
 
 
 def _tracked(drives: Sequence[PublishedDrive]) -> Iterator[PublishedDrive]:
@@ -72,33 +118,50 @@ def _tracked(drives: Sequence[PublishedDrive]) -> Iterator[PublishedDrive]:
     yield from track(drives, "drives", console=console, transient=True)
 
 
-def _print_json(paper: Paper1) -> None:
+def _print_json(paper: _Shown) -> None:
     """One object on standard output."""
     from json import dumps
 
-    name = f"paper {paper.published.number}: {paper.published.title}"
-    found = {"machine": name, "results": {f"paper{paper.published.number}": paper.to_dict()}, "warnings": []}
+    name = f"paper {paper.number}: {paper.title}"
+    found = {"machine": name, "results": {f"paper{paper.number}": paper.entries}, "warnings": []}
     typer.echo(dumps(found, allow_nan=False, ensure_ascii=False))
 
 
-def _write(paper: Paper1, folder: Path) -> None:
+def _write(paper: _Shown, folder: Path) -> None:
     """Figures and page."""
     from linkwright.errors import InputError
-    from linkwright.papers.page import page
-    from linkwright.papers.paper1_figures import drive_figure, evenness_figure
     from linkwright.plot.svg import svg
 
-    figures = {each.published.machine: drive_figure(each) for each in paper.drives}
-    figures["evenness"] = evenness_figure(paper)
+    figures = paper.figures()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, figure in figures.items():
             (folder / f"{name}.svg").write_text(svg(figure), encoding="utf-8")
             figure.savefig(folder / f"{name}.png", dpi=_DPI)
-        text = page(paper, figures)
-        (folder / f"papers{paper.published.number}.html").write_text(text, encoding="utf-8")
+        (folder / f"papers{paper.number}.html").write_text(paper.page(figures), encoding="utf-8")
     except OSError as error:
         raise InputError(f"{folder}: cannot be written ({error.strerror or error})") from None
+
+
+def _print4(paper: Paper4) -> None:
+    """A row for each printed number, and what follows."""
+    from rich.console import Console
+    from rich.table import Table
+
+    from linkwright.papers.paper4_conclusions import conclusions
+
+    console = Console(highlight=False, width=None if sys.stdout.isatty() else _WIDTH)
+    console.print(f"[bold]Paper {paper.number}: {paper.title}[/bold]\n")
+    table = Table(box=None, padding=(0, 2, 0, 0))
+    for head in ("printed", "", "computed", "verdict"):
+        table.add_column(head)
+    colours = {"reproduced": "green", "near": "yellow", "far": "red", "none": "dim"}
+    for row in paper.rows:
+        table.add_row(row.name, row.printed, row.computed, f"[{colours[row.kind]}]{row.verdict}[/]")
+    console.print(table)
+    console.print()
+    for number, text in enumerate(conclusions(paper), start=1):
+        console.print(f"{number}. {text}\n")
 
 
 def _print(paper: Paper1) -> None:

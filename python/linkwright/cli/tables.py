@@ -8,7 +8,8 @@ from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.check import summary
-from linkwright.report.tables import Table, tables
+from linkwright.report.table import Table
+from linkwright.report.tables import tables
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

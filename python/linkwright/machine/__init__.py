@@ -9,7 +9,11 @@
 | `element` | cranks, dyads, gears, cables, joints and bars |
 | `mechanism` | all elements by name |
 | `assembly` | in which order a mechanism is built; what is missing or too much |
-| `body`, `load` | masses; forces and torques |
+| `pumping_unit`, `polished_rod_load`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
+| `unit_catalogue` | published pumping units |
+| `linkage` | the whole mechanism: elements of the file, and what a pumping unit expands into |
+| `body`, `loads` | masses; forces and torques |
+| `formula` | formulas as texts |
 | `curve` | curves given by points |
 | `outline` | names in a mechanism: what refers to what, in which order it is built |
 | `address`, `text` | entries by address |
@@ -38,17 +42,22 @@ from linkwright.machine.element import (
     SlottedLever,
     Yoke,
 )
-from linkwright.machine.load import (
+from linkwright.machine.loads import (
     AnyLoad,
     ConstantForce,
     ConstantTorque,
+    Damper,
     DryFriction,
     ForcePosition,
+    FormulaLoad,
+    GasSpring,
     Gravity,
     Load,
     Spring,
     TorqueAngle,
     TorqueSpeed,
+    TorsionalDamper,
+    TorsionalSpring,
     ViscousFriction,
 )
 from linkwright.machine.machine import FORMAT, Machine, RunUp
@@ -62,6 +71,10 @@ from linkwright.machine.motor import (
     Motor,
     TableMotor,
 )
+from linkwright.machine.polished_rod_load import PolishedRodLoad
+from linkwright.machine.pumping_unit import PumpingUnit
+from linkwright.machine.rod_rotator import RodRotator
+from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 
 __all__ = [
     "FORMAT",
@@ -72,6 +85,7 @@ __all__ = [
     "Brake",
     "Cable",
     "CatalogueMotor",
+    "CatalogueUnit",
     "ConstantForce",
     "ConstantSpeedMotor",
     "ConstantTorque",
@@ -79,12 +93,15 @@ __all__ = [
     "Coupling",
     "Crank",
     "Crossing",
+    "Damper",
     "DcMotor",
     "Drive",
     "DryFriction",
     "FixedPoint",
     "Flywheel",
     "ForcePosition",
+    "FormulaLoad",
+    "GasSpring",
     "Gear",
     "Gearbox",
     "Gravity",
@@ -97,9 +114,12 @@ __all__ = [
     "Machine",
     "Mechanism",
     "Motor",
+    "PolishedRodLoad",
+    "PumpingUnit",
     "Rack",
     "RigidPoint",
     "Rocker",
+    "RodRotator",
     "RunUp",
     "Slider",
     "SlottedLever",
@@ -107,12 +127,16 @@ __all__ = [
     "TableMotor",
     "TorqueAngle",
     "TorqueSpeed",
+    "TorsionalDamper",
+    "TorsionalSpring",
     "ViscousFriction",
     "Yoke",
     "addresses",
+    "catalogue_unit",
     "get",
     "kind",
     "motor",
     "motors",
+    "pumping_units",
     "replace",
 ]

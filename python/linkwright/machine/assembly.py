@@ -1,7 +1,7 @@
-"""In which order a mechanism is built: single elements, dyads of joints, and groups that are solved together.
+"""In which order a mechanism is built: single elements, dyads of joints, groups that are solved together.
 
-Elements that refer to what is placed already come one by one. The coordinates of joints are unknowns, bars and
-guides are equations: a matching of equations to unknowns tells what is missing or too much, and its strongly
+Elements that refer to what is placed already come one by one. The coordinates of joints are unknowns, bars
+and guides are equations: a matching of equations to unknowns tells what is missing or too much; its strongly
 connected parts are the smallest groups that can be solved, one after another (Dulmage and Mendelsohn,
 *Coverings of bipartite graphs*, Canadian J. Math. 10 (1958); for linkages these parts are the Assur groups).
 """
@@ -21,7 +21,7 @@ class Part(NamedTuple):
     role : str
         ``"element"``, ``"joint"``, ``"bar"`` or ``"carried"`` (a point fixed to a link).
     needs : tuple of str
-        Points and links that must be placed before; of a bar its two ends, of a joint what its guide hangs on.
+        Points and links that must be placed before: the ends of a bar, what the guide of a joint hangs on.
     makes : tuple of str
         Points and links that it places.
     """
@@ -140,7 +140,7 @@ class _Builder:
         return False
 
     def _system(self) -> dict[str, set[str]]:
-        """Condition → the joints that it holds; conditions that hang on something else that is open are left out."""
+        """Condition → the joints that it holds; not those that hang on something else that is open."""
         system: dict[str, set[str]] = {}
         for name, part in self.parts.items():
             if name in self.ignored or part.role not in ("bar", "joint"):

@@ -1,4 +1,4 @@
-"""Elements of a mechanism: fixed points, cranks, dyads, points of links, gears, racks, cables, joints and bars.
+"""Elements of a mechanism: fixed points, cranks, dyads, gears, racks, cables, joints and bars.
 
 | table | is | group |
 | --- | --- | --- |

@@ -9,14 +9,17 @@ from pydantic import BaseModel, Field, ModelWrapValidatorHandler, ValidationErro
 from pydantic_core import InitErrorDetails
 
 from linkwright.errors import MachineError
-from linkwright.machine.base import Description, faults_of, raise_faults
+from linkwright.machine.base import Description, fault, faults_of, raise_faults
 from linkwright.machine.body import Body, body_faults
 from linkwright.machine.drive import Drive
-from linkwright.machine.load import AnyLoad, load_faults
+from linkwright.machine.linkage import expansion_faults, merged, outline_of
+from linkwright.machine.loads import AnyLoad
+from linkwright.machine.loads.references import load_faults
 from linkwright.machine.mechanism import Mechanism
-from linkwright.machine.outline import Outline
 from linkwright.machine.plain import look
 from linkwright.machine.problems import problems
+from linkwright.machine.pumping_unit import PumpingUnit
+from linkwright.machine.rod_rotator import RodRotator
 from linkwright.units import INSIDE_ONE, RATIO, SPEED, Angle, Quantity, not_negative, positive
 
 # The format that this version reads and writes.
@@ -52,10 +55,24 @@ class Machine(Description):
     description: str = Field("", description="More about it.")
     source: str = Field("", description="Where the numbers are from.")
     drive: Drive | None = Field(None, description="What turns the crankshaft.")
-    mechanism: Mechanism = Field(description="What the crankshaft moves.")
+    mechanism: Mechanism = Field(
+        default_factory=Mechanism,
+        description="What the crankshaft moves. With a pumping unit, what moves beside it.",
+    )
+    pumping_unit: PumpingUnit | None = Field(
+        None, description="Beam pumping unit, which is a mechanism by itself."
+    )
+    rod_rotator: RodRotator | None = Field(None, description="Rotator of the rod string on the pumping unit.")
     bodies: dict[str, Body] = Field(default_factory=dict, description="Masses by name.")
     loads: dict[str, AnyLoad] = Field(default_factory=dict, description="Forces and torques by name.")
     run_up: RunUp = Field(default_factory=RunUp, description="How the run-up starts and ends.")
+
+    @property
+    def linkage(self) -> Mechanism:
+        """The whole mechanism: elements of the file, and those that a pumping unit expands into."""
+        if self.pumping_unit is None:
+            return self.mechanism
+        return merged(self.mechanism, self.pumping_unit, self.rod_rotator)
 
     @model_validator(mode="wrap")
     @classmethod
@@ -79,10 +96,19 @@ class Machine(Description):
 
 
 def _reference_faults(machine: object) -> list[InitErrorDetails]:
-    """Bodies and loads that refer to nothing; nothing to say if there is no mechanism to refer to."""
-    mechanism = look(machine, "mechanism")
-    if not isinstance(mechanism, BaseModel | Mapping):
-        return []
-    outline = Outline.of(mechanism)
+    """No mechanism, names that clash, bodies and loads that refer to nothing."""
+    mechanism, unit = look(machine, "mechanism"), look(machine, "pumping_unit")
+    if unit is None and (mechanism is None or _is_left_out(machine)):
+        return [fault("mechanism", expected="a table")]
+    faults = list(expansion_faults(machine))
+    if unit is None and not isinstance(mechanism, BaseModel | Mapping):
+        # There is nothing to refer to.
+        return faults
+    outline = outline_of(machine)
     bodies, loads = look(machine, "bodies"), look(machine, "loads")
-    return [*body_faults(outline, bodies), *load_faults(outline, loads)]
+    return [*faults, *body_faults(outline, bodies), *load_faults(outline, loads)]
+
+
+def _is_left_out(machine: object) -> bool:
+    """Whether a machine that was read has no mechanism of its own."""
+    return isinstance(machine, BaseModel) and "mechanism" not in machine.model_fields_set

@@ -9,7 +9,7 @@
 | rocker `R` | `R`, joint | `R.coupler`, driving point → joint; `R.rocker`, pivot → joint | – | two points |
 | slotted lever `L` | – | `L`, pivot → pin | `L`, distance along the slot | a moving point, a point |
 | crossing `X` | `X`, the pin | – | `X.first`, `X.second` | two guides |
-| yoke `Y` | `Y`, where slot and guide meet | `Y`, along the guide | `Y`; `Y.slot`, of the pin | a moving point, its guide |
+| yoke `Y` | `Y`, on slot and guide | `Y`, along the guide | `Y`; `Y.slot` | a moving point, its guide |
 | rigid point `K` | `K` | – | – | a link |
 | gear `G` | – | `G` | – | a point, links |
 | rack `T` | `T` | – | `T` | a link, its guide |
@@ -22,9 +22,10 @@ An outline is taken from a checked mechanism or from the raw tables of a file.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
+from types import MappingProxyType
 from typing import Literal, NamedTuple
 
 from pydantic_core import InitErrorDetails
@@ -47,12 +48,12 @@ class ElementKind(NamedTuple):
     points: tuple[str, ...] = ("",)
     links: tuple[str, ...] = ()
     slides: tuple[str, ...] = ()
-    references: dict[str, Wanted] = {}
+    references: Mapping[str, Wanted] = MappingProxyType({})
 
 
-def _guide(key: str) -> dict[str, Wanted]:
-    """What a guide under a key refers to."""
-    return {f"{key}.through": "point", f"{key}.on": "link"}
+def _guide(key: str, **others: Wanted) -> dict[str, Wanted]:
+    """What a guide under a key refers to, after other references."""
+    return {**others, f"{key}.through": "point", f"{key}.on": "link"}
 
 
 KINDS = (
@@ -91,7 +92,7 @@ KINDS = (
         "yoke",
         links=("",),
         slides=("", ".slot"),
-        references={"pin": "moving point"} | _guide("guide"),
+        references=_guide("guide", pin="moving point"),
     ),
     ElementKind("rigid_points", "rigid point", references={"link": "link"}),
     ElementKind(
@@ -101,7 +102,7 @@ KINDS = (
         links=("",),
         references={"pivot": "point", "meshes": "link", "carrier": "link"},
     ),
-    ElementKind("racks", "rack", slides=("",), references={"gear": "link"} | _guide("guide")),
+    ElementKind("racks", "rack", slides=("",), references=_guide("guide", gear="link")),
     ElementKind("cables", "cable", slides=("",), references={"link": "link"}),
     ElementKind("joints", "joint", slides=("",), references=_guide("guide")),
     ElementKind("bars", "bar", points=(), links=("",), references={"start": "point", "end": "point"}),
@@ -196,7 +197,7 @@ class Outline:
         return Part(roles.get(kind.table, "element"), needs, makes)
 
     def faults(self) -> list[InitErrorDetails]:
-        """What is wrong: the same name twice, references to nothing, circles, joints held too little or too much."""
+        """What is wrong: names twice, references to nothing, circles, joints held too little or too much."""
         driven = [each for each in self.elements if each.kind.table not in ("points", *DRIVERS)]
         if driven and not self.names(*DRIVERS):
             remedy = "a linear driver would do as well"
@@ -229,8 +230,8 @@ class Outline:
                 name,
                 found="one condition too many",
                 expected="two bars or guides for each joint",
-                remedy="without it the mechanism moves already, and with it it is locked unless its length fits in "
-                "every position; remove it, or write redundant = true to have that checked",
+                remedy="the mechanism moves without it, and is locked with it unless it always fits; "
+                "remove it, or write redundant = true to have that checked",
             )
 
     def _twice(self) -> Iterator[InitErrorDetails]:
@@ -265,7 +266,7 @@ class Outline:
         return f'"{name}" is a {word}' if word else ""
 
     def _graph(self) -> dict[str, list[str]]:
-        """Each moving element → the moving elements that it is built on; joints hang together by their bars."""
+        """Each moving element → the moving elements that it is built on; joints hang on their bars."""
         makers = {name: name for name in self.moving_points} | self.links
         for each in self.elements:
             makers.update(dict.fromkeys(each.made(each.kind.points), each.name))

@@ -36,7 +36,7 @@ def page(paper: Paper1, figures: Mapping[str, Figure]) -> str:
     from markupsafe import Markup
 
     template = files("linkwright.papers").joinpath("page.html").read_text(encoding="utf-8")
-    drawn = {name: Markup(_own_names(svg(figure), name)) for name, figure in figures.items()}
+    drawn = {name: Markup(own_names(svg(figure), name)) for name, figure in figures.items()}
     return (
         Environment(autoescape=True)
         .from_string(template)
@@ -115,6 +115,14 @@ def reasons(drive: Drive) -> list[str]:
     ]
 
 
-def _own_names(drawing: str, name: str) -> str:
-    """The drawing with names inside that no other of the page has."""
+def own_names(drawing: str, name: str) -> str:
+    """The drawing with names inside that no other of the page has.
+
+    Parameters
+    ----------
+    drawing : str
+        An SVG element.
+    name : str
+        What its names begin with.
+    """
     return re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", drawing)

@@ -22,7 +22,10 @@ QUANTITIES = {
     "motion_coefficient": ("k_p", ""),
 }
 
-PAPERS = {1: "Unevenness of motion of the drives of roller-forming machines, one to four carts"}
+PAPERS = {
+    1: "Unevenness of motion of the drives of roller-forming machines, one to four carts",
+    4: "Lever mechanism of a worm-type rotator of a sucker-rod string",
+}
 
 
 @dataclass(frozen=True)
@@ -77,13 +80,36 @@ class Published:
     cases: tuple[dict[str, Any], ...]
 
 
-def published(number: int) -> Published:
-    """Read the published values of a paper.
+def known_paper(number: int) -> int:
+    """The number of a paper, if it is one of `PAPERS`.
 
     Parameters
     ----------
     number : int
-        One of `PAPERS`.
+        The number.
+
+    Returns
+    -------
+    int
+        The same.
+
+    Raises
+    ------
+    InputError
+        There is no such paper.
+    """
+    if number not in PAPERS:
+        raise InputError(f"no paper {number}; there is {', '.join(map(str, PAPERS))}")
+    return number
+
+
+def published(number: int) -> Published:
+    """Read the published table of a paper that has one.
+
+    Parameters
+    ----------
+    number : int
+        1.
 
     Returns
     -------
@@ -95,8 +121,7 @@ def published(number: int) -> Published:
     InputError
         There is no such paper.
     """
-    if number not in PAPERS:
-        raise InputError(f"no paper {number}; there is {', '.join(map(str, PAPERS))}")
+    known_paper(number)
     text = files("linkwright.papers").joinpath(f"paper{number}.toml").read_text(encoding="utf-8")
     data = tomllib.loads(text)
     return Published(

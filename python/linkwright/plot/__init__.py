@@ -6,6 +6,7 @@
 | `steady` | speed, acceleration, torque and power over a turn and over time |
 | `motor` | the motor's characteristic, and the part of it that steady motion uses |
 | `run_up` | speed from the start to steady motion |
+| `pumping_unit` | polished rod, torque of the gearbox, lever of a rotator |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -15,6 +16,7 @@ matplotlib is imported when the first figure is drawn.
 
 from linkwright.plot.compare import compare_figure
 from linkwright.plot.motor import motor_figure
+from linkwright.plot.pumping_unit import gear_torque_figure, polished_rod_figure, rotator_figure
 from linkwright.plot.reduction import reduction_figure
 from linkwright.plot.run_up import attempt_figure, run_up_figure
 from linkwright.plot.steady import speed_figure, time_figure, torque_figure
@@ -23,8 +25,11 @@ from linkwright.plot.svg import svg
 __all__ = [
     "attempt_figure",
     "compare_figure",
+    "gear_torque_figure",
     "motor_figure",
+    "polished_rod_figure",
     "reduction_figure",
+    "rotator_figure",
     "run_up_figure",
     "speed_figure",
     "svg",

@@ -10,10 +10,13 @@ from linkwright.machine import (
     Body,
     ConstantSpeedMotor,
     ConstantTorqueMotor,
+    Damper,
     DcMotor,
     Drive,
     DryFriction,
     ForcePosition,
+    FormulaLoad,
+    GasSpring,
     Gravity,
     InductionMotor,
     Machine,
@@ -21,6 +24,7 @@ from linkwright.machine import (
     TableMotor,
     TorqueAngle,
     TorqueSpeed,
+    TorsionalSpring,
     ViscousFriction,
 )
 from linkwright.report.quantities import degrees, number
@@ -37,7 +41,14 @@ _LOADS = {
     TorqueAngle: "A resisting torque over the crank angle is linear between the given angles.",
     TorqueSpeed: "A resisting torque over the speed is linear between the given speeds; outside them the end "
     "values hold.",
-    Spring: "Springs are linear and without mass.",
+    Spring: "Springs have no mass; a force over the length is linear between the given lengths, and outside "
+    "them the end values hold.",
+    Damper: "Dampers between points have no mass; a force over the velocity is linear between the given "
+    "velocities, and outside them the end values hold.",
+    GasSpring: "Gas springs follow p Vⁿ = constant, without friction and without the pressure outside.",
+    TorsionalSpring: "Torsional springs are linear, and turned by less than 180° from their free angle.",
+    FormulaLoad: "A load by a formula acts as the formula says, in SI units; at rest it acts as at a "
+    "vanishing speed.",
 }
 
 

@@ -10,14 +10,17 @@ from linkwright.analysis.study import Study
 from linkwright.machine import ConstantSpeedMotor
 from linkwright.plot import (
     attempt_figure,
+    gear_torque_figure,
     motor_figure,
+    polished_rod_figure,
     reduction_figure,
+    rotator_figure,
     run_up_figure,
     speed_figure,
     time_figure,
     torque_figure,
 )
-from linkwright.report.quantities import number
+from linkwright.report.quantities import degrees, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -49,10 +52,38 @@ def figures(study: Study) -> Iterator[Captioned]:
     Captioned
         In the order of the page.
     """
+    yield from _unit(study)
+    yield from _rotator(study)
     yield from _steady(study)
     yield from _motor(study)
     yield from _run_up(study)
     yield from _reduction(study)
+
+
+def _unit(study: Study) -> Iterator[Captioned]:
+    unit, gear = study.pumping_unit, study.gear_torque
+    if unit is None:
+        return
+    caption = (
+        f"The polished rod rises {number(unit.stroke)} m while the crank turns "
+        f"{degrees(unit.upstroke_angle)}. The torque factor runs from {number(unit.torque_factor_min)} to "
+        f"{number(unit.torque_factor_max)} m."
+    )
+    yield Captioned("polished_rod", "Polished rod over a turn", caption, polished_rod_figure(unit))
+    if gear is not None:
+        caption = (
+            "Torque at the crank by the polished rod and by its counterbalance; their sum peaks at "
+            f"{number(max(gear.torque_net_up, gear.torque_net_down))} N m."
+        )
+        yield Captioned("gear_torque", "Torque of the gearbox", caption, gear_torque_figure(gear))
+
+
+def _rotator(study: Study) -> Iterator[Captioned]:
+    rotator = study.rotator
+    if rotator is None:
+        return
+    caption = f"The lever {rotator.verdict}."
+    yield Captioned("rotator", "Lever of the rotator", caption, rotator_figure(rotator))
 
 
 def _reduction(study: Study) -> Iterator[Captioned]:
@@ -78,8 +109,8 @@ def _steady(study: Study) -> Iterator[Captioned]:
     )
     yield Captioned("speed", "Speed and acceleration over a turn", caption, speed_figure(steady))
     caption = (
-        "Where the driving torque lies above the resisting one, the machine does not simply speed up: "
-        f"the reduced inertia changes too. The motor works {number(steady.energy_motor)} J in a turn."
+        "Where the driving torque lies above the resisting one, the machine does not simply speed up: the "
+        f"reduced inertia changes too. The motor works {number(steady.energy_motor)} J in a turn."
     )
     yield Captioned("torque", "Torque and power over a turn", caption, torque_figure(steady))
     caption = "The same motion against time: what a tachometer and the motor's winding feel."
@@ -103,8 +134,8 @@ def _run_up(study: Study) -> Iterator[Captioned]:
     if study.run_up is not None:
         run_up = study.run_up
         caption = (
-            f"Steady motion, to within {100 * run_up.settled:.3g} %, is reached after "
-            f"{number(run_up.time)} s and {number(run_up.turns)} turns."
+            f"Steady motion, to within {100 * run_up.settled:.3g} %, is reached after {number(run_up.time)} "
+            f"s and {number(run_up.turns)} turns."
         )
         yield Captioned("run_up", "Run-up", caption, run_up_figure(run_up, study.steady_state))
     elif study.attempt is not None and len(study.attempt.time) > 1:

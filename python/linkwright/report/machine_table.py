@@ -45,9 +45,9 @@ def machine_parts(machine: Machine) -> list[Part]:
     Returns
     -------
     list of Part
-        In the order drive, mechanism, bodies, loads, run-up.
+        In the order drive, pumping unit, mechanism, bodies, loads, run-up.
     """
-    return [*_drive(machine), *_mechanism(machine), *_tables(machine), *_run_up(machine)]
+    return [*_drive(machine), *_unit(machine), *_mechanism(machine), *_tables(machine), *_run_up(machine)]
 
 
 def _drive(machine: Machine) -> Iterator[Part]:
@@ -60,6 +60,15 @@ def _drive(machine: Machine) -> Iterator[Part]:
     for name in ("motor", "gearbox", "coupling", "flywheel", "brake"):
         if getattr(machine.drive, name) is not None:
             yield _part("Drive", machine, ("drive", name))
+
+
+def _unit(machine: Machine) -> Iterator[Part]:
+    """A pumping unit, its load, and its rotator."""
+    for name in ("pumping_unit", "rod_rotator"):
+        if getattr(machine, name) is not None:
+            yield _part("Pumping unit", machine, (name,))
+    if machine.pumping_unit is not None and machine.pumping_unit.load is not None:
+        yield _part("Pumping unit", machine, ("pumping_unit", "load"))
 
 
 def _mechanism(machine: Machine) -> Iterator[Part]:
@@ -92,7 +101,10 @@ def _part(group: str, machine: Machine, place: Place) -> Part:
     entries = [
         Entry(key.replace("_", " "), _value(machine, (*place, key), value), key not in assumed)
         for key, value in found.items()
-        if value is not None and not (key in assumed and value == 0)
+        if value is not None
+        and value != {}
+        and not isinstance(value, BaseModel)
+        and not (key in assumed and value == 0)
     ]
     return Part(group, place[-1].replace("_", " ") if len(place) < 3 else place[-1], entries)
 
@@ -107,12 +119,15 @@ def _not_given(node: object) -> set[str]:
 
 def _value(machine: Machine, place: Place, value: Any) -> str:
     """One entry as text, with its unit."""
+    if isinstance(value, dict):
+        return ", ".join(f"{name} = {_value(machine, (*place, name), each)}" for name, each in value.items())
     if isinstance(value, tuple):
         if value and isinstance(value[0], str):
             return ", ".join(value)
         return _list(machine, place, value)
     if isinstance(value, bool | str):
-        return str(value).replace("_", " ")
+        is_formula = place[-1] in ("force", "torque")
+        return str(value) if is_formula else str(value).replace("_", " ")
     quantity = kind(machine, join(place))
     unit = quantity.unit if quantity else ""
     return degrees(value) if unit == "rad" else f"{number(value, 6)} {pretty_unit(unit)}".rstrip()

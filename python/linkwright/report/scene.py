@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from linkwright.analysis.closure import closure
 from linkwright.analysis.kinematics import Kinematics, kinematics
 from linkwright.analysis.study import Study
-from linkwright.machine import Machine, Spring
-from linkwright.machine.outline import ORIGIN
+from linkwright.machine import Machine
+from linkwright.machine.loads import BetweenPoints
+from linkwright.machine.outline import ORIGIN, Outline
 
 Floats = NDArray[np.float64]
 Scene = dict[str, Any]
@@ -53,7 +54,7 @@ def scene(study: Study) -> Scene | None:
     """
     machine = study.machine
     found = closure(machine)
-    if not machine.mechanism.cranks or not found.ranges:
+    if not machine.linkage.cranks or not found.ranges:
         return None
     low, high = (0.0, 2 * np.pi) if found.turns_fully else _clear(found.ranges[0])
     motion = kinematics(machine, np.linspace(low, high, _INTERVALS + 1))
@@ -84,9 +85,20 @@ def _points(machine: Machine, motion: Kinematics) -> dict[str, Floats]:
     """Position of each point at each angle, (n, 2) [m], with the origin if cranks turn about it."""
     drawn = {name: point.position for name, point in motion.points.items()}
     still = np.zeros((len(motion.angles), 2))
-    for name, point in machine.mechanism.fixed_points().items():
+    for name, point in machine.linkage.fixed_points().items():
         drawn.setdefault(name, still + np.array([point.x, point.y]))
+    links = machine.linkage.links()
+    for name, cable in machine.linkage.cables.items():
+        # Where the cable leaves its arc, to the left or right of its direction.
+        side = cable.angle + (np.pi / 2 if cable.side == "left" else -np.pi / 2)
+        off = cable.radius * np.array([np.cos(side), np.sin(side)])
+        drawn[_arc_end(name)] = drawn[links[cable.link].start] + off
     return drawn
+
+
+def _arc_end(cable: str) -> str:
+    """Name of the point where a cable leaves its arc."""
+    return f"{cable}, end of the arc"
 
 
 def _box(drawn: dict[str, Floats]) -> list[float]:
@@ -123,35 +135,37 @@ def _parts(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
     yield from _guides(machine, motion)
     yield from _grounds(machine)
     yield from _traces(machine)
-    for name, link in machine.mechanism.links().items():
+    for name, link in machine.linkage.links().items():
         ends = {"from": link.start, "to": link.end}
         yield {"kind": "link", "role": link.role, "name": name, "series": series[link.element], **ends}
+    for name in machine.linkage.cables:
+        ends = {"from": _arc_end(name), "to": name}
+        yield {"kind": "link", "role": "rod", "name": name, "series": series[name], **ends}
     yield from _plates(machine, series)
     yield from _springs(machine)
     yield from _sliders(machine, series)
     yield from _bodies(machine)
-    for name in machine.mechanism.moving_points():
-        slides = name in machine.mechanism.sliders
+    for name in machine.linkage.moving_points():
+        slides = name in machine.linkage.sliders
         yield {"kind": "point", "name": name, "slides": slides, "series": series[name]}
 
 
 def _series(machine: Machine) -> dict[str, int]:
     """Number of the crank that moves each element, so that what moves together looks alike."""
-    mechanism = machine.mechanism
-    links = mechanism.links()
+    mechanism = machine.linkage
+    outline = Outline.of(mechanism)
+    makers = {name: name for name in outline.moving_points} | outline.links
+    references = {each.name: each.references.values() for each in outline.elements}
     number = {name: n for n, name in enumerate(mechanism.cranks)}
     for name in mechanism.build_order():
-        if name in mechanism.rigid_points:
-            number[name] = number[links[mechanism.rigid_points[name].link].element]
-        elif name not in number:
-            moved = mechanism.sliders.get(name) or mechanism.rockers[name]
-            number[name] = number[moved.crank]
+        movers = [makers[each] for each in references[name] if makers.get(each) in number]
+        number.setdefault(name, number[movers[0]] if movers else 0)
     return number
 
 
 def _guides(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
     """The straight line that each slider moves on."""
-    for name, slider in machine.mechanism.sliders.items():
+    for name, slider in machine.linkage.sliders.items():
         path = motion.points[name].position
         along = np.array([np.cos(slider.angle), np.sin(slider.angle)])
         reach = path @ along
@@ -166,50 +180,51 @@ def _guides(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
 
 def _grounds(machine: Machine) -> Iterator[Scene]:
     """Fixed points that something turns about."""
-    mechanism = machine.mechanism
+    mechanism = machine.linkage
     pivots = [crank.pivot or ORIGIN for crank in mechanism.cranks.values()]
     pivots += [rocker.pivot for rocker in mechanism.rockers.values()]
     fixed = mechanism.fixed_points()
     used = [name for name in dict.fromkeys(pivots) if name in fixed]
-    sprung = [end for load in machine.loads.values() if isinstance(load, Spring) for end in load.between]
+    joined = [load for load in machine.loads.values() if isinstance(load, BetweenPoints)]
+    sprung = [end for load in joined for end in load.between]
     for name in dict.fromkeys([*used, *(end for end in sprung if end in fixed)]):
         yield {"kind": "ground", "name": name}
 
 
 def _traces(machine: Machine) -> Iterator[Scene]:
     """Paths of the points on links."""
-    for name in machine.mechanism.rigid_points:
+    for name in machine.linkage.rigid_points:
         yield {"kind": "trace", "name": name}
 
 
 def _plates(machine: Machine, series: dict[str, int]) -> Iterator[Scene]:
     """A point beside its link makes the link a plate."""
-    links = machine.mechanism.links()
-    for name, part in machine.mechanism.rigid_points.items():
+    links = machine.linkage.links()
+    for name, part in machine.linkage.rigid_points.items():
         link = links[part.link]
         yield {"kind": "plate", "name": name, "corners": [link.start, link.end, name], "series": series[name]}
 
 
 def _springs(machine: Machine) -> Iterator[Scene]:
     for name, load in machine.loads.items():
-        if isinstance(load, Spring):
+        if isinstance(load, BetweenPoints):
             yield {"kind": "spring", "name": name, "from": load.between[0], "to": load.between[1]}
 
 
 def _sliders(machine: Machine, series: dict[str, int]) -> Iterator[Scene]:
     """Blocks on their guides; those that carry a body are larger."""
     loaded = {body.on or name for name, body in machine.bodies.items()}
-    for name, slider in machine.mechanism.sliders.items():
+    for name, slider in machine.linkage.sliders.items():
         look = {"angle": slider.angle, "heavy": name in loaded, "series": series[name]}
         yield {"kind": "slider", "name": name, **look}
 
 
 def _bodies(machine: Machine) -> Iterator[Scene]:
     """Centres of mass: along and across their link from its start, or on a point."""
-    links = machine.mechanism.links()
+    links = machine.linkage.links()
     for name, body in machine.bodies.items():
         carrier = body.on or name
-        if carrier in machine.mechanism.sliders:
+        if carrier in machine.linkage.sliders:
             continue
         if carrier not in links:
             yield {"kind": "mass", "name": name, "at": carrier}

@@ -3,26 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.steady_state import SteadyState
 from linkwright.analysis.study import Study
 from linkwright.report.quantities import SHOWN, degrees, number
-
-Row = tuple[str, ...]
-
-
-class Table(NamedTuple):
-    """A table: its name, its title, the heads of its columns, and its rows.
-
-    The first two columns hold words and symbols, all others numbers with their units.
-    """
-
-    name: str
-    title: str
-    heads: Row
-    rows: list[Row]
+from linkwright.report.table import Row, Table, row, rows_of, with_unit
+from linkwright.report.unit_tables import unit_tables
 
 
 def tables(study: Study) -> list[Table]:
@@ -39,26 +27,13 @@ def tables(study: Study) -> list[Table]:
         Without those that have nothing to tell.
     """
     made = (_reduction(study), _steady(study), _measures(study), _drive(study), _run_up(study))
-    return [table for table in (*made, _run_down(study), _step_method(study)) if table is not None]
-
-
-def _row(result: Result, name: str, at: str = "") -> Row:
-    """Word, symbol, value, unit, and where it is."""
-    shown = SHOWN[name]
-    return shown.word, shown.symbol, _with_unit(getattr(result, name), shown.unit), at
-
-
-def _with_unit(value: float | None, unit: str) -> str:
-    return "–" if value is None else f"{number(value)} {unit}".rstrip()
-
-
-def _rows(result: Result, *names: str) -> list[Row]:
-    return [_row(result, name) for name in names]
+    found = (*unit_tables(study), *made, _run_down(study), _step_method(study))
+    return [table for table in found if table is not None]
 
 
 def _extremes(result: Any, *names: str) -> list[Row]:
     """Rows of values that have an angle."""
-    return [_row(result, name, f"at φ = {_on_turn(getattr(result, f'{name}_angle'))}") for name in names]
+    return [row(result, name, f"at φ = {_on_turn(getattr(result, f'{name}_angle'))}") for name in names]
 
 
 def _on_turn(angle: float) -> str:
@@ -72,9 +47,9 @@ def _reduction(study: Study) -> Table | None:
     if reduced is None:
         return None
     rows = _extremes(reduced, "inertia_min", "inertia_max")
-    rows += _rows(reduced, "torque_load_mean", "torque_load_max")
+    rows += rows_of(reduced, "torque_load_mean", "torque_load_max")
     # Most machines have no viscous friction, and no use for a row of zeros.
-    rows += _rows(reduced, "viscous_mean") if reduced.viscous_mean else []
+    rows += rows_of(reduced, "viscous_mean") if reduced.viscous_mean else []
     return Table("reduction", "Reduced to the crank", ("quantity", "", "value", "where"), rows)
 
 
@@ -83,7 +58,7 @@ def _steady(study: Study) -> Table | None:
     if steady is None:
         return None
     rows = _extremes(steady, "speed_min", "speed_max", "acceleration_min", "acceleration_max")
-    rows += _rows(steady, "period", "multiplier", "accuracy", "steps")
+    rows += rows_of(steady, "period", "multiplier", "accuracy", "steps")
     return Table("steady_state", "Steady motion", ("quantity", "", "value", "where"), rows)
 
 
@@ -93,7 +68,7 @@ def _measures(study: Study) -> Table | None:
     if not columns:
         return None
     words = [(shown.word, shown.symbol) for shown in (SHOWN[name] for name in _MEASURES)]
-    speeds = ("mean speed", "ω_m", *(_with_unit(values[0], "rad/s") for _, values in columns))
+    speeds = ("mean speed", "ω_m", *(with_unit(values[0], "rad/s") for _, values in columns))
     # The limit has any speed.
     rows: list[Row] = [speeds] if study.steady_state is not None else []
     for n, (word, symbol) in enumerate(words, start=1):
@@ -125,13 +100,13 @@ def _drive(study: Study) -> Table | None:
     if steady is None or drive is None or drive.motor is None:
         return None
     motor = drive.motor
-    power, torque = _with_unit(motor.power_rated, "W"), _with_unit(motor.torque_rated, "N m")
-    breakdown = _with_unit(getattr(motor, "torque_breakdown", None), "N m")
-    rows = _rows(steady, "energy_motor", "energy_drive", "energy_load", "efficiency")
-    rows += [_row(steady, "power_motor_mean", _beside("rated", power)), _row(steady, "power_motor_max")]
-    rows += _rows(steady, "torque_motor_mean")
-    rows += [_row(steady, "torque_motor_rms", _beside("rated", torque)), _row(steady, "torque_motor_min")]
-    rows += [_row(steady, "torque_motor_max", _beside("breakdown", breakdown))]
+    power, torque = with_unit(motor.power_rated, "W"), with_unit(motor.torque_rated, "N m")
+    breakdown = with_unit(getattr(motor, "torque_breakdown", None), "N m")
+    rows = rows_of(steady, "energy_motor", "energy_drive", "energy_load", "efficiency")
+    rows += [row(steady, "power_motor_mean", _beside("rated", power)), row(steady, "power_motor_max")]
+    rows += rows_of(steady, "torque_motor_mean")
+    rows += [row(steady, "torque_motor_rms", _beside("rated", torque)), row(steady, "torque_motor_min")]
+    rows += [row(steady, "torque_motor_max", _beside("breakdown", breakdown))]
     return Table("drive", "Drive in a turn of steady motion", ("quantity", "", "value", "motor"), rows)
 
 
@@ -143,7 +118,7 @@ def _run_up(study: Study) -> Table | None:
     run_up = study.run_up
     if run_up is None:
         return None
-    rows = _rows(run_up, "turns", "time", "speed_peak")
+    rows = rows_of(run_up, "turns", "time", "speed_peak")
     title = f"Run-up, until within {100 * run_up.settled:.3g} % of steady motion"
     return Table("run_up", title, ("quantity", "", "value", ""), rows)
 
@@ -152,7 +127,7 @@ def _run_down(study: Study) -> Table | None:
     stop = study.run_down
     if stop is None:
         return None
-    rows = [*_rows(stop, "turns", "time"), ("crank angle at rest", "φ_end", degrees(stop.angle_end), "")]
+    rows = [*rows_of(stop, "turns", "time"), ("crank angle at rest", "φ_end", degrees(stop.angle_end), "")]
     return Table("run_down", "Run-down, motor off, brake on", ("quantity", "", "value", ""), rows)
 
 
@@ -171,7 +146,7 @@ def _step_method(study: Study) -> Table | None:
 def _compared(stepped: Result, steady: SteadyState | None, name: str) -> Row:
     shown, value = SHOWN[name], getattr(stepped, name)
     if steady is None:
-        return shown.word, shown.symbol, _with_unit(value, shown.unit), "–", "–"
+        return shown.word, shown.symbol, with_unit(value, shown.unit), "–", "–"
     exact = getattr(steady, name)
     off = f"{number(100 * (value / exact - 1), 2)} %" if exact else "–"
-    return shown.word, shown.symbol, _with_unit(value, shown.unit), _with_unit(exact, shown.unit), off
+    return shown.word, shown.symbol, with_unit(value, shown.unit), with_unit(exact, shown.unit), off

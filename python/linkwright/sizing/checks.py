@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.analysis.closure import turn_angles
 from linkwright.analysis.reduction import reduction_of
 from linkwright.analysis.run_up import RunUp, run_up
 from linkwright.analysis.steady_state import SteadyState, steady_state
@@ -40,6 +41,9 @@ PEAK_SHARE = 0.9**2
 # Intervals of the turn over which greatest torques are looked for: the largest of 1440 samples of a smooth
 # curve misses its peak by some 1e-5.
 _ANGLES = 1440
+
+# Speed of the crank that counts as standing still [rad/s]: loads by formulas then say which way they hold.
+_SLOW = 1e-9
 
 _RATING = ("speed", "rated_power")
 _START = ("starting_torque", "run_up")
@@ -259,7 +263,12 @@ def _start_checks(machine: Machine, by_kloss: bool) -> tuple[Check, Check]:
     at = np.array([machine.run_up.angle_start])
     _, _, load, dry, _ = compiled.reductions(at)
     worst = reduction_of(compiled, _ANGLES).torque_load_max
-    here = _start("starting_torque", drive, float(load[0] + dry[0]) + still, by_kloss)
+    turn = turn_angles(_ANGLES)
+    laws = compiled.law_torques(np.append(at, turn), _SLOW)[0]
+    here = _start("starting_torque", drive, float(load[0] + dry[0] + laws[0]) + still, by_kloss)
+    if compiled.has_laws:
+        _, _, load, dry, _ = compiled.reductions(turn)
+        worst = float((load + dry + laws[1:]).max())
     return here, _start("starting_torque_worst", drive, worst + still, by_kloss)
 
 

@@ -183,8 +183,8 @@ def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, floa
     compiled = compile_machine(machine)
     reduced = reduction_of(compiled, 1440)
     omega_m = machine.drive.speed or compiled.speed_guess
-    M_r = reduced.torque_load + reduced.viscous * omega_m
     phi = reduced.crank_angle
+    M_r = reduced.torque_load + reduced.viscous * omega_m + compiled.law_torques(phi, omega_m)[0]
     surplus = np.trapezoid(M_r, phi) / (2 * np.pi) - M_r
     A = np.concatenate([[0.0], np.cumsum(0.5 * (surplus[1:] + surplus[:-1]) * np.diff(phi))])
     dA = A - 0.5 * reduced.inertia_reduced * omega_m**2

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.analysis.closure import require_full_turn
-from linkwright.analysis.reduction import mean_over_turn
+from linkwright.analysis.reduction import mean_laws, mean_over_turn
 from linkwright.analysis.result import Result
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError
@@ -83,5 +83,6 @@ def required_power(machine: Machine) -> RequiredPower:
     require_full_turn(compiled, machine)
     load, viscous = mean_over_turn(compiled)
     torque = load + viscous * drive.speed + float(np.sum(compiled.speed_load(drive.speed)))
+    torque += float(mean_laws(compiled, drive.speed)[0])
     efficiency = drive.gearbox.efficiency
     return RequiredPower(torque * drive.speed / efficiency, torque, drive.speed, efficiency)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.analysis.sound_loads import require_same_turns
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.machine import ConstantSpeedMotor, Machine, get, replace
@@ -147,11 +148,14 @@ def steady_states(
         Arrays of different lengths.
     InputError
         The machine has no motor, or one of constant speed.
+    SteadyStateError
+        A load changes with time itself.
     """
     if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a motor of constant speed has the same speed in every machine")
+    require_same_turns(machine)
     arrays = _columns(machine, entries)
     compiled = compile_machine(replace(machine, arrays))
     if not len(compiled.slots):

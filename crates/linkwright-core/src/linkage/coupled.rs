@@ -92,7 +92,7 @@ pub(super) fn runner<R: Real, const ORDER: u8>(e: &Runner, q: &[R], angle: Angle
     m.points[e.point].set(place.p, place.d1, place.d2);
 }
 
-/// ψ = ψ₀ + δ, ψ₀ = winding·φ + centre, δ = 2 arctan(sin δ/(1 + cos δ)) in (−π, π).
+/// ψ = ψ₀ + δ, ψ₀ = winding·φ + centre, δ in (−π, π] from the link's direction seen from ψ₀.
 #[inline(always)]
 pub(super) fn angle_of<R: Real>(e: &AngleOf, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
     let middle = q[e.winding].mul_add(angle.phi, q[e.centre]);
@@ -100,7 +100,7 @@ pub(super) fn angle_of<R: Real>(e: &AngleOf, q: &[R], angle: Angle<R>, m: &mut M
     let link = &m.links[e.link];
     let from = Vec2::new(cos, sin);
     let (aside, ahead) = (from.left().dot(link.e), from.dot(link.e));
-    let psi = middle + (aside / (ahead + 1.0)).atan() * 2.0;
+    let psi = middle + aside.atan2(ahead);
     let (d1, d2) = (link.d1, link.d2);
     m.slides[e.slide].set(psi, d1, d2);
 }

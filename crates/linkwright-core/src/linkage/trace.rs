@@ -96,6 +96,9 @@ const HALVINGS: u32 = 40;
 /// Turns after which a group counts as not periodic.
 const TURNS_MAX: u32 = 8;
 
+/// Place of each unknown joint.
+type Places = Vec<Vec2<f64>>;
+
 /// Follows one group of a mechanism, and what comes before it.
 struct Follower<'a> {
     mechanism: &'a Mechanism,
@@ -130,7 +133,7 @@ impl Follower<'_> {
 
     /// One step of the grid, halved as often as the prediction asks; the places at its end, or how far it
     /// came.
-    fn step(&mut self, from: f64, to: f64) -> Result<Vec<Vec2<f64>>, (f64, Vec<Vec2<f64>>)> {
+    fn step(&mut self, from: f64, to: f64) -> Result<Places, (f64, Places)> {
         let mut at = from;
         let mut step = to - from;
         let mut last: Vec<Vec2<f64>> = self.group.unknowns.iter().map(|&k| self.m.points[k].p).collect();
@@ -220,7 +223,7 @@ fn path(steps: &[(f64, Vec<Vec2<f64>>)], turns: Option<u32>) -> Path {
     let n = steps.first().map_or(0, |(_, places)| places.len());
     let coordinate = |k: usize| {
         let place = move |(_, places): &(f64, Vec<Vec2<f64>>)| {
-            if k % 2 == 0 { places[k / 2].x } else { places[k / 2].y }
+            if k.is_multiple_of(2) { places[k / 2].x } else { places[k / 2].y }
         };
         steps.iter().map(place).collect()
     };

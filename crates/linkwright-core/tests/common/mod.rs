@@ -157,8 +157,11 @@ impl Builder {
             mechanism: self.mechanism,
             bodies: self.bodies,
             loads: self.loads,
+            further: vec![],
             drive,
             tables: self.tables,
+            formulas: vec![],
+            laws: vec![],
             n_parameters: self.q.len(),
         };
         Built { plan, q: self.q }
@@ -231,11 +234,11 @@ pub fn mixed(random: &mut Random) -> Built {
     b.rod(rocker, pivot, 0.28, 5.0);
     b.rod(crank, 0, 0.1, 2.0);
     b.dry_slide(slide, random.between(100.0, 400.0));
-    let [torque, damping, stiffness, length] =
-        [random.between(1.0, 5.0), 30.0, random.between(100.0, 900.0), 0.3].map(|x| b.number(x));
+    let [torque, damping, stiffness, free_length, preload] =
+        [random.between(1.0, 5.0), 30.0, random.between(100.0, 900.0), 0.3, 0.0].map(|x| b.number(x));
     b.load(Load::DryLink { link: rocker, torque });
     b.load(Load::ViscousPoint { point: tip, damping });
-    b.load(Load::Spring { from: joint, to: 0, stiffness, free_length: length });
+    b.load(Load::Spring { from: joint, to: 0, stiffness, free_length, preload });
     b.gravity(9.81);
     let (torque, inverse_speed) = (b.number(100.0), b.number(1.0 / 300.0));
     b.finish(Motor::Line { torque, inverse_speed }, [10.0, 0.9, 0.9, 5.0, 30.0])

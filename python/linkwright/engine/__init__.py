@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
-from linkwright.elements import Rows
+from linkwright.engine.elements import Rows
+from linkwright.engine.settle import Settled
 from linkwright.errors import MachineError, Problem, ShapeError
 from linkwright.machine import (
     Body,
@@ -25,10 +26,13 @@ from linkwright.machine import (
     ConstantSpeedMotor,
     ConstantTorque,
     ConstantTorqueMotor,
+    Damper,
     DcMotor,
     Drive,
     DryFriction,
     ForcePosition,
+    FormulaLoad,
+    GasSpring,
     Gravity,
     InductionMotor,
     Machine,
@@ -36,16 +40,26 @@ from linkwright.machine import (
     TableMotor,
     TorqueAngle,
     TorqueSpeed,
+    TorsionalDamper,
+    TorsionalSpring,
     ViscousFriction,
     addresses,
+    formula,
 )
 from linkwright.machine.outline import KINDS
-from linkwright.settle import Settled
 
 Floats = NDArray[np.float64]
 
 # Crank speed from which steady motion is sought when nothing in the machine suggests one [rad/s].
 _SPEED_UNKNOWN = 10.0
+
+# Variables and instructions of formulas in the order of the core's modules `formula` and `plan`.
+_VARIABLES = ("phi", "omega", "t", "x", "y", "vx", "vy", "v", "s", "psi", "psi_dot")
+_INSTRUCTIONS = (
+    *("number", "zero", "name", "+", "-", "*", "/", "negative", "power", "pow"),
+    *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "sqrt", "tanh"),
+    *("abs", "sign", "step", "min", "max", "where"),
+)
 
 _ROW_WIDTH = 8
 
@@ -74,6 +88,8 @@ class Compiled:
         Ratio, and the factor on torque times ratio while the motor drives and while the load does.
     speed_tables : tuple
         Tables of resisting torque over crank speed.
+    has_laws : bool
+        Whether loads depend on both angle and speed in their own way, or on time.
     """
 
     plan: _core.Plan
@@ -87,6 +103,7 @@ class Compiled:
     speed_guess: float
     gear_factors: tuple[float, float, float]
     speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
+    has_laws: bool
 
     @property
     def n_rows(self) -> int:
@@ -120,6 +137,11 @@ class Compiled:
     def reductions(self, angles: Floats) -> Floats:
         """J, dJ/dφ, load torque, dry torque, viscous coefficient at crank angles, (5, n) in SI."""
         return _core.reductions(self.plan, self.one, angles)
+
+    def law_torques(self, angles: ArrayLike, speeds: ArrayLike) -> Floats:
+        """Resisting torque of the laws at crank angles and speeds, (speeds, angles) [N m]."""
+        phi, omega = (np.atleast_1d(np.asarray(x, dtype=np.float64)) for x in (angles, speeds))
+        return _core.law_torques(self.plan, self.one, np.ascontiguousarray(phi), omega)
 
     def motor_torques(self, speeds: ArrayLike) -> tuple[Floats, Floats]:
         """Torque at the motor's shaft and at the crank [N m] at crank speeds [rad/s]."""
@@ -228,7 +250,7 @@ _KNOWN_MAX = 8
 
 def _parts(machine: Machine) -> list[object]:
     """The frozen parts that a machine consists of, with their names."""
-    mechanism = machine.mechanism
+    mechanism = machine.linkage
     parts: list[object] = [machine, machine.drive, mechanism.assembled_at]
     tables = [getattr(mechanism, kind.table) for kind in KINDS]
     for table in (*tables, machine.bodies, machine.loads):
@@ -242,11 +264,13 @@ class _Translator(Rows):
     """Collects parameters and rows while it walks through a description."""
 
     def __init__(self, machine: Machine) -> None:
-        super().__init__(machine.mechanism)
+        super().__init__(machine.linkage)
         self.machine = machine
         self.body_rows: list[list[int]] = []
         self.load_rows: list[list[int]] = []
         self.drive_row: list[int] = []
+        self.formulas: list[int] = []
+        self.n_formulas = 0
 
     def table(self, x: Sequence[Any], y: Sequence[Any]) -> int:
         """Adds a table."""
@@ -273,7 +297,10 @@ class _Translator(Rows):
     def loads(self, *, brake: bool) -> None:
         """Forces and torques; a brake resists on the crankshaft."""
         for load in self.machine.loads.values():
-            self.load_rows.append(self._load(load))
+            if isinstance(load, FormulaLoad):
+                self.load_rows += self._formula_load(load)
+            else:
+                self.load_rows.append(self._load(load))
         drive = self.machine.drive
         if brake and drive and drive.brake:
             ratio = drive.gearbox.ratio if drive.brake.on == "motor" else 1.0
@@ -286,14 +313,21 @@ class _Translator(Rows):
             case ViscousFriction():
                 return self._against_motion(3, load.on, load.damping, load.damping_torsional)
             case ConstantForce():
-                return [6, self.points[load.on], *self._vector(load.force, load.direction)]
+                size = self._vector(load.force, load.direction)
+                if load.along is not None:
+                    return [14, self.points[load.on], self.links[load.along], *size]
+                return [6, self.points[load.on], *size]
             case ConstantTorque():
                 return [7, self.links[load.on], self.slot(load.torque)]
             case Gravity():
                 return [8, *self._vector(load.acceleration, load.direction)]
-            case Spring():
-                ends = [self.points[end] for end in load.between]
-                return [9, *ends, self.slot(load.stiffness), self.slot(load.free_length)]
+            case Spring() | Damper() | GasSpring():
+                return self._between(load, [self.points[end] for end in load.between])
+            case TorsionalSpring():
+                free = self._vector(1.0, load.free_angle)
+                return [17, *self._two_links(load), self.slot(load.stiffness), *free]
+            case TorsionalDamper():
+                return [18, *self._two_links(load), self.slot(load.damping_torsional)]
             case ForcePosition():
                 back = load.return_ or (0.0,) * len(load.position)
                 tables = [self.table(load.position, load.forward), self.table(load.position, back)]
@@ -311,6 +345,68 @@ class _Translator(Rows):
         if on in self.slides:
             return [kind, self.slides[on], self.slot(on_point)]
         return [kind + 1, self.points[on], self.slot(on_point)]
+
+    def _between(self, load: Any, ends: list[int]) -> list[int]:
+        """A load along the line between two points."""
+        match load:
+            case Spring(length=tuple() as length, force=tuple() as force):
+                return [16, *ends, self.table(length, force)]
+            case Spring():
+                rest = [self.slot(load.free_length), self.slot(load.preload)]
+                return [9, *ends, self.slot(load.stiffness), *rest]
+            case Damper(velocity=tuple() as velocity, force=tuple() as force):
+                return [20, *ends, self.table(velocity, force)]
+            case Damper():
+                return [15, *ends, self.slot(load.damping)]
+        numbers = (load.force_extended, load.length_extended, gas_column(load), load.exponent)
+        return [19, *ends, *(self.slot(value) for value in numbers)]
+
+    def _two_links(self, load: Any) -> list[int]:
+        """The link that a torsional load acts on, and the other one; −1 for the frame."""
+        return [self.links[load.on], -1 if load.against is None else self.links[load.against]]
+
+    def _formula_load(self, load: FormulaLoad) -> list[list[int]]:
+        """One row for each summand, so that each enters the motion in its own way."""
+        if load.torque is not None:
+            kind, carrier = 24, [self.links[load.on]]
+        elif load.along is not None:
+            direction = self._vector(1.0, load.direction or 0.0)
+            kind, carrier = 23, [self.points[load.on], self.links[load.along], *direction]
+        elif load.direction is not None:
+            kind, carrier = 22, [self.points[load.on], *self._vector(1.0, load.direction)]
+        else:
+            kind, carrier = 21, [self.slides[load.on], self.points[load.on]]
+        constants = {name: self.slot(value) for name, value in load.constants.items()}
+        return [
+            [kind, self._formula(term, constants), *carrier]
+            for term in formula.terms(formula.parse(load.text))
+        ]
+
+    def _formula(self, term: formula.Node, constants: dict[str, int]) -> int:
+        """Adds the instructions of a formula."""
+        code: list[int] = []
+        for op, operand in formula.program(term):
+            code += self._instruction(op, operand, constants)
+        self.formulas += [len(code) // 2, *code]
+        self.n_formulas += 1
+        return self.n_formulas - 1
+
+    def _instruction(self, op: str, operand: Any, constants: dict[str, int]) -> list[int]:
+        """One instruction as the core reads it."""
+        match op:
+            case "number" if operand == 0:
+                return [1, 0]
+            case "number":
+                return [0, self.slot(operand)]
+            case "name" if operand in constants:
+                return [0, constants[operand]]
+            case "name" if operand in formula.NUMBERS:
+                return [0, self.slot(formula.NUMBERS[operand])]
+            case "name":
+                return [2, _VARIABLES.index(operand)]
+            case "power":
+                return [8, operand]
+        return [_INSTRUCTIONS.index(op), 0]
 
     def _vector(self, size: Any, direction: Any) -> list[int]:
         return [self.slot(size * np.cos(direction)), self.slot(size * np.sin(direction))]
@@ -383,6 +479,7 @@ class _Translator(Rows):
             speed_guess=guess,
             gear_factors=(ratio, forward, reverse),
             speed_tables=tuple(self.tables[row[1]] for row in self.load_rows if row[0] == 12),
+            has_laws=settled.plan.has_laws,
         )
 
     def _plan(self) -> _core.Plan:
@@ -399,6 +496,7 @@ class _Translator(Rows):
             _ints(starts),
             np.array([value for x, _ in self.tables for value in x], dtype=np.float64),
             np.array([value for _, y in self.tables for value in y], dtype=np.float64),
+            _ints(self.formulas),
         )
 
 
@@ -414,6 +512,16 @@ def link_body(body: Body, length: Any) -> tuple[Any, Any, Any, Any]:
     along = 0.5 * length if body.along is None else body.along
     inertia = mass * length**2 / 12 if body.inertia is None else body.inertia
     return along, body.across, mass, inertia
+
+
+def gas_column(spring: GasSpring) -> Any:
+    """Length of the gas of a gas spring at its extended length [m]: volume over the area of the rod.
+
+    The law F = F₁ (h/(h − way))ⁿ goes through the push at the compressed length, F₁·progression.
+    """
+    way = spring.length_extended - spring.length_compressed
+    root = spring.progression ** (1.0 / spring.exponent)
+    return way * root / (root - 1.0)
 
 
 def reverse_factor(drive: Drive) -> Any:

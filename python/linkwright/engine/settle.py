@@ -7,7 +7,7 @@
 | change points of a dyad | the radicand's zeros, found exactly, and its series there |
 | start of a group | its motion, followed step by step over the turn |
 
-They are settled in build order, each with what stands before it. A machine without any of them passes untouched.
+They are settled in build order, each with what stands before it.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright import _core
-from linkwright.elements import Continuous, Foldable, Pending, Rows, Side, Solved
+from linkwright.engine.elements import Continuous, Foldable, Pending, Rows, Side, Solved
 from linkwright.errors import AssemblyError
 
 Floats = NDArray[np.float64]
@@ -58,8 +58,8 @@ class Settled:
         Raises
         ------
         AssemblyError
-            A group does not close where it is assembled, a link turns irregularly, or a redundant bar does not
-            fit.
+            A group does not close where it is assembled, a link turns irregularly, or a redundant bar does
+            not fit.
         """
         for each in self.rows.pending:
             self._settle(each)
@@ -128,10 +128,10 @@ class Settled:
                 "a gear, a rack or a cable on it has no unambiguous place beyond 356°",
                 element=each.name,
             )
-        # The middle is that of the swing, and the angle at the start is the one within half a turn of zero.
-        middle = 0.5 * (rest.min() + rest.max())
+        near = float(np.ravel(each.near)[0])
+        turns = np.round((near - psi[0]) / (2 * np.pi))
         self.parameters[each.winding] = winding
-        self.parameters[each.centre] = middle
+        self.parameters[each.centre] = 0.5 * (rest.min() + rest.max()) + 2 * np.pi * turns
 
     # -- change points -----------------------------------------------------------------------------------
 
@@ -188,8 +188,8 @@ class Settled:
             names = " and ".join(each.names)
             raise AssemblyError(
                 f"the joints {names} do not close near their given places at crank angle "
-                f"{np.degrees(self.assembled_at):.6g}°; give places from a drawing of that position, or change "
-                "the lengths",
+                f"{np.degrees(self.assembled_at):.6g}°; give places from a drawing of that position, or "
+                "change the lengths",
                 element=each.names[0],
                 crank_angle=self.assembled_at,
             )
@@ -221,8 +221,8 @@ class Settled:
         if off[worst] > _FITS * length:
             raise AssemblyError(
                 f"the redundant bar {name} ({length:g} m) does not fit: at crank angle "
-                f"{np.degrees(angles[worst]):.4g}° its ends are {off[worst]:.3g} m farther apart or nearer than "
-                "its length, so the mechanism is locked; correct the length or remove the bar",
+                f"{np.degrees(angles[worst]):.4g}° the distance of its ends differs by {off[worst]:.3g} m "
+                "from its length, so the mechanism is locked; correct the length or remove the bar",
                 element=name,
                 crank_angle=float(angles[worst]),
             )

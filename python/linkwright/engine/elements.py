@@ -50,6 +50,8 @@ class Continuous(NamedTuple):
     link: int
     winding: int
     centre: int
+    # The turn is the one in which the angle at the start is nearest to this.
+    near: Any = 0.0
 
 
 class Foldable(NamedTuple):
@@ -295,11 +297,14 @@ class Rows:
     def _angle(self, link: str) -> int:
         """The slide that holds the continuous angle of a link; made where it is first asked for."""
         name = _angle_name(link)
-        if name not in self.slides:
-            row = [10, self.links[link], self._slide(name), *self.slots(0.0, 0.0)]
-            self.pending.append(Continuous(link, row[1], row[-2], row[-1]))
-            self.rows.append(row)
-        return self.slides[name]
+        return self.slides[name] if name in self.slides else self._angle_near(link, name, 0.0)
+
+    def _angle_near(self, link: str, name: str, near: Any) -> int:
+        """A slide with the continuous angle of a link, in the turn in which it starts nearest to an angle."""
+        row = [10, self.links[link], self._slide(name), *self.slots(0.0, 0.0)]
+        self.pending.append(Continuous(link, row[1], row[-2], row[-1], near))
+        self.rows.append(row)
+        return row[2]
 
     def _gear(self, name: str, gear: Gear) -> None:
         """ψ = (1 − κ) ψ_carrier + κ ψ_other + phase, κ = −z_other/z where the sense is reversed."""
@@ -313,7 +318,7 @@ class Rows:
         self._turn(name, gear.phase, terms)
 
     def _rack(self, name: str, rack: Rack) -> None:
-        """s = start ± R (ψ − ψ_guide): what lies to the right of the gear goes ahead as it turns to the left."""
+        """s = start ± R (ψ − ψ_guide): right of a gear that turns to the left the rack goes ahead."""
         radius = rack.radius if rack.side == "right" else -rack.radius
         terms = [(self._angle(rack.gear), radius)]
         if rack.guide.on is not None:
@@ -321,11 +326,12 @@ class Rows:
         self._runner(name, self._guide(rack.guide), rack.start, terms)
 
     def _cable(self, name: str, cable: Cable) -> None:
-        """s = length ± R (reference − ψ): an arc to the left of the cable draws it in as it turns to the left."""
+        """s = length ± R (reference − ψ): an arc to the left draws the cable in as it turns to the left."""
         radius = cable.radius if cable.side == "left" else -cable.radius
         line = Placed(self.starts[cable.link], self.frame, cable.angle, radius)
         start = cable.length + radius * cable.reference
-        self._runner(name, line, start, [(self._angle(cable.link), -radius)])
+        angle = self._angle_near(cable.link, _angle_name(name), cable.reference)
+        self._runner(name, line, start, [(angle, -radius)])
 
     # -- joints and bars ---------------------------------------------------------------------------------
 
@@ -337,7 +343,7 @@ class Rows:
         self.rows.append([13, self._link(name), *ends, self.slot(1.0 / bar.length)])
 
     def _hidden_links(self, step: Step) -> int:
-        """How many links a dyad of bars needs beside the bars themselves: one for each that ends at its joint's start."""
+        """How many links a dyad of bars needs beside the bars: one for each that starts at the joint."""
         if step.kind != "dyad":
             return 0
         return sum(
@@ -348,14 +354,14 @@ class Rows:
         return self.mechanism.bars[bar].start == joint
 
     def _held(self, bar: str, joint: str) -> tuple[str, str, Any]:
-        """Link, far end and length of a bar that holds a joint; a link of its own where the bar runs the other way."""
+        """Link, far end and length of a bar that holds a joint; one that starts there has a hidden link."""
         found = self.mechanism.bars[bar]
         if self._is_reversed(bar, joint):
             return f"{bar} reversed", found.end, found.length
         return bar, found.start, found.length
 
     def _dyad_of_bars(self, step: Step) -> None:
-        """A joint held by two bars, or by a bar and a guide; its side is that of the place where it is given."""
+        """A joint held by two bars, or by a bar and a guide, on the side where it is given."""
         joint = step.names[0]
         held = [self._held(bar, joint) for bar in step.conditions if bar in self.mechanism.bars]
         if len(held) == 2:

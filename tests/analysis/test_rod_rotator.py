@@ -1,0 +1,252 @@
+"""The rotator: the engine against the closed forms of paper 4, change points, swing, forces, days."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.analysis.rod_rotator import RodRotatorMotion, rod_rotator
+from linkwright.errors import AssemblyError, InputError
+from linkwright.machine.rod_rotator import diagonal_extremes, lengths
+from linkwright.papers.paper4_formulas import LeverFormula, Unit
+
+CONTINUOUS = lw.read("machines/rod_rotator_continuous.toml")
+INTERMITTENT = lw.read("machines/rod_rotator_intermittent.toml")
+
+
+@pytest.fixture(scope="module")
+def turning() -> RodRotatorMotion:
+    return rod_rotator(CONTINUOUS, n=1440)
+
+
+@pytest.fixture(scope="module")
+def rocking() -> RodRotatorMotion:
+    return rod_rotator(INTERMITTENT, n=1440)
+
+
+def formula(machine: lw.Machine) -> LeverFormula:
+    """The same rotator in the letters of the paper; its φ_1 is the crank angle and 90°."""
+    unit, rotator = machine.pumping_unit, machine.rod_rotator
+    x, y = (-float(each) for each in unit.saddle)
+    letters = Unit(unit.R, unit.P, unit.C, unit.A, x, y, unit.cable, rotator.pin_distance)
+    return LeverFormula(letters, *map(float, lengths(unit, rotator)))
+
+
+def away_from(angles: np.ndarray, points: tuple[float, ...], reach: float) -> np.ndarray:
+    """Angles that keep away from change points."""
+    off = np.abs((angles[:, None] - np.array(points) + np.pi) % (2 * np.pi) - np.pi)
+    return off.min(axis=1) > reach
+
+
+def test_lever_turns_once_and_never_back(turning: RodRotatorMotion) -> None:
+    assert turning.lever_turns_per_cycle == 1
+    assert 0 < turning.transfer_min < turning.transfer_max
+    assert turning.transfer_min <= turning.lever_transfer.min()
+    assert np.diff(turning.lever_angle).min() > 0
+    assert turning.lever_angle[-1] - turning.lever_angle[0] == pytest.approx(2 * np.pi, abs=1e-9)
+    assert turning.extremes_coincide
+    assert len(turning.change_points) == 2
+    assert "turns all round" in turning.verdict
+
+
+def test_turning_by_the_closed_form(turning: RodRotatorMotion) -> None:
+    """(19) to (28), the side changing at the ends of the stroke.
+
+    By rounding of the arc cosine near ±1 the closed form errs by 1e-15 over the distance from a change point.
+    """
+    angle, rate = formula(CONTINUOUS).turning(turning.crank_angle + np.pi / 2)
+    far = away_from(turning.crank_angle, turning.change_points, 0.002)
+    offset = np.round((turning.lever_angle[0] - angle[0]) / (2 * np.pi)) * 2 * np.pi
+    np.testing.assert_allclose(turning.lever_angle[far], angle[far] + offset, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(turning.lever_transfer[far], rate[far], rtol=0, atol=1e-8)
+
+
+def test_limits_at_the_change_points() -> None:
+    """The rates at the change points themselves and around them, and a loop that closes there."""
+    found = formula(CONTINUOUS)
+    (top, _), (bottom, _) = found.unit.ends()
+    at_top, at_bottom = found.change_point_rates()
+    for crank, limit in ((top, at_top), (bottom, at_bottom)):
+        theta = crank - np.pi / 2
+        for off in (0.0, 1e-9, -1e-9, 1e-7, -1e-7, 1e-5, -1e-5, 1e-3, -1e-3):
+            angle = np.array([(theta + off) % (2 * np.pi)])
+            moved = lw.kinematics(CONTINUOUS, angle)
+            pin, hanger = moved.points["rotator_pin"].position[0], moved.points["polished_rod"].position[0]
+            link, lever = moved.links["rotator.coupler"], moved.links["rotator.rocker"]
+            ends = [
+                np.array([np.cos(each.angle[0]), np.sin(each.angle[0])]) * length
+                for each, length in ((link, found.l_4), (lever, found.l_5))
+            ]
+            assert np.hypot(*(pin + ends[0] - hanger - ends[1])) < 1e-12 * found.l_4
+            # The rate itself changes by about one in a radian.
+            assert lever.d1[0] == pytest.approx(limit, abs=2e-6 + 3 * abs(off))
+
+
+def test_loop_closes_all_round(turning: RodRotatorMotion, rocking: RodRotatorMotion) -> None:
+    assert turning.loop_residual < 1e-12
+    assert rocking.loop_residual < 1e-12
+
+
+def test_second_transfer_function_is_the_derivative_of_the_first(
+    turning: RodRotatorMotion, rocking: RodRotatorMotion
+) -> None:
+    for found in (turning, rocking):
+        step = found.crank_angle[1]
+        for rate, second in (
+            (found.lever_transfer, found.lever_transfer_d1),
+            (found.link_transfer, found.link_transfer_d1),
+        ):
+            slope = (rate[2:] - rate[:-2]) / (2 * step)
+            np.testing.assert_allclose(slope, second[1:-1], rtol=0, atol=2e-3)
+
+
+def test_rocking_by_the_closed_form(rocking: RodRotatorMotion) -> None:
+    angle, rate = formula(INTERMITTENT).rocking(rocking.crank_angle + np.pi / 2, -1.0)
+    offset = np.round((rocking.lever_angle[0] - angle[0]) / (2 * np.pi)) * 2 * np.pi
+    np.testing.assert_allclose(rocking.lever_angle, angle + offset, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rocking.lever_transfer, rate, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("assembly", ["left", "right"])
+@pytest.mark.parametrize("swing", [20, 60, 90, 120])
+def test_swing_comes_out_as_wanted(swing: float, assembly: str) -> None:
+    entries = {"rod_rotator.swing": np.radians(swing).item(), "rod_rotator.assembly": assembly}
+    found = rod_rotator(lw.replace(INTERMITTENT, entries))
+    assert np.degrees(found.lever_swing) == pytest.approx(swing, abs=1e-9)
+    assert found.transfer_min < 0 < found.transfer_max
+    assert found.lever_turns_per_cycle == 0
+    assert "rocks" in found.verdict
+    # The angle between lever and diagonal swings evenly about 90°.
+    l_4, l_5 = found.link_length, found.lever_length
+    ends = [(d**2 + l_5**2 - l_4**2) / (2 * d * l_5) for d in (found.diagonal_min, found.diagonal_max)]
+    assert sum(ends) == pytest.approx(0, abs=1e-12)
+
+
+def test_batch_over_swing_and_unit() -> None:
+    """Lengths are made for each row."""
+    swings, radii = np.radians([15.0, 60.0, 120.0]), np.array([1.0, 1.05, 1.1])
+    many = lw.replace(INTERMITTENT, {"rod_rotator.swing": swings, "pumping_unit.R": radii})
+    phi = np.linspace(0, 2 * np.pi, 91)
+    found = lw.kinematics(many, phi).links["rotator.rocker"].d1
+    for n, (swing, radius) in enumerate(zip(swings, radii, strict=True)):
+        one = lw.replace(INTERMITTENT, {"rod_rotator.swing": float(swing), "pumping_unit.R": float(radius)})
+        np.testing.assert_allclose(found[n], lw.kinematics(one, phi).links["rotator.rocker"].d1, atol=1e-11)
+        assert rod_rotator(one).lever_swing == pytest.approx(swing, abs=1e-10)
+
+
+def test_lengths_of_the_paper() -> None:
+    """The printed lengths of the continuous regime, 3.704 m and 0.3 m, to their last digit."""
+    link, lever = lengths(CONTINUOUS.pumping_unit, CONTINUOUS.rod_rotator)
+    assert link == pytest.approx(3.704, abs=5e-4)
+    assert lever == pytest.approx(0.3, abs=5e-4)
+    assert float(CONTINUOUS.pumping_unit.stroke) == pytest.approx(3.0, abs=5e-4)
+
+
+def test_extremes_of_the_diagonal_are_those_of_the_beam(turning: RodRotatorMotion) -> None:
+    m, M = diagonal_extremes(CONTINUOUS.pumping_unit, CONTINUOUS.rod_rotator)
+    assert turning.diagonal_min == pytest.approx(m, rel=1e-14)
+    assert turning.diagonal_max == pytest.approx(M, rel=1e-14)
+
+
+def test_printed_intermittent_lengths_do_not_close() -> None:
+    printed = lw.read(
+        "machines/rod_rotator_intermittent.toml",
+        {
+            "rod_rotator": {
+                "regime": "intermittent",
+                "pin_distance": 2.5,
+                "link_length": 3.5,
+                "lever_length": 0.3,
+            }
+        },
+    )
+    with pytest.raises(AssemblyError, match="rotator"):
+        rod_rotator(printed)
+
+
+def test_given_lengths_that_rock() -> None:
+    rotator = {"regime": "intermittent", "pin_distance": 2.5, "link_length": 3.7, "lever_length": 0.5}
+    machine = lw.read("machines/rod_rotator_intermittent.toml", {"rod_rotator": rotator})
+    found = rod_rotator(machine, n=1440)
+    angle, _ = formula(machine).rocking(found.crank_angle + np.pi / 2, -1.0)
+    assert found.lever_swing == pytest.approx(np.ptp(angle), rel=1e-5)
+    assert found.string_turn_days is None
+    assert found.link_force is None
+
+
+def test_days_of_a_turn(turning: RodRotatorMotion, rocking: RodRotatorMotion) -> None:
+    """Six strokes a minute, a worm of 40."""
+    strokes = 6 * 60 * 24
+    assert turning.string_turns_per_day == pytest.approx(strokes / 40)
+    assert rocking.string_turns_per_day == pytest.approx(strokes / 40 / 4, rel=1e-9)
+    for found in (turning, rocking):
+        # The same by integrating the string's speed over a cycle.
+        time = found.crank_angle / found.speed
+        turned = np.trapezoid(np.abs(found.string_speed), time) / (2 * np.pi)
+        assert turned * strokes == pytest.approx(found.string_turns_per_day, rel=1e-4)
+
+
+def test_clutch_slips_one_way() -> None:
+    for clutch, stroke in (("upstroke", 1), ("downstroke", -1)):
+        machine = lw.replace(INTERMITTENT, {"rod_rotator.clutch": clutch})
+        found = rod_rotator(machine, n=720)
+        factor = lw.pumping_unit(machine, n=720).torque_factor
+        moves = np.abs(factor) > 1e-3
+        assert (found.string_speed[moves & (np.sign(factor) == -stroke)] == 0).all()
+        assert (found.string_speed[moves & (np.sign(factor) == stroke)] != 0).all()
+
+
+def test_force_in_the_link_by_power(rocking: RodRotatorMotion) -> None:
+    """What the link gives the lever is what the worm takes: power of the link's force on the joint."""
+    speed = rocking.speed
+    moved = lw.kinematics(INTERMITTENT, rocking.crank_angle)
+    joint = (moved.points["rotator"].d1 - moved.points["polished_rod"].d1) * speed
+    pull = -np.stack((np.cos(rocking.link_angle), np.sin(rocking.link_angle)), axis=1)
+    given = rocking.link_force * (joint * pull).sum(axis=1)
+    taken = np.where(rocking.string_speed != 0, rocking.worm_torque * np.abs(rocking.lever_speed), 0)
+    np.testing.assert_allclose(given, taken, rtol=0, atol=1e-10)
+    assert rocking.worm_torque == pytest.approx(200 / (40 * 0.4))
+    assert rocking.link_force_max >= np.abs(rocking.link_force).max() * (1 - 1e-12)
+
+
+def test_no_arm_at_change_points(turning: RodRotatorMotion) -> None:
+    assert turning.link_force_max is None
+    assert any("in line twice" in each for each in lw.study(CONTINUOUS).warnings)
+
+
+def test_unit_that_turns_the_other_way() -> None:
+    """Clockwise, drawn with the well to the left: the mirror image, run through backwards."""
+    other = lw.replace(INTERMITTENT, {"pumping_unit.rotation": "clockwise", "rod_rotator.assembly": "right"})
+    here, there = rod_rotator(INTERMITTENT), rod_rotator(other)
+    assert there.link_length == pytest.approx(here.link_length, rel=1e-14)
+    mirrored = np.pi - here.lever_angle[::-1]
+    turns = np.round((there.lever_angle[0] - mirrored[0]) / (2 * np.pi)) * 2 * np.pi
+    np.testing.assert_allclose(there.lever_angle, mirrored + turns, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(there.lever_transfer, here.lever_transfer[::-1], rtol=0, atol=1e-12)
+
+
+def test_class_3_unit_with_a_rotator() -> None:
+    unit = {
+        "A": 5.2,
+        "C": 3.9,
+        "I": 3.2,
+        "P": 3.5,
+        "H": 4.4,
+        "G": 0.8,
+        "R": 0.9,
+        "geometry": "mark_ii",
+        "cable": 2.0,
+    }
+    for rotator, turns in (({"regime": "continuous"}, 1), ({"regime": "intermittent"}, 0)):
+        machine = lw.Machine(
+            format=1, name="x", pumping_unit=unit, rod_rotator={"pin_distance": 4.5, **rotator}
+        )
+        found = rod_rotator(machine)
+        assert found.lever_turns_per_cycle == turns
+        assert found.loop_residual < 1e-12
+
+
+def test_no_rotator() -> None:
+    with pytest.raises(InputError, match="rod_rotator"):
+        rod_rotator(lw.read("machines/roller_one_cart.toml"))
