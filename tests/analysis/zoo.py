@@ -310,37 +310,71 @@ J = { mass = 1 }
 gravity = { kind = "gravity" }
 load = { kind = "torque", on = "JD", torque = -2 }
 """,
-    "a group of four bars with a guide": """
-[mechanism]
-assembled_at = 0
+    "a triad of joints and bars": """
 [mechanism.points]
-D = { x = 0.6, y = 0.35 }
+D = { x = 0.5, y = -0.1 }
+E = { x = 0.8, y = -0.1 }
 [mechanism.cranks.A]
-radius = 0.02
+radius = 0.05
 [mechanism.joints]
-J = { x = 0.3, y = 0.1 }
-K = { x = 0.4, y = 0.3 }
-S = { x = 0.7, y = 0.0, guide = {} }
+J = { x = 0.35, y = 0.25 }
+K = { x = 0.5, y = 0.15 }
+L = { x = 0.82, y = 0.16 }
 [mechanism.bars]
-AJ = { start = "A", end = "J", length = 0.27 }
-JK = { start = "J", end = "K", length = 0.224 }
-KD = { start = "D", end = "K", length = 0.206 }
-KS = { start = "K", end = "S", length = 0.42 }
-JS = { start = "E", end = "S", length = 0.4 }
-[mechanism.rigid_points.E]
-link = "JK"
-along = 0.05
-across = -0.05
+AJ = { start = "A", end = "J", length = 0.391 }
+JK = { start = "J", end = "K", length = 0.18 }
+KL = { start = "K", end = "L", length = 0.32 }
+LJ = { start = "J", end = "L", length = 0.479 }
+DK = { start = "K", end = "D", length = 0.25 }
+EL = { start = "E", end = "L", length = 0.26 }
+[mechanism.rigid_points.M]
+link = "KL"
+along = 0.1
+across = 0.05
 [bodies]
 AJ = { mass = 1 }
 JK = { mass = 2 }
-KD = { mass = 1 }
-KS = { mass = 1 }
-JS = { mass = 1 }
-S = { mass = 2 }
+DK = { mass = 1 }
+KL = { mass = 1 }
+J = { mass = 1 }
+M = { mass = 2 }
 [loads]
 gravity = { kind = "gravity" }
-dry = { kind = "dry", on = "S", force = 20 }
+pull = { kind = "force", on = "M", force = 40, direction = "75 deg" }
+""",
+    "every other load": _CRANK
+    + """
+"R.coupler" = { mass = 1, inertia = 0.01, along = 0.1, across = 0.05 }
+"R.rocker" = { mass_per_length = 6 }
+S = { mass = 2 }
+[mechanism.points]
+D = { x = 0.4, y = 0.05 }
+F = { x = 0.2, y = 0.5 }
+[mechanism.rockers.R]
+crank = "A"
+pivot = "D"
+coupler = 0.35
+rocker = 0.25
+[mechanism.rigid_points.K]
+link = "R.coupler"
+along = 0.2
+across = 0.1
+[mechanism.sliders.S]
+crank = "R"
+rod = 0.6
+[loads]
+follows = { kind = "force", on = "K", force = 40, direction = "75 deg", along = "R.coupler" }
+preloaded = { kind = "spring", between = ["F", "K"], stiffness = 300, free_length = 0.2, preload = 20 }
+curve = { kind = "spring", between = ["A", "D"], length = [0.2, 0.4, 0.6], force = [-3, 5, 9] }
+damper = { kind = "damper", between = ["A", "S"], damping = 30 }
+valve = { kind = "damper", between = ["F", "K"], velocity = [-1, 0, 1], force = [-30, 0, 10] }
+gas = { kind = "gas_spring", between = ["F", "R"], force_extended = 100, length_extended = 0.8, length_compressed = 0.2, progression = 1.5 }
+twist = { kind = "torsional_spring", on = "R.rocker", against = "R.coupler", stiffness = 4, free_angle = 0.5 }
+oil = { kind = "torsional_damper", on = "R.rocker", against = "A", damping_torsional = 0.4 }
+press = { kind = "formula", on = "S", force = "-120*max(0, sin(phi))^2 - k*max(0, s - s0) - 3*v - 2*v*abs(v)", constants = { k = 20, s0 = 0.5 } }
+wind = { kind = "formula", on = "K", direction = 0.4, force = "-3*(vx - 1)*where(y < 0.2, 1, 2) + x/2 + step(v)" }
+jet = { kind = "formula", on = "K", along = "R.coupler", force = "5*cos(psi) - psi_dot" }
+fan = { kind = "formula", on = "A", torque = "-0.12*omega^2 - min(psi, 1, 2)*pow(2, 0.5) + atan2(1, 2)" }
 """,
 }
 

@@ -249,8 +249,12 @@ def forces(
     .. [1] Norton, Design of Machinery, sections 11.1 to 11.8.
     """
     if not 0 <= pressure_angle < np.pi / 2:
-        raise InputError(f"pressure_angle: found {pressure_angle:g} rad, expected 0 or more and less than π/2")
-    scene = Scene(machine, motion_at(machine, motion, speed=speed, acceleration=acceleration, angles=angles, n=n))
+        raise InputError(
+            f"pressure_angle: found {pressure_angle:g} rad, expected 0 or more and less than π/2"
+        )
+    scene = Scene(
+        machine, motion_at(machine, motion, speed=speed, acceleration=acceleration, angles=angles, n=n)
+    )
     models = pair_models(scene, checked(friction or {}, scene.structure.pairs), pressure_angle)
     sources = _sources(scene, models)
     loads = np.stack([each.wrenches.values for each in sources.values()], axis=-1)
@@ -329,12 +333,18 @@ class _Collector:
     def _pairs(self, total: Floats) -> list[PairForce]:
         found = []
         for model, span in zip(self.models, self.spans, strict=True):
-            pair = self.scene.structure.pairs.get(model.name) if model.kind not in ("torque", "force") else None
+            pair = (
+                self.scene.structure.pairs.get(model.name) if model.kind not in ("torque", "force") else None
+            )
             if pair is None:
                 continue
             passed = self._passed(model, span, total)
             teeth = model.kind in ("mesh", "rack")
-            extra = np.zeros(self.scene.n) if model.extra is None or teeth else self._dry(span, total) + model.viscous
+            extra = (
+                np.zeros(self.scene.n)
+                if model.extra is None or teeth
+                else self._dry(span, total) + model.viscous
+            )
             if model.extra is not None:
                 passed.values += model.viscous[:, None, None] * model.extra.values
             at = passed.on_member(pair.second)
@@ -343,7 +353,9 @@ class _Collector:
             normal = total[:, span.start]
             if model.kind == "pin":
                 normal = np.hypot(at[:, 0], at[:, 1])
-            found.append(PairForce(pair.name, pair.kind, pair.first, pair.second, at[:, :2], moment, extra, normal))
+            found.append(
+                PairForce(pair.name, pair.kind, pair.first, pair.second, at[:, :2], moment, extra, normal)
+            )
         return found
 
     def _contribution(self, k: int, source: Applied) -> Contribution:

@@ -195,7 +195,10 @@ class _Builder:
         yield from ((name, point.link) for name, point in m.rigid_points.items())
         for name, joint in m.joints.items():
             holding = (bar for bar, each in m.bars.items() if name in (each.start, each.end))
-            yield name, name if joint.guide is not None else next(b for b in holding if not m.bars[b].redundant)
+            yield (
+                name,
+                name if joint.guide is not None else next(b for b in holding if not m.bars[b].redundant),
+            )
 
     def _link(self, name: str, point: str) -> None:
         self.members[name] = Member(name, point, name)

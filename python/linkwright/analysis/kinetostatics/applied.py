@@ -13,20 +13,29 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.kinetostatics.formula_load import formula_wrenches
 from linkwright.analysis.kinetostatics.inertia import masses
-from linkwright.analysis.kinetostatics.scene import Scene, dot
+from linkwright.analysis.kinetostatics.scene import Scene, dot, unit
 from linkwright.analysis.kinetostatics.wrench import Wrenches
+from linkwright.engine import gas_column
+from linkwright.errors import FindingError
 from linkwright.machine import (
     ConstantForce,
     ConstantTorque,
+    Damper,
     DryFriction,
     ForcePosition,
+    FormulaLoad,
+    GasSpring,
     Gravity,
     Spring,
     TorqueAngle,
     TorqueSpeed,
+    TorsionalDamper,
+    TorsionalSpring,
     ViscousFriction,
 )
+from linkwright.machine.structure import FRAME
 
 Floats = NDArray[np.float64]
 
@@ -76,19 +85,17 @@ def applied(scene: Scene, load: Any) -> Applied:
         ConstantTorque: _torque,
         Gravity: _weight,
         Spring: _spring,
+        Damper: _damper,
+        GasSpring: _gas,
+        TorsionalSpring: _torsional_spring,
+        TorsionalDamper: _torsional_damper,
         ForcePosition: _over_position,
+        FormulaLoad: formula_wrenches,
     }
     kind = type(load)
     if kind in on_crankshaft:
         return Applied(Wrenches(scene), on_crankshaft[kind](scene, load))
     return Applied(on_members[kind](scene, load), np.zeros(scene.n))
-
-
-def slide_force(scene: Scene, on: str, force: Floats) -> Wrenches:
-    """A force (n,) along a slide on what slides, and its opposite on the guide."""
-    pair = scene.structure.pairs[f"{on}.guide"]
-    assert pair.guide is not None
-    return Wrenches(scene).on_guide(pair, force[:, None] * scene.direction(pair.guide), np.zeros(scene.n))
 
 
 def _sense(rate: Floats, size: float, scene: Scene) -> Floats:
@@ -103,11 +110,11 @@ def _dry(scene: Scene, load: DryFriction) -> Wrenches:
     assert load.force is not None
     if load.on in scene.kinematics.slides:
         rate = scene.kinematics.slides[load.on].d1
-        return slide_force(scene, load.on, -load.force * _sense(rate, scene.size, scene))
+        return Wrenches(scene).along_slide(load.on, -load.force * _sense(rate, scene.size, scene))
     path = scene.point(load.on, 1)
     speed = np.hypot(path[:, 0], path[:, 1])
     sense = _sense(speed, scene.size, scene) / np.where(speed > 0, speed, 1.0)
-    return _on_point(scene, load.on, -load.force * sense[:, None] * path)
+    return Wrenches(scene).at_point(load.on, -load.force * sense[:, None] * path)
 
 
 def _viscous(scene: Scene, load: ViscousFriction) -> Wrenches:
@@ -116,18 +123,12 @@ def _viscous(scene: Scene, load: ViscousFriction) -> Wrenches:
         return Wrenches(scene).couple(load.on, -load.damping_torsional * scene.angle(load.on, 1) * speed)
     assert load.damping is not None
     if load.on in scene.kinematics.slides:
-        return slide_force(scene, load.on, -load.damping * scene.kinematics.slides[load.on].d1 * speed)
-    return _on_point(scene, load.on, -load.damping * scene.point(load.on, 1) * speed[:, None])
-
-
-def _on_point(scene: Scene, point: str, force: Floats) -> Wrenches:
-    """A force (n, 2) on what carries a point."""
-    return Wrenches(scene).force(scene.carrier(point), force, scene.point(point))
+        return Wrenches(scene).along_slide(load.on, -load.damping * scene.kinematics.slides[load.on].d1 * speed)
+    return Wrenches(scene).at_point(load.on, -load.damping * scene.point(load.on, 1) * speed[:, None])
 
 
 def _force(scene: Scene, load: ConstantForce) -> Wrenches:
-    vector = load.force * np.array([np.cos(load.direction), np.sin(load.direction)])
-    return _on_point(scene, load.on, np.broadcast_to(vector, (scene.n, 2)))
+    return Wrenches(scene).at_point(load.on, load.force * unit(scene.angle(load.along) + load.direction))
 
 
 def _torque(scene: Scene, load: ConstantTorque) -> Wrenches:
@@ -155,9 +156,51 @@ def along_line(scene: Scene, between: tuple[str, str], pull: Callable[[Floats, F
 
 
 def _spring(scene: Scene, load: Spring) -> Wrenches:
-    return along_line(
-        scene, load.between, lambda length, _: load.stiffness * (length - load.free_length)
-    )
+    if load.length is not None and load.force is not None:
+        x, y = load.length, load.force
+        return along_line(scene, load.between, lambda length, _: np.interp(length, x, y))
+    k, free = load.stiffness or 0.0, load.free_length or 0.0
+    return along_line(scene, load.between, lambda length, _: load.preload + k * (length - free))
+
+
+def _damper(scene: Scene, load: Damper) -> Wrenches:
+    if load.velocity is not None and load.force is not None:
+        x, y = load.velocity, load.force
+        return along_line(scene, load.between, lambda _, parting: np.interp(parting, x, y))
+    return along_line(scene, load.between, lambda _, parting: (load.damping or 0.0) * parting)
+
+
+def _gas(scene: Scene, load: GasSpring) -> Wrenches:
+    """p Vⁿ is kept: F = −F₁ (h/(h − way))ⁿ (docs/loads.md)."""
+    h = gas_column(load)
+
+    def pull(length: Floats, _: Floats) -> Floats:
+        rest = h - (load.length_extended - length)
+        if (rest <= 0).any():
+            at = float(np.degrees(scene.motion.crank_angle[int(rest.argmin())]))
+            raise FindingError(
+                f"the gas spring between {' and '.join(load.between)} is pressed in by all of its gas at crank "
+                f"angle {at:.4g}°; make length_compressed smaller or place it elsewhere"
+            )
+        found: Floats = -load.force_extended * (h / rest) ** load.exponent
+        return found
+
+    return along_line(scene, load.between, pull)
+
+
+def _against(scene: Scene, load: TorsionalSpring | TorsionalDamper, torque: Floats) -> Wrenches:
+    """A torque on a link, and the opposite one on what it holds on to."""
+    return Wrenches(scene).couple(load.on, torque).couple(load.against or FRAME, -torque)
+
+
+def _torsional_spring(scene: Scene, load: TorsionalSpring) -> Wrenches:
+    turned = scene.angle(load.on) - scene.angle(load.against) - load.free_angle
+    return _against(scene, load, -load.stiffness * np.arctan2(np.sin(turned), np.cos(turned)))
+
+
+def _torsional_damper(scene: Scene, load: TorsionalDamper) -> Wrenches:
+    rate = (scene.angle(load.on, 1) - scene.angle(load.against, 1)) * scene.motion.speed
+    return _against(scene, load, -load.damping_torsional * rate)
 
 
 def _over_position(scene: Scene, load: ForcePosition) -> Wrenches:
@@ -165,7 +208,7 @@ def _over_position(scene: Scene, load: ForcePosition) -> Wrenches:
     sense = _sense(slide.d1, scene.size, scene)
     ahead = np.interp(slide.position, load.position, load.forward)
     behind = np.interp(slide.position, load.position, load.return_) if load.return_ else 0.0 * ahead
-    return slide_force(scene, load.on, np.where(sense > 0, -ahead, np.where(sense < 0, behind, 0.0)))
+    return Wrenches(scene).along_slide(load.on, np.where(sense > 0, -ahead, np.where(sense < 0, behind, 0.0)))
 
 
 def _over_angle(scene: Scene, load: TorqueAngle) -> Floats:

@@ -65,7 +65,9 @@ def _problem(name: str, each: Friction, pairs: Mapping[str, Pair]) -> Problem | 
     able = [key for key, pair in pairs.items() if pair.kind in ("pin", "guide", "slot")]
     key = f"friction.{name}"
     if name not in able:
-        return Problem(key, name, f"the name of a pin, guide or slot: {', '.join(able)}", suggestion(name, able))
+        return Problem(
+            key, name, f"the name of a pin, guide or slot: {', '.join(able)}", suggestion(name, able)
+        )
     for entry in ("coefficient", "radius", "viscous", "length"):
         value = getattr(each, entry)
         if not math.isfinite(value) or value < 0:

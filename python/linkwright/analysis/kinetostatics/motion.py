@@ -102,6 +102,8 @@ def _at_speed(speed: float, acceleration: float, angles: ArrayLike) -> Motion:
     """The same speed and acceleration at every angle."""
     phi = np.atleast_1d(np.asarray(angles, dtype=np.float64))
     if phi.ndim != 1 or not np.isfinite(phi).all() or not np.isfinite([speed, acceleration]).all():
-        raise ShapeError(f"a list of finite crank angles, a speed and an acceleration are needed, found {angles!r}")
+        raise ShapeError(
+            f"a list of finite crank angles, a speed and an acceleration are needed, found {angles!r}"
+        )
     time = phi / speed if speed else phi
     return Motion(phi, np.full_like(phi, speed), np.full_like(phi, acceleration), time)

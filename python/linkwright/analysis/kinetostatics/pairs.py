@@ -156,9 +156,7 @@ def _pin(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
     one = np.ones(scene.n)
     extra = Wrenches(scene).couple(pair.second, one).couple(pair.first, -one)
     rate, sense = _moving(scene, pair, scene.turning(pair.second) - scene.turning(pair.first), 1.0, friction)
-    return PairModel(
-        pair.name, "pin", pair.second, unknowns, (False, False), extra, rate, sense, friction
-    )
+    return PairModel(pair.name, "pin", pair.second, unknowns, (False, False), extra, rate, sense, friction)
 
 
 def _guide(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
@@ -264,12 +262,12 @@ def _is_rolling(scene: Scene, pair: Pair, place: Floats, along: Floats) -> bool:
     apart = scene.moved(pair.second, place) - scene.moved(pair.first, place)
     slip = np.abs(dot(apart, along)) / np.maximum(np.hypot(along[:, 0], along[:, 1]), _ROLLS * scene.size)
     arm = place - scene.point(pair.point)
-    return bool(slip.max() < _ROLLS * scene.size and np.hypot(arm[:, 0], arm[:, 1]).min() > _ROLLS * scene.size)
+    return bool(
+        slip.max() < _ROLLS * scene.size and np.hypot(arm[:, 0], arm[:, 1]).min() > _ROLLS * scene.size
+    )
 
 
-def _teeth(
-    scene: Scene, pair: Pair, pitch: Floats, along: Floats, apart: Floats, spread: float
-) -> PairModel:
+def _teeth(scene: Scene, pair: Pair, pitch: Floats, along: Floats, apart: Floats, spread: float) -> PairModel:
     """Teeth that press along their path, and apart from each other."""
     press = Wrenches(scene).between(pair.first, pair.second, along, pitch)
     found = _without_friction(scene, pair.name, pair.kind, pair.second, press)

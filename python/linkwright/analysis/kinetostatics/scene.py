@@ -26,10 +26,10 @@ class Scene:
 
     def __init__(self, machine: Machine, motion: Motion) -> None:
         self.machine = machine
-        self.mechanism = machine.mechanism
+        self.mechanism = machine.linkage
         self.motion = motion
-        self.structure = structure(machine.mechanism)
-        self.links = machine.mechanism.links()
+        self.structure = structure(self.mechanism)
+        self.links = self.mechanism.links()
         self.kinematics = kinematics(machine, motion.crank_angle)
         self.n = len(motion.crank_angle)
         self.index = {name: i for i, name in enumerate((*self.structure.members, FRAME))}

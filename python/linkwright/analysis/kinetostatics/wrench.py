@@ -62,6 +62,17 @@ class Wrenches:
         turner = turns_guide(pair.guide, self.scene)
         return self.couple(turner, -moment - cross(place - foot, force))
 
+    def along_slide(self, on: str, force: Floats) -> Wrenches:
+        """Add a force (n,) along a slide on what slides, and its opposite on the guide."""
+        pair = self.scene.structure.pairs[f"{on}.guide"]
+        assert pair.guide is not None
+        t = self.scene.direction(pair.guide)
+        return self.on_guide(pair, force[:, None] * t, np.zeros(self.scene.n))
+
+    def at_point(self, point: str, force: Floats) -> Wrenches:
+        """Add a force (n, 2) on what carries a point."""
+        return self.force(self.scene.carrier(point), force, self.scene.point(point))
+
     def on_member(self, member: str) -> Floats:
         """Force and moment on one member, (n, 3)."""
         found: Floats = self.values[:, self.scene.index[member]]
