@@ -216,16 +216,15 @@ def _mesh(scene: Scene, pair: Pair, spread: float) -> PairModel:
     """Teeth at the pitch point, or a relation of torques."""
     gear = scene.mechanism.gears[pair.element]
     ratio = _ratio(gear)
-    if gear.kind in ("external", "internal"):
+    if gear.kind in ("external", "internal") and ratio != 1.0:
         centre = scene.point(gear.pivot)
         arm = _other_centre(scene, gear) - centre
-        # The pitch point divides the line of centres in the ratio of the sizes: ψ′ of both about the carrier
-        # gives it the same velocity.
-        share = ratio / (ratio - 1.0) if ratio != 1.0 else 0.0
-        pitch = centre + share * arm
+        # The pitch point divides the line of centres in the ratio of the sizes: there both gears, seen from the
+        # carrier, have the same velocity.
+        pitch = centre + arm / (1.0 - ratio)
         if _is_rolling(scene, pair, pitch, left(arm)):
-            length = np.hypot(arm[:, 0], arm[:, 1])[:, None]
-            return _teeth(scene, pair, pitch, left(arm) / length, -np.sign(share) * arm / length, spread)
+            e = arm / np.hypot(arm[:, 0], arm[:, 1])[:, None]
+            return _teeth(scene, pair, pitch, left(e), -e if gear.kind == "external" else e, spread)
     carrier = FRAME if gear.carrier is None else gear.carrier
     one = np.ones(scene.n)
     torque = Wrenches(scene).couple(pair.second, one).couple(pair.first, -ratio * one)

@@ -58,7 +58,7 @@ class Wrenches:
         self.force(pair.second, force, place).couple(pair.second, moment)
         through = self.scene.structure.guide_point(pair.guide, self.scene.mechanism)
         foot = self.scene.point(through)
-        self.force(self.scene.carrier(through), -force, foot)
+        self.force(_holds_guide(pair.guide, through, self.scene), -force, foot)
         turner = turns_guide(pair.guide, self.scene)
         return self.couple(turner, -moment - cross(place - foot, force))
 
@@ -86,6 +86,13 @@ class Wrenches:
                 total += (self.values[:, i, :2] * self.scene.reference(name, 1)).sum(axis=-1)
                 total += self.values[:, i, 2] * self.scene.turning(name)
         return total
+
+
+def _holds_guide(guide: Guide, through: str, scene: Scene) -> str:
+    """The member that takes the force on a guide: its link, if the point that it passes through is on that."""
+    if guide.on is not None and through in (scene.links[guide.on].start, scene.links[guide.on].end):
+        return guide.on
+    return scene.carrier(through)
 
 
 def turns_guide(guide: Guide, scene: Scene) -> str:
