@@ -205,7 +205,7 @@ def rod_angle(phi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def test_slider_crank_without_mass_in_the_rod() -> None:
-    """Force of the rod F/cos β, of the guide F tan β, torque F r sin(φ + β)/cos β (Norton, section 13.9)."""
+    """Force of the rod F/cos β, of the guide F tan β, torque F r sin(φ + β)/cos β (Norton, chapter 13, pin forces)."""
     result = forces(lw.loads(SIMPLE), speed=20.0)
     beta, a = rod_angle(result.crank_angle)
     F = 4 * a + 200

@@ -246,7 +246,7 @@ def forces(
 
     References
     ----------
-    .. [1] Norton, Design of Machinery, sections 11.1 to 11.8.
+    .. [1] Norton, Design of Machinery, chapter 11.
     """
     if not 0 <= pressure_angle < np.pi / 2:
         raise InputError(

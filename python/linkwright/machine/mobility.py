@@ -4,7 +4,7 @@
 
 with n moving links, p₁ pairs of one freedom (pins and guides) and p₂ pairs of two (slots, teeth, cables): the
 formula of Chebyshev and Grübler (Artobolevsky, *Theory of Mechanisms and Machines*, structure of plane
-mechanisms; Norton, *Design of Machinery*, section 2.5).
+mechanisms; Norton, *Design of Machinery*, chapter 2).
 """
 
 from __future__ import annotations

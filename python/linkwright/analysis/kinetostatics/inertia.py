@@ -1,6 +1,6 @@
 r"""The forces of accelerated masses, by d'Alembert: :math:`-m\,\ddot p_S` at the centre and :math:`-J_S\,\ddot\psi`.
 
-Source: Wittenbauer, *Graphische Dynamik*; Norton, *Design of Machinery*, section 11.1.
+Source: Wittenbauer, *Graphische Dynamik*; Norton, *Design of Machinery*, chapter 11.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@
 | cable | tension | – |
 | drive | torque on a crank, force on a block | – |
 
-Teeth press at the pitch point, along the line of action (DIN 3960; Norton, *Design of Machinery*, section 9.2).
+Teeth press at the pitch point, along the line of action (DIN 3960; Norton, *Design of Machinery*, chapter 9).
 A belt, and teeth whose pitch point is not where centres and ratio put it, pass on torques in the relation of their
 speeds, and the carrier takes what is left over.
 """
