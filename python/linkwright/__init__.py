@@ -35,6 +35,14 @@ _HOME = {
     "run_up": "analysis.run_up",
     "run_down": "analysis.run_down",
     "step_method": "analysis.step_method",
+    "forces": "analysis.forces",
+    "Friction": "analysis.forces",
+    "envelope": "analysis.envelope",
+    "load_cases": "analysis.envelope",
+    "balance": "analysis.balancing",
+    "partial_balance": "analysis.balancing",
+    "harmonics": "analysis.harmonics",
+    "mobility": "machine.mobility",
     "pumping_unit": "analysis.pumping_unit",
     "rod_rotator": "analysis.rod_rotator",
     "study": "analysis.study",
@@ -70,8 +78,15 @@ def __dir__() -> list[str]:
 
 
 if TYPE_CHECKING:
+    from linkwright.analysis.balancing import balance as balance
+    from linkwright.analysis.balancing import partial_balance as partial_balance
     from linkwright.analysis.closure import closure as closure
     from linkwright.analysis.constant_energy import constant_energy as constant_energy
+    from linkwright.analysis.envelope import envelope as envelope
+    from linkwright.analysis.envelope import load_cases as load_cases
+    from linkwright.analysis.forces import Friction as Friction
+    from linkwright.analysis.forces import forces as forces
+    from linkwright.analysis.harmonics import harmonics as harmonics
     from linkwright.analysis.kinematics import kinematics as kinematics
     from linkwright.analysis.kinematics import motions as motions
     from linkwright.analysis.pumping_unit import pumping_unit as pumping_unit
@@ -92,6 +107,7 @@ if TYPE_CHECKING:
     from linkwright.machine import motors as motors
     from linkwright.machine import pumping_units as pumping_units
     from linkwright.machine import replace as replace
+    from linkwright.machine.mobility import mobility as mobility
     from linkwright.report import write_report as write_report
     from linkwright.sizing.flywheel import choose_flywheel as choose_flywheel
     from linkwright.sizing.motor import choose_motor as choose_motor

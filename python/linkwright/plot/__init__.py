@@ -7,6 +7,7 @@
 | `motor` | the motor's characteristic, and the part of it that steady motion uses |
 | `run_up` | speed from the start to steady motion |
 | `pumping_unit` | polished rod, torque of the gearbox, lever of a rotator |
+| `forces` | driving torque, reactions, hodographs, load cases |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -15,6 +16,7 @@ matplotlib is imported when the first figure is drawn.
 """
 
 from linkwright.plot.compare import compare_figure
+from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
 from linkwright.plot.motor import motor_figure
 from linkwright.plot.pumping_unit import gear_torque_figure, polished_rod_figure, rotator_figure
 from linkwright.plot.reduction import reduction_figure
@@ -24,9 +26,13 @@ from linkwright.plot.svg import svg
 
 __all__ = [
     "attempt_figure",
+    "cases_figure",
     "compare_figure",
+    "forces_figure",
+    "hodograph_figure",
     "gear_torque_figure",
     "motor_figure",
+    "polar_figure",
     "polished_rod_figure",
     "reduction_figure",
     "rotator_figure",

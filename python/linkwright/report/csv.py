@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from linkwright.analysis.forces import Forces
 from linkwright.analysis.result import Result
 from linkwright.report.quantities import SHOWN
 
@@ -31,3 +32,28 @@ def head(name: str) -> str:
     """Head of a column: the attribute's name with its unit."""
     unit = SHOWN[name].unit if name in SHOWN else ""
     return f"{name} [{unit or '-'}]"
+
+
+def forces_csv(forces: Forces) -> str:
+    """Forces over the crank angle as CSV.
+
+    Parameters
+    ----------
+    forces : Forces
+        The forces.
+
+    Returns
+    -------
+    str
+        The motion, torques and powers, then the two components of each pair's force and its moment, and the force
+        on each driver; empty cells where there is no value.
+    """
+    columns = {head(name): curve for name, curve in forces.curves().items()}
+    columns |= {f"shaking_force_{axis} [N]": forces.shaking_force[:, k] for k, axis in enumerate("xy")}
+    for name, pair in forces.pairs.items():
+        columns |= {f"{name}_{axis} [N]": pair.force[:, k] for k, axis in enumerate("xy")}
+        columns[f"{name}_moment [N m]"] = pair.moment
+    columns |= {f"{name}_drive [N m or N]": values for name, values in forces.drives.items()}
+    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+    lines = [",".join("" if value != value else repr(value) for value in row) for row in rows]
+    return "\n".join([",".join(columns), *lines]) + "\n"
