@@ -36,11 +36,11 @@ _HOME = {
     "run_down": "analysis.run_down",
     "step_method": "analysis.step_method",
     "forces": "analysis.forces",
-    "Friction": "analysis.forces",
+    "Friction": "analysis.kinetostatics.friction",
     "envelope": "analysis.envelope",
     "load_cases": "analysis.envelope",
     "balance": "analysis.balancing",
-    "partial_balance": "analysis.balancing",
+    "partial_balance": "analysis.counterweight_formulas",
     "harmonics": "analysis.harmonics",
     "mobility": "machine.mobility",
     "pumping_unit": "analysis.pumping_unit",
@@ -79,16 +79,16 @@ def __dir__() -> list[str]:
 
 if TYPE_CHECKING:
     from linkwright.analysis.balancing import balance as balance
-    from linkwright.analysis.balancing import partial_balance as partial_balance
     from linkwright.analysis.closure import closure as closure
     from linkwright.analysis.constant_energy import constant_energy as constant_energy
+    from linkwright.analysis.counterweight_formulas import partial_balance as partial_balance
     from linkwright.analysis.envelope import envelope as envelope
     from linkwright.analysis.envelope import load_cases as load_cases
-    from linkwright.analysis.forces import Friction as Friction
     from linkwright.analysis.forces import forces as forces
     from linkwright.analysis.harmonics import harmonics as harmonics
     from linkwright.analysis.kinematics import kinematics as kinematics
     from linkwright.analysis.kinematics import motions as motions
+    from linkwright.analysis.kinetostatics.friction import Friction as Friction
     from linkwright.analysis.pumping_unit import pumping_unit as pumping_unit
     from linkwright.analysis.reduction import reduction as reduction
     from linkwright.analysis.rod_rotator import rod_rotator as rod_rotator

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from zoo import animal
 
 import linkwright as lw
-from linkwright.analysis.balancing import balance, four_bar_moments, partial_balance
+from linkwright.analysis.balancing import balance
+from linkwright.analysis.counterweight_formulas import four_bar_moments, partial_balance
 from linkwright.analysis.envelope import envelope, load_cases
 from linkwright.analysis.forces import forces
 from linkwright.analysis.harmonics import harmonics
 from linkwright.errors import InputError, MachineError, ShapeError
-from zoo import animal
 
 FOUR_BAR = "four-bar with coupler point"
 

@@ -1,20 +1,22 @@
-"""Forces in pairs: laws for every element and load, closed forms, and a solution by Lagrange's multipliers."""
+"""Forces in pairs: laws for every element and load, closed forms, and Lagrange's multipliers."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+from zoo import ZOO, animal
 
 import linkwright as lw
-from linkwright.analysis.forces import Forces, Friction, forces
+from linkwright.analysis.forces import forces
+from linkwright.analysis.kinetostatics.friction import Friction
 from linkwright.analysis.kinetostatics.inertia import masses
 from linkwright.analysis.kinetostatics.motion import motion_at
+from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.kinetostatics.scene import Scene
 from linkwright.engine import compile_machine
 from linkwright.errors import FindingError, InputError, MachineError
 from linkwright.machine.mobility import mobility
 from linkwright.machine.structure import FRAME, structure
-from zoo import ZOO, animal
 
 SPEED, ACCELERATION = 3.0, 1.5
 
@@ -103,7 +105,9 @@ def test_every_member_is_in_equilibrium(found: tuple[lw.Machine, Forces]) -> Non
     external = _external(machine, scene)
     for name in total:
         np.testing.assert_allclose(
-            total[name] + external[name], 0, atol=1e-9 * max(map(size, [result.shaking_force, *_forces(result)]))
+            total[name] + external[name],
+            0,
+            atol=1e-9 * max(map(size, [result.shaking_force, *_forces(result)])),
         )
 
 
@@ -145,9 +149,13 @@ def test_force_on_the_frame_is_the_change_of_momentum(found: tuple[lw.Machine, F
         a = mass.acceleration(scene)
         turning = scene.turning(mass.member, 2) * SPEED**2 + scene.turning(mass.member) * ACCELERATION
         outside -= mass.mass * a
-        moment -= mass.mass * (mass.centre[:, 0] * a[:, 1] - mass.centre[:, 1] * a[:, 0]) + mass.inertia * turning
+        moment -= (
+            mass.mass * (mass.centre[:, 0] * a[:, 1] - mass.centre[:, 1] * a[:, 0]) + mass.inertia * turning
+        )
     np.testing.assert_allclose(result.shaking_force, outside, rtol=0, atol=1e-9 * size(outside))
-    np.testing.assert_allclose(result.shaking_moment, moment, rtol=0, atol=1e-9 * max(size(moment), size(outside)))
+    np.testing.assert_allclose(
+        result.shaking_moment, moment, rtol=0, atol=1e-9 * max(size(moment), size(outside))
+    )
 
 
 def test_contributions_add_up(found: tuple[lw.Machine, Forces]) -> None:
@@ -158,7 +166,9 @@ def test_contributions_add_up(found: tuple[lw.Machine, Forces]) -> None:
         total = sum(each.reactions[name] for each in shares)
         np.testing.assert_allclose(total, pair.force, rtol=0, atol=1e-12 * scale)
     total = sum(each.torque_drive for each in shares)
-    np.testing.assert_allclose(total, result.torque_drive, rtol=0, atol=1e-12 * size(result.torque_drive) + 1e-12)
+    np.testing.assert_allclose(
+        total, result.torque_drive, rtol=0, atol=1e-12 * size(result.torque_drive) + 1e-12
+    )
 
 
 def test_mobility_is_one_less_one_for_each_redundant_bar(found: tuple[lw.Machine, Forces]) -> None:
@@ -185,7 +195,10 @@ def test_friction_takes_what_the_drive_gives_more(found: tuple[lw.Machine, Force
     for name, pair in result.pairs.items():
         if pair.kind == "pin":
             np.testing.assert_allclose(
-                sum(each.reactions[name] for each in shares)[known], pair.force[known], rtol=0, atol=1e-9 * size(pair.force[known]) + 1e-9
+                sum(each.reactions[name] for each in shares)[known],
+                pair.force[known],
+                rtol=0,
+                atol=1e-9 * size(pair.force[known]) + 1e-9,
             )
             # μ r R and c ω, against the relative rotation.
             torque = pair.friction[known]
@@ -205,7 +218,7 @@ def rod_angle(phi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def test_slider_crank_without_mass_in_the_rod() -> None:
-    """Force of the rod F/cos β, of the guide F tan β, torque F r sin(φ + β)/cos β (Norton, chapter 13, pin forces)."""
+    """Rod F/cos β, guide F tan β, torque F r sin(φ + β)/cos β (Norton, chapter 13, pin forces)."""
     result = forces(lw.loads(SIMPLE), speed=20.0)
     beta, a = rod_angle(result.crank_angle)
     F = 4 * a + 200
@@ -219,7 +232,9 @@ def test_slider_crank_without_mass_in_the_rod() -> None:
 def test_lever_at_rest() -> None:
     """Weights 30 and 20 N at 0.2 and 0.3 m, 7 N up at 0.5 m."""
     result = forces(lw.loads(LEVER), speed=0.0, angles=[0.0, np.pi / 3])
-    np.testing.assert_allclose(result.torque_drive, np.array([1, 0.5]) * (30 * 0.2 + 20 * 0.3 - 7 * 0.5), rtol=1e-13)
+    np.testing.assert_allclose(
+        result.torque_drive, np.array([1, 0.5]) * (30 * 0.2 + 20 * 0.3 - 7 * 0.5), rtol=1e-13
+    )
     np.testing.assert_allclose(result.reactions["O"], [[0, 43], [0, 43]], atol=1e-12)
 
 
@@ -234,12 +249,16 @@ def test_journal_alone() -> None:
 
 def wedge(mu: float, speed: float = 1.0, load: float = -100.0, radius: float = 0.24) -> Forces:
     """The slider-crank, without mass, whose guide has friction and whose load resists on one way."""
-    text = SIMPLE.replace("radius = 0.1", f"radius = {radius}").replace("mass = 4", "mass = 0").replace("-200", f"{load}")
+    text = (
+        SIMPLE.replace("radius = 0.1", f"radius = {radius}")
+        .replace("mass = 4", "mass = 0")
+        .replace("-200", f"{load}")
+    )
     return forces(lw.loads(text), speed=speed, friction={"S.guide": Friction(mu)})
 
 
 def test_guide_with_friction_is_a_wedge() -> None:
-    """S cos β = F + μ S sin β while the rod pushes the slider against the force F: S = F/(cos β − μ sin β)."""
+    """S cos β = F + μ S sin β while the rod pushes against F: S = F/(cos β − μ sin β)."""
     result = wedge(0.2)
     phi = result.crank_angle
     beta = np.abs(np.arcsin(0.24 * np.sin(phi) / 0.25))
@@ -308,7 +327,7 @@ def test_teeth_press_along_the_line_of_action() -> None:
 
 
 def test_internal_teeth_push_the_pinion_inward() -> None:
-    """A planet of 20 teeth in a ring of 60 at rest: pitch point at three halves of the arm, force outward on the ring."""
+    """A planet of 20 teeth in a ring of 60 at rest."""
     machine = animal("planetary train with a crank on the planet")
     result = forces(machine, speed=2.0)
     phi = result.crank_angle + 0.3
@@ -363,13 +382,15 @@ def test_four_bar_against_lagrange_multipliers() -> None:
         J, gamma_of = _four_bar_jacobian(q, lengths), _four_bar_gamma
         v = np.linalg.solve(J, np.array([0] * 8 + [omega]))
         acceleration = np.linalg.solve(J, gamma_of(q, v, lengths) + np.array([0] * 8 + [epsilon]))
-        M = np.diag([x for m, l in zip(mass, lengths, strict=True) for x in (m, m, m * l**2 / 12)])
+        M = np.diag([x for m, rod in zip(mass, lengths, strict=True) for x in (m, m, m * rod**2 / 12)])
         Q = np.zeros(9)
         Q[[1, 4, 7]] = -9.81 * np.array(mass)
         Q[8] = -5
         multipliers = np.linalg.solve(J.T, M @ acceleration - Q)
         for row, name, sign in ((0, "O", 1), (2, "A", 1), (4, "R", 1), (6, "D", 1)):
-            np.testing.assert_allclose(result.reactions[name][k], sign * multipliers[row : row + 2], rtol=1e-9)
+            np.testing.assert_allclose(
+                result.reactions[name][k], sign * multipliers[row : row + 2], rtol=1e-9
+            )
         assert result.torque_drive[k] == pytest.approx(multipliers[8], rel=1e-9)
 
 
@@ -385,7 +406,7 @@ def _four_bar_position(phi: float, r: float, a: float, b: float, d: np.ndarray) 
 
 
 def _four_bar_jacobian(q: np.ndarray, lengths: tuple[float, ...]) -> np.ndarray:
-    """Of: crank's start at rest; coupler's start − crank's end; rocker's end − coupler's end; rocker's start; angle."""
+    """Of: start of the crank, both joints, start of the rocker, angle of the crank."""
 
     def end(body: int, sign: int) -> np.ndarray:
         J = np.zeros((2, 9))
@@ -416,7 +437,9 @@ def test_along_steady_motion_the_motor_gives_the_torque() -> None:
     machine = lw.read("machines/roller_two_carts.toml")
     steady = lw.steady_state(machine)
     result = forces(machine, steady)
-    np.testing.assert_allclose(result.torque_drive, steady.torque_drive, rtol=0, atol=1e-7 * size(steady.torque_drive))
+    np.testing.assert_allclose(
+        result.torque_drive, steady.torque_drive, rtol=0, atol=1e-7 * size(steady.torque_drive)
+    )
     assert forces(machine).torque_drive_max == pytest.approx(result.torque_drive_max, rel=1e-12)
 
 

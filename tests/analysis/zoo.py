@@ -368,13 +368,27 @@ preloaded = { kind = "spring", between = ["F", "K"], stiffness = 300, free_lengt
 curve = { kind = "spring", between = ["A", "D"], length = [0.2, 0.4, 0.6], force = [-3, 5, 9] }
 damper = { kind = "damper", between = ["A", "S"], damping = 30 }
 valve = { kind = "damper", between = ["F", "K"], velocity = [-1, 0, 1], force = [-30, 0, 10] }
-gas = { kind = "gas_spring", between = ["F", "R"], force_extended = 100, length_extended = 0.8, length_compressed = 0.2, progression = 1.5 }
 twist = { kind = "torsional_spring", on = "R.rocker", against = "R.coupler", stiffness = 4, free_angle = 0.5 }
 oil = { kind = "torsional_damper", on = "R.rocker", against = "A", damping_torsional = 0.4 }
-press = { kind = "formula", on = "S", force = "-120*max(0, sin(phi))^2 - k*max(0, s - s0) - 3*v - 2*v*abs(v)", constants = { k = 20, s0 = 0.5 } }
-wind = { kind = "formula", on = "K", direction = 0.4, force = "-3*(vx - 1)*where(y < 0.2, 1, 2) + x/2 + step(v)" }
 jet = { kind = "formula", on = "K", along = "R.coupler", force = "5*cos(psi) - psi_dot" }
 fan = { kind = "formula", on = "A", torque = "-0.12*omega^2 - min(psi, 1, 2)*pow(2, 0.5) + atan2(1, 2)" }
+[loads.gas]
+kind = "gas_spring"
+between = ["F", "R"]
+force_extended = 100
+length_extended = 0.8
+length_compressed = 0.2
+progression = 1.5
+[loads.press]
+kind = "formula"
+on = "S"
+force = "-120*max(0, sin(phi))^2 - k*max(0, s - s0) - 3*v - 2*v*abs(v)"
+constants = { k = 20, s0 = 0.5 }
+[loads.wind]
+kind = "formula"
+on = "K"
+direction = 0.4
+force = "-3*(vx - 1)*where(y < 0.2, 1, 2) + x/2 + step(v)"
 """,
 }
 

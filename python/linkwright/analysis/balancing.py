@@ -4,8 +4,9 @@ A counterweight on a link that turns about a fixed point adds to the force on th
 
 .. math:: -\frac{d^2}{dt^2}\left(\mathbf R(\psi)\,\mathbf u\right), \qquad \mathbf u = m\,(x, y)
 
-which is linear in its moment **u** about the pivot: the best counterweights are a linear problem of least squares.
-For a four-bar on whose crank and rocker they sit, the rest is zero, and they are those of Berkof and Lowen.
+which is linear in its moment **u** about the pivot: the best counterweights are a linear problem of least
+squares. For a four-bar on whose crank and rocker they sit, the rest is zero, and they are those of Berkof
+and Lowen.
 """
 
 from __future__ import annotations
@@ -17,9 +18,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.forces import Forces, forces
-from linkwright.analysis.kinetostatics.inertia import masses
+from linkwright.analysis.forces import forces
 from linkwright.analysis.kinetostatics.motion import Motion, motion_at
+from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.kinetostatics.scene import Scene, left, unit
 from linkwright.errors import MachineError, Problem
 from linkwright.machine import Body, Machine
@@ -80,8 +81,8 @@ class Balance:
         Returns
         -------
         dict of str to tuple of float
-            ``shaking_force`` [N], that of inertia alone; ``shaking_moment`` about the origin, of inertia alone
-            [N m]; ``torque_drive``, all of it [N m].
+            ``shaking_force`` [N], that of inertia alone; ``shaking_moment`` about the origin, of inertia
+            alone [N m]; ``torque_drive``, all of it [N m].
         """
         return {name: (_rms(self.before, name), _rms(self.after, name)) for name in _MEASURES}
 
@@ -104,7 +105,7 @@ def balance(
     radius: float | Mapping[str, float] | None = None,
     n: int = 360,
 ) -> Balance:
-    """Counterweights on given links that make the force of inertia on the frame least in the root mean square.
+    """Counterweights on given links that make the rms of the force of inertia on the frame least.
 
     Parameters
     ----------
@@ -116,7 +117,8 @@ def balance(
         Of the crank [rad/s]. Without it, the steady motion of the motor, or the drive's design speed. At a
         constant speed the counterweights do not depend on it.
     radius : float or mapping of str to float, optional
-        Distance of the counterweights from their pivots, of all or by link [m]. Without it, the link's length.
+        Distance of the counterweights from their pivots, of all or by link [m]. Without it, the link's
+        length.
     n : int
         Intervals of the turn.
 
@@ -144,127 +146,7 @@ def balance(
     b = (weights * before.contributions["inertia"].shaking_force).ravel()
     known = np.isfinite(b)
     u = np.linalg.lstsq(A[known], -b[known], rcond=None)[0].reshape(-1, 2)
-    return _with(machine, scene, dict(zip(links, u, strict=True)), radius, before)
-
-
-def partial_balance(
-    machine: Machine,
-    slider: str,
-    *,
-    share: float = 0.5,
-    speed: float | None = None,
-    radius: float | None = None,
-    n: int = 360,
-) -> Balance:
-    """A counterweight on the crank of a slider-crank, against all that turns and a share of what goes to and fro.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    slider : str
-        A slider that is driven by the pin of a crank.
-    share : float
-        Of the reciprocating mass: 0 balances what turns alone, 1 all, which moves the force across the guide.
-    speed : float, optional
-        As for `balance`.
-    radius : float, optional
-        Distance of the counterweight from the pivot [m]; without it the crank's radius.
-    n : int
-        Intervals of the turn.
-
-    Returns
-    -------
-    Balance
-        The machine with the counterweight, forces before and after.
-
-    Raises
-    ------
-    MachineError
-        No slider of that name, or one that no crank drives.
-
-    Notes
-    -----
-    The rod is replaced by two masses at its ends with the same centre of mass.
-
-    References
-    ----------
-    .. [1] Norton, Design of Machinery, chapter 13 (equivalent masses, balancing the engine).
-    """
-    part = machine.linkage.sliders.get(slider)
-    if part is None or part.crank not in machine.linkage.cranks:
-        able = [name for name, each in machine.linkage.sliders.items() if each.crank in machine.linkage.cranks]
-        expected = f"a slider on the pin of a crank: {', '.join(able) or 'there is none'}"
-        raise MachineError([Problem("slider", slider, expected, suggestion(slider, able))])
-    scene = Scene(machine, motion_at(machine, None, speed=speed, n=n))
-    moment = np.zeros(2)
-    crank = machine.linkage.cranks[part.crank]
-    pin = np.array([crank.radius, 0.0])
-    for member, mass, place in _first_moments(scene):
-        if member == part.crank:
-            moment += mass * place
-        elif member == slider:
-            moment += share * mass * pin
-        elif member == f"{slider}.rod":
-            at_slider = mass * place[0] / part.rod
-            moment += (mass - at_slider) * pin + share * at_slider * pin
-    before = forces(machine, scene.motion)
-    return _with(machine, scene, {part.crank: -moment}, radius, before)
-
-
-def four_bar_moments(machine: Machine, rocker: str) -> dict[str, complex]:
-    """Moments of counterweights that keep the centre of mass of a four-bar at rest.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    rocker : str
-        A rocker about a fixed point, driven by the pin of a crank.
-
-    Returns
-    -------
-    dict of str to complex
-        Link → mass times place from its start, along it and, as the imaginary part, to its left [kg m].
-
-    Raises
-    ------
-    MachineError
-        The rocker is not that of a four-bar.
-
-    References
-    ----------
-    .. [1] Berkof, Lowen, A new method for completely force balancing simple linkages, J. Eng. Ind. 91 (1969):
-       the direction of the coupler is eliminated by the loop, and the factors of those of
-       crank and rocker vanish.
-    """
-    mechanism = machine.linkage
-    part = mechanism.rockers.get(rocker)
-    if part is None or part.crank not in mechanism.cranks or part.pivot not in mechanism.fixed_points():
-        expected = "a rocker about a fixed point that the pin of a crank drives"
-        raise MachineError([Problem("rocker", rocker, expected)])
-    scene = Scene(machine, motion_at(machine, None, speed=1.0, angles=[0.0]))
-    mass, moment = {}, {}
-    for member, m, place in _first_moments(scene):
-        mass[member] = mass.get(member, 0.0) + m
-        moment[member] = moment.get(member, 0j) + m * complex(*place)
-    r = mechanism.cranks[part.crank].radius
-    coupler, lever = f"{rocker}.coupler", f"{rocker}.rocker"
-    z = moment.get(coupler, 0j)
-    return {
-        part.crank: -(moment.get(part.crank, 0j) + r * (mass.get(coupler, 0.0) - z / part.coupler)),
-        lever: -(moment.get(lever, 0j) + z * part.rocker / part.coupler),
-    }
-
-
-def _first_moments(scene: Scene) -> list[tuple[str, float, Floats]]:
-    """Member, mass, and place of each mass along and across its member."""
-    found = []
-    for each in masses(scene):
-        arm = each.centre[0] - scene.reference(each.member)[0]
-        e = unit(scene.angle(scene.structure.members[each.member].link))[0]
-        found.append((each.member, each.mass, np.array([arm @ e, arm @ left(e)])))
-    return found
+    return with_counterweights(machine, scene, dict(zip(links, u, strict=True)), radius, before)
 
 
 def _check_links(scene: Scene, links: Sequence[str]) -> None:
@@ -274,7 +156,9 @@ def _check_links(scene: Scene, links: Sequence[str]) -> None:
     wrong = [link for link in links if link not in able]
     if wrong or not links:
         expected = f"links that turn about fixed points: {', '.join(able)}"
-        raise MachineError([Problem("links", link, expected, suggestion(link, able)) for link in wrong or [""]])
+        raise MachineError(
+            [Problem("links", link, expected, suggestion(link, able)) for link in wrong or [""]]
+        )
 
 
 def _unit_forces(scene: Scene, link: str) -> list[Floats]:
@@ -288,13 +172,33 @@ def _unit_forces(scene: Scene, link: str) -> list[Floats]:
 def _time_weights(motion: Motion) -> Floats:
     """Weights of the trapezoidal rule over time."""
     step = np.diff(motion.time)
-    return 0.5 * (np.append(step, 0.0) + np.append(0.0, step))
+    found: Floats = 0.5 * (np.append(step, 0.0) + np.append(0.0, step))
+    return found
 
 
-def _with(
+def with_counterweights(
     machine: Machine, scene: Scene, moments: Mapping[str, Floats], radius: Any, before: Forces
 ) -> Balance:
-    """The machine with counterweights of given moments."""
+    """A machine with counterweights of given moments.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    scene : Scene
+        The machine and its motion.
+    moments : mapping of str to ndarray, shape (2,)
+        Link → mass times place along the link and to its left [kg m].
+    radius : float, mapping of str to float, or None
+        As for `balance`.
+    before : Forces
+        Of the machine as it is.
+
+    Returns
+    -------
+    Balance
+        With the forces of the new machine.
+    """
     largest = max(float(np.hypot(*u)) for u in moments.values())
     found, bodies = [], dict(machine.bodies)
     for link, u in moments.items():

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.forces import Forces, PairForce, forces
+from linkwright.analysis.forces import forces
+from linkwright.analysis.kinetostatics.result import Forces, PairForce
 from linkwright.errors import InputError
 from linkwright.machine import Machine, replace
 
@@ -23,8 +24,8 @@ class Extent:
     Attributes
     ----------
     name : str
-        Of the quantity: ``torque_drive``, ``shaking_force``, ``shaking_moment``, a pair, or the moment of a guide
-        as ``name moment``.
+        Of the quantity: ``torque_drive``, ``shaking_force``, ``shaking_moment``, a pair, or the moment of a
+        guide as ``name moment``.
     unit : str
         ``"N"`` or ``"N m"``.
     peak : float
@@ -89,9 +90,7 @@ def _extent(result: Forces, name: str, unit: str, values: Floats) -> Extent:
     return Extent(name, unit, float(values[at]), float(motion.crank_angle[at]), rms, motion.mean(values))
 
 
-def load_cases(
-    machine: Machine, cases: Mapping[str, Mapping[str, Any]], **options: Any
-) -> dict[str, Forces]:
+def load_cases(machine: Machine, cases: Mapping[str, Mapping[str, Any]], **options: Any) -> dict[str, Forces]:
     """Forces of one machine under several loads.
 
     Parameters

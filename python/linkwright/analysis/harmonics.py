@@ -67,7 +67,9 @@ def harmonics(crank_angle: Floats, values: Floats, order: int = 8) -> Harmonics:
     if not even:
         raise ShapeError("harmonics need one turn of the crank in even steps; give forces n, not angles")
     if not np.isfinite(table).all() or not 0 <= order < steps / 2:
-        raise ShapeError(f"harmonics of order {order} need finite values at more than {2 * order} steps, found {steps}")
+        raise ShapeError(
+            f"harmonics of order {order} need finite values at more than {2 * order} steps, found {steps}"
+        )
     c = np.fft.rfft(table, axis=0)[: order + 1] / steps
     c[1:] *= 2
     # A turn that does not begin at zero has its phase in the coefficients.

@@ -33,7 +33,9 @@ Partial = Annotated[
         show_default=False,
     ),
 ]
-Share = Annotated[float, typer.Option("--share", metavar="X", help="With --slider: share of the reciprocating mass.")]
+Share = Annotated[
+    float, typer.Option("--share", metavar="X", help="With --slider: share of the reciprocating mass.")
+]
 Radius = Annotated[
     str | None,
     typer.Option(
@@ -45,7 +47,9 @@ Radius = Annotated[
 ]
 OutFile = Annotated[
     Path | None,
-    typer.Option("--out", metavar="FILE", help="Write the machine with counterweights there.", show_default=False),
+    typer.Option(
+        "--out", metavar="FILE", help="Write the machine with counterweights there.", show_default=False
+    ),
 ]
 
 
@@ -63,8 +67,8 @@ def balance(
 ) -> None:
     """Find counterweights.
 
-    Those on given links that make the force of inertia on the frame least, or one on the crank against a share of
-    a slider's mass; and what they change.
+    Those on given links that make the force of inertia on the frame least, or one on the crank against a
+    share of a slider's mass; and what they change.
     """
     from linkwright.cli.tables import print_tables
     from linkwright.files.read import read
@@ -83,11 +87,16 @@ def balance(
 
 
 def _found(
-    machine: Machine, links: str | None, slider: str | None, share: float, radius: str | None, speed: str | None
+    machine: Machine,
+    links: str | None,
+    slider: str | None,
+    share: float,
+    radius: str | None,
+    speed: str | None,
 ) -> Balance:
     """The counterweights that the options ask for."""
     from linkwright.analysis.balancing import balance as fit
-    from linkwright.analysis.balancing import partial_balance
+    from linkwright.analysis.counterweight_formulas import partial_balance
     from linkwright.units import LENGTH, SPEED
 
     at = None if radius is None else option_value("--radius", radius, LENGTH)
@@ -106,6 +115,8 @@ def _print_json(found: Balance) -> None:
     from json import dumps
 
     measures = {name: {"before": a, "after": b} for name, (a, b) in found.measures().items()}
-    weights = {each.link: {k: v for k, v in vars(each).items() if k != "link"} for each in found.counterweights}
+    weights = {
+        each.link: {k: v for k, v in vars(each).items() if k != "link"} for each in found.counterweights
+    }
     listed = {"counterweights": weights, "rms": measures, "findings": list(found.after.findings)}
     typer.echo(dumps(listed, allow_nan=False, ensure_ascii=False))

@@ -1,4 +1,4 @@
-"""``linkwright forces FILE``: what pins, guides and teeth bear, what the drive must give, what the frame feels."""
+"""``linkwright forces FILE``: what pins, guides and teeth bear, and what the drive must give."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from linkwright.cli.common import File, Json, Sets, option_value
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
-    from linkwright.analysis.forces import Forces
     from linkwright.analysis.kinetostatics.friction import Friction
+    from linkwright.analysis.kinetostatics.result import Forces
     from linkwright.machine import Machine
 
 Speed = Annotated[
@@ -69,8 +69,8 @@ def forces(
 ) -> None:
     """Compute the forces in a machine.
 
-    Forces in all pins, guides, slots, teeth and cables, driving torque, force and moment on the frame; along the
-    steady motion, or at a constant speed.
+    Forces in all pins, guides, slots, teeth and cables, driving torque, force and moment on the frame;
+    along the steady motion, or at a constant speed.
     """
     from linkwright.cli.tables import print_tables
     from linkwright.report.force_tables import cases_table, contribution_table, envelope_table
@@ -118,7 +118,9 @@ def _case(text: str) -> tuple[str, list[str]]:
     """Name and overrides of a case."""
     name, colon, entries = text.partition(":")
     if not colon or not name.strip():
-        raise InputError(f'--case: found "{text}", expected a name, a colon and entries, as in "idle: loads.work.force=0"')
+        raise InputError(
+            f'--case: found "{text}", expected a name, a colon and entries, as in "idle: loads.work.force=0"'
+        )
     return name.strip(), [each.strip() for each in entries.split(";") if each.strip()]
 
 
@@ -134,7 +136,8 @@ def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
         # The last colon with a blank: a pin's name may hold one.
         name, colon, entries = text.rpartition(": ")
         if not colon:
-            raise InputError(f'--friction: found "{text}", expected a pair, a colon and entries, as in "A: radius=20 mm, coefficient=0.1"')
+            example = '"A: radius=20 mm, coefficient=0.1"'
+            raise InputError(f'--friction: found "{text}", expected pair, colon and entries, as in {example}')
         is_pin = name in pairs and pairs[name].kind == "pin"
         found[name] = _friction(entries, is_pin=is_pin)
     return found
@@ -151,7 +154,9 @@ def _friction(entries: str, *, is_pin: bool) -> Friction:
     for entry in entries.split(","):
         key, sign, value = (part.strip() for part in entry.partition("="))
         if not sign or key not in kinds:
-            raise InputError(f'--friction: found "{entry.strip()}", expected {", ".join(kinds)} with = and a value')
+            raise InputError(
+                f'--friction: found "{entry.strip()}", expected {", ".join(kinds)} with = and a value'
+            )
         values[key] = option_value(f"--friction {key}", value, kinds[key])
     return Friction(**values)
 
@@ -191,7 +196,10 @@ def _write(cases: dict[str, Forces], findings: list[str], folder: Path, *, quiet
     from linkwright.plot import cases_figure, forces_figure, hodograph_figure, polar_figure, svg
     from linkwright.report.csv import forces_csv
 
-    texts = {"results.json": dumps(_object(cases, findings, curves=True), allow_nan=False, ensure_ascii=False) + "\n"}
+    texts = {
+        "results.json": dumps(_object(cases, findings, curves=True), allow_nan=False, ensure_ascii=False)
+        + "\n"
+    }
     for number, result in enumerate(cases.values(), start=1):
         end = "" if len(cases) == 1 else f"_{number}"
         texts[f"forces{end}.csv"] = forces_csv(result)

@@ -53,9 +53,11 @@ def print_tables(
     console = Console(highlight=False, soft_wrap=False)
     if not console.is_terminal:
         console = Console(highlight=False, width=_WIDTH)
-    console.print(head, markup=False)
-    for table in tables:
-        console.print()
+    if head:
+        console.print(head, markup=False)
+    for nth, table in enumerate(tables):
+        if head or nth:
+            console.print()
         console.print(_drawn(table))
     for part in _sentences(findings, warnings):
         console.print()

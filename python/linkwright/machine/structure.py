@@ -1,4 +1,4 @@
-"""The structure of a mechanism: its members (rigid bodies), and the pairs through which they act on each other.
+"""The structure of a mechanism: its members, and the pairs through which they act on each other.
 
 | element | members | pairs |
 | --- | --- | --- |
@@ -15,16 +15,16 @@
 | joint `J` | block `J`, if it has a guide | `J.guide` |
 | bar `B` | `B` | pins at both ends |
 
-**Who carries a point.** A fixed point belongs to the frame; the pin of a crank to the crank; a joint of a rocker to
-`R.rocker`; a slider, a rack, the end of a cable to its block; a point of a link to that link; a joint of bars to
-its block, or without a guide to the first bar in the file that ends there and is not redundant. Every other link
-that ends at a point has a pin of its own to the member that carries it: several links on one pin are pairs with
-the carrier, not with one another.
+**Who carries a point.** A fixed point belongs to the frame; the pin of a crank to the crank; a joint of a
+rocker to `R.rocker`; a slider, a rack, the end of a cable to its block; a point of a link to that link; a
+joint of bars to its block, or without a guide to the first bar in the file that ends there and is not
+redundant. Every other link that ends at a point has a pin of its own to the member that carries it: several
+links on one pin are pairs with the carrier, not with one another.
 
 **Names of pins.** A pin has the name of its point; where several links are on the point, ``point:link``.
 
-A redundant bar hangs on its start, and its end moves freely along it: it carries what acts on itself, and passes
-nothing on.
+A redundant bar hangs on its start, and its end moves freely along it: it carries what acts on itself, and
+passes nothing on.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Forces: size over the crank angle, hodographs, polar diagrams of reactions, and load cases in one picture."""
+"""Forces over the crank angle: sizes, hodographs, polar diagrams, and load cases in one picture."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from linkwright.analysis.forces import Forces
+    from linkwright.analysis.kinetostatics.result import Forces
 
 # Reactions drawn: the largest.
 _MOST = 4

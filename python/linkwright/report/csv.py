@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.analysis.forces import Forces
+from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.result import Result
 from linkwright.report.quantities import SHOWN
 
@@ -45,8 +45,8 @@ def forces_csv(forces: Forces) -> str:
     Returns
     -------
     str
-        The motion, torques and powers, then the two components of each pair's force and its moment, and the force
-        on each driver; empty cells where there is no value.
+        The motion, torques and powers, then the two components of each pair's force and its moment, and the
+        force on each driver; empty cells where there is no value.
     """
     columns = {head(name): curve for name, curve in forces.curves().items()}
     columns |= {f"shaking_force_{axis} [N]": forces.shaking_force[:, k] for k, axis in enumerate("xy")}

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from linkwright.analysis.balancing import Balance
 from linkwright.analysis.envelope import Extent, envelope
-from linkwright.analysis.forces import Forces
+from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.report.quantities import SHOWN, degrees, number
 from linkwright.report.table import Row, Table, with_unit
 
@@ -119,7 +119,14 @@ def balance_tables(balance: Balance) -> list[Table]:
         Counterweights; root mean squares before and after.
     """
     weights: list[Row] = [
-        (each.link, "", with_unit(each.mass, "kg"), with_unit(each.radius, "m"), degrees(each.angle), with_unit(each.moment, "kg m"))
+        (
+            each.link,
+            "",
+            with_unit(each.mass, "kg"),
+            with_unit(each.radius, "m"),
+            degrees(each.angle),
+            with_unit(each.moment, "kg m"),
+        )
         for each in balance.counterweights
     ]
     heads = ("link", "", "mass", "radius", "direction from the link", "moment")
@@ -127,7 +134,15 @@ def balance_tables(balance: Balance) -> list[Table]:
     for name, (before, after) in balance.measures().items():
         unit = SHOWN[name].unit
         change = "–" if before == 0 else f"{number(100 * (after / before - 1), 4)} %"
-        rows.append((f"{SHOWN[name].word}, rms", SHOWN[name].symbol, with_unit(before, unit), with_unit(after, unit), change))
+        rows.append(
+            (
+                f"{SHOWN[name].word}, rms",
+                SHOWN[name].symbol,
+                with_unit(before, unit),
+                with_unit(after, unit),
+                change,
+            )
+        )
     return [
         Table("counterweights", "Counterweights", heads, weights),
         Table("balance", "What they do", ("quantity", "", "before", "after", "change"), rows),

@@ -1,7 +1,7 @@
 """What each load does to the members; what the crankshaft feels directly stands apart.
 
-A load on a point or a link acts from outside the machine. A load along a slide acts between what slides and the
-body of its guide, a spring between the members that carry its ends.
+A load on a point or a link acts from outside the machine. A load along a slide acts between what slides and
+the body of its guide, a spring between the members that carry its ends.
 """
 
 from __future__ import annotations
@@ -123,7 +123,9 @@ def _viscous(scene: Scene, load: ViscousFriction) -> Wrenches:
         return Wrenches(scene).couple(load.on, -load.damping_torsional * scene.angle(load.on, 1) * speed)
     assert load.damping is not None
     if load.on in scene.kinematics.slides:
-        return Wrenches(scene).along_slide(load.on, -load.damping * scene.kinematics.slides[load.on].d1 * speed)
+        return Wrenches(scene).along_slide(
+            load.on, -load.damping * scene.kinematics.slides[load.on].d1 * speed
+        )
     return Wrenches(scene).at_point(load.on, -load.damping * scene.point(load.on, 1) * speed[:, None])
 
 
@@ -179,8 +181,8 @@ def _gas(scene: Scene, load: GasSpring) -> Wrenches:
         if (rest <= 0).any():
             at = float(np.degrees(scene.motion.crank_angle[int(rest.argmin())]))
             raise FindingError(
-                f"the gas spring between {' and '.join(load.between)} is pressed in by all of its gas at crank "
-                f"angle {at:.4g}°; make length_compressed smaller or place it elsewhere"
+                f"the gas spring between {' and '.join(load.between)} is pressed in by all of its gas at "
+                f"crank angle {at:.4g}°; make length_compressed smaller or place it elsewhere"
             )
         found: Floats = -load.force_extended * (h / rest) ** load.exponent
         return found

@@ -4,9 +4,9 @@ With the unknowns x of all pairs and drives and their wrenches as the columns of
 
     A(x) x + b = 0        b: inertia and loads, a column for each
 
-A depends on x through friction and the pressure of teeth alone. The size of a pin's force is homogeneous of degree
-one, R = x·x/R, so solving with the direction of the last x is a step of Newton, and once it has converged the
-columns of b still add up.
+A depends on x through friction and the pressure of teeth alone. The size of a pin's force is homogeneous of
+degree one, R = x·x/R, so solving with the direction of the last x is a step of Newton, and once it has
+converged the columns of b still add up.
 """
 
 from __future__ import annotations
@@ -134,7 +134,9 @@ class Equilibrium:
         """Newton with a share of the friction; slopes, and where it has not settled."""
         x, open_ = x.copy(), where.copy()
         slopes = self._slopes(x) * share
-        for step in range(1, _STEPS + 1):
+        step = 0
+        while open_.any() and step < _STEPS:
+            step += 1
             total = self.b.sum(axis=-1, keepdims=True)
             new, bad = self._linear(slopes, total, open_)
             change = np.abs(new[..., 0] - x).max(axis=1)
@@ -146,8 +148,6 @@ class Equilibrium:
             settled = (np.maximum(change, effect) <= _SETTLED * size) & ~bad
             open_ = open_ & ~settled
             slopes[open_] = after[open_]
-            if not open_.any():
-                break
         return slopes, open_, step
 
     def _slopes(self, x: Floats) -> Floats:
@@ -188,10 +188,11 @@ def _rows(scene: Scene) -> tuple[NDArray[np.intp], Floats]:
 
 def _solved(A: Floats, b: Floats) -> tuple[Floats, Bools]:
     """Solution of each system; zero and a mark where a matrix is singular."""
-    singular = np.zeros(len(A), dtype=bool)
+    singular: Bools = np.zeros(len(A), dtype=np.bool_)
     try:
-        return np.linalg.solve(A, b), singular
+        return np.asarray(np.linalg.solve(A, b), dtype=np.float64), singular
     except np.linalg.LinAlgError:
-        singular = ~(np.linalg.cond(A) < _UNBOUNDED)
+        singular = np.asarray(~(np.linalg.cond(A) < _UNBOUNDED))
         A = np.where(singular[:, None, None], np.eye(A.shape[1]), A)
-        return np.linalg.solve(A, np.where(singular[:, None, None], 0.0, b)), singular
+        found = np.linalg.solve(A, np.where(singular[:, None, None], 0.0, b))
+        return np.asarray(found, dtype=np.float64), singular

@@ -38,7 +38,9 @@ _OPERATIONS: dict[str, Callable[..., Any]] = {
     "acos": np.arccos,
     "atan": np.arctan,
     "atan2": np.arctan2,
-    **{name: getattr(np, name) for name in ("sin", "cos", "tan", "tanh", "exp", "log", "sqrt", "abs", "sign")},
+    **{
+        name: getattr(np, name) for name in ("sin", "cos", "tan", "tanh", "exp", "log", "sqrt", "abs", "sign")
+    },
 }
 
 
@@ -101,7 +103,12 @@ def _names(scene: Scene, load: FormulaLoad) -> dict[str, Any]:
     """Variables and constants of a formula (docs/loads.md)."""
     motion = scene.motion
     turn = 2 * np.pi
-    names: dict[str, Any] = {**NUMBERS, "phi": motion.crank_angle % turn, "omega": motion.speed, "t": motion.time}
+    names: dict[str, Any] = {
+        **NUMBERS,
+        "phi": motion.crank_angle % turn,
+        "omega": motion.speed,
+        "t": motion.time,
+    }
     link = load.on if load.torque is not None else load.along
     if link is not None:
         psi = scene.angle(link)

@@ -1,4 +1,6 @@
-r"""The forces of accelerated masses, by d'Alembert: :math:`-m\,\ddot p_S` at the centre and :math:`-J_S\,\ddot\psi`.
+r"""The forces of accelerated masses, by d'Alembert.
+
+.. math:: \mathbf F = -m\,\ddot{\mathbf p}_S, \qquad M = -J_S\,\ddot\psi
 
 Source: Wittenbauer, *Graphische Dynamik*; Norton, *Design of Machinery*, chapter 11.
 """

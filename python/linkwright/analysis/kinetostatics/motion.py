@@ -36,7 +36,7 @@ class Motion:
     time: Floats
 
     def mean(self, values: Floats) -> float:
-        """Mean of values (n,) over the time; over the angle where the machine stands. Values that are NaN are left out."""
+        """Mean of values (n,) over the time, or the angle of a machine at rest; without NaN."""
         known = np.isfinite(values)
         if known.sum() < 2 or self.time[known][-1] == self.time[known][0]:
             return float(np.mean(values[known])) if known.any() else float("nan")
@@ -60,8 +60,8 @@ def motion_at(
     machine : Machine
         The machine.
     motion : SteadyState, Transient, Motion or None
-        A computed motion, with its own angles. Without it and without a speed: the steady motion of the motor,
-        or the design speed of the drive.
+        A computed motion, with its own angles. Without it and without a speed: the steady motion of the
+        motor, or the design speed of the drive.
     speed, acceleration : float
         Of the crank at every angle [rad/s, rad/s²].
     angles : array_like, shape (n,), optional
@@ -92,7 +92,7 @@ def motion_at(
         speed = None if drive is None else drive.speed
     if speed is None:
         raise InputError(
-            "speed: found none, expected the speed of the crank, as there is neither a motor nor drive.speed; "
+            "speed: found none, expected that of the crank, as there is neither a motor nor drive.speed; "
             'give one, such as --speed "10 rad/s"'
         )
     return _at_speed(speed, acceleration, turn_angles(n) if angles is None else angles)

@@ -9,9 +9,9 @@
 | cable | tension | – |
 | drive | torque on a crank, force on a block | – |
 
-Teeth press at the pitch point, along the line of action (DIN 3960; Norton, *Design of Machinery*, chapter 9).
-A belt, and teeth whose pitch point is not where centres and ratio put it, pass on torques in the relation of their
-speeds, and the carrier takes what is left over.
+Teeth press at the pitch point, along the line of action (DIN 3960; Norton, *Design of Machinery*, chapter
+9). A belt, and teeth whose pitch point is not where centres and ratio put it, pass on torques in the
+relation of their speeds, and the carrier takes what is left over.
 """
 
 from __future__ import annotations
@@ -219,8 +219,8 @@ def _mesh(scene: Scene, pair: Pair, spread: float) -> PairModel:
     if gear.kind in ("external", "internal") and ratio != 1.0:
         centre = scene.point(gear.pivot)
         arm = _other_centre(scene, gear) - centre
-        # The pitch point divides the line of centres in the ratio of the sizes: there both gears, seen from the
-        # carrier, have the same velocity.
+        # The pitch point divides the line of centres in the ratio of the sizes: there both gears, seen from
+        # the carrier, have the same velocity.
         pitch = centre + arm / (1.0 - ratio)
         if _is_rolling(scene, pair, pitch, left(arm)):
             e = arm / np.hypot(arm[:, 0], arm[:, 1])[:, None]
@@ -241,7 +241,7 @@ def _ratio(gear: Gear) -> float:
 
 
 def _other_centre(scene: Scene, gear: Gear) -> Floats:
-    """The other gear's centre: an end of its link that the carrier holds; of a gear at rest, the carrier's start."""
+    """The other gear's centre: an end of its link that the carrier holds; at rest, the carrier's start."""
     carrier = None if gear.carrier is None else scene.links[gear.carrier]
     if gear.meshes is None:
         return scene.point("") if carrier is None else scene.reference(gear.carrier or "")
@@ -257,7 +257,7 @@ def _other_centre(scene: Scene, gear: Gear) -> Floats:
 
 
 def _is_rolling(scene: Scene, pair: Pair, place: Floats, along: Floats) -> bool:
-    """Whether both members have the same speed at a place along a direction, and it is away from the centre."""
+    """Whether both members have the same speed along a direction at a place away from the centre."""
     apart = scene.moved(pair.second, place) - scene.moved(pair.first, place)
     slip = np.abs(dot(apart, along)) / np.maximum(np.hypot(along[:, 0], along[:, 1]), _ROLLS * scene.size)
     arm = place - scene.point(pair.point)
@@ -276,7 +276,7 @@ def _teeth(scene: Scene, pair: Pair, pitch: Floats, along: Floats, apart: Floats
 
 
 def _rack(scene: Scene, pair: Pair, spread: float) -> PairModel:
-    """Teeth of a rack at its gear; where the gear's centre moves along the rack, a relation of torque and force."""
+    """Teeth of a rack; where the gear's centre moves along the rack, a relation of torque and force."""
     assert pair.guide is not None
     rack = scene.mechanism.racks[pair.element]
     radius = rack.radius if rack.side == "right" else -rack.radius

@@ -89,14 +89,14 @@ class Wrenches:
 
 
 def _holds_guide(guide: Guide, through: str, scene: Scene) -> str:
-    """The member that takes the force on a guide: its link, if the point that it passes through is on that."""
+    """The member that takes the force on a guide: its link, or what carries a point elsewhere."""
     if guide.on is not None and through in (scene.links[guide.on].start, scene.links[guide.on].end):
         return guide.on
     return scene.carrier(through)
 
 
 def turns_guide(guide: Guide, scene: Scene) -> str:
-    """The member that keeps the direction of a guide: its link; without one, the block it rides on, or the frame."""
+    """The member that keeps the direction of a guide: its link, the block it rides on, or the frame."""
     if guide.on is not None:
         return guide.on
     carrier = FRAME if guide.through is None else scene.carrier(guide.through)
