@@ -271,7 +271,7 @@ def _passes(compiled: Compiled, at: float) -> bool:
 
 
 def require_full_turn(compiled: Compiled, machine: Machine) -> None:
-    """Raise if the crank cannot turn all round, or if the machine is not the same again after one turn.
+    """Raise if the crank cannot turn all round.
 
     Raises
     ------
@@ -281,7 +281,6 @@ def require_full_turn(compiled: Compiled, machine: Machine) -> None:
     found = closure_of(compiled)
     if not found.turns_fully:
         raise _error(found, machine)
-    require_one_turn(compiled)
 
 
 def require_one_turn(compiled: Compiled) -> None:
