@@ -125,7 +125,7 @@ class Swept:
         d1 = [f[2] if link else f[1] for f, link in zip(rest, links, strict=True)]
         d2 = [f[3] if link else f[2] for f, link in zip(rest, links, strict=True)]
         n = len(angles)
-        mu = np.array([each for each, _ in pairs]).reshape(len(pairs), n)
+        mu = np.array([np.broadcast_to(each, n) for each, _ in pairs]).reshape(len(pairs), n)
         slopes = np.array([*(np.broadcast_to(each, n) for _, each in pairs), *d1, *d2])
         return mu, np.array(place).reshape(len(rest), n), slopes.reshape(len(pairs) + 2 * len(rest), n)
 
