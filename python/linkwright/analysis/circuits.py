@@ -26,7 +26,7 @@ _DYADS_MAX = 8
 _SIGNS = {2: 12, 3: 11, 5: 13, 6: 7}
 
 # Rows that were made for one assembly: continuous angles, change points, groups.
-_TIED = frozenset((10, 11, 12))
+_TIED = frozenset((10, 11, 12, 15))
 
 # Difference of crank angles at which two branches end that is rounding: limits are roots.
 _MEET = 1e-6

@@ -182,7 +182,7 @@ class _Search:
         """
         room = sign * self.room
         before, after = np.roll(room, 1), np.roll(room, -1)
-        bend = np.maximum(before + after - 2 * room, 1e-300)
+        bend = np.maximum(before + after - 2 * room, 1e-30)
         lowest = room - (after - before) ** 2 / (8 * bend)
         found = np.flatnonzero((room <= before) & (room <= after) & (room >= -_ZERO) & (lowest < _CLOSE))
         if not len(found):
@@ -276,7 +276,7 @@ def _passes(compiled: Compiled, at: float) -> bool:
 
 
 def require_full_turn(compiled: Compiled, machine: Machine) -> None:
-    """Raise if the crank cannot turn all round, or if the machine is not the same again after one turn.
+    """Raise if the crank cannot turn all round.
 
     Raises
     ------
@@ -286,7 +286,6 @@ def require_full_turn(compiled: Compiled, machine: Machine) -> None:
     found = closure_of(compiled)
     if not found.turns_fully:
         raise _error(found, machine)
-    require_one_turn(compiled)
 
 
 def require_one_turn(compiled: Compiled) -> None:

@@ -32,6 +32,10 @@ _STRAIGHT = 1e-3
 # Portions of the path between which all straight ones are looked for.
 _PORTIONS = 90
 
+# Points of a portion when it is looked at closely, and halvings when it is found not to be straight.
+_CLOSELY = 65
+_HALVINGS = 40
+
 # Speed of the point, over its greatest, at which its path has a cusp: its square is known to rounding.
 _STANDS = 1e-7
 
@@ -187,9 +191,10 @@ class _Path:
         )
 
     def _length(self) -> float:
-        """Gauss–Legendre from sample to sample."""
+        """Gauss–Legendre from sample to sample, and to where the point stands: there its speed has a kink."""
         nodes, weights = np.polynomial.legendre.leggauss(4)
-        low, high = self.cycle.angles[:-1, None], self.cycle.angles[1:, None]
+        ends = np.union1d(self.cycle.angles, self._stops())
+        low, high = ends[:-1, None], ends[1:, None]
         at = 0.5 * (low + high) + 0.5 * (high - low) * nodes
         table = self.at(at.ravel())
         speed = np.hypot(table[2], table[3]).reshape(at.shape)
@@ -217,21 +222,36 @@ class _Path:
         stride = max(1, n // _PORTIONS)
         # Two turns of a closed path, so that a portion may pass the first sample.
         path = np.concatenate([self.place[:-1], self.place]) if self.cycle.repeats else self.place
-        coarse = _longest(path[::stride], n // stride, straight)
-        _, start, end = max(_longest(path, min(n, 2 * stride), straight), _scaled(coarse, stride))
+        chord, start, end = max(_longest(path, n, stride, straight), _longest(path, 2 * stride, 1, straight))
         if self.cycle.repeats and start <= stride:
             start, end = start + n, end + n
-        (chord, error), before = _chord(path, start, end), -1.0
+        before = -1.0
         while chord > before:
             before = chord
             around = range(max(0, start - stride), start + stride + 1), range(end - stride, end + stride + 1)
             for first, last in product(*around):
                 fits = 0 < last - first <= n and last < len(path)
-                found = _chord(path, first, last) if fits else (0.0, 0.0)
+                found = _chord(path[first : last + 1]) if fits else (0.0, 0.0)
                 if found[0] > chord and found[1] <= straight * found[0]:
-                    start, end, (chord, error) = first, last, found
+                    start, end, chord = first, last, found[0]
         low, high = self.cycle.angles[0] + self.cycle.span / n * np.array([start, end])
-        return float(low), float(high), chord, error
+        return self._confirmed(float(low), float(high), straight)
+
+    def _confirmed(self, low: float, high: float, straight: float) -> tuple[float, float, float, float]:
+        """The portion looked at closely, and shrunk about its middle until it is straight there too."""
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+        good, bad = 0.0, 2.0
+        for share in (1.0, *[0.0] * _HALVINGS):
+            share = share or 0.5 * (good + bad)
+            chord, error = _chord(self._between(middle - share * half, middle + share * half))
+            good, bad = (share, bad) if error <= straight * chord else (good, share)
+            if good == 1.0:
+                break
+        low, high = middle - good * half, middle + good * half
+        return low, high, *_chord(self._between(low, high))
+
+    def _between(self, low: float, high: float) -> Floats:
+        return self.at(np.linspace(low, high, _CLOSELY))[:2].T
 
     # -- double points and cusps -------------------------------------------------------------------------
 
@@ -267,44 +287,44 @@ class _Path:
         return DoublePoint(float(table[0, 0]), float(table[1, 0]), low, high)
 
     def _cusps(self) -> list[Cusp]:
-        """Minima of the speed that are zero."""
+        at = self._stops()
+        turn = 2 * np.pi if self.cycle.span < 2 * np.pi * 1.01 else np.inf
+        return [
+            Cusp(float(x), float(y), float(phi % turn))
+            for x, y, phi in zip(*self.at(at)[:2], at, strict=True)
+        ]
+
+    def _stops(self) -> Floats:
+        """Crank angles at which the point stands still: minima of its speed that are zero."""
         speed = np.hypot(self.table[2], self.table[3])
         inner = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] < speed[2:])) + 1
         inner = inner[speed[inner] < 0.1 * speed.max()]
         if not len(inner):
-            return []
+            return np.empty(0)
         angles = self.cycle.angles
         at, least = minima(lambda phi: np.hypot(*self.at(phi)[2:4]), angles[inner - 1], angles[inner + 1])
-        at = at[least <= _STANDS * speed.max()]
-        places = self.at(at)
-        return [
-            Cusp(float(x), float(y), float(phi) % (2 * np.pi))
-            for x, y, phi in zip(*places[:2], at, strict=True)
-        ]
+        found: Floats = at[least <= _STANDS * speed.max()]
+        return found
 
 
 Portion = tuple[float, int, int]
 
 
-def _longest(path: Floats, most: int, straight: float) -> Portion:
+def _longest(path: Floats, most: int, stride: int, straight: float) -> Portion:
     """Chord, first and last sample of the straight portion of up to ``most`` intervals with the longest chord."""
     best: Portion = (0.0, 0, 1)
-    for count in range(1, min(most, len(path) - 1) + 1):
-        starts = np.arange(len(path) - count)
+    for count in range(stride, min(most, len(path) - 1) + 1, stride):
+        starts = np.arange(0, len(path) - count, stride)
         chords, errors = _off_chords(path[starts[:, None] + np.arange(count + 1)])
         fits = np.where(errors <= straight * chords, chords, 0.0)
         at = int(fits.argmax())
-        best = max(best, (float(fits[at]), at, at + count))
+        best = max(best, (float(fits[at]), int(starts[at]), int(starts[at]) + count))
     return best
 
 
-def _scaled(portion: Portion, stride: int) -> Portion:
-    return portion[0], portion[1] * stride, portion[2] * stride
-
-
-def _chord(path: Floats, start: int, end: int) -> tuple[float, float]:
+def _chord(part: Floats) -> tuple[float, float]:
     """Chord and error of one portion."""
-    chords, errors = _off_chords(path[None, start : end + 1])
+    chords, errors = _off_chords(part[None])
     return float(chords[0]), float(errors[0])
 
 

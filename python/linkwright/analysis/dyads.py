@@ -41,8 +41,13 @@ _DYADS: dict[int, tuple[str, int]] = {
     7: ("PRP", 4),
     11: ("RRR", 4),
     12: ("group", 1),
+    15: ("RRP", 4),
 }
-_ROD, _RRR, _GUIDED_ROD, _FOLDING = 2, 3, 5, 11
+_ROD = 2
+_GUIDED_RODS = (5, 15)
+
+# Kinds of rows with change points → entries before their number.
+_FOLDING = {11: 12, 15: 14}
 
 
 @dataclass(frozen=True)
@@ -74,13 +79,13 @@ def dyads_of(compiled: Compiled) -> list[Dyad]:
 
 def _dyad(compiled: Compiled, row: tuple[int, ...]) -> Dyad:
     kind, at = _DYADS[row[0]]
-    passed = _change_points(compiled, row) if row[0] == _FOLDING else ()
+    passed = _change_points(compiled, row, _FOLDING[row[0]]) if row[0] in _FOLDING else ()
     return Dyad(compiled.dyads[row[at]], kind, row, passed)  # type: ignore[arg-type]
 
 
-def _change_points(compiled: Compiled, row: tuple[int, ...]) -> tuple[float, ...]:
+def _change_points(compiled: Compiled, row: tuple[int, ...], at: int) -> tuple[float, ...]:
     """Crank angles from the cosines and sines in a row with change points."""
-    number, slots = row[12], row[13:]
+    number, slots = row[at], row[at + 1 :]
     width = len(slots) // number
     q = compiled.parameters
     angles = [np.arctan2(q[slots[k * width + 1]], q[slots[k * width]]) for k in range(number)]
@@ -104,7 +109,7 @@ def transmission_channels(compiled: Compiled, dyad: Dyad) -> list[Channel]:
         return [(SLIDE, row[2])]
     if row[0] == _ROD:
         return [(LINK, row[2])]
-    if row[0] == _GUIDED_ROD:
+    if row[0] in _GUIDED_RODS:
         return [(LINK, row[2]), *_carrier(compiled, row[7])]
     return [each for link in (row[6], row[11]) for each in _carrier(compiled, link)]
 
@@ -144,7 +149,7 @@ def _directions(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> list[tup
     if row[0] == _ROD:
         normal = np.array([[-q[row[11]]], [q[row[10]]]])
         return [(found[0][:2], found[0][2]), (normal, np.zeros(1))]
-    if row[0] == _GUIDED_ROD:
+    if row[0] in _GUIDED_RODS:
         rod = found.pop(0)
         along, rate = _guide(compiled, row[7:10], found)
         return [(rod[:2], rod[2]), (np.stack([-along[1], along[0]]), rate)]

@@ -164,8 +164,8 @@ def _carried(
         return [(row[1], row[3])]
     if row[0] in (3, 11):
         return [(row[1], end) for end in row[5:7] if end in grounds]
-    if row[0] == 4 and row[2] in centres:
-        return [(row[1], centres[row[2]])]
+    if row[0] == 4 and (row[3] in grounds or row[2] in centres):
+        return [(row[1], row[3] if row[3] in grounds else centres[row[2]])]
     return []
 
 

@@ -210,7 +210,8 @@ class FunctionLaw:
         """
         variable = Taylor.variable(np.asarray(times, dtype=float))
         try:
-            found = self.function(variable)
+            with np.errstate(all="ignore"):
+                found = self.function(variable)
         except TypeError as error:
             raise ShapeError(
                 f"the law uses a function without a known derivative ({error}); write it with arithmetic and "

@@ -85,8 +85,7 @@ class FormulaLaw:
     def at(self, times: Floats) -> Floats:
         """See `Law.at`."""
         tree = parse(self.text)
-        with np.errstate(all="ignore"):
-            return FunctionLaw(lambda t: _value(tree, t)).at(times)
+        return FunctionLaw(lambda t: _value(tree, t)).at(times)
 
 
 def _value(node: Node, t: Any) -> Any:

@@ -63,7 +63,7 @@ class _Names:
     def of(self, row: tuple[int, ...]) -> Iterator[Output]:
         """The outputs of one row."""
         kind, dyads = row[0], self.compiled.dyads
-        if kind in (2, 5):
+        if kind in (2, 5, 15):
             yield self._stroke(dyads[row[4]], row[3])
         elif kind in (3, 11):
             yield self._swing(dyads[row[4]], self._hung(row))

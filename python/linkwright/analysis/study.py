@@ -20,6 +20,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 from linkwright.analysis.cautions import cautions, has_inertia
+from linkwright.analysis.closure import require_full_turn
 from linkwright.analysis.constant_energy import ConstantEnergy, constant_energy_of
 from linkwright.analysis.gear_torque import GearTorque
 from linkwright.analysis.linkage import Linkage, linkage
@@ -33,6 +34,7 @@ from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.analysis.step_method import StepMotion, step_method
 from linkwright.analysis.transient import Transient, transient
 from linkwright.analysis.unit_cautions import unit_cautions
+from linkwright.engine import compile_machine, drive_inertia
 from linkwright.errors import FindingError
 from linkwright.machine import ConstantSpeedMotor, Machine
 
@@ -144,7 +146,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     rotator = found.of(rod_rotator, machine, n=_INTERVALS) if machine.rod_rotator else None
     # A linkage that closes nowhere is told of by what follows.
     moved = _Findings().of(linkage, machine)
-    driven = Study(machine) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
+    driven = _moved(machine, found) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
     return replace(
         driven,
         pumping_unit=unit,
@@ -156,8 +158,16 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
 
 
 def _is_motion_alone(machine: Machine) -> bool:
-    """Whether a pumping unit is described by its dimensions, without masses, loads and motor."""
-    return machine.pumping_unit is not None and not (machine.bodies or machine.loads or _has_motor(machine))
+    """Whether there is nothing but motion to compute: no masses, no loads, no motor."""
+    inertia = 0.0 if machine.drive is None else drive_inertia(machine.drive)
+    return not (machine.bodies or machine.loads or _has_motor(machine) or inertia)
+
+
+def _moved(machine: Machine, found: _Findings) -> Study:
+    """A linkage by its dimensions alone."""
+    found.of(require_full_turn, compile_machine(machine), machine)
+    alone = "The machine has no masses, loads or motor: its motion alone is computed."
+    return Study(machine, warnings=() if machine.pumping_unit else (alone,))
 
 
 def _driven(machine: Machine, found: _Findings, accuracy: float, step: float | None) -> Study:

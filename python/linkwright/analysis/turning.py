@@ -32,6 +32,9 @@ _OFFSET = 0.0123
 # Part of its range at each end that the curves of a linkage with limits keep clear of: rates have no limit there [rad].
 _MARGIN = 1e-7
 
+# Share of the travel by which extreme positions of different turns may differ and be the same.
+_EQUAL = 1e-9
+
 # A derivative below this share of the greatest of its kind is rounding of zero.
 _FLAT = 1e-11
 
@@ -161,7 +164,7 @@ class Swept:
             at = np.concatenate([at, cycle.ends, cycle.angles[[0, -1]]])
         values = self._positions(k, at)
         low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
-        ratio = _time_ratio(at[high] - at[low], cycle.span) if cycle.repeats else None
+        ratio = _time_ratio(at, values, cycle.span) if cycle.repeats else None
         turn = 2 * np.pi if self.cycle.span < 2 * np.pi * 1.01 else np.inf
         angles = (float(at[low] % turn), float(at[high] % turn))
         return Travel(float(values[low]), float(values[high]), *angles, None, ratio)
@@ -200,10 +203,20 @@ class Swept:
         return float(values[low]), float(values[high]), float(at[low] % turn), float(at[high] % turn)
 
 
-def _time_ratio(way: float, span: float) -> float | None:
-    """Greater over lesser part of the cycle that lies between the extreme positions."""
-    part = way % span
-    return float(max(part, span - part) / min(part, span - part)) if 0 < part < span else None
+def _time_ratio(at: Floats, values: Floats, span: float) -> float | None:
+    """Crank angle of the slower way between the extreme positions over that of the quicker one.
+
+    Over several turns an output may come to its extremes several times: the ways are those from one lowest position
+    to the next highest, and on to the next lowest.
+    """
+    same = _EQUAL * np.ptp(values)
+    lows = at[values <= values.min() + same]
+    highs = at[values >= values.max() - same]
+    start = lows[0]
+    up = float(np.min((highs - start) % span, initial=span))
+    again = (lows - start - up) % span
+    down = float(np.min(again))
+    return max(up, down) / min(up, down) if 0 < up < span and down > 0 else None
 
 
 def sweep(compiled: Compiled, mechanism: Mechanism, cycle: Cycle) -> Swept:

@@ -36,7 +36,10 @@ def summary(machine: Machine) -> str:
     str
         Text of a few lines.
     """
+    from linkwright.machine.mobility import mobility
+
     rows = [("machine", machine.name), ("motor", _motor(machine)), *_mechanism(machine)]
+    rows += [("mobility", str(mobility(machine.linkage)))]
     rows += [("bodies", ", ".join(machine.bodies)), ("loads", _loads(machine))]
     return "\n".join(f"  {word:<14} {text}" for word, text in rows if text)
 
