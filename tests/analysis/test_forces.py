@@ -193,16 +193,12 @@ def test_friction_takes_what_the_drive_gives_more(found: tuple[lw.Machine, Force
     assert result.power_friction[known].min() < 0
     shares = result.contributions.values()
     for name, pair in result.pairs.items():
+        total = sum(each.reactions[name] for each in shares)
+        scale = size(pair.force[known]) + 1e-3
+        np.testing.assert_allclose(total[known], pair.force[known], rtol=0, atol=1e-11 * scale)
         if pair.kind == "pin":
-            np.testing.assert_allclose(
-                sum(each.reactions[name] for each in shares)[known],
-                pair.force[known],
-                rtol=0,
-                atol=1e-9 * size(pair.force[known]) + 1e-9,
-            )
-            # μ r R and c ω, against the relative rotation.
-            torque = pair.friction[known]
-            assert (np.abs(torque) <= 0.05 * 0.01 * pair.size[known] + 0.1 * 20).all()
+            # μ r R and c ω; no pin turns faster than 20 rad/s.
+            assert (np.abs(pair.friction[known]) <= 0.05 * 0.01 * pair.size[known] + 0.1 * 20).all()
 
 
 # -- closed forms --------------------------------------------------------------------------------------------
