@@ -492,3 +492,14 @@ def test_several_links_on_one_pin_are_named_by_link() -> None:
     pairs = structure(animal("two cranks, one pin with two rods").linkage).pairs
     assert {"A:S.rod", "A:T.rod", "B", "O", "P", "S", "T", "U"} <= set(pairs)
     assert pairs["A:T.rod"].first == "A"
+
+
+def test_study_has_the_forces_along_its_steady_motion() -> None:
+    found = lw.study(lw.read("machines/roller_two_carts.toml"))
+    assert found.forces is not None
+    alone = forces(found.machine, found.steady_state)
+    # The study looks at every fourth angle.
+    assert found.forces.torque_drive == pytest.approx(alone.torque_drive[::4], rel=1e-12)
+    written = found.to_dict()["results"]["forces"]
+    assert written["reaction_max"]["A1"] == pytest.approx(alone.reaction_max["A1"], rel=1e-4)
+    assert {"torque_drive_max", "shaking_force_max"} <= written.keys()
