@@ -14,7 +14,7 @@ from linkwright.analysis.kinetostatics.motion import motion_at
 from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.kinetostatics.scene import Scene
 from linkwright.engine import compile_machine
-from linkwright.errors import FindingError, InputError, MachineError
+from linkwright.errors import FindingError, InputError, MachineError, ShapeError
 from linkwright.machine.mobility import mobility
 from linkwright.machine.structure import FRAME, structure
 
@@ -484,6 +484,13 @@ def test_wrong_input_is_named() -> None:
         forces(machine, speed=1.0, friction={"A": Friction(0.1)})
     with pytest.raises(MachineError, match=r"friction\.S\.guide\.coefficient"):
         forces(machine, speed=1.0, friction={"S.guide": Friction(-0.1)})
+    with pytest.raises(ShapeError, match="one machine"):
+        forces(lw.replace(machine, {"mechanism.cranks.A.radius": np.array([0.1, 0.2])}), speed=1.0)
+    for angles in ("abc", [], [[0.0, 1.0]]):
+        with pytest.raises(ShapeError, match="crank angles"):
+            forces(machine, speed=1.0, angles=angles)
+    with pytest.raises(InputError, match="nothing that moves"):
+        forces(lw.loads('format = 1\nname = "x"\n[mechanism.points]\nD = { x = 1 }'), speed=1.0)
     with pytest.raises(InputError, match="both"):
         forces(machine, motion_at(machine, None, speed=1.0), speed=2.0)
 
