@@ -28,6 +28,12 @@ _HOME = {
     "closure": "analysis.closure",
     "kinematics": "analysis.kinematics",
     "motions": "analysis.kinematics",
+    "linkage": "analysis.linkage",
+    "circuits": "analysis.circuits",
+    "coupler_curve": "analysis.coupler_curve",
+    "period_turns": "analysis.period",
+    "pose": "analysis.pose",
+    "motion": "analysis.motion",
     "reduction": "analysis.reduction",
     "constant_energy": "analysis.constant_energy",
     "steady_state": "analysis.steady_state",
@@ -79,9 +85,11 @@ def __dir__() -> list[str]:
 
 if TYPE_CHECKING:
     from linkwright.analysis.balancing import balance as balance
+    from linkwright.analysis.circuits import circuits as circuits
     from linkwright.analysis.closure import closure as closure
     from linkwright.analysis.constant_energy import constant_energy as constant_energy
     from linkwright.analysis.counterweight_formulas import partial_balance as partial_balance
+    from linkwright.analysis.coupler_curve import coupler_curve as coupler_curve
     from linkwright.analysis.envelope import envelope as envelope
     from linkwright.analysis.envelope import load_cases as load_cases
     from linkwright.analysis.forces import forces as forces
@@ -89,6 +97,10 @@ if TYPE_CHECKING:
     from linkwright.analysis.kinematics import kinematics as kinematics
     from linkwright.analysis.kinematics import motions as motions
     from linkwright.analysis.kinetostatics.friction import Friction as Friction
+    from linkwright.analysis.linkage import linkage as linkage
+    from linkwright.analysis.motion import motion as motion
+    from linkwright.analysis.period import period_turns as period_turns
+    from linkwright.analysis.pose import pose as pose
     from linkwright.analysis.pumping_unit import pumping_unit as pumping_unit
     from linkwright.analysis.reduction import reduction as reduction
     from linkwright.analysis.rod_rotator import rod_rotator as rod_rotator

@@ -337,6 +337,25 @@ impl Formula {
 }
 
 impl<N: Real> Inputs<N> {
+    /// The crank angle alone; everything else is zero.
+    #[inline(always)]
+    pub fn of_angle(phi: N) -> Self {
+        let zero = N::splat(0.0);
+        Inputs {
+            phi,
+            omega: zero,
+            time: zero,
+            x: zero,
+            y: zero,
+            vx: zero,
+            vy: zero,
+            v: zero,
+            s: zero,
+            psi: zero,
+            psi_dot: zero,
+        }
+    }
+
     #[inline(always)]
     fn get(&self, variable: Variable) -> N {
         match variable {

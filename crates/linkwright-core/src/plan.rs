@@ -8,8 +8,8 @@ use crate::error::PlanError;
 use crate::formula::{Degree, Formula, Op, Variable};
 use crate::further::Further;
 use crate::law::{Carrier, FormulaLoad, Law};
-use crate::linkage::coupled::{AngleOf, Runner, Source, Sum, Turn};
-use crate::linkage::folding::{ChangePoint, Folding, TERMS};
+use crate::linkage::coupled::{self, AngleOf, Runner, Source, Sum, Turn};
+use crate::linkage::folding::{ChangePoint, Folding, FoldingRod, TERMS};
 use crate::linkage::group::{Bar, Carried, Condition, Group};
 use crate::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
 use crate::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod, Slot};
@@ -125,7 +125,7 @@ impl Plan {
         let (mut ground, mut elements) = (Vec::new(), Vec::new());
         let mut rest = code.elements;
         while !rest.is_empty() {
-            let mut row = Row::first_of(&mut rest, &bounds, &tables)?;
+            let mut row = Row::first_of(&mut rest, &bounds, &tables, &formulas)?;
             match row.kind {
                 FIXED_POINT => ground.push(row.fixed()?),
                 _ => elements.push(row.element()?),
@@ -220,11 +220,17 @@ struct Row<'a> {
     rest: &'a [i32],
     bounds: &'a Bounds,
     tables: &'a [Table],
+    formulas: &'a [Formula],
 }
 
 impl<'a> Row<'a> {
     /// Takes the first row off a list.
-    fn first_of(list: &mut &'a [i32], bounds: &'a Bounds, tables: &'a [Table]) -> Result<Self, PlanError> {
+    fn first_of(
+        list: &mut &'a [i32],
+        bounds: &'a Bounds,
+        tables: &'a [Table],
+        formulas: &'a [Formula],
+    ) -> Result<Self, PlanError> {
         let short = |found, expected| PlanError::Length { what: "elements", found, expected };
         let &[kind, length, ref rest @ ..] = *list else {
             return Err(short(list.len(), 2));
@@ -232,7 +238,7 @@ impl<'a> Row<'a> {
         let length = index(length, i32::MAX as usize, "length of a row")?;
         let row = rest.get(..length).ok_or_else(|| short(rest.len(), length))?;
         *list = &rest[length..];
-        Ok(Row { kind, rest: row, bounds, tables })
+        Ok(Row { kind, rest: row, bounds, tables, formulas })
     }
 
     fn next(&mut self) -> Result<i32, PlanError> {
@@ -316,6 +322,21 @@ impl<'a> Row<'a> {
         })
     }
 
+    /// `point link slide gap pin line rod 1/rod sign`
+    fn guided_rod(&mut self) -> Result<GuidedRod, PlanError> {
+        Ok(GuidedRod {
+            point: self.point()?,
+            link: self.link()?,
+            slide: self.slide()?,
+            gap: self.gap()?,
+            pin: self.point()?,
+            line: self.line()?,
+            rod: self.slot()?,
+            inverse_rod: self.slot()?,
+            sign: self.slot()?,
+        })
+    }
+
     /// `cos sin half_cos half_sin`, then the coefficients of the series
     fn change_point(&mut self) -> Result<ChangePoint, PlanError> {
         Ok(ChangePoint {
@@ -385,10 +406,11 @@ impl<'a> Row<'a> {
     /// `1 crank: pin link pivot radius cos sin` ·
     /// `2 slider: point link slide gap pin through rod 1/rod offset cos sin sign` · `3 rocker` ·
     /// `4 rigid point: point link origin along across` ·
-    /// `5 guided rod: point link slide gap pin line rod 1/rod sign` ·
+    /// `5 guided rod` ·
     /// `6 slotted lever: link slide gap pin pivot offset sign` · `7 crossing: point slide slide gap line line` ·
     /// `8 turn: link slide sum` · `9 runner: point slide line sum` · `10 angle: link slide winding centre` ·
-    /// `11 folding: rocker`, list of change points · `12 group` · `13 bar`
+    /// `11 folding: rocker`, list of change points · `12 group` · `13 bar` ·
+    /// `14 law: slide formula` · `15 folding rod: guided rod`, list of change points
     fn element(&mut self) -> Result<Element, PlanError> {
         Ok(match self.kind {
             1 => Element::Crank {
@@ -421,17 +443,7 @@ impl<'a> Row<'a> {
                 along: self.slot()?,
                 across: self.slot()?,
             },
-            5 => Element::GuidedRod(GuidedRod {
-                point: self.point()?,
-                link: self.link()?,
-                slide: self.slide()?,
-                gap: self.gap()?,
-                pin: self.point()?,
-                line: self.line()?,
-                rod: self.slot()?,
-                inverse_rod: self.slot()?,
-                sign: self.slot()?,
-            }),
+            5 => Element::GuidedRod(self.guided_rod()?),
             6 => Element::SlottedLever(SlottedLever {
                 link: self.link()?,
                 slide: self.slide()?,
@@ -464,8 +476,18 @@ impl<'a> Row<'a> {
                 rocker: self.rocker()?,
                 change_points: self.list(Row::change_point)?,
             }),
+            15 => Element::FoldingRod(FoldingRod {
+                rod: self.guided_rod()?,
+                change_points: self.list(Row::change_point)?,
+            }),
             12 => Element::Group(self.group()?),
             13 => Element::Bar(self.bar()?),
+            14 => {
+                let slide = self.slide()?;
+                let formula = self.next()?;
+                let formula = self.formulas[self.bounds.formula(formula)?].clone();
+                Element::Law(coupled::Law { slide, formula })
+            }
             kind => return Err(PlanError::Kind { what: "element", kind }),
         })
     }

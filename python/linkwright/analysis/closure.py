@@ -2,25 +2,32 @@
 
 Each dyad has a radicand, (length to spare)² in a sense, that is negative where its links cannot meet: l² − h²
 for a rod l at distance h from its guide, 4a²u² − (u² + a² − b²)² for a coupler a and a rocker b whose ends
-are u apart. The angles where it changes sign bound the ranges in which the mechanism moves.
+are u apart, c² − o² for a pin at distance c from the pivot of a slot with offset o. The angles where it
+changes sign bound the ranges in which the mechanism moves. For two guides that cross it is the square of the
+sine between them, for a group solved together the determinant of its equations, squared: both are zero where
+the motion is not determined.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.obstacle import describe
+from linkwright.analysis.period import turns_to_repeat
+from linkwright.analysis.roots import minima, zeros
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import AssemblyError, InputError
 from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
-# A radicand below this share of its greatest is looked into: a parabola that falls to zero between two of the
-# angles below is a few millionths at the nearer one.
+# A radicand whose parabola through three angles dips below this share of its greatest is looked into.
 _CLOSE = 1e-3
 
 # A radicand below this share counts as zero: links in line to a hundred-thousandth of their length.
@@ -31,17 +38,23 @@ _ZERO = 1e-10
 _FEW = 180
 _AMPLE = 0.02
 
+# Angles at which closure is looked at; gaps and openings between two of them are found by the minima and
+# maxima that the parabolas through three angles promise.
+_ANGLES = 1440
+
 # Distance from a change point at which rates are compared [rad], and the difference, over one and their size,
 # that they may have there: a rate that is smooth changes by a hundredth of this.
 _BESIDE = 1e-5
 _JUMP = 1e-3
 
+# Difference in what the crank feels from one turn to the next, over its size, that counts as rounding.
+_SAME = 1e-7
+
+# Doublings of the turns looked at in a motion that never repeats: some 8000 turns either way.
+_DOUBLINGS = 13
+
 # Number of a link among what the core can give the motion of.
 _LINK = 1
-
-# Angles at which closure is looked at; a gap narrower than a quarter of a degree may go unseen here, and is
-# then found by the analysis that meets it.
-_ANGLES = 1440
 
 
 @dataclass(frozen=True)
@@ -51,18 +64,21 @@ class Closure:
     Attributes
     ----------
     ranges : tuple of (float, float)
-        Ranges of crank angle in which every element closes [rad]; one range of a full turn if it turns
-        fully, none if it never closes. A range may pass 2π.
+        Ranges of crank angle in which every element closes [rad]; one range of a full turn, or of all the
+        turns of a longer motion, if it turns fully, none if it never closes. A range may pass 2π.
     element : str
         Name of the first element that does not close; empty if all do.
     change_point : float or None
-        Crank angle at which that element closes with nothing to spare [rad]: a change point or dead centre,
-        where its links are in line and their speeds are not determined.
+        Crank angle at which that element closes with nothing to spare [rad] and its motion does not go on
+        by itself: its speeds are not determined there.
+    turns : int or None
+        Turns of the crank after which the motion repeats; None if it never does, as with a screw.
     """
 
     ranges: tuple[tuple[float, float], ...]
     element: str
     change_point: float | None = None
+    turns: int | None = 1
 
     @property
     def turns_fully(self) -> bool:
@@ -88,49 +104,157 @@ def closure(machine: Machine) -> Closure:
 
 def closure_of(compiled: Compiled) -> Closure:
     """`closure` of a compiled machine."""
-    full = Closure(((0.0, 2 * np.pi),), "")
-    if not compiled.dyads:
+    turns = turns_to_repeat(compiled)
+    limiting = limiting_dyads(compiled)
+    if turns is None:
+        return _endless(compiled, limiting)
+    full = Closure(((0.0, 2 * np.pi * turns),), "", turns=turns)
+    if not limiting:
         return full
-    gaps = compiled.gaps(turn_angles(_FEW))
+    gaps = compiled.gaps(_over(turns, _FEW))[limiting]
     if (gaps.min(axis=1) > _AMPLE * gaps.max(axis=1)).all():
         return full
-    angles = turn_angles(_ANGLES)[:-1]
-    gaps = compiled.gaps(angles)
-    # Links in line leave zero, or by rounding a little less.
-    is_open = ~(gaps >= -_ZERO * np.nan_to_num(gaps).max(axis=1, keepdims=True))
-    if not is_open.any():
-        return _change_point(compiled, gaps) or full
-    element = compiled.dyads[int(np.argmax(is_open.any(axis=1)))]
-    closes = ~is_open.any(axis=0)
-    starts = np.flatnonzero(closes & ~np.roll(closes, 1))
-    ends = np.flatnonzero(closes & ~np.roll(closes, -1))
-    ranges = []
-    for start in starts:
-        end = ends[np.searchsorted(ends, start) % len(ends)]
-        low = _edge(compiled, angles[start], -1)
-        high = _edge(compiled, angles[end], +1)
-        ranges.append((float(low), float(high if high > low else high + 2 * np.pi)))
-    return Closure(tuple(ranges), element)
+    return _Search(compiled, limiting, turns).run() or full
 
 
-def _change_point(compiled: Compiled, gaps: Floats) -> Closure | None:
-    """The first dyad whose radicand falls to zero at some angle between those looked at; None if none does.
+def _over(turns: int, per_turn: int) -> Floats:
+    """Crank angles of a whole period, its end included."""
+    if turns == 1:
+        return turn_angles(per_turn)
+    return np.linspace(0.0, 2 * np.pi * turns, per_turn * turns + 1)
 
-    There the dyad is stretched or folded: the rates of its links have no limit that the positions alone
-    could tell.
-    """
-    sizes, lows = gaps.max(axis=1), gaps.min(axis=1)
-    for dyad in np.flatnonzero(lows < _CLOSE * sizes):
-        centre, reach = float(turn_angles(_ANGLES)[gaps[dyad].argmin()]), 2 * np.pi / _ANGLES
-        # The radicand is a parabola there: its zero is met when its square root is, at 1e-7 of the size.
-        for _ in range(6):
-            angles = np.linspace(centre - reach, centre + reach, 41)
-            near = compiled.gaps(angles)[dyad]
-            centre, reach = float(angles[near.argmin()]), reach / 20
-        at = centre % (2 * np.pi)
-        if near.min() <= _ZERO * sizes[dyad] and not _passes(compiled, at):
-            return Closure(((at, at + 2 * np.pi),), compiled.dyads[dyad], at)
-    return None
+
+def limiting_dyads(compiled: Compiled) -> list[int]:
+    """Indices of the dyads that may fail to close; those that pass their change points always close."""
+    return [nth for nth, name in enumerate(compiled.dyads) if name not in compiled.passing]
+
+
+def limiter_at(compiled: Compiled, angle: float) -> str:
+    """Name of the dyad that limits the motion at an end of a range."""
+    return _Search(compiled, limiting_dyads(compiled), 1).limiter(angle)
+
+
+class _Search:
+    """The angles of a fine look over the period, with those added where something happens between them."""
+
+    def __init__(self, compiled: Compiled, limiting: list[int], turns: int) -> None:
+        self.compiled, self.limiting, self.turns = compiled, limiting, turns
+        self.period = 2 * np.pi * turns
+        self.angles: Floats = _over(turns, _ANGLES)[:-1].copy()
+        gaps = compiled.gaps(self.angles)[limiting]
+        # A dyad that closes nowhere is measured by how far it is from closing.
+        known = np.abs(gaps) if not (gaps > 0).any() else gaps
+        self.sizes: Floats = np.nan_to_num(known).max(axis=1, keepdims=True)
+        self.sizes[self.sizes <= 0] = np.nan_to_num(np.abs(gaps)).max() or 1.0
+        self.room = self._least(gaps)
+
+    def _least(self, gaps: Floats) -> Floats:
+        # A dyad behind one that does not close is NaN, and that one is negative.
+        return np.fmin.reduce(gaps / self.sizes, axis=0)
+
+    def spare(self, angles: Floats) -> Floats:
+        """Least radicand of all dyads as a share of its greatest, at crank angles."""
+        return self._least(self.compiled.gaps(angles)[self.limiting])
+
+    def limiter(self, angle: float) -> str:
+        """Name of the dyad with the least radicand at an angle."""
+        gaps = self.compiled.gaps(np.array([angle]))[self.limiting] / self.sizes
+        return self.compiled.dyads[self.limiting[int(np.nanargmin(gaps[:, 0]))]]
+
+    def run(self) -> Closure | None:
+        """The closure; None if it closes all round."""
+        touch = self._between(+1)
+        self._between(-1)
+        # Links in line leave zero, or by rounding a little less.
+        closes = self.room >= -_ZERO
+        if closes.all():
+            return None if touch is None else self._touched(touch)
+        return Closure(tuple(self._ranges(closes)), self._element(closes), turns=self.turns)
+
+    def _between(self, sign: int) -> float | None:
+        """Adds minima below zero between closing angles (+1), or maxima above zero between open ones (−1).
+
+        Gives the angle of a minimum that touches zero.
+        """
+        room = sign * self.room
+        before, after = np.roll(room, 1), np.roll(room, -1)
+        bend = np.maximum(before + after - 2 * room, 1e-30)
+        lowest = room - (after - before) ** 2 / (8 * bend)
+        found = np.flatnonzero((room <= before) & (room <= after) & (room >= -_ZERO) & (lowest < _CLOSE))
+        if not len(found):
+            return None
+        step = 2 * np.pi / _ANGLES
+        near = self.angles[found]
+        at, least = minima(lambda x: sign * self.spare(x), near - step, near + step)
+        missed = least < -_ZERO
+        order = np.argsort(angles := np.concatenate([self.angles, at[missed] % self.period]))
+        room = np.concatenate([self.room, sign * least[missed]])
+        self.angles, self.room = angles[order], room[order]
+        touching = [float(x) for x in at[np.abs(least) <= _ZERO] if not _passes(self.compiled, float(x))]
+        return touching[0] % self.period if touching else None
+
+    def _touched(self, at: float) -> Closure:
+        """A dyad is stretched or folded: the positions alone do not tell the rates of its links there."""
+        return Closure(((at, at + self.period),), self.limiter(at), at, self.turns)
+
+    def _element(self, closes: NDArray[np.bool_]) -> str:
+        """The first dyad in build order that does not close somewhere."""
+        gaps = self.compiled.gaps(self.angles[~closes])[self.limiting]
+        fails = (gaps < -_ZERO * self.sizes).any(axis=1)
+        return self.compiled.dyads[self.limiting[int(np.argmax(fails))]]
+
+    def _ranges(self, closes: NDArray[np.bool_]) -> Iterator[tuple[float, float]]:
+        starts = np.flatnonzero(closes & ~np.roll(closes, 1))
+        ends = np.flatnonzero(closes & ~np.roll(closes, -1))
+        if not len(starts):
+            return
+        inside = self.angles[np.concatenate([starts, ends])]
+        around = np.concatenate([np.roll(self.angles, 1)[starts], np.roll(self.angles, -1)[ends]])
+        # The neighbour across the end of the period.
+        around = inside + (around - inside + self.period / 2) % self.period - self.period / 2
+        edges = self._edges(inside, around)
+        for low, start in zip(edges[: len(starts)], starts, strict=True):
+            high = edges[len(starts) + np.searchsorted(ends, start) % len(ends)]
+            yield float(low), float(high if high >= low else high + self.period)
+
+    def _edges(self, inside: Floats, outside: Floats) -> Floats:
+        """Where the ranges end, between angles that close and their neighbours that do not."""
+        near, far = zeros(self.spare, inside, outside)
+        edges = np.where(self.spare(near) >= 0, near, far)
+        # An angle that closes by rounding alone is the edge itself.
+        return np.where(self.spare(inside) > 0, edges, inside)
+
+
+def _endless(compiled: Compiled, limiting: list[int]) -> Closure:
+    """A motion that never repeats: from where it is at angle zero as far as it goes, both ways."""
+    reach = 2 * np.pi
+    for _ in range(_DOUBLINGS if limiting else 0):
+        angles = np.linspace(-reach, reach, 2 * _ANGLES + 1)
+        gaps = compiled.gaps(angles)[limiting]
+        closes = _closing(gaps)
+        element = compiled.dyads[limiting[int(np.argmin(np.nan_to_num(gaps, nan=-1.0).min(axis=1)))]]
+        if not closes[_ANGLES]:
+            return Closure((), element, turns=None)
+        ahead, behind = closes[_ANGLES:], closes[_ANGLES::-1]
+        if not ahead.all() and not behind.all():
+            inside = np.array([-(np.argmin(behind) - 1), np.argmin(ahead) - 1]) * (angles[1] - angles[0])
+            outside = inside + np.array([-1.0, 1.0]) * (angles[1] - angles[0])
+
+            def least(at: Floats) -> Floats:
+                found: Floats = np.fmin.reduce(compiled.gaps(at)[limiting], axis=0)
+                return found
+
+            low, high = zeros(least, inside, outside)[0]
+            return Closure(((float(low), float(high)),), element, turns=None)
+        reach *= 2
+    return Closure(((0.0, 2 * np.pi),), "", turns=None)
+
+
+def _closing(gaps: Floats) -> Flags:
+    """At which angles every dyad closes, (n,). Links in line leave zero, or by rounding a little less."""
+    sizes = np.nan_to_num(gaps).max(axis=1, keepdims=True)
+    closes: Flags = ((gaps >= -_ZERO * sizes) & (sizes > 0)).all(axis=0)
+    return closes
 
 
 def _passes(compiled: Compiled, at: float) -> bool:
@@ -139,24 +263,11 @@ def _passes(compiled: Compiled, at: float) -> bool:
     Where the core does not carry a dyad on, its joint stays on its side and the rates jump.
     """
     angles = np.array([at - _BESIDE, at + _BESIDE])
-    out = np.empty((compiled.n_rows, 4 * len(compiled.links), 2))
-    compiled.motions(angles, [(_LINK, index) for index in compiled.links.values()], out.reshape(-1))
+    out = np.empty((1, 4 * len(compiled.links), 2))
+    compiled.first().motions(angles, [(_LINK, index) for index in compiled.links.values()], out.reshape(-1))
     rates = out[0, 2::4]
     jumps = np.abs(rates[:, 1] - rates[:, 0])
     return bool((jumps <= _JUMP * (1 + np.abs(rates).max(axis=1))).all())
-
-
-def _edge(compiled: Compiled, inside: float, way: int) -> float:
-    """The angle, within one interval of an angle inside a range, at which the range ends; by bisection."""
-    good, bad = inside, inside + way * 2 * np.pi / _ANGLES
-    # Fifty halvings of a quarter of a degree go beyond rounding.
-    for _ in range(50):
-        middle = 0.5 * (good + bad)
-        if (compiled.gaps(np.array([middle])) >= 0).all():
-            good = middle
-        else:
-            bad = middle
-    return good
 
 
 def require_full_turn(compiled: Compiled, machine: Machine) -> None:
@@ -168,43 +279,86 @@ def require_full_turn(compiled: Compiled, machine: Machine) -> None:
         Says which element does not close, where the mechanism closes, and what to change.
     """
     found = closure_of(compiled)
-    if found.turns_fully:
+    if not found.turns_fully:
+        raise _error(found, machine)
+
+
+def require_one_turn(compiled: Compiled) -> None:
+    """Raise if the crank does not feel the same masses and loads again after one turn.
+
+    Raises
+    ------
+    AssemblyError
+        Says after how many turns it does, and what to change.
+    """
+    if compiled.one_turn:
         return
-    raise AssemblyError(_sentence(found, machine), element=found.element, crank_angle=_first_open(found))
+    turns = turns_to_repeat(compiled)
+    if turns != 1 and not _feels_one_turn(compiled):
+        after = f"only after {turns} turns" if turns else "never"
+        raise AssemblyError(
+            f"masses and loads are {after} again where they were, so one turn of the crank does not tell the "
+            "motion; let the crank be the part that turns slowest, or give masses and loads to parts that "
+            "repeat with it"
+        )
 
 
-def _first_open(found: Closure) -> float:
-    return found.ranges[0][1] % (2 * np.pi) if found.ranges else 0.0
+def _feels_one_turn(compiled: Compiled) -> bool:
+    """Whether the crank feels the same inertia and load in the next turn."""
+    first, next_ = (compiled.first().reductions(turn_angles(16) + turn) for turn in (0.0, 2 * np.pi))
+    sizes = np.abs(first).max(axis=1, keepdims=True)
+    return bool((np.abs(next_ - first) <= _SAME * sizes).all())
+
+
+def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None:
+    """Raise if the mechanism does not close at one of some crank angles.
+
+    Raises
+    ------
+    AssemblyError
+        Says which element does not close, where the mechanism closes, and what to change.
+    """
+    limiting = limiting_dyads(compiled)
+    if not limiting:
+        return
+    gaps = compiled.gaps(angles)[limiting]
+    closes = (gaps >= 0).all(axis=0)
+    if closes.all():
+        return
+    at = float(angles[int(np.argmin(closes))])
+    found = closure_of(compiled)
+    if found.turns_fully:
+        # Less than nothing by rounding alone.
+        return
+    text = f"at crank angle {_deg(at)}° {_sentence(found, machine)}"
+    raise AssemblyError(text, element=found.element, crank_angle=at)
+
+
+def _error(found: Closure, machine: Machine) -> AssemblyError:
+    """The error that tells of a mechanism that does not turn fully."""
+    at = found.ranges[0][1] % (2 * np.pi) if found.ranges else 0.0
+    return AssemblyError(_sentence(found, machine), element=found.element, crank_angle=at)
 
 
 def _sentence(found: Closure, machine: Machine) -> str:
     """What does not close, where, and the remedy."""
-    mechanism = machine.linkage
-    remedy = "change the lengths"
-    what = found.element
     if found.change_point is not None:
         return (
-            f"{what} reaches a change point at crank angle {_deg(found.change_point)}°: its links are in "
-            "line there and the speeds are not determined; change a length by a little"
+            f"{found.element} reaches a change point at crank angle {_deg(found.change_point)}°: its links "
+            "are in line there and the speeds are not determined; change a length by a little"
         )
-    if found.element in mechanism.sliders:
-        rod = mechanism.sliders[found.element].rod
-        what = f"the rod of {found.element} ({rod:g} m) and its guide"
-        remedy = "lengthen the rod or shorten the crank"
-    elif found.element in mechanism.rockers:
-        rocker = mechanism.rockers[found.element]
-        what = f"coupler and rocker of {found.element} ({rocker.coupler:g} m and {rocker.rocker:g} m)"
-        remedy = "shorten the crank, or change coupler and rocker until the crank can turn fully (Grashof)"
+    what, remedy = describe(found.element, machine)
     if not found.ranges:
-        return f"the mechanism does not close at any crank angle: {what} cannot reach; {remedy}"
-    where = " and ".join(_range(low, high) for low, high in found.ranges)
-    return f"the mechanism does not close all round: {what} can meet only at crank angles {where}; {remedy}"
+        return f"the mechanism does not close at any crank angle: {what}; {remedy}"
+    where = " and ".join(_range(low, high, found.turns) for low, high in found.ranges)
+    return f"the mechanism closes only at crank angles {where}: beyond, {what}; {remedy}"
 
 
-def _range(low: float, high: float) -> str:
-    """A range in degrees; one that passes 360° is given about 0°."""
-    turn = 2 * np.pi if high > 2 * np.pi * (1 + 1e-9) else 0.0
-    return f"{_deg(low - turn)}° to {_deg(high - turn)}°"
+def _range(low: float, high: float, turns: int | None) -> str:
+    """A range in degrees; one that passes a full turn is given about 0°."""
+    turn = 2 * np.pi * (turns or 1)
+    back = turn if turns and high > turn * (1 + 1e-9) else 0.0
+    return f"{_deg(low - back)}° to {_deg(high - back)}°"
 
 
 def _deg(angle: float) -> str:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.closure import require_full_turn
+from linkwright.analysis.closure import require_closed
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import MachineError, Problem, ShapeError
 from linkwright.machine import Machine
@@ -17,6 +18,9 @@ Floats = NDArray[np.float64]
 
 # What the core gives for a point, a link and a slide: how many numbers at each angle.
 _WIDTHS = {"points": 6, "links": 4, "slides": 3}
+
+# Numbers of the third derivative.
+_THIRD = {"points": 2, "links": 1, "slides": 1}
 
 
 @dataclass(frozen=True)
@@ -29,11 +33,14 @@ class PointMotion:
         [m].
     d1, d2 : ndarray
         First and second derivative by the crank angle [m/rad, m/rad²].
+    d3 : ndarray or None
+        Third derivative [m/rad³], where it was asked for.
     """
 
     position: Floats
     d1: Floats
     d2: Floats
+    d3: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -46,11 +53,14 @@ class LinkMotion:
         Direction of the link, continuous over the angles [rad].
     d1, d2 : ndarray
         First and second derivative by the crank angle [–].
+    d3 : ndarray or None
+        Third derivative [–], where it was asked for.
     """
 
     angle: Floats
     d1: Floats
     d2: Floats
+    d3: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -63,11 +73,14 @@ class SlideMotion:
         Along the guide from the foot of its through point [m].
     d1, d2 : ndarray
         First and second derivative by the crank angle [m/rad, m/rad²].
+    d3 : ndarray or None
+        Third derivative [m/rad³], where it was asked for.
     """
 
     position: Floats
     d1: Floats
     d2: Floats
+    d3: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -88,7 +101,7 @@ class Kinematics:
     slides: dict[str, SlideMotion]
 
 
-def kinematics(machine: Machine, angles: ArrayLike | None = None) -> Kinematics:
+def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool = False) -> Kinematics:
     r"""Motion of every point, link and slide over the crank angle.
 
     Parameters
@@ -97,35 +110,77 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None) -> Kinematics:
         The machine. Entries may be arrays over many machines; results then have a row for each.
     angles : array_like, shape (n,), optional
         Crank angles [rad]; without them a turn by single degrees.
+    third : bool
+        Whether third derivatives are wanted too; of one machine only.
 
     Returns
     -------
     Kinematics
         Positions and derivatives by the crank angle φ. Velocity is :math:`p' \omega`, acceleration
-        :math:`p'' \omega^2 + p' \varepsilon`.
+        :math:`p'' \omega^2 + p' \varepsilon`, jerk
+        :math:`p''' \omega^3 + 3 p'' \omega \varepsilon + p' \dot\varepsilon`.
 
     Raises
     ------
     AssemblyError
         The mechanism does not close at one of the angles.
+    ShapeError
+        Third derivatives of many machines at once.
 
     Notes
     -----
     Derivatives are exact. Angles count counter-clockwise from x; signs in ``docs/signs.md``.
     """
     compiled = compile_machine(machine)
-    phi = np.linspace(0, 2 * np.pi, 361) if angles is None else _angles(angles)
-    names = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
-    what = [(part, name) for part, known in names.items() for name in known]
+    phi = np.linspace(0, 2 * np.pi, 361) if angles is None else checked_angles(angles)
+    what = everything(compiled)
     out = motion_arrays(compiled, phi, what)
     if np.isnan(out).any():
-        require_full_turn(compiled, machine)
+        require_closed(compiled, machine, phi)
     single = compiled.n_rows == 1 and not len(compiled.slots)
-    table = out[0] if single else out
-    return _collect(phi, table, what)
+    found = _collect(phi, out[0] if single else out, what)
+    return with_third(compiled, found, what) if third else found
 
 
-def _angles(angles: ArrayLike) -> Floats:
+def kinematics_of(
+    compiled: Compiled, angles: Floats, what: list[tuple[str, str]], *, third: bool = False
+) -> Kinematics:
+    """`kinematics` of one compiled machine at angles where it closes; ``what`` holds pairs of part and name."""
+    found = _collect(angles, motion_arrays(compiled, angles, what)[0], what)
+    return with_third(compiled, found, what) if third else found
+
+
+def everything(compiled: Compiled) -> list[tuple[str, str]]:
+    """Pairs of part and name of all that has a name in the machine: not what the core keeps for itself."""
+    names = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
+    hidden = (".angle", ".law", " reversed")
+    return [(part, name) for part, known in names.items() for name in known if not name.endswith(hidden)]
+
+
+def with_third(compiled: Compiled, found: Kinematics, what: list[tuple[str, str]]) -> Kinematics:
+    """The same motion with third derivatives.
+
+    Raises
+    ------
+    ShapeError
+        Entries vary from machine to machine.
+    """
+    if len(compiled.slots):
+        raise ShapeError("third derivatives are for one machine, and entries vary from machine to machine")
+    known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
+    kinds = list(_WIDTHS)
+    table = compiled.third(found.angles, [(kinds.index(part), known[part][name]) for part, name in what])
+    parts: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
+    at = 0
+    for part, name in what:
+        rows = table[at : at + _THIRD[part]]
+        at += _THIRD[part]
+        d3 = np.stack((rows[0], rows[1]), axis=-1) if part == "points" else rows[0]
+        parts[part][name] = replace(getattr(found, part)[name], d3=d3)
+    return Kinematics(found.angles, **parts)
+
+
+def checked_angles(angles: ArrayLike) -> Floats:
     """Crank angles as a contiguous list.
 
     Raises
@@ -198,7 +253,7 @@ def motions(
     compiled = compile_machine(machine)
     asked: Mapping[str, Iterable[str]] = {"points": points, "links": links, "slides": slides}
     what = [(part, name) for part, names in asked.items() for name in names]
-    return motion_arrays(compiled, _angles(angles), what, out)
+    return motion_arrays(compiled, checked_angles(angles), what, out)
 
 
 def motion_arrays(

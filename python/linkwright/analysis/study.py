@@ -7,7 +7,8 @@
 | 3 | `run_up` | steady motion to settle to |
 | 4 | `run_down` | a brake, and steady motion to begin with |
 | 5 | `forces` | steady motion to act in |
-| 6 | `pumping_unit`, `rod_rotator` | such a unit, such a rotator; nothing of the above |
+| 6 | `linkage` | a linkage that closes somewhere |
+| 7 | `pumping_unit`, `rod_rotator` | such a unit, such a rotator; nothing of the above |
 
 What fails becomes a finding, and the study goes on with what does not depend on it.
 """
@@ -20,11 +21,13 @@ from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 from linkwright.analysis.cautions import cautions, has_inertia
+from linkwright.analysis.closure import require_full_turn
 from linkwright.analysis.constant_energy import ConstantEnergy, constant_energy_of
 from linkwright.analysis.forces import forces
 from linkwright.analysis.gear_torque import GearTorque
 from linkwright.analysis.kinetostatics.motion import Motion
 from linkwright.analysis.kinetostatics.result import Forces
+from linkwright.analysis.linkage import Linkage, linkage
 from linkwright.analysis.pumping_unit import PumpingUnitMotion, pumping_unit
 from linkwright.analysis.reduction import Reduction, reduction
 from linkwright.analysis.result import Result
@@ -35,6 +38,7 @@ from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.analysis.step_method import StepMotion, step_method
 from linkwright.analysis.transient import Transient, transient
 from linkwright.analysis.unit_cautions import unit_cautions
+from linkwright.engine import compile_machine, drive_inertia
 from linkwright.errors import FindingError
 from linkwright.machine import ConstantSpeedMotor, Machine
 
@@ -64,6 +68,8 @@ class Study:
         Results by analysis; None where there is none.
     pumping_unit, rotator : Result or None
         Motion of the polished rod and of its rotator.
+    linkage : Linkage or None
+        Extreme positions, transmission angles and Grashof classes.
     attempt : Transient or None
         The motion from the start to the stall, where the run-up fails on the way.
     findings : tuple of str
@@ -83,6 +89,7 @@ class Study:
     forces: Forces | None = None
     pumping_unit: PumpingUnitMotion | None = None
     rotator: RodRotatorMotion | None = None
+    linkage: Linkage | None = None
     findings: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
 
@@ -93,17 +100,8 @@ class Study:
 
     def results(self) -> dict[str, Result]:
         """The results that there are, by analysis."""
-        first = ("pumping_unit", "gear_torque", "rotator")
-        names = (
-            *first,
-            "reduction",
-            "constant_energy",
-            "steady_state",
-            "step_method",
-            "run_up",
-            "run_down",
-            "forces",
-        )
+        first = ("linkage", "pumping_unit", "gear_torque", "rotator", "reduction", "constant_energy")
+        names = (*first, "steady_state", "step_method", "run_up", "run_down", "forces")
         found = {name: getattr(self, name) for name in names}
         return {name: result for name, result in found.items() if result is not None}
 
@@ -155,19 +153,30 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     found = _Findings()
     unit = found.of(pumping_unit, machine, n=_INTERVALS) if machine.pumping_unit else None
     rotator = found.of(rod_rotator, machine, n=_INTERVALS) if machine.rod_rotator else None
-    driven = Study(machine) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
+    # A linkage that closes nowhere is told of by what follows.
+    moved = _Findings().of(linkage, machine)
+    driven = _moved(machine, found) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
     return replace(
         driven,
         pumping_unit=unit,
         rotator=rotator,
+        linkage=moved if moved is not None and moved.elements else None,
         findings=found.sentences(),
         warnings=(*unit_cautions(machine, unit, rotator), *driven.warnings),
     )
 
 
 def _is_motion_alone(machine: Machine) -> bool:
-    """Whether a pumping unit is described by its dimensions, without masses, loads and motor."""
-    return machine.pumping_unit is not None and not (machine.bodies or machine.loads or _has_motor(machine))
+    """Whether there is nothing but motion to compute: no masses, no loads, no motor."""
+    inertia = 0.0 if machine.drive is None else drive_inertia(machine.drive)
+    return not (machine.bodies or machine.loads or _has_motor(machine) or inertia)
+
+
+def _moved(machine: Machine, found: _Findings) -> Study:
+    """A linkage by its dimensions alone."""
+    found.of(require_full_turn, compile_machine(machine), machine)
+    alone = "The machine has no masses, loads or motor: its motion alone is computed."
+    return Study(machine, warnings=() if machine.pumping_unit else (alone,))
 
 
 def _driven(machine: Machine, found: _Findings, accuracy: float, step: float | None) -> Study:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -53,14 +53,6 @@ Floats = NDArray[np.float64]
 # Crank speed from which steady motion is sought when nothing in the machine suggests one [rad/s].
 _SPEED_UNKNOWN = 10.0
 
-# Variables and instructions of formulas in the order of the core's modules `formula` and `plan`.
-_VARIABLES = ("phi", "omega", "t", "x", "y", "vx", "vy", "v", "s", "psi", "psi_dot")
-_INSTRUCTIONS = (
-    *("number", "zero", "name", "+", "-", "*", "/", "negative", "power", "pow"),
-    *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "sqrt", "tanh"),
-    *("abs", "sign", "step", "min", "max", "where"),
-)
-
 _ROW_WIDTH = 8
 
 
@@ -82,12 +74,18 @@ class Compiled:
         Index of each point, link and slide by name.
     dyads : tuple of str
         Names of the elements that must close.
+    passing : frozenset of str
+        Those of them that pass change points, where their radicand touches zero and the motion goes on.
+    one_turn : bool
+        Whether all motions repeat after one turn of the crank by the kinds of the elements alone.
     speed_guess : float
         Crank speed from which steady motion is sought [rad/s].
     gear_factors : tuple of float
         Ratio, and the factor on torque times ratio while the motor drives and while the load does.
     speed_tables : tuple
         Tables of resisting torque over crank speed.
+    rows : tuple of tuple of int
+        The core's program: kind and entries of each element, in build order.
     has_laws : bool
         Whether loads depend on both angle and speed in their own way, or on time.
     """
@@ -100,15 +98,24 @@ class Compiled:
     links: dict[str, int]
     slides: dict[str, int]
     dyads: tuple[str, ...]
+    passing: frozenset[str]
+    one_turn: bool
     speed_guess: float
     gear_factors: tuple[float, float, float]
     speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
     has_laws: bool
+    rows: tuple[tuple[int, ...], ...] = ()
 
     @property
     def n_rows(self) -> int:
         """How many machines."""
         return int(self.values.shape[1])
+
+    def first(self) -> Compiled:
+        """The first machine alone."""
+        if not len(self.slots):
+            return self
+        return replace(self, slots=np.empty(0, dtype=np.int32), values=np.empty((0, 1)))
 
     @property
     def one(self) -> Floats:
@@ -129,6 +136,11 @@ class Compiled:
     def gaps(self, angles: Floats) -> Floats:
         """Radicand of each dyad at crank angles, (dyads, n) [m² or m⁴]; negative where it does not close."""
         return _core.gaps(self.plan, self.parameters, angles)
+
+    def third(self, angles: Floats, what: Sequence[tuple[int, int]]) -> Floats:
+        """Third transfer functions of the first row at crank angles, (numbers, n); see `_core.third`."""
+        channels = _ints([list(row) for row in what]).reshape(-1, 2)
+        return _core.third(self.plan, self.parameters, angles, channels)
 
     def kinks(self) -> Floats:
         """Crank angles from 0 to 2π [rad] between which everything is smooth."""
@@ -239,6 +251,11 @@ def _not_usable(machine: Machine, reason: str) -> MachineError:
     return MachineError(wrong or [Problem("", "entries that cannot be computed with", reason)])
 
 
+# Kinds of rows: dyads with change points, and where the number of these stands; sums over the crank angle and
+# links, groups, and laws, whose motion may take several turns or never repeat.
+_FOLDING = {11: 12, 15: 14}
+_RUNNING = (8, 9, 12, 14)
+
 # Entries beyond this size, or below its reciprocal, are named when a machine cannot be computed.
 _SIZE_MAX = 1e100
 
@@ -269,8 +286,6 @@ class _Translator(Rows):
         self.body_rows: list[list[int]] = []
         self.load_rows: list[list[int]] = []
         self.drive_row: list[int] = []
-        self.formulas: list[int] = []
-        self.n_formulas = 0
 
     def table(self, x: Sequence[Any], y: Sequence[Any]) -> int:
         """Adds a table."""
@@ -382,32 +397,6 @@ class _Translator(Rows):
             for term in formula.terms(formula.parse(load.text))
         ]
 
-    def _formula(self, term: formula.Node, constants: dict[str, int]) -> int:
-        """Adds the instructions of a formula."""
-        code: list[int] = []
-        for op, operand in formula.program(term):
-            code += self._instruction(op, operand, constants)
-        self.formulas += [len(code) // 2, *code]
-        self.n_formulas += 1
-        return self.n_formulas - 1
-
-    def _instruction(self, op: str, operand: Any, constants: dict[str, int]) -> list[int]:
-        """One instruction as the core reads it."""
-        match op:
-            case "number" if operand == 0:
-                return [1, 0]
-            case "number":
-                return [0, self.slot(operand)]
-            case "name" if operand in constants:
-                return [0, constants[operand]]
-            case "name" if operand in formula.NUMBERS:
-                return [0, self.slot(formula.NUMBERS[operand])]
-            case "name":
-                return [2, _VARIABLES.index(operand)]
-            case "power":
-                return [8, operand]
-        return [_INSTRUCTIONS.index(op), 0]
-
     def _vector(self, size: Any, direction: Any) -> list[int]:
         return [self.slot(size * np.cos(direction)), self.slot(size * np.sin(direction))]
 
@@ -476,9 +465,12 @@ class _Translator(Rows):
             links=self.links,
             slides=self.slides,
             dyads=tuple(self.dyads),
+            passing=frozenset(self.dyads[row[4]] for row in self.rows if row[0] in _FOLDING),
+            one_turn=not any(_may_run_on(row) for row in self.rows),
             speed_guess=guess,
             gear_factors=(ratio, forward, reverse),
             speed_tables=tuple(self.tables[row[1]] for row in self.load_rows if row[0] == 12),
+            rows=tuple(tuple(row) for row in self.rows),
             has_laws=settled.plan.has_laws,
         )
 
@@ -498,6 +490,12 @@ class _Translator(Rows):
             np.array([value for _, y in self.tables for value in y], dtype=np.float64),
             _ints(self.formulas),
         )
+
+
+def _may_run_on(row: list[int]) -> bool:
+    """Whether the motion of a row may need more than one turn: an odd number of change points takes two."""
+    count = _FOLDING.get(row[0])
+    return row[0] in _RUNNING or (count is not None and row[count] % 2 == 1)
 
 
 def link_body(body: Body, length: Any) -> tuple[Any, Any, Any, Any]:

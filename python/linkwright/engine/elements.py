@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from linkwright.engine.numbers import Numbers
 from linkwright.machine import (
     Cable,
     Crank,
@@ -26,6 +27,7 @@ from linkwright.machine import (
     Slider,
     SlottedLever,
     Yoke,
+    formula,
 )
 from linkwright.machine.assembly import Step
 
@@ -55,7 +57,7 @@ class Continuous(NamedTuple):
 
 
 class Foldable(NamedTuple):
-    """A dyad RRR that may have change points."""
+    """A dyad RRR or RRP that may have change points."""
 
     name: str
     row: int
@@ -85,20 +87,18 @@ class Placed:
     offset: Any
 
 
-class Rows:
+class Rows(Numbers):
     """Collects numbers and rows while it walks through a mechanism."""
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         self.links_of = mechanism.links()
-        self.parameters: list[Any] = []
-        self.varying: list[int] = []
+        super().__init__()
         self.points: dict[str, int] = {}
         self.links: dict[str, int] = {}
         self.slides: dict[str, int] = {}
         self.dyads: list[str] = []
         self.rows: list[list[int]] = []
-        self.tables: list[tuple[Sequence[float], Sequence[float]]] = []
         self.pending: list[Pending] = []
         # Start point of each link, the origin being known even where an element bears its name.
         self.starts: dict[str, int] = {}
@@ -106,17 +106,6 @@ class Rows:
         self.frame = -1
         # Links that were placed before the group whose rows are being made.
         self.known: set[str] = set()
-
-    def slot(self, value: Any) -> int:
-        """Adds a parameter; one that is an array varies from row to row."""
-        if isinstance(value, np.ndarray) and value.ndim:
-            self.varying.append(len(self.parameters))
-        self.parameters.append(value)
-        return len(self.parameters) - 1
-
-    def slots(self, *values: Any) -> list[int]:
-        """Adds several parameters."""
-        return [self.slot(value) for value in values]
 
     def _point(self, name: str) -> int:
         return self.points.setdefault(name, len(self.points))
@@ -190,12 +179,28 @@ class Rows:
 
     def _crank(self, name: str, crank: Crank) -> None:
         pivot = self._fixed_or_origin(crank.pivot)
+        if crank.law is not None:
+            self._turn(name, crank.phase, [(self._law(name, crank.law, crank.constants), 1.0)])
+            row = [4, self._point(name), self.links[name], pivot]
+            self.rows.append(row + self.slots(crank.radius, 0.0))
+            return
         row = [1, self._point(name), self._link(name), pivot]
         self.rows.append(row + self.slots(crank.radius, np.cos(crank.phase), np.sin(crank.phase)))
 
     def _linear_driver(self, name: str, driver: LinearDriver) -> None:
-        terms = [(-1, driver.per_turn / _RADIAN)]
+        if driver.law is not None:
+            terms = [(self._law(name, driver.law, driver.constants), 1.0)]
+        else:
+            assert driver.per_turn is not None
+            terms = [(-1, driver.per_turn / _RADIAN)]
         self._runner(name, self._guide(driver.guide), driver.start, terms)
+
+    def _law(self, name: str, law: str, constants: dict[str, Any]) -> int:
+        """A coordinate that is a formula of the crank angle."""
+        slide = self._slide(f"{name}.law")
+        known = {key: self.slot(value) for key, value in constants.items()}
+        self.rows.append([14, slide, self._formula(formula.parse(law), known)])
+        return slide
 
     def _slider(self, name: str, slider: Slider) -> None:
         if slider.on is not None:
@@ -208,7 +213,7 @@ class Rows:
         sign = 1.0 if slider.assembly == "positive" else -1.0
         direction = (np.cos(slider.angle), np.sin(slider.angle))
         numbers = (slider.rod, 1.0 / slider.rod, slider.offset, *direction, sign)
-        self.rows.append([*row, through, *self.slots(*numbers)])
+        self._foldable(name, [*row, through, *self.slots(*numbers)], row[4])
 
     def _guided_rod(self, name: str, slider: Slider) -> None:
         guide = Guide(through=slider.through, on=slider.on, angle=slider.angle, offset=slider.offset)
@@ -219,6 +224,11 @@ class Rows:
         """A rod from a pin to a slider on any guide; gives the slot of its sign."""
         row = [5, self._point(name), self._link(link), self._slide(name), self._dyad(name), self.points[pin]]
         row += [*self._line(line), *self.slots(rod, 1.0 / rod, sign)]
+        return self._foldable(name, row, row[4])
+
+    def _foldable(self, name: str, row: list[int], gap: int) -> int:
+        """Adds the row of a dyad that may have change points; gives the slot of its sign."""
+        self.pending.append(Foldable(name, len(self.rows), gap, row[-1]))
         self.rows.append(row)
         return row[-1]
 
@@ -234,9 +244,7 @@ class Rows:
         row = [3, self._point(name), *(self._link(link) for link in links), self._dyad(name)]
         row += [self.points[end] for end in ends]
         row += self.slots(*lengths, *(1.0 / length for length in lengths), sign)
-        self.pending.append(Foldable(name, len(self.rows), row[4], row[-1]))
-        self.rows.append(row)
-        return row[-1]
+        return self._foldable(name, row, row[4])
 
     def _slotted_lever(self, name: str, lever: SlottedLever) -> None:
         sign = 1.0 if lever.assembly == "ahead" else -1.0
@@ -376,8 +384,9 @@ class Rows:
         guide = self.mechanism.joints[joint].guide
         assert guide is not None
         line = self._guide(guide)
+        place = len(self.pending)
         slot = self._rod(joint, link, end, line, length, 1.0)
-        self.pending.append(Side(joint, slot, self.points[end], guide=(line.link, line.angle)))
+        self.pending.insert(place, Side(joint, slot, self.points[end], guide=(line.link, line.angle)))
 
     def _group(self, step: Step) -> None:
         """Joints that are found together."""
@@ -399,10 +408,6 @@ class Rows:
         row += [len(step.conditions), *(each for name in step.conditions for each in self._condition(name))]
         self.pending.append(Solved(step.names, len(self.rows), tuple(tables), turns))
         self.rows.append(row)
-
-    def _table(self, x: Sequence[float], y: Sequence[float]) -> int:
-        self.tables.append((x, y))
-        return len(self.tables) - 1
 
     def _carried(self, bars: list[str], step: Step) -> list[str]:
         """Points fixed to bars of the group that its conditions refer to, each after those it hangs on."""

@@ -51,6 +51,8 @@ class Settled:
         self.make_plan = plan
         self.assembled_at = assembled_at
         self.plan = plan()
+        # Radicands over the turn, as long as nothing has changed since.
+        self.gaps: Floats | None = None
 
     def run(self) -> None:
         """Settles all that is pending, in build order.
@@ -75,6 +77,10 @@ class Settled:
                 self._fold(each)
             case Solved():
                 self._follow(each)
+
+    def _changed(self, plan: _core.Plan) -> None:
+        """Goes on with another plan."""
+        self.plan, self.gaps = plan, None
 
     def _motion(self, kind: int, index: int, angles: Floats) -> Floats:
         """Numbers of a point (6), link (4) or slide (3) at crank angles."""
@@ -105,6 +111,7 @@ class Settled:
             )
             side = float(direction @ to)
         self.parameters[each.slot] = 1.0 if side > 0 else -1.0
+        self.gaps = None
 
     # -- continuous angles -------------------------------------------------------------------------------
 
@@ -132,16 +139,24 @@ class Settled:
         turns = np.round((near - psi[0]) / (2 * np.pi))
         self.parameters[each.winding] = winding
         self.parameters[each.centre] = 0.5 * (rest.min() + rest.max()) + 2 * np.pi * turns
+        self.gaps = None
 
     # -- change points -----------------------------------------------------------------------------------
 
     def _fold(self, each: Foldable) -> None:
         """Finds the change points of a dyad, and gives its row their series."""
-        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)[:-1]
-        gaps = _core.gaps(self.plan, self.parameters, angles)[each.gap]
-        if not np.isfinite(gaps).any():
+        if self.rows.varying:
+            # Rows of a batch have their change points elsewhere, and most have none.
             return
-        size = np.nanmax(np.abs(gaps))
+        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)[:-1]
+        if self.gaps is None:
+            self.gaps = _core.gaps(self.plan, self.parameters, angles)
+        gaps = self.gaps[each.gap]
+        size = np.abs(gaps).max()
+        if np.isnan(size):
+            size = np.nanmax(np.abs(gaps)) if np.isfinite(gaps).any() else 0.0
+        elif gaps.min() > _NEAR_ZERO * size:
+            return
         lowest = (gaps <= np.roll(gaps, 1)) & (gaps <= np.roll(gaps, -1)) & (np.abs(gaps) < _NEAR_ZERO * size)
         element = sum(row[0] != 0 for row in self.rows.rows[: each.row])
         found: dict[float, list[float]] = {}
@@ -164,7 +179,7 @@ class Settled:
         wanted = self.parameters[each.sign]
         sign = wanted * np.sign(np.prod(np.sin((just_after - at) / 2)))
         self.parameters[each.sign] = sign
-        row = [11, *self.rows.rows[each.row][1:], len(at)]
+        row = [*_folding_row(self.rows.rows[each.row], self.rows.frame), len(at)]
         numbers: list[float] = []
         for phi in at:
             after = sign * np.sign(np.prod(np.sin((phi + just_after - at) / 2)))
@@ -174,7 +189,7 @@ class Settled:
         self.parameters = np.concatenate([self.parameters, numbers])
         self.rows.parameters += numbers
         self.rows.rows[each.row] = row
-        self.plan = self.make_plan()
+        self._changed(self.make_plan())
 
     # -- groups ------------------------------------------------------------------------------------------
 
@@ -201,7 +216,7 @@ class Settled:
             self.rows.tables[table] = (list(phi / cycle), list(place))
         self.parameters[each.inverse_turns] = 1.0 / cycle
         self.rows.rows[each.row][3] = int(turns is not None)
-        self.plan = self.make_plan()
+        self._changed(self.make_plan())
 
     # -- redundant bars ----------------------------------------------------------------------------------
 
@@ -226,6 +241,17 @@ class Settled:
                 element=name,
                 crank_angle=float(angles[worst]),
             )
+
+
+def _folding_row(row: list[int], frame: int) -> list[int]:
+    """The row of a dyad as one with change points; a rod on a fixed guide becomes one on any guide."""
+    kind, *entries = row
+    if kind == 3:
+        return [11, *entries]
+    if kind == 5:
+        return [15, *entries]
+    point, link, slide, gap, pin, through, rod, inverse, offset, cos, sin, sign = entries
+    return [15, point, link, slide, gap, pin, through, frame, cos, sin, offset, rod, inverse, sign]
 
 
 def _turns_apart(a: float, b: float) -> float:

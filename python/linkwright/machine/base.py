@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Annotated, Any, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from linkwright.units import show
@@ -73,6 +73,20 @@ def faults_of(error: ValidationError) -> list[InitErrorDetails]:
         )
         for each in error.errors()
     ]
+
+
+class Checked(Description):
+    """A description whose entries have to fit together."""
+
+    @model_validator(mode="after")
+    def _entries_fit(self) -> Self:
+        """Report entries that do not go together."""
+        raise_faults(type(self).__name__, self._faults())
+        return self
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        """What contradicts itself."""
+        return iter(())
 
 
 def close_match(name: str, known: Iterable[str]) -> str:

@@ -20,13 +20,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.machine.base import Description, fault, raise_faults
-from linkwright.units import LENGTH, RATIO, Angle, Length, Quantity, positive
+from linkwright.machine.base import Checked, Description, fault
+from linkwright.machine.formula_faults import constant_faults, text_faults
+from linkwright.units import LENGTH, RATIO, Angle, AnyQuantity, Length, Quantity, positive
 
 PositiveLength = Annotated[float, positive(LENGTH)]
 PositiveNumber = Annotated[float, positive(RATIO)]
@@ -53,20 +54,54 @@ class Guide(Description):
     offset: Length = Field(0.0, description="Of the guide to the left of its direction.")
 
 
-class Crank(Description):
-    """A crank on the crankshaft; all cranks turn together."""
+# Numbers of a formula by name.
+Constants = dict[str, Annotated[float, AnyQuantity()]]
+
+
+def _law_faults(law: str | None, constants: Constants) -> Iterator[InitErrorDetails]:
+    """A law that is no formula of the crank angle."""
+    yield from constant_faults(constants, law or "")
+    if law is None and constants:
+        yield fault("law", expected="a law that asks for the constants")
+    if law is not None:
+        yield from text_faults("law", law, constants, ("phi",))
+
+
+class Crank(Checked):
+    """A crank; its angle is that of the crankshaft, or follows it by a law."""
 
     radius: PositiveLength = Field(description="From the pivot to the pin.")
     phase: Angle = Field(0.0, description="Angle of this crank when the crank angle is zero.")
     pivot: str | None = Field(None, description="Fixed point that it turns about. Without it, the origin.")
+    law: str | None = Field(
+        None,
+        description="Angle of the crank in rad as a formula in phi, to which the phase is added: "
+        '"0.6*sin(phi)" swings to and fro. Without it, phi.',
+    )
+    constants: Constants = Field(
+        default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        return _law_faults(self.law, self.constants)
 
 
-class LinearDriver(Description):
-    """A point that the drive moves along a guide, in proportion to the crank angle."""
+class LinearDriver(Checked):
+    """A point that the drive moves along a guide, in proportion to the crank angle or by a law."""
 
     guide: Guide = Field(default_factory=Guide, description="What it moves along.")
     start: Length = Field(0.0, description="Place along the guide when the crank angle is zero.")
-    per_turn: Length = Field(description="Distance for a turn of the crankshaft.")
+    per_turn: Length | None = Field(None, description="Distance for a turn of the crankshaft.")
+    law: str | None = Field(None, description="Distance from the start in m as a formula in phi.")
+    constants: Constants = Field(
+        default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from _law_faults(self.law, self.constants)
+        if (self.law is None) == (self.per_turn is None):
+            found = "neither" if self.law is None else "both"
+            yield fault(found=found, expected="either per_turn or law")
 
 
 class Slider(Description):
@@ -188,7 +223,7 @@ class Joint(Description):
     guide: Guide | None = Field(None, description="Guide that it moves on.")
 
 
-class Bar(Description):
+class Bar(Checked):
     """A link of given length between two points."""
 
     start: str = Field(description="Point that it starts at.")
@@ -199,11 +234,6 @@ class Bar(Description):
         description="Whether the mechanism would move alike without it: its length is then checked, "
         "and not used.",
     )
-
-    @model_validator(mode="after")
-    def _two_ends(self) -> Self:
-        raise_faults("Bar", self._faults())
-        return self
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.start == self.end:

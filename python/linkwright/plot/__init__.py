@@ -7,6 +7,7 @@
 | `motor` | the motor's characteristic, and the part of it that steady motion uses |
 | `run_up` | speed from the start to steady motion |
 | `pumping_unit` | polished rod, torque of the gearbox, lever of a rotator |
+| `linkage` | transmission angles, coupler curves with the links |
 | `forces` | driving torque, reactions, hodographs, load cases |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
@@ -17,6 +18,7 @@ matplotlib is imported when the first figure is drawn.
 
 from linkwright.plot.compare import compare_figure
 from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
+from linkwright.plot.linkage import coupler_figure, transmission_figure
 from linkwright.plot.motor import motor_figure
 from linkwright.plot.pumping_unit import gear_torque_figure, polished_rod_figure, rotator_figure
 from linkwright.plot.reduction import reduction_figure
@@ -28,6 +30,7 @@ __all__ = [
     "attempt_figure",
     "cases_figure",
     "compare_figure",
+    "coupler_figure",
     "forces_figure",
     "gear_torque_figure",
     "hodograph_figure",
@@ -41,4 +44,5 @@ __all__ = [
     "svg",
     "time_figure",
     "torque_figure",
+    "transmission_figure",
 ]

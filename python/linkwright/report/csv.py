@@ -32,8 +32,28 @@ def curves_csv(result: Result) -> str:
 
 def head(name: str) -> str:
     """Head of a column: the attribute's name with its unit."""
-    unit = SHOWN[name].unit if name in SHOWN else ""
+    unit = SHOWN[name].unit if name in SHOWN else _unit_of_part(name)
     return f"{name} [{unit or '-'}]"
+
+
+# Units of the columns of parts, by the last word of their name, and by that before a rate.
+_PARTS = {
+    "x": "m",
+    "y": "m",
+    "place": "m",
+    "angle": "rad",
+    "transmission_angle": "rad",
+    "stroke_ratio": "m/rad",
+}
+_RATES = {"velocity": "/s", "acceleration": "/s²", "jerk": "/s³"}
+
+
+def _unit_of_part(name: str) -> str:
+    """Unit of a column such as ``K.x.velocity``."""
+    head, _, last = name.rpartition(".")
+    if last in _RATES and head:
+        return _unit_of_part(head) + _RATES[last]
+    return _PARTS.get(last, "") if head else ""
 
 
 def forces_csv(forces: Forces) -> str:

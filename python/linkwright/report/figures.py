@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
 
 from linkwright.analysis.characteristic import characteristic
 from linkwright.analysis.study import Study
@@ -23,23 +22,13 @@ from linkwright.plot import (
     time_figure,
     torque_figure,
 )
+from linkwright.report.captioned import Captioned
+from linkwright.report.linkage_figures import linkage_figures
 from linkwright.report.quantities import degrees, number
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 # The motor's curve is drawn beyond the fastest instant of the turn by this share of it, and half the range of
 # speeds: as far as the detail beside it looks.
 _BEYOND = 0.012
-
-
-class Captioned(NamedTuple):
-    """A figure, its name in the page, its title, and its caption."""
-
-    name: str
-    title: str
-    caption: str
-    figure: Figure
 
 
 def figures(study: Study) -> Iterator[Captioned]:
@@ -55,6 +44,7 @@ def figures(study: Study) -> Iterator[Captioned]:
     Captioned
         In the order of the page.
     """
+    yield from linkage_figures(study)
     yield from _unit(study)
     yield from _rotator(study)
     yield from _steady(study)

@@ -22,6 +22,7 @@ SHOWN = {
     "time": Shown("time", "t", _S),
     "crank_time": Shown("time", "t", _S),
     "turns": Shown("turns of the crank", "n", ""),
+    "crank_jerk": Shown("jerk of the crank", "dε/dt", "rad/s³"),
     "inertia_reduced": Shown("reduced inertia", "J", _KGM2),
     "inertia_reduced_d1": Shown("derivative of the reduced inertia", "J′", "kg m²/rad"),
     "inertia_min": Shown("least reduced inertia", "J_min", _KGM2),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.analysis.closure import require_one_turn
 from linkwright.analysis.sound_loads import require_same_turns
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError, MachineError, Problem, ShapeError
@@ -148,6 +149,8 @@ def steady_states(
         Arrays of different lengths.
     InputError
         The machine has no motor, or one of constant speed.
+    FindingError
+        The first machine does not repeat after one turn of the crank.
     SteadyStateError
         A load changes with time itself.
     """
@@ -160,6 +163,7 @@ def steady_states(
     compiled = compile_machine(replace(machine, arrays))
     if not len(compiled.slots):
         raise InputError("none of the entries has an effect on the motion")
+    require_one_turn(compiled)
     status, table, turns = compiled.steady_rows(accuracy)
     columns = dict(zip(_COLUMNS, np.ascontiguousarray(table.T), strict=False))
     return SteadyStates(entries=arrays, status=status, turns_swept=turns, **columns)

@@ -1,11 +1,13 @@
 //! Motions coupled in proportion: gears, planetary trains, belts, racks, cables, linear drivers.
 //!
-//! All of them say that one coordinate is a sum of others times constants: a planet's angle is that of the
+//! Most of them say that one coordinate is a sum of others times constants: a planet's angle is that of the
 //! carrier times (1 − i) plus i times that of the sun; a cable on an arc of radius R runs out by R times
 //! the angle of the arc. The angle of a link counts as a coordinate once [`AngleOf`] has made it continuous.
 
 use super::guided::{Line, on_line};
 use super::{Motion, Slot};
+use crate::formula::{Formula, Inputs};
+use crate::jet::Jet;
 use crate::plane::{Angle, Vec2};
 use crate::real::Real;
 
@@ -74,6 +76,20 @@ pub struct AngleOf {
     pub slide: usize,
     pub winding: Slot,
     pub centre: Slot,
+}
+
+/// A coordinate that is a formula of the crank angle: the law of a driver.
+#[derive(Clone, Debug)]
+pub struct Law {
+    pub slide: usize,
+    pub formula: Formula,
+}
+
+/// The formula worked in series of φ, which brings its derivatives along.
+#[inline(always)]
+pub(super) fn law<R: Real>(e: &Law, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
+    let found: Jet<R, 3> = e.formula.value(q, &Inputs::of_angle(Jet::variable(angle.phi)));
+    m.slides[e.slide].set(found.c[0], found.c[1], found.c[2] * 2.0);
 }
 
 #[inline(always)]

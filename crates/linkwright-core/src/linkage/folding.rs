@@ -1,14 +1,15 @@
-//! The dyad RRR through its change points, where coupler and rocker come into line.
+//! Dyads through their change points: RRR where coupler and rocker come into line, RRP where the rod stands
+//! across its guide.
 //!
-//! There the radicand g = S² of [`super::Rocker`] touches zero, both assemblies meet, and the motion that goes
-//! on without a break is the one where S changes sign: S is smooth, |S| is not. The rates of the links are
+//! There the radicand g = S² touches zero, both assemblies meet, and the motion that goes on without a break is
+//! the one where S changes sign: S is smooth, |S| is not. The rates of the links are
 //! 0/0 in the loop equations. Near a change point φ_c the root is therefore taken from g's Taylor series,
 //!
 //! ```text
 //! g = δ² h(δ),    S = δ √h(δ),    δ = φ − φ_c
 //! ```
 //!
-//! and positions and rates follow from S, S′, S″ without division by S:
+//! and positions and rates follow from S, S′, S″ without division by S; for RRR with
 //!
 //! ```text
 //! C = A + P u + Q u⊥    P = ½ + (a² − b²)/(2U)    Q = S/(2U)    U = u², u from pin to pivot
@@ -17,7 +18,7 @@
 //! Away from it S = ±√g with the sign of Π sin((φ − φ_c)/2) over all change points: it changes at each of
 //! them and nowhere else.
 
-use super::guided::bar;
+use super::guided::{GuidedRod, Series, bar, place_rod, rod_radicand};
 use super::{Motion, Rocker, Slot};
 use crate::plane::{Angle, Place};
 use crate::real::Real;
@@ -48,8 +49,12 @@ pub struct Folding {
     pub change_points: Vec<ChangePoint>,
 }
 
-/// A quantity with its first and second derivative by φ.
-type Series<R> = [R; 3];
+/// A rod on a guide with its change points; its `sign` likewise.
+#[derive(Clone, Debug)]
+pub struct FoldingRod {
+    pub rod: GuidedRod,
+    pub change_points: Vec<ChangePoint>,
+}
 
 /// U = u·u with two derivatives.
 #[inline(always)]
@@ -91,12 +96,18 @@ fn near<R: Real>(series: &[Slot], q: &[R], delta: R) -> Series<R> {
     [p * delta, p + p1 * delta, p1 * 2.0 + p2 * delta]
 }
 
-/// S with two derivatives at any crank angle.
+/// S with two derivatives at any crank angle, from g and the side where the product of half-angle sines is
+/// positive.
 #[inline(always)]
-fn root<R: Real>(e: &Folding, q: &[R], angle: Angle<R>, g: Series<R>) -> Series<R> {
-    let mut side = q[e.rocker.sign];
+fn root<R: Real>(
+    change_points: &[ChangePoint],
+    mut side: R,
+    q: &[R],
+    angle: Angle<R>,
+    g: Series<R>,
+) -> Series<R> {
     let (half_sin, half_cos) = (angle.phi * 0.5).sin_cos();
-    for at in &e.change_points {
+    for at in change_points {
         side = side * (half_sin * q[at.half_cos] - half_cos * q[at.half_sin]);
     }
     let one = R::splat(1.0);
@@ -105,7 +116,7 @@ fn root<R: Real>(e: &Folding, q: &[R], angle: Angle<R>, g: Series<R>) -> Series<
     let half = (S + S).recip();
     let S1 = g[1] * half;
     let mut found = [S, S1, (g[2] - S1.squared() * 2.0) * half];
-    for at in &e.change_points {
+    for at in change_points {
         let sine = angle.sin * q[at.cos] - angle.cos * q[at.sin];
         let cosine = angle.cos * q[at.cos] + angle.sin * q[at.sin];
         // The opposite side of the turn has the same sine: it is put out of reach.
@@ -119,10 +130,22 @@ fn root<R: Real>(e: &Folding, q: &[R], angle: Angle<R>, g: Series<R>) -> Series<
 }
 
 #[inline(always)]
+pub(super) fn folding_rod<R: Real, const ORDER: u8>(
+    e: &FoldingRod,
+    q: &[R],
+    angle: Angle<R>,
+    m: &mut Motion<R>,
+) {
+    let w = root(&e.change_points, q[e.rod.sign], q, angle, rod_radicand(&e.rod, q, m));
+    place_rod::<R, ORDER>(&e.rod, q, m, w);
+    m.gaps[e.rod.gap] = w[0].squared();
+}
+
+#[inline(always)]
 pub(super) fn folding<R: Real>(e: &Folding, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
     let g = &e.rocker;
     let (pin, pivot) = (m.points[g.pin], m.points[g.pivot]);
-    let S = root(e, q, angle, radicand(g, q, m));
+    let S = root(&e.change_points, q[g.sign], q, angle, radicand(g, q, m));
     let (a, b) = (q[g.coupler], q[g.rocker]);
     let [U, U1, U2] = square(&pin, &pivot);
     let inverse = U.recip();

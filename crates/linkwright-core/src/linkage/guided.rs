@@ -115,40 +115,56 @@ pub(super) fn on_line<R: Real, const ORDER: u8>(
     Guide::of(line, q, m).point::<ORDER>(s, s1, s2)
 }
 
-/// Dyad RRP on a guide that turns with ψ. With c from the guide's origin to the pin, h = n·c − offset the
-/// distance of the pin from the guide, p = t·c:
+/// A quantity with its first and second derivative by φ.
+pub(super) type Series<R> = [R; 3];
+
+/// Distance h of a pin from a guide, and its coordinate p along it. With c from the guide's origin to the pin:
 ///
 /// ```text
-/// w = √(l² − h²)    s = p ± w      w′ = −h h′/w      w″ = −(h′² + h h″ + w′²)/w
-/// h′ = n·c′ − ψ′ p                 h″ = n·c″ − ψ″ p − 2ψ′ t·c′ − ψ′² n·c
-/// p′ = t·c′ + ψ′ n·c               p″ = t·c″ + ψ″ n·c + 2ψ′ n·c′ − ψ′² p
+/// h = n·c − offset    h′ = n·c′ − ψ′ p          h″ = n·c″ − ψ″ p − 2ψ′ t·c′ − ψ′² n·c
+/// p = t·c             p′ = t·c′ + ψ′ n·c        p″ = t·c″ + ψ″ n·c + 2ψ′ n·c′ − ψ′² p
 /// ```
 #[inline(always)]
+fn across_and_along<R: Real>(guide: &Guide<R>, pin: &Place<R>) -> [Series<R>; 2] {
+    let (t, n) = (guide.t, guide.t.left());
+    let (c, c1, c2) = (pin.p - guide.origin.p, pin.d1 - guide.origin.d1, pin.d2 - guide.origin.d2);
+    let (p, across) = (t.dot(c), n.dot(c));
+    let square = guide.d1.squared();
+    let h1 = n.dot(c1) - guide.d1 * p;
+    let p1 = t.dot(c1) + guide.d1 * across;
+    let h2 = n.dot(c2) - guide.d2 * p - guide.d1 * t.dot(c1) * 2.0 - square * across;
+    let p2 = t.dot(c2) + guide.d2 * across + guide.d1 * n.dot(c1) * 2.0 - square * p;
+    [[across - guide.offset, h1, h2], [p, p1, p2]]
+}
+
+/// g = l² − h² with two derivatives.
+#[inline(always)]
+pub(super) fn rod_radicand<R: Real>(e: &GuidedRod, q: &[R], m: &Motion<R>) -> Series<R> {
+    let [h, _] = across_and_along(&Guide::of(&e.line, q, m), &m.points[e.pin]);
+    let g2 = (h[1].squared() + h[0] * h[2]) * -2.0;
+    [q[e.rod].squared() - h[0].squared(), h[0] * h[1] * -2.0, g2]
+}
+
+/// Dyad RRP on a guide that turns: w = ±√g, w′ = g′/2w, w″ = (g″ − 2w′²)/2w.
+#[inline(always)]
 pub(super) fn guided_rod<R: Real, const ORDER: u8>(e: &GuidedRod, q: &[R], m: &mut Motion<R>) {
+    let g = rod_radicand(e, q, m);
+    let w = q[e.sign] * g[0].sqrt();
+    let half = (w + w).recip();
+    let w1 = g[1] * half;
+    place_rod::<R, ORDER>(e, q, m, [w, w1, (g[2] - w1.squared() * 2.0) * half]);
+    m.gaps[e.gap] = g[0];
+}
+
+/// The slider at s = p + w, and its rod.
+#[inline(always)]
+pub(super) fn place_rod<R: Real, const ORDER: u8>(e: &GuidedRod, q: &[R], m: &mut Motion<R>, w: Series<R>) {
     let guide = Guide::of(&e.line, q, m);
     let pin = m.points[e.pin];
-    let (t, n) = (guide.t, guide.t.left());
-    let (c, c1) = (pin.p - guide.origin.p, pin.d1 - guide.origin.d1);
-    let (p, across) = (t.dot(c), n.dot(c));
-    let h = across - guide.offset;
-    let gap = q[e.rod].squared() - h.squared();
-    let w = gap.sqrt();
-    let inverse_w = w.recip();
-    let h1 = n.dot(c1) - guide.d1 * p;
-    let w1 = -(h * h1 * inverse_w);
-    let s = p + q[e.sign] * w;
-    let s1 = t.dot(c1) + guide.d1 * across + q[e.sign] * w1;
-    let mut s2 = R::splat(0.0);
-    if ORDER > 1 {
-        let c2 = pin.d2 - guide.origin.d2;
-        let square = guide.d1.squared();
-        let h2 = n.dot(c2) - guide.d2 * p - guide.d1 * t.dot(c1) * 2.0 - square * across;
-        let w2 = -((h1.squared() + h * h2 + w1.squared()) * inverse_w);
-        s2 = t.dot(c2) + guide.d2 * across + guide.d1 * n.dot(c1) * 2.0 - square * p + q[e.sign] * w2;
-    }
-    let place = guide.point::<ORDER>(s, s1, s2);
-    m.gaps[e.gap] = gap;
-    m.slides[e.slide].set(s, s1, s2);
+    let [_, p] = across_and_along(&guide, &pin);
+    let s = [p[0] + w[0], p[1] + w[1], p[2] + w[2]];
+    let place = guide.point::<ORDER>(s[0], s[1], s[2]);
+    m.slides[e.slide].set(s[0], s[1], s[2]);
     m.points[e.point].set(place.p, place.d1, place.d2);
     bar::<R>(m, e.link, &pin, &place, q[e.inverse_rod]);
 }

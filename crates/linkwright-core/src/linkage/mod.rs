@@ -23,10 +23,10 @@ pub mod group;
 pub mod guided;
 pub mod trace;
 
-use coupled::{AngleOf, Runner, Turn};
-use folding::Folding;
+use coupled::{AngleOf, Law, Runner, Turn};
+use folding::{Folding, FoldingRod};
 use group::{Bar, Group};
-use guided::{Crossing, GuidedRod, SlottedLever};
+use guided::{Crossing, GuidedRod, Line, SlottedLever};
 
 use crate::plane::{Angle, Heading, Place, Slide, Vec2};
 use crate::real::Real;
@@ -68,10 +68,14 @@ pub enum Element {
     AngleOf(AngleOf),
     /// The dyad RRR through its change points.
     Folding(Folding),
+    /// The dyad RRP through its change points.
+    FoldingRod(FoldingRod),
     /// A group solved together.
     Group(Group),
     /// A link between two points that are placed already.
     Bar(Bar),
+    /// A coordinate by a formula of the crank angle.
+    Law(Law),
 }
 
 /// Fields of the dyad RRP. The guide has direction (`cos`, `sin`) and passes `offset` to the left of point
@@ -212,6 +216,25 @@ impl Mechanism {
     }
 }
 
+impl SliderRod {
+    /// The same on a guide like any other, which is fixed to the frame.
+    fn guided(&self, frame: usize) -> GuidedRod {
+        let line =
+            Line { through: self.through, link: frame, cos: self.cos, sin: self.sin, offset: self.offset };
+        GuidedRod {
+            point: self.point,
+            link: self.link,
+            slide: self.slide,
+            gap: self.gap,
+            pin: self.pin,
+            line,
+            rod: self.rod,
+            inverse_rod: self.inverse_rod,
+            sign: self.sign,
+        }
+    }
+}
+
 impl Element {
     /// Places an element of the rarer kinds.
     #[inline(always)]
@@ -224,11 +247,13 @@ impl Element {
             Element::Runner(e) => coupled::runner::<R, ORDER>(e, q, angle, m),
             Element::AngleOf(e) => coupled::angle_of(e, q, angle, m),
             Element::Folding(e) => folding::folding(e, q, angle, m),
+            Element::FoldingRod(e) => folding::folding_rod::<R, ORDER>(e, q, angle, m),
             Element::Group(e) => e.place::<R, ORDER>(q, angle, m),
             Element::Bar(e) => {
                 let (from, to) = (m.points[e.from], m.points[e.to]);
                 guided::bar(m, e.link, &from, &to, q[e.inverse_length]);
             }
+            Element::Law(e) => coupled::law(e, q, angle, m),
             Element::Crank { .. }
             | Element::SliderRod(_)
             | Element::Rocker(_)

@@ -6,6 +6,7 @@
 
 use super::folding::{TERMS, radicand};
 use super::group::Group;
+use super::guided::{GuidedRod, rod_radicand};
 use super::{Element, Mechanism, Motion, Rocker};
 use crate::jet::Jet;
 use crate::plane::{Angle, Place, Vec2};
@@ -15,7 +16,7 @@ use std::f64::consts::TAU;
 /// Terms of the radicand's series: two more than of S/δ.
 const ORDERS: usize = TERMS + 2;
 
-/// Share of 4a²b² below which the radicand at its minimum counts as zero. Links then are in line to some
+/// Share of 4a²b², or of l², below which the radicand at its minimum counts as zero. Links then are in line to some
 /// 1e-6 of their length: rounding of lengths given to all digits is far below, rounding of printed ones
 /// far above.
 const TOUCHES: f64 = 1e-12;
@@ -23,43 +24,64 @@ const TOUCHES: f64 = 1e-12;
 /// The crank angle of a change point, and the coefficients of S/δ there up to the sign.
 pub type ChangePointSeries = (f64, [f64; TERMS]);
 
-impl Mechanism {
-    fn rocker_at(&self, element: usize) -> Option<&Rocker> {
-        match &self.elements[element] {
-            Element::Rocker(rocker) => Some(rocker),
+/// A dyad that may have change points.
+enum Dyad {
+    Rocker(Rocker),
+    Rod(GuidedRod),
+}
+
+impl Dyad {
+    fn of(mechanism: &Mechanism, element: usize) -> Option<Self> {
+        match &mechanism.elements[element] {
+            Element::Rocker(e) => Some(Dyad::Rocker(*e)),
+            Element::SliderRod(e) => Some(Dyad::Rod(e.guided(mechanism.n_links))),
+            Element::GuidedRod(e) => Some(Dyad::Rod(*e)),
             _ => None,
         }
     }
 
-    /// Series of the radicand of a dyad RRR about a crank angle.
-    fn radicand_series(&self, element: usize, rocker: &Rocker, q: &[f64], phi: f64) -> [f64; ORDERS] {
-        let q: Vec<Jet<f64, ORDERS>> = q.iter().map(|&x| Jet::constant(x)).collect();
-        let mut m = Motion::new(self, &q);
-        self.place_first::<_, 1>(element, &q, Angle::new(Jet::variable(phi)), &mut m);
-        radicand(rocker, &q, &m)[0].c
+    /// What the radicand is measured against.
+    fn size(&self, q: &[f64]) -> f64 {
+        match self {
+            Dyad::Rocker(e) => 4.0 * (q[e.coupler] * q[e.rocker]).powi(2),
+            Dyad::Rod(e) => q[e.rod].powi(2),
+        }
     }
 }
 
-/// The change point of a dyad RRR near a crank angle; `None` if the radicand does not touch zero there.
+impl Mechanism {
+    /// Series of the radicand of a dyad about a crank angle.
+    fn radicand_series(&self, element: usize, dyad: &Dyad, q: &[f64], phi: f64) -> [f64; ORDERS] {
+        let q: Vec<Jet<f64, ORDERS>> = q.iter().map(|&x| Jet::constant(x)).collect();
+        let mut m = Motion::new(self, &q);
+        self.place_first::<_, 1>(element, &q, Angle::new(Jet::variable(phi)), &mut m);
+        match dyad {
+            Dyad::Rocker(e) => radicand(e, &q, &m)[0].c,
+            Dyad::Rod(e) => rod_radicand(e, &q, &m)[0].c,
+        }
+    }
+}
+
+/// The change point of a dyad near a crank angle; `None` if the radicand does not touch zero there.
 pub fn change_point(
     mechanism: &Mechanism,
     element: usize,
     q: &[f64],
     near: f64,
 ) -> Option<ChangePointSeries> {
-    let rocker = mechanism.rocker_at(element)?;
-    let size = 4.0 * (q[rocker.coupler] * q[rocker.rocker]).powi(2);
+    let dyad = Dyad::of(mechanism, element)?;
+    let size = dyad.size(q);
     let mut phi = near;
     // Newton on g′ = 0 from an angle of a fine grid: quadratic.
     for _ in 0..20 {
-        let g = mechanism.radicand_series(element, rocker, q, phi);
+        let g = mechanism.radicand_series(element, &dyad, q, phi);
         let step = -g[1] / (2.0 * g[2]);
         phi += step.clamp(-0.1, 0.1);
         if step.abs() < 1e-15 {
             break;
         }
     }
-    let g = mechanism.radicand_series(element, rocker, q, phi);
+    let g = mechanism.radicand_series(element, &dyad, q, phi);
     // What is written so that NaN is refused too.
     let touches = g[0].abs() <= TOUCHES * size && g[2] > 0.0;
     if !touches {

@@ -1,0 +1,357 @@
+r"""The path of a point: length, extent, curvature, its straightest portion, double points and cusps.
+
+.. math::
+
+    L = \int \lVert\mathbf p'\rVert\,d\varphi, \qquad \kappa = \frac{x'y'' - y'x''}{\lVert\mathbf p'\rVert^3}
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.analysis.closure import closure_of
+from linkwright.analysis.dyads import POINT, evaluate
+from linkwright.analysis.period import turns_to_repeat
+from linkwright.analysis.result import Result
+from linkwright.analysis.roots import brackets, minima, zeros
+from linkwright.analysis.turning import Cycle
+from linkwright.engine import Compiled, compile_machine
+from linkwright.errors import AssemblyError, MachineError, Problem, ShapeError
+from linkwright.machine import Machine
+
+Floats = NDArray[np.float64]
+
+# Greatest distance from the chord, over its length, of what counts as straight.
+_STRAIGHT = 1e-3
+
+# Portions of the path between which all straight ones are looked for.
+_PORTIONS = 90
+
+# Points of a portion when it is looked at closely, and halvings when it is found not to be straight.
+_CLOSELY = 65
+_HALVINGS = 40
+
+# Speed of the point, over its greatest, at which its path has a cusp: its square is known to rounding.
+_STANDS = 1e-7
+
+# Rounds of Newton for a double point; from a degree's polygon four suffice.
+_ROUNDS = 20
+
+
+class DoublePoint(NamedTuple):
+    """Where a path crosses itself: place [m], and the two crank angles [rad]."""
+
+    x: float
+    y: float
+    first_angle: float
+    second_angle: float
+
+
+class Cusp(NamedTuple):
+    """Where the point stands still and turns back: place [m], and the crank angle [rad]."""
+
+    x: float
+    y: float
+    angle: float
+
+
+@dataclass(frozen=True)
+class CouplerCurve(Result):
+    """The path of a point over the cycle.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n,)
+        [rad].
+    x, y : ndarray
+        The path [m].
+    curvature : ndarray
+        Positive where it bends to the left [1/m].
+    point : str
+        Name of the point.
+    is_closed : bool
+        Whether the path comes back to its start.
+    length : float
+        [m].
+    x_min, x_max, y_min, y_max : float
+        Its extent, located exactly [m].
+    straight_length : float
+        Chord of the longest portion that is straight: nowhere farther from its chord than a thousandth of it [m].
+    straight_from, straight_to : float
+        Crank angles at its ends [rad]; the second is greater.
+    straight_error : float
+        Greatest distance from that chord [m].
+    double_points : tuple of DoublePoint
+        Where the path crosses itself.
+    cusps : tuple of Cusp
+        Where the point stands still.
+    """
+
+    crank_angle: Floats
+    x: Floats
+    y: Floats
+    curvature: Floats
+    point: str
+    is_closed: bool
+    length: float
+    x_min: float
+    x_max: float
+    y_min: float
+    y_max: float
+    straight_length: float
+    straight_from: float
+    straight_to: float
+    straight_error: float
+    double_points: tuple[DoublePoint, ...]
+    cusps: tuple[Cusp, ...]
+
+
+def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) -> CouplerCurve:
+    """The path of a point over the cycle.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; of a batch, the first.
+    point : str
+        Name of a point that moves.
+    straight : float
+        Greatest distance from the chord of what counts as straight, over the chord's length.
+
+    Returns
+    -------
+    CouplerCurve
+        Over the period; of a mechanism with limits, over the first range in which it closes.
+
+    Raises
+    ------
+    MachineError
+        There is no such point.
+    ShapeError
+        ``straight`` is not between 0 and 1.
+    AssemblyError
+        The mechanism closes nowhere.
+    """
+    if not 0 < straight < 1:
+        raise ShapeError(f"straight = {straight:g}: expected a number between 0 and 1")
+    compiled = compile_machine(machine).first()
+    if point not in compiled.points:
+        raise MachineError([Problem("point", point, f"one of {', '.join(compiled.points)}")])
+    where = closure_of(compiled)
+    if not where.ranges:
+        raise AssemblyError(
+            "the mechanism closes at no crank angle; change the lengths", element=where.element
+        )
+    cycle = Cycle.of(where, turns_to_repeat(compiled) if where.turns_fully else None)
+    return _Path(compiled, compiled.points[point], cycle).result(point, straight)
+
+
+class _Path:
+    """A path with what is looked for on it."""
+
+    def __init__(self, compiled: Compiled, index: int, cycle: Cycle) -> None:
+        self.compiled, self.index, self.cycle = compiled, index, cycle
+        self.table = self.at(cycle.angles)
+        self.place = self.table[:2].T
+
+    def at(self, angles: Floats) -> Floats:
+        """x, y, x′, y′, x″, y″ at crank angles."""
+        return evaluate(self.compiled, [(POINT, self.index)], angles)[0]
+
+    def result(self, point: str, straight: float) -> CouplerCurve:
+        x, y, x1, y1, x2, y2 = self.table
+        speed = np.hypot(x1, y1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            curvature = (x1 * y2 - y1 * x2) / speed**3
+        (x_min, x_max), (y_min, y_max) = self._extent(0), self._extent(1)
+        start, end, chord, error = self._straightest(straight)
+        return CouplerCurve(
+            crank_angle=self.cycle.angles,
+            x=x,
+            y=y,
+            curvature=curvature,
+            point=point,
+            is_closed=self.cycle.repeats,
+            length=self._length(),
+            x_min=x_min,
+            x_max=x_max,
+            y_min=y_min,
+            y_max=y_max,
+            straight_length=chord,
+            straight_from=start,
+            straight_to=end,
+            straight_error=error,
+            double_points=tuple(self._double_points()),
+            cusps=tuple(self._cusps()),
+        )
+
+    def _length(self) -> float:
+        """Gauss–Legendre from sample to sample, and to where the point stands: there its speed has a kink."""
+        nodes, weights = np.polynomial.legendre.leggauss(4)
+        ends = np.union1d(self.cycle.angles, self._stops())
+        low, high = ends[:-1, None], ends[1:, None]
+        at = 0.5 * (low + high) + 0.5 * (high - low) * nodes
+        table = self.at(at.ravel())
+        speed = np.hypot(table[2], table[3]).reshape(at.shape)
+        return float((speed @ weights @ (0.5 * (high - low)[:, 0])).item())
+
+    def _extent(self, axis: int) -> tuple[float, float]:
+        """Least and greatest x or y."""
+        _, column = brackets(self.table[2 + axis][None])
+        angles = self.cycle.angles
+        at = angles[[0, -1]]
+        if len(column):
+            near, _ = zeros(lambda phi: self.at(phi)[2 + axis], angles[column], angles[column + 1])
+            at = np.concatenate([at, near])
+        values = self.at(at)[axis]
+        return float(values.min()), float(values.max())
+
+    # -- straight portion --------------------------------------------------------------------------------
+
+    def _straightest(self, straight: float) -> tuple[float, float, float, float]:
+        """Ends, chord and error of the portion with the longest chord that is straight.
+
+        All portions between every few samples are looked at, then those whose ends are moved by less.
+        """
+        n = len(self.cycle.angles) - 1
+        stride = max(1, n // _PORTIONS)
+        # Two turns of a closed path, so that a portion may pass the first sample.
+        path = np.concatenate([self.place[:-1], self.place]) if self.cycle.repeats else self.place
+        chord, start, end = max(_longest(path, n, stride, straight), _longest(path, 2 * stride, 1, straight))
+        if self.cycle.repeats and start <= stride:
+            start, end = start + n, end + n
+        before = -1.0
+        while chord > before:
+            before = chord
+            around = range(max(0, start - stride), start + stride + 1), range(end - stride, end + stride + 1)
+            for first, last in product(*around):
+                fits = 0 < last - first <= n and last < len(path)
+                found = _chord(path[first : last + 1]) if fits else (0.0, 0.0)
+                if found[0] > chord and found[1] <= straight * found[0]:
+                    start, end, chord = first, last, found[0]
+        low, high = self.cycle.angles[0] + self.cycle.span / n * np.array([start, end])
+        return self._confirmed(float(low), float(high), straight)
+
+    def _confirmed(self, low: float, high: float, straight: float) -> tuple[float, float, float, float]:
+        """The portion looked at closely, and shrunk about its middle until it is straight there too."""
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+        good, bad = 0.0, 2.0
+        for share in (1.0, *[0.0] * _HALVINGS):
+            share = share or 0.5 * (good + bad)
+            chord, error = _chord(self._between(middle - share * half, middle + share * half))
+            good, bad = (share, bad) if error <= straight * chord else (good, share)
+            if good == 1.0:
+                break
+        low, high = middle - good * half, middle + good * half
+        return low, high, *_chord(self._between(low, high))
+
+    def _between(self, low: float, high: float) -> Floats:
+        return self.at(np.linspace(low, high, _CLOSELY))[:2].T
+
+    # -- double points and cusps -------------------------------------------------------------------------
+
+    def _double_points(self) -> list[DoublePoint]:
+        """Crossings of the polygon through the samples, then Newton on p(φ₁) = p(φ₂)."""
+        found: list[DoublePoint] = []
+        size = float(np.ptp(self.place, axis=0).max())
+        for first, second in _crossings(self.place, closed=self.cycle.repeats):
+            angles = self.cycle.angles[[first, second]] + 0.5 * (self.cycle.angles[1] - self.cycle.angles[0])
+            point = self._double_point(angles, size)
+            if point is not None and not any(
+                np.hypot(point.x - p.x, point.y - p.y) < 1e-9 * size for p in found
+            ):
+                found.append(point)
+        return found
+
+    def _double_point(self, angles: Floats, size: float) -> DoublePoint | None:
+        for _ in range(_ROUNDS):
+            table = self.at(angles)
+            off = table[:2, 0] - table[:2, 1]
+            jacobian = np.array([table[2:4, 0], -table[2:4, 1]]).T
+            if abs(np.linalg.det(jacobian)) <= 1e-14 * size**2 or not np.isfinite(table).all():
+                return None
+            step = np.linalg.solve(jacobian, -off)
+            angles = angles + np.clip(step, -0.1, 0.1)
+            if np.abs(step).max() < 1e-13:
+                break
+        table = self.at(angles)
+        apart = abs((angles[0] - angles[1] + np.pi) % (2 * np.pi) - np.pi)
+        if np.hypot(*(table[:2, 0] - table[:2, 1])) > 1e-12 * size or apart < 1e-4:
+            return None
+        low, high = sorted(float(angle) % (2 * np.pi) for angle in angles)
+        return DoublePoint(float(table[0, 0]), float(table[1, 0]), low, high)
+
+    def _cusps(self) -> list[Cusp]:
+        at = self._stops()
+        turn = 2 * np.pi if self.cycle.span < 2 * np.pi * 1.01 else np.inf
+        return [
+            Cusp(float(x), float(y), float(phi % turn))
+            for x, y, phi in zip(*self.at(at)[:2], at, strict=True)
+        ]
+
+    def _stops(self) -> Floats:
+        """Crank angles at which the point stands still: minima of its speed that are zero."""
+        speed = np.hypot(self.table[2], self.table[3])
+        inner = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] < speed[2:])) + 1
+        inner = inner[speed[inner] < 0.1 * speed.max()]
+        if not len(inner):
+            return np.empty(0)
+        angles = self.cycle.angles
+        at, least = minima(lambda phi: np.hypot(*self.at(phi)[2:4]), angles[inner - 1], angles[inner + 1])
+        found: Floats = at[least <= _STANDS * speed.max()]
+        return found
+
+
+Portion = tuple[float, int, int]
+
+
+def _longest(path: Floats, most: int, stride: int, straight: float) -> Portion:
+    """Chord, first and last sample of the straight portion of up to ``most`` intervals with the longest chord."""
+    best: Portion = (0.0, 0, 1)
+    for count in range(stride, min(most, len(path) - 1) + 1, stride):
+        starts = np.arange(0, len(path) - count, stride)
+        chords, errors = _off_chords(path[starts[:, None] + np.arange(count + 1)])
+        fits = np.where(errors <= straight * chords, chords, 0.0)
+        at = int(fits.argmax())
+        best = max(best, (float(fits[at]), int(starts[at]), int(starts[at]) + count))
+    return best
+
+
+def _chord(part: Floats) -> tuple[float, float]:
+    """Chord and error of one portion."""
+    chords, errors = _off_chords(part[None])
+    return float(chords[0]), float(errors[0])
+
+
+def _off_chords(parts: Floats) -> tuple[Floats, Floats]:
+    """Chords of portions (k, samples, 2), and the greatest distance from each, or beyond its ends."""
+    along = parts[:, -1] - parts[:, 0]
+    chords = np.hypot(*along.T)
+    unit = along / np.maximum(chords, 1e-300)[:, None]
+    x, y = (parts - parts[:, :1]).transpose(2, 0, 1)
+    from_start = x * unit[:, :1] + y * unit[:, 1:]
+    across = np.abs(y * unit[:, :1] - x * unit[:, 1:])
+    beyond = np.maximum(-from_start, from_start - chords[:, None])
+    return chords, np.maximum(across, beyond).max(axis=1)
+
+
+def _crossings(place: Floats, *, closed: bool) -> list[tuple[int, int]]:
+    """Pairs of segments of a polygon that cross, neighbours left out."""
+    a, d = place[:-1], np.diff(place, axis=0)
+    n = len(d)
+    first, second = np.triu_indices(n, 2)
+    if closed:
+        keep = ~((first == 0) & (second == n - 1))
+        first, second = first[keep], second[keep]
+    r, s, q = d[first], d[second], a[second] - a[first]
+    cross = r[:, 0] * s[:, 1] - r[:, 1] * s[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        t = (q[:, 0] * s[:, 1] - q[:, 1] * s[:, 0]) / cross
+        u = (q[:, 0] * r[:, 1] - q[:, 1] * r[:, 0]) / cross
+    hit = (t >= 0) & (t <= 1) & (u >= 0) & (u <= 1)
+    return list(zip(first[hit].tolist(), second[hit].tolist(), strict=True))
