@@ -28,7 +28,7 @@ def tables(study: Study) -> list[Table]:
         Without those that have nothing to tell.
     """
     made = (_reduction(study), _steady(study), _measures(study), _drive(study), _run_up(study))
-    found = (*linkage_tables(study), *unit_tables(study), *made, _run_down(study), _step_method(study))
+    found = (*unit_tables(study), *made, _run_down(study), _step_method(study), *linkage_tables(study))
     return [table for table in found if table is not None]
 
 
