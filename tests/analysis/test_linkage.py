@@ -170,7 +170,9 @@ def test_extremes_are_those_of_a_fine_grid() -> None:
     assert found.velocity_ratio_max >= rocker.d1.max() - EXACT
     assert found.velocity_ratio_min <= rocker.d1.min() + EXACT
     assert found.velocity_ratio_max == pytest.approx(rocker.d1.max(), rel=1e-9)
-    mu = np.abs((motion.links["R.rocker"].angle - motion.links["R.coupler"].angle + np.pi) % (2 * np.pi) - np.pi)
+    mu = np.abs(
+        (motion.links["R.rocker"].angle - motion.links["R.coupler"].angle + np.pi) % (2 * np.pi) - np.pi
+    )
     assert found.transmission_angle_min == pytest.approx(mu.min(), abs=1e-9)
     assert found.transmission_angle_max == pytest.approx(mu.max(), abs=1e-9)
 
@@ -293,7 +295,7 @@ def test_limits_in_closed_form() -> None:
     r, a, b, d = 0.3, 0.2, 0.25, 0.4
     found = lw.linkage(four_bar(r, a, b, d))
     limit = angle_in_triangle(r, d, a + b)
-    (low, high), = found.closure.ranges
+    ((low, high),) = found.closure.ranges
     assert (low - 2 * np.pi, high - 2 * np.pi) == pytest.approx((-limit, limit), abs=1e-11)
     kinds = {each.kind for each in found.dead_points}
     assert kinds == {LIMIT, REVERSAL}
@@ -306,7 +308,7 @@ def test_limits_in_closed_form() -> None:
 def test_narrow_gaps_are_seen(short: float) -> None:
     """Coupler and rocker too short by a little leave a gap about 180° that no grid of quarter degrees meets."""
     r, a, b, d = 0.1, 0.2, 0.2, 0.3
-    (low, high), = closure(four_bar(r, a, b, d + short)).ranges
+    ((low, high),) = closure(four_bar(r, a, b, d + short)).ranges
     half = np.pi - angle_in_triangle(r, d + short, a + b)
     assert (low, high) == pytest.approx((np.pi + half, 3 * np.pi - half), abs=1e-7)
 
@@ -314,7 +316,7 @@ def test_narrow_gaps_are_seen(short: float) -> None:
 def test_narrow_openings_are_seen() -> None:
     """A linkage that closes only within some hundredths of a degree."""
     r, a, b, d = 0.1, 0.1, 0.1, 0.3 - 1e-9
-    (low, high), = closure(four_bar(r, a, b, d)).ranges
+    ((low, high),) = closure(four_bar(r, a, b, d)).ranges
     reach = angle_in_triangle(r, d, a + b)
     assert high - low == pytest.approx(2 * reach, abs=1e-8)
     assert np.sin(0.5 * (low + high)) == pytest.approx(0, abs=1e-8)
@@ -352,7 +354,9 @@ def test_circuits_need_dyads_that_are_free() -> None:
 def test_path_of_a_crank_is_a_circle() -> None:
     curve = lw.coupler_curve(four_bar(0.1, 0.35, 0.3, 0.4), "A")
     assert curve.length == pytest.approx(2 * np.pi * 0.1, rel=1e-13)
-    assert (curve.x_min, curve.x_max, curve.y_min, curve.y_max) == pytest.approx((-0.1, 0.1, -0.1, 0.1), abs=1e-14)
+    assert (curve.x_min, curve.x_max, curve.y_min, curve.y_max) == pytest.approx(
+        (-0.1, 0.1, -0.1, 0.1), abs=1e-14
+    )
     np.testing.assert_allclose(curve.curvature, 10.0, rtol=1e-12)
     # A chord of a circle of radius r is straight to a thousandth of itself while r (1 − cos α) ≤ 2 r sin α/1000.
     alpha = 2 * np.arctan(2e-3)

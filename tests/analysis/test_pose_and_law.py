@@ -67,7 +67,9 @@ length = 1.0
 """
 
 
-def four_bar(crank: float = 0.1, coupler: float = 0.35, rocker: float = 0.3, ground: float = 0.4) -> lw.Machine:
+def four_bar(
+    crank: float = 0.1, coupler: float = 0.35, rocker: float = 0.3, ground: float = 0.4
+) -> lw.Machine:
     return lw.loads(f"""
         format = 1
         name = "four-bar"
@@ -105,7 +107,9 @@ def test_third_derivatives_in_closed_form() -> None:
     """A crank's pin, and a Scotch yoke: x = r cos φ, so x‴ = r sin φ."""
     phi = np.linspace(0, 6, 50)
     motion = lw.kinematics(lw.loads(ALL), phi, third=True)
-    np.testing.assert_allclose(motion.points["A"].d3, 0.1 * np.stack([np.sin(phi), -np.cos(phi)], -1), atol=1e-15)
+    np.testing.assert_allclose(
+        motion.points["A"].d3, 0.1 * np.stack([np.sin(phi), -np.cos(phi)], -1), atol=1e-15
+    )
     np.testing.assert_allclose(motion.slides["Y"].d3, 0.1 * np.sin(phi), atol=1e-15)
     np.testing.assert_allclose(motion.links["G"].d3, 0, atol=1e-15)
     # In-line slider-crank: s = r cos φ + w, w² = l² − r² sin² φ, and w‴ from (w²)‴ = 2 w w‴ + 6 w′ w″.

@@ -290,7 +290,8 @@ class _Path:
         at = self._stops()
         turn = 2 * np.pi if self.cycle.span < 2 * np.pi * 1.01 else np.inf
         return [
-            Cusp(float(x), float(y), float(phi % turn)) for x, y, phi in zip(*self.at(at)[:2], at, strict=True)
+            Cusp(float(x), float(y), float(phi % turn))
+            for x, y, phi in zip(*self.at(at)[:2], at, strict=True)
         ]
 
     def _stops(self) -> Floats:
