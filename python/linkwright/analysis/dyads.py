@@ -123,7 +123,7 @@ def transmission(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> tuple[F
         The machine.
     dyad : Dyad
         Not a group.
-    found : list of ndarray
+    found : list of ndarray, shapes (4, n) and (3, n)
         What the core gave for `transmission_channels`.
 
     Returns

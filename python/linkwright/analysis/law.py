@@ -225,7 +225,7 @@ def as_law(law: Law | Callable[[Any], Any] | Sequence[ArrayLike]) -> Law:
 
     Parameters
     ----------
-    law : Law, callable or pair of array_like
+    law : Law, callable or pair of array_like, shape (n,)
         See the classes of this module.
 
     Returns

@@ -33,8 +33,8 @@ class Path:
 
     Attributes
     ----------
-    position, velocity, acceleration, jerk : ndarray
-        Shape (n, 2) of a point [m, m/s, m/s², m/s³], (n,) of a slide, and of a link with angles in [rad].
+    position, velocity, acceleration, jerk : ndarray, shape (n, 2) or (n,)
+        Of a point two columns [m, m/s, m/s², m/s³]; of a slide, and of a link with angles in [rad], one.
     """
 
     position: Floats
@@ -97,7 +97,7 @@ def motion(
     ----------
     machine : Machine
         The machine; of a batch, the first. Drive and loads play no part.
-    law : Law, callable or pair of array_like
+    law : Law, callable or pair of array_like, shape (k,)
         Crank angle over time: a law of `linkwright.analysis.law`, a function written with numpy, or a table of times
         and angles [s, rad].
     times : array_like, shape (n,)

@@ -113,7 +113,7 @@ def brackets(values: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
     Returns
     -------
-    row, column : ndarray of int
+    row, column : ndarray of int, shape (m,)
         Function, and the sample before the change; a sample that is zero counts as positive.
     """
     finite = np.isfinite(values)

@@ -45,7 +45,7 @@ class Cycle:
 
     Attributes
     ----------
-    angles : ndarray
+    angles : ndarray, shape (n,)
         [rad].
     ends : ndarray, shape (2,)
         The first and the last; of a linkage with limits those themselves [rad].
