@@ -81,7 +81,8 @@ class CouplerCurve(Result):
     x_min, x_max, y_min, y_max : float
         Its extent, located exactly [m].
     straight_length : float
-        Chord of the longest portion that is straight: nowhere farther from its chord than a thousandth of it [m].
+        Chord of the longest portion that is straight: nowhere farther from its chord than a thousandth of it
+        [m].
     straight_from, straight_to : float
         Crank angles at its ends [rad]; the second is greater.
     straight_error : float
@@ -311,7 +312,7 @@ Portion = tuple[float, int, int]
 
 
 def _longest(path: Floats, most: int, stride: int, straight: float) -> Portion:
-    """Chord, first and last sample of the straight portion of up to ``most`` intervals with the longest chord."""
+    """Chord, first and last sample of the longest straight portion of up to ``most`` intervals."""
     best: Portion = (0.0, 0, 1)
     for count in range(stride, min(most, len(path) - 1) + 1, stride):
         starts = np.arange(0, len(path) - count, stride)
