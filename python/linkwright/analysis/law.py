@@ -109,9 +109,9 @@ class RampLaw:
     def __post_init__(self) -> None:
         if not self.duration > 0 or self.shape not in _RISES or bool(self.angle) == bool(self.speed):
             raise ShapeError(
-                f"a ramp needs a duration above zero, a shape of {' or '.join(_RISES)}, and either an angle or "
-                f"a speed; found duration {self.duration!r}, shape {self.shape!r}, angle {self.angle!r}, speed "
-                f"{self.speed!r}"
+                f"a ramp needs a duration above zero, a shape of {' or '.join(_RISES)}, and either an angle "
+                f"or a speed; found duration {self.duration!r}, shape {self.shape!r}, angle {self.angle!r}, "
+                f"speed {self.speed!r}"
             )
 
     def at(self, times: Floats) -> Floats:
