@@ -41,6 +41,14 @@ _HOME = {
     "run_up": "analysis.run_up",
     "run_down": "analysis.run_down",
     "step_method": "analysis.step_method",
+    "forces": "analysis.forces",
+    "Friction": "analysis.kinetostatics.friction",
+    "envelope": "analysis.envelope",
+    "load_cases": "analysis.envelope",
+    "balance": "analysis.balancing",
+    "partial_balance": "analysis.counterweight_formulas",
+    "harmonics": "analysis.harmonics",
+    "mobility": "machine.mobility",
     "pumping_unit": "analysis.pumping_unit",
     "rod_rotator": "analysis.rod_rotator",
     "study": "analysis.study",
@@ -76,12 +84,19 @@ def __dir__() -> list[str]:
 
 
 if TYPE_CHECKING:
+    from linkwright.analysis.balancing import balance as balance
     from linkwright.analysis.circuits import circuits as circuits
     from linkwright.analysis.closure import closure as closure
     from linkwright.analysis.constant_energy import constant_energy as constant_energy
+    from linkwright.analysis.counterweight_formulas import partial_balance as partial_balance
     from linkwright.analysis.coupler_curve import coupler_curve as coupler_curve
+    from linkwright.analysis.envelope import envelope as envelope
+    from linkwright.analysis.envelope import load_cases as load_cases
+    from linkwright.analysis.forces import forces as forces
+    from linkwright.analysis.harmonics import harmonics as harmonics
     from linkwright.analysis.kinematics import kinematics as kinematics
     from linkwright.analysis.kinematics import motions as motions
+    from linkwright.analysis.kinetostatics.friction import Friction as Friction
     from linkwright.analysis.linkage import linkage as linkage
     from linkwright.analysis.motion import motion as motion
     from linkwright.analysis.period import period_turns as period_turns
@@ -104,6 +119,7 @@ if TYPE_CHECKING:
     from linkwright.machine import motors as motors
     from linkwright.machine import pumping_units as pumping_units
     from linkwright.machine import replace as replace
+    from linkwright.machine.mobility import mobility as mobility
     from linkwright.report import write_report as write_report
     from linkwright.sizing.flywheel import choose_flywheel as choose_flywheel
     from linkwright.sizing.motor import choose_motor as choose_motor

@@ -135,7 +135,7 @@ def test_files_are_written(tmp_path: Path) -> None:
     folder = tmp_path / "new" / "folder"
     done = run(TWO_CARTS, "--out", folder)
     assert done.exit_code == 0
-    names = {"results.json", "steady_state.csv", "reduction.csv", "run_up.csv", "linkage.csv"}
+    names = {"results.json", "steady_state.csv", "reduction.csv", "run_up.csv", "linkage.csv", "forces.csv"}
     names |= {"report.html"}
     assert {path.name for path in folder.iterdir()} == names
     assert all(str(folder / name) in done.stdout for name in names)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from linkwright.analysis.study import study
 from linkwright.files import loads, read, template, templates
 from linkwright.report.scene import scene
 
+GALLERY = sorted((Path(__file__).parents[2] / "examples").glob("*/machine.toml"))
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 
 
@@ -96,3 +98,52 @@ def test_a_mechanism_that_does_not_close_swings() -> None:
     assert np.degrees(found["angles"][0]) == pytest.approx(150, abs=0.01)
     assert np.degrees(found["angles"][-1]) == pytest.approx(210, abs=0.01)
     assert all(np.isfinite(line).all() for line in points(found).values())
+
+
+@pytest.mark.parametrize("path", GALLERY, ids=lambda path: path.parent.name)
+def test_every_machine_of_the_gallery_can_be_drawn(path: Path) -> None:
+    machine = read(path)
+    found = drawn(path.read_text(encoding="utf-8"))
+    at, n = points(found), len(found["angles"])
+    for part in found["parts"]:
+        names = [part[key] for key in ("from", "to", "at") if part.get(key)] + part.get("corners", [])
+        assert set(names) <= set(at)
+        assert part.get("link") is None or len(found["headings"][part["link"]]) == n
+    # Every element that moves is seen: a link, a wheel, a block, a point of its own, or a rope on its arc.
+    seen = {part["name"] for part in found["parts"]}
+    assert set(machine.linkage.moving_points()) | set(machine.linkage.links()) <= seen
+    for link in machine.linkage.links().values():
+        if link.role not in ("lever", "gear", "yoke"):
+            length = np.hypot(*(at[link.end] - at[link.start]))
+            assert np.abs(length - link.length).max() < 2e-5 * size(found)
+    json.dumps(found, allow_nan=False)
+
+
+def test_a_motion_of_several_turns_is_drawn_to_its_end() -> None:
+    """The pulley turns half as fast as the crank, the planet 7/3 as fast: six turns."""
+    found = drawn((GALLERY[0].parents[1] / "gears_and_guides/machine.toml").read_text(encoding="utf-8"))
+    assert found["angles"][-1] == pytest.approx(12 * np.pi, abs=1e-4)
+    assert not found["swings"]
+    for line in points(found).values():
+        assert np.abs(line[:, -1] - line[:, 0]).max() < 1e-5 * size(found)
+
+
+def test_pitch_circles_touch() -> None:
+    found = drawn((GALLERY[0].parents[1] / "gears_and_guides/machine.toml").read_text(encoding="utf-8"))
+    radii = {part["name"]: part["radius"] for part in found["parts"] if part["kind"] == "gear"}
+    # Cardan's circles of 50 mm in 100 mm; ring 60, planet 18, sun 24 teeth on an arm of 50 mm for 42 of them.
+    assert radii["cardan"] == pytest.approx(0.05)
+    assert radii["planet"] == pytest.approx(0.05 * 18 / 42)
+    assert radii["sun"] == pytest.approx(0.05 * 24 / 42)
+
+
+def test_a_slotted_lever_holds_its_pin_in_the_slot() -> None:
+    found = drawn((GALLERY[0].parents[1] / "quick_returns/machine.toml").read_text(encoding="utf-8"))
+    at = points(found)
+    for part in (part for part in found["parts"] if part["kind"] == "slot" and part["link"]):
+        heading = np.array(found["headings"][part["link"]])
+        pin = at["A" if part["name"] == "whitworth" else "B"] - at[part["at"]]
+        along = pin[0] * np.cos(heading) + pin[1] * np.sin(heading)
+        across = pin[1] * np.cos(heading) - pin[0] * np.sin(heading)
+        assert np.abs(across - part["offset"]).max() < 5e-5 * size(found)
+        assert part["span"] == pytest.approx([along.min(), along.max()], abs=1e-4 * size(found))

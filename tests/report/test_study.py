@@ -111,7 +111,8 @@ def test_instability_is_told() -> None:
     [
         ((), "no motor"),
         ((), "no loads"),
-        (("bodies={}",), "falls to zero"),
+        (("bodies={}", 'loads.fall={kind="torque", on="A", torque=-2}'), "falls to zero"),
+        (("bodies={}",), "no masses, loads or motor"),
         (('loads.fall={kind="torque", on="A", torque=2}',), "loads drive the machine"),
         (('drive.motor={kind="constant_speed", speed=5}',), "has no run-up"),
     ],

@@ -38,7 +38,7 @@ def test_number(value: float | None, text: str) -> None:
 def test_tables_are_those_that_there_are_results_for() -> None:
     machine = read(TWO_CARTS)
     usual = ["reduction", "steady_state", "measures", "drive", "run_up"]
-    linkage = ["linkage", "transmission", "dead_points"]
+    linkage = ["forces", "linkage", "transmission", "dead_points"]
     assert [table.name for table in tables(study(machine))] == [*usual, *linkage]
     stepped = tables(study(machine, step=np.radians(1)))
     assert [table.name for table in stepped] == [*usual, "step_method", *linkage]

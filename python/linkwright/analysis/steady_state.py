@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.closure import require_full_turn, turn_angles
+from linkwright.analysis.closure import require_full_turn, require_one_turn, turn_angles
 from linkwright.analysis.reduction import NO_INERTIA, mean_laws, mean_over_turn, turn_nodes
 from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_same_turns, require_sound_loads
@@ -216,6 +216,7 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
         raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
+    require_one_turn(compiled)
     require_same_turns(machine)
     require_sound_loads(compiled, machine)
     phi = turn_angles(n)

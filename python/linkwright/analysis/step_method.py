@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.closure import require_full_turn, turn_angles
+from linkwright.analysis.closure import require_full_turn, require_one_turn, turn_angles
 from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_same_turns
 from linkwright.engine import compile_machine
@@ -114,6 +114,7 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
+    require_one_turn(compiled)
     require_same_turns(machine)
     n = whole_steps(step)
     phi = turn_angles(n)[:-1]

@@ -14,8 +14,10 @@ from typing import Annotated, Any
 
 import typer
 
+from linkwright.cli.balance import balance
 from linkwright.cli.check import check
 from linkwright.cli.common import reports_errors
+from linkwright.cli.forces import forces
 from linkwright.cli.motion import motion
 from linkwright.cli.new import new
 from linkwright.cli.papers import papers
@@ -25,7 +27,7 @@ from linkwright.cli.size import size
 from linkwright.cli.synthesise import SYNTHESISE, synthesise
 
 # In the order of the help.
-COMMANDS: tuple[Callable[..., Any], ...] = (run, motion, check, size, papers, new, schema)
+COMMANDS: tuple[Callable[..., Any], ...] = (run, check, motion, forces, balance, size, papers, new, schema)
 
 # Commands that have commands of their own: what the group does, and its commands.
 GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = ((synthesise, SYNTHESISE),)

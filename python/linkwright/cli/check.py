@@ -36,9 +36,12 @@ def summary(machine: Machine) -> str:
     str
         Text of a few lines.
     """
+    from linkwright.machine.mobility import mobility
+
     rows = [("machine", machine.name), ("motor", _motor(machine)), *_mechanism(machine)]
+    rows += [("mobility", str(mobility(machine.linkage)))]
     rows += [("bodies", ", ".join(machine.bodies)), ("loads", _loads(machine))]
-    return "\n".join(f"  {word:<12} {text}" for word, text in rows if text)
+    return "\n".join(f"  {word:<14} {text}" for word, text in rows if text)
 
 
 def _motor(machine: Machine) -> str:
@@ -52,8 +55,10 @@ def _motor(machine: Machine) -> str:
 
 def _mechanism(machine: Machine) -> list[tuple[str, str]]:
     """The names of the elements, kind by kind."""
+    from linkwright.machine.outline import KINDS
+
     mechanism = machine.linkage
-    tables = ("points", "cranks", "sliders", "rockers", "rigid_points")
+    tables = [kind.table for kind in KINDS]
     return [(table.replace("_", " "), ", ".join(getattr(mechanism, table))) for table in tables]
 
 

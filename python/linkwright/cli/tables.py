@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
@@ -31,16 +31,35 @@ def print_study(study: Study) -> None:
     study : Study
         The study.
     """
+    print_tables(summary(study.machine), tables(study), study.findings, study.warnings)
+
+
+def print_tables(
+    head: str, tables: Sequence[Table], findings: Sequence[str], warnings: Sequence[str] = ()
+) -> None:
+    """Print a head, tables, findings and warnings.
+
+    Parameters
+    ----------
+    head : str
+        What stands above the tables.
+    tables : sequence of Table
+        The tables.
+    findings, warnings : sequence of str
+        Sentences below them.
+    """
     from rich.console import Console
 
     console = Console(highlight=False, soft_wrap=False)
     if not console.is_terminal:
         console = Console(highlight=False, width=_WIDTH)
-    console.print(summary(study.machine), markup=False)
-    for table in tables(study):
-        console.print()
+    if head:
+        console.print(head, markup=False)
+    for nth, table in enumerate(tables):
+        if head or nth:
+            console.print()
         console.print(_drawn(table))
-    for part in _sentences(study):
+    for part in _sentences(findings, warnings):
         console.print()
         console.print(part)
 
@@ -82,9 +101,9 @@ def _drawn(table: Table) -> RenderableType:
     return drawn
 
 
-def _sentences(study: Study) -> Iterator[RenderableType]:
+def _sentences(findings: Sequence[str], warnings: Sequence[str]) -> Iterator[RenderableType]:
     from rich.text import Text
 
-    for word, colour, texts in (("FINDING", "red", study.findings), ("WARNING", "yellow", study.warnings)):
+    for word, colour, texts in (("FINDING", "red", findings), ("WARNING", "yellow", warnings)):
         for text in texts:
             yield Text.assemble((f"{word}  ", f"bold {colour}"), (text, colour))

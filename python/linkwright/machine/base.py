@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Annotated, Any, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from linkwright.units import show
@@ -75,6 +75,20 @@ def faults_of(error: ValidationError) -> list[InitErrorDetails]:
     ]
 
 
+class Checked(Description):
+    """A description whose entries have to fit together."""
+
+    @model_validator(mode="after")
+    def _entries_fit(self) -> Self:
+        """Report entries that do not go together."""
+        raise_faults(type(self).__name__, self._faults())
+        return self
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        """What contradicts itself."""
+        return iter(())
+
+
 def close_match(name: str, known: Iterable[str]) -> str:
     """The question whether a similar name was meant; empty if none is similar."""
     from difflib import get_close_matches
@@ -85,7 +99,7 @@ def close_match(name: str, known: Iterable[str]) -> str:
 
 def suggestion(name: str, known: Iterable[str]) -> str:
     """The known names that a misspelt one may stand for; all of them if they are few."""
-    listed = list(known)
+    listed = list(dict.fromkeys(known))
     close = close_match(name, listed)
     if close:
         return close

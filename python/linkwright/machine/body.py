@@ -15,18 +15,18 @@ The name of a crank means its link; a mass at its pin has `along` equal to the r
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Self
+from typing import Annotated
 
-from pydantic import BaseModel, Field, model_validator
+from pydantic import BaseModel, Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.machine.base import Description, fault, raise_faults, suggestion
+from linkwright.machine.base import Checked, fault, suggestion
 from linkwright.machine.outline import Outline
 from linkwright.machine.plain import keys, look
 from linkwright.units import INERTIA, MASS, MASS_PER_LENGTH, Length, not_negative
 
 
-class Body(Description):
+class Body(Checked):
     """A mass on a link or on a point."""
 
     on: str | None = Field(
@@ -44,12 +44,6 @@ class Body(Description):
         description="Centre of mass, from the start of the link along it. Without it, the middle.",
     )
     across: Length = Field(0.0, description="Centre of mass, to the left of the link.")
-
-    @model_validator(mode="after")
-    def _entries_fit(self) -> Self:
-        """Report entries that do not go together."""
-        raise_faults("Body", self._faults())
-        return self
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.mass_per_length is not None:

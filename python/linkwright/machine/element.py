@@ -20,18 +20,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.machine.base import Description, fault, raise_faults
+from linkwright.machine.base import Checked, Description, fault
 from linkwright.machine.formula_faults import constant_faults, text_faults
 from linkwright.units import LENGTH, RATIO, Angle, AnyQuantity, Length, Quantity, positive
 
 PositiveLength = Annotated[float, positive(LENGTH)]
 PositiveNumber = Annotated[float, positive(RATIO)]
 Number = Annotated[float, Quantity(RATIO)]
+
+# Sine of the angle between two directions below which they are parallel.
+_PARALLEL = 1e-9
 
 
 class FixedPoint(Description):
@@ -54,53 +57,51 @@ class Guide(Description):
     offset: Length = Field(0.0, description="Of the guide to the left of its direction.")
 
 
-class Driver(Description):
-    """What all drivers have in common: they may follow a law of the crank angle."""
-
-    law: str | None = Field(None, description="Formula in phi.")
-    constants: dict[str, Annotated[float, AnyQuantity()]] = Field(
-        default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
-    )
-
-    @model_validator(mode="after")
-    def _law_fits(self) -> Self:
-        raise_faults(type(self).__name__, self._law_faults())
-        return self
-
-    def _law_faults(self) -> Iterator[InitErrorDetails]:
-        """A law that is no formula of the crank angle."""
-        yield from constant_faults(self.constants, self.law or "")
-        if self.law is None and self.constants:
-            yield fault("law", expected="a law that asks for the constants")
-        if self.law is not None:
-            yield from text_faults("law", self.law, self.constants, ("phi",))
+# Numbers of a formula by name.
+Constants = dict[str, Annotated[float, AnyQuantity()]]
 
 
-class Crank(Driver):
+def _law_faults(law: str | None, constants: Constants) -> Iterator[InitErrorDetails]:
+    """A law that is no formula of the crank angle."""
+    yield from constant_faults(constants, law or "")
+    if law is None and constants:
+        yield fault("law", expected="a law that asks for the constants")
+    if law is not None:
+        yield from text_faults("law", law, constants, ("phi",))
+
+
+class Crank(Checked):
     """A crank; its angle is that of the crankshaft, or follows it by a law."""
 
+    radius: PositiveLength = Field(description="From the pivot to the pin.")
+    phase: Angle = Field(0.0, description="Angle of this crank when the crank angle is zero.")
+    pivot: str | None = Field(None, description="Fixed point that it turns about. Without it, the origin.")
     law: str | None = Field(
         None,
         description="Angle of the crank in rad as a formula in phi, to which the phase is added: "
         '"0.6*sin(phi)" swings to and fro. Without it, phi.',
     )
+    constants: Constants = Field(
+        default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
+    )
 
-    radius: PositiveLength = Field(description="From the pivot to the pin.")
-    phase: Angle = Field(0.0, description="Angle of this crank when the crank angle is zero.")
-    pivot: str | None = Field(None, description="Fixed point that it turns about. Without it, the origin.")
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        return _law_faults(self.law, self.constants)
 
 
-class LinearDriver(Driver):
+class LinearDriver(Checked):
     """A point that the drive moves along a guide, in proportion to the crank angle or by a law."""
-
-    law: str | None = Field(None, description="Distance from the start in m as a formula in phi.")
 
     guide: Guide = Field(default_factory=Guide, description="What it moves along.")
     start: Length = Field(0.0, description="Place along the guide when the crank angle is zero.")
     per_turn: Length | None = Field(None, description="Distance for a turn of the crankshaft.")
+    law: str | None = Field(None, description="Distance from the start in m as a formula in phi.")
+    constants: Constants = Field(
+        default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
+    )
 
-    def _law_faults(self) -> Iterator[InitErrorDetails]:
-        yield from super()._law_faults()
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from _law_faults(self.law, self.constants)
         if (self.law is None) == (self.per_turn is None):
             found = "neither" if self.law is None else "both"
             yield fault(found=found, expected="either per_turn or law")
@@ -157,12 +158,17 @@ class Crossing(Description):
     second: Guide = Field(description="The other.")
 
 
-class Yoke(Description):
+class Yoke(Checked):
     """A body on a guide, moved by a pin in its slot."""
 
     pin: str = Field(description="Moving point in the slot.")
     guide: Guide = Field(default_factory=Guide, description="What the body moves along.")
     slot: Angle = Field(math.pi / 2, description="Direction of the slot, from the guide.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if abs(math.sin(self.slot)) < _PARALLEL:
+            expected = "an angle across the guide, such as 90°"
+            yield fault("slot", found=f"{math.degrees(self.slot):.6g}°", expected=expected)
 
 
 class RigidPoint(Description):
@@ -173,7 +179,7 @@ class RigidPoint(Description):
     across: Length = Field(0.0, description="To the left of the link.")
 
 
-class Gear(Description):
+class Gear(Checked):
     """A gear, or a pulley, that turns in proportion to another."""
 
     kind: Literal["external", "internal", "belt", "crossed_belt"] = Field(
@@ -190,6 +196,11 @@ class Gear(Description):
     size: PositiveNumber = Field(description="Teeth, or radius in any unit that both have.")
     size_other: PositiveNumber = Field(description="Teeth or radius of the other gear.")
     phase: Angle = Field(0.0, description="Angle of this gear where the others stand at zero.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.kind == "internal" and self.size == self.size_other:
+            remedy = "one gear turns inside the other"
+            yield fault("size", found=self.size, expected="another size than size_other", remedy=remedy)
 
 
 class Rack(Description):
@@ -225,7 +236,7 @@ class Joint(Description):
     guide: Guide | None = Field(None, description="Guide that it moves on.")
 
 
-class Bar(Description):
+class Bar(Checked):
     """A link of given length between two points."""
 
     start: str = Field(description="Point that it starts at.")
@@ -236,11 +247,6 @@ class Bar(Description):
         description="Whether the mechanism would move alike without it: its length is then checked, "
         "and not used.",
     )
-
-    @model_validator(mode="after")
-    def _two_ends(self) -> Self:
-        raise_faults("Bar", self._faults())
-        return self
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.start == self.end:

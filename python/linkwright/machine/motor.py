@@ -259,7 +259,8 @@ def with_breakdown_speed(given: Values) -> Values:
     if "speed_breakdown" in given or any(name not in given for name in needs):
         return given
     omega_0, omega_n, M_n, M_k = (given[name] for name in needs)
-    if isinstance(omega_n, float) and omega_n == omega_0:
+    # A torque of zero is what is left of a power below the smallest numbers.
+    if isinstance(omega_n, float) and (omega_n == omega_0 or M_n == 0):
         return given
     s_k = breakdown_slip((omega_0 - omega_n) / omega_0, M_k / M_n, given.get("resistance_ratio", 0.0))
     return given | {"speed_breakdown": omega_0 * (1 - s_k)}

@@ -8,6 +8,7 @@
 | `run_up` | speed from the start to steady motion |
 | `pumping_unit` | polished rod, torque of the gearbox, lever of a rotator |
 | `linkage` | transmission angles, coupler curves with the links |
+| `forces` | driving torque, reactions, hodographs, load cases |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -16,6 +17,7 @@ matplotlib is imported when the first figure is drawn.
 """
 
 from linkwright.plot.compare import compare_figure
+from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
 from linkwright.plot.linkage import coupler_figure, transmission_figure
 from linkwright.plot.motor import motor_figure
 from linkwright.plot.pumping_unit import gear_torque_figure, polished_rod_figure, rotator_figure
@@ -26,10 +28,14 @@ from linkwright.plot.svg import svg
 
 __all__ = [
     "attempt_figure",
+    "cases_figure",
     "compare_figure",
     "coupler_figure",
+    "forces_figure",
     "gear_torque_figure",
+    "hodograph_figure",
     "motor_figure",
+    "polar_figure",
     "polished_rod_figure",
     "reduction_figure",
     "rotator_figure",

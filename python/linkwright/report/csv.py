@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.result import Result
 from linkwright.report.quantities import SHOWN
 
@@ -19,6 +20,8 @@ def curves_csv(result: Result) -> str:
     str
         One column a curve, such as ``speed [rad/s]``; numbers that read back exactly; empty without curves.
     """
+    if isinstance(result, Forces):
+        return forces_csv(result)
     curves = result.curves()
     if not curves:
         return ""
@@ -51,3 +54,28 @@ def _unit_of_part(name: str) -> str:
     if last in _RATES and head:
         return _unit_of_part(head) + _RATES[last]
     return _PARTS.get(last, "") if head else ""
+
+
+def forces_csv(forces: Forces) -> str:
+    """Forces over the crank angle as CSV.
+
+    Parameters
+    ----------
+    forces : Forces
+        The forces.
+
+    Returns
+    -------
+    str
+        The motion, torques and powers, then the two components of each pair's force and its moment, and the
+        force on each driver; empty cells where there is no value.
+    """
+    columns = {head(name): curve for name, curve in forces.curves().items()}
+    columns |= {f"shaking_force_{axis} [N]": forces.shaking_force[:, k] for k, axis in enumerate("xy")}
+    for name, pair in forces.pairs.items():
+        columns |= {f"{name}_{axis} [N]": pair.force[:, k] for k, axis in enumerate("xy")}
+        columns[f"{name}_moment [N m]"] = pair.moment
+    columns |= {f"{name}_drive [N m or N]": values for name, values in forces.drives.items()}
+    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+    lines = [",".join("" if value != value else repr(value) for value in row) for row in rows]
+    return "\n".join([",".join(columns), *lines]) + "\n"

@@ -7,12 +7,16 @@ from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
-from linkwright.machine import Machine, kind
+from linkwright.machine import Guide, Machine, kind
+from linkwright.machine.outline import KINDS
 from linkwright.machine.plain import field_names, keys, look
 from linkwright.machine.text import join
 from linkwright.report.quantities import degrees, number, pretty_unit
 
 Place = tuple[str, ...]
+
+# Headings of tables of elements that are not the table's own name.
+_GROUPS = {"points": "Fixed points", "rigid_points": "Points on links"}
 
 # Longer lists are cut; the machine file holds them all.
 _LONGEST_LIST = 12
@@ -72,10 +76,10 @@ def _unit(machine: Machine) -> Iterator[Part]:
 
 
 def _mechanism(machine: Machine) -> Iterator[Part]:
-    words = {"points": "Fixed points", "cranks": "Cranks", "sliders": "Sliders", "rockers": "Rockers"}
-    for table, group in {**words, "rigid_points": "Points on links"}.items():
-        for name in getattr(machine.mechanism, table):
-            yield _part(group, machine, ("mechanism", table, name))
+    for element in KINDS:
+        group = _GROUPS.get(element.table) or element.table.replace("_", " ").capitalize()
+        for name in getattr(machine.mechanism, element.table):
+            yield _part(group, machine, ("mechanism", element.table, name))
 
 
 def _tables(machine: Machine) -> Iterator[Part]:
@@ -95,18 +99,24 @@ def _part(group: str, machine: Machine, place: Place) -> Part:
     node: Any = machine
     for key in place:
         node = look(node, key)
-    found = {key: look(node, key) for key in keys(node)}
-    assumed = _not_given(node)
-    # A zero that nobody wrote says nothing.
-    entries = [
-        Entry(key.replace("_", " "), _value(machine, (*place, key), value), key not in assumed)
-        for key, value in found.items()
-        if value is not None
-        and value != {}
-        and not isinstance(value, BaseModel)
-        and not (key in assumed and value == 0)
-    ]
+    entries = list(_entries(machine, place, node))
     return Part(group, place[-1].replace("_", " ") if len(place) < 3 else place[-1], entries)
+
+
+def _entries(machine: Machine, place: Place, node: object, before: str = "") -> Iterator[Entry]:
+    """The entries of a part, those of its guides among them."""
+    assumed = _not_given(node)
+    for key in keys(node):
+        value, word = look(node, key), f"{before}{key}".replace("_", " ")
+        if isinstance(value, Guide):
+            yield from _entries(machine, (*place, key), value, f"{word} ")
+        # A zero that nobody wrote says nothing.
+        elif (
+            value not in (None, {})
+            and not isinstance(value, BaseModel)
+            and not (key in assumed and value == 0)
+        ):
+            yield Entry(word, _value(machine, (*place, key), value), key not in assumed)
 
 
 def _not_given(node: object) -> set[str]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.analysis.closure import require_full_turn
+from linkwright.analysis.closure import require_full_turn, require_one_turn
 from linkwright.analysis.reduction import mean_laws, mean_over_turn
 from linkwright.analysis.result import Result
 from linkwright.engine import compile_machine
@@ -81,6 +81,7 @@ def required_power(machine: Machine) -> RequiredPower:
         raise InputError(f'{machine.name}: sizing needs the design speed; add speed = "… rad/s" to [drive]')
     compiled = compile_machine(machine, motor=False)
     require_full_turn(compiled, machine)
+    require_one_turn(compiled)
     load, viscous = mean_over_turn(compiled)
     torque = load + viscous * drive.speed + float(np.sum(compiled.speed_load(drive.speed)))
     torque += float(mean_laws(compiled, drive.speed)[0])

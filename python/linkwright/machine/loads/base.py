@@ -3,26 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Self
 
-from pydantic import model_validator
 from pydantic_core import InitErrorDetails
 
-from linkwright.machine.base import Description, fault, raise_faults
+from linkwright.machine.base import Checked, fault
 
 
-class Load(Description):
+class Load(Checked):
     """What all loads have in common."""
-
-    @model_validator(mode="after")
-    def _entries_fit(self) -> Self:
-        """Report entries that do not go together."""
-        raise_faults(type(self).__name__, self._faults())
-        return self
-
-    def _faults(self) -> Iterator[InitErrorDetails]:
-        """What contradicts itself."""
-        return iter(())
 
 
 def one_of(load: Load, for_points: str, for_links: str) -> Iterator[InitErrorDetails]:

@@ -32,6 +32,23 @@
     return place(xs[n] + z * (xs[n + 1] - xs[n]), ys[n] + z * (ys[n + 1] - ys[n]));
   }
 
+  // Angle of a link at k, on the page in degrees: turned the other way, since y points down there.
+  function turned(link, angle, k) {
+    const values = link ? scene.headings[link] : null;
+    const n = Math.min(Math.floor(k), last - 1);
+    const own = values ? values[n] + (k - n) * (values[n + 1] - values[n]) : 0;
+    return -(own + angle) * 180 / Math.PI;
+  }
+
+  // Moves a drawing made about the origin, along +x, to a point and turns it with a link.
+  function carry(element, part, angle = 0) {
+    return (k) => element.setAttribute("transform",
+      `translate(${at(part.at, k).join(" ")}) rotate(${turned(part.link, angle, k)})`);
+  }
+
+  const colour = (part) => `var(${COLOURS[part.series % COLOURS.length]})`;
+  const WIDTHS = { crank: 9, cable: 2.5, arm: 5 };
+
   function title(element, text) {
     const words = document.createElementNS(svg.namespaceURI, "title");
     words.textContent = text;
@@ -67,14 +84,57 @@
       const points = scene.points[part.name][0].map((_, k) => at(part.name, k).map((v) => v.toFixed(1)).join(" "));
       add("path", "trace", { d: "M" + points.join("L"), "stroke-width": 1.2 });
     },
+    rail(part) {
+      const [a, b] = part.span.map((s) => s * scale), y = -part.offset * scale;
+      const d = [-9, 9].map((side) => `M${a - 16} ${y + side}H${b + 16}`).join("");
+      return carry(add("path", "link", { d, stroke: colour(part), fill: "none", "stroke-width": 2 }), part, part.angle);
+    },
+    slot(part) {
+      const group = add("g", "slot");
+      const y = -part.offset * scale, [a, b] = part.bar.map((s) => s * scale), [c, d] = part.span.map((s) => s * scale);
+      const bar = add("path", "link", { d: `M${a} ${y}H${b}`, stroke: colour(part), "stroke-width": 20 });
+      const gap = add("path", "link gap", { d: `M${c} ${y}H${d}`, "stroke-width": 12 });
+      const foot = add("path", "link", { d: `M0 0V${y}`, stroke: colour(part), "stroke-width": 6 });
+      group.append(bar, gap, foot);
+      title(bar, part.name);
+      return carry(group, part, part.angle);
+    },
+    gear(part) {
+      const r = part.radius * scale;
+      const wheel = add("g", "gear");
+      wheel.append(add("circle", "pitch", { r, stroke: colour(part) }));
+      if (part.link) wheel.append(add("path", "pitch", { d: `M0 0H${r}`, stroke: colour(part) }));
+      title(wheel, part.name);
+      return carry(wheel, part);
+    },
+    belt(part) {
+      const path = add("path", "belt");
+      title(path, part.name);
+      return (k) => path.setAttribute("d", belt(at(part.from, k), at(part.to, k), part.radii.map((r) => r * scale), part.crossed));
+    },
+    rack(part) {
+      const [a, b] = part.span.map((s) => s * scale), side = part.side === "right" ? 8 : -8;
+      let d = `M${a - 30} ${side}H${b + 30}`;
+      for (let s = a - 30; s <= b + 30; s += 10) d += `M${s} ${side}V0`;
+      const bar = add("path", "link", { d, stroke: colour(part), fill: "none", "stroke-width": 2.5 });
+      title(bar, part.name);
+      return carry(bar, part, part.angle);
+    },
+    arc(part) {
+      const r = part.radius * scale, [low, high] = part.span;
+      const end = (a) => `${(r * Math.cos(a)).toFixed(2)} ${(-r * Math.sin(a)).toFixed(2)}`;
+      const d = `M${end(low - 0.1)}A${r} ${r} 0 ${high - low + 0.2 > Math.PI ? 1 : 0} 0 ${end(high + 0.1)}`;
+      const curve = add("path", "link", { d, stroke: colour(part), fill: "none", "stroke-width": 6 });
+      title(curve, part.name);
+      return carry(curve, part);
+    },
     link(part) {
-      const stroke = `var(${COLOURS[part.series % COLOURS.length]})`;
-      const line = add("line", "link", { stroke, "stroke-width": part.role === "crank" ? 9 : 6 });
+      const line = add("line", "link", { stroke: colour(part), "stroke-width": WIDTHS[part.role] ?? 6 });
       title(line, part.name);
       return (k) => ends(line, at(part.from, k), at(part.to, k));
     },
     plate(part) {
-      const plate = add("polygon", "plate", { fill: `var(${COLOURS[part.series % COLOURS.length]})` });
+      const plate = add("polygon", "plate", { fill: colour(part), stroke: colour(part) });
       return (k) => plate.setAttribute("points", part.corners.map((name) => at(name, k).join(" ")).join(" "));
     },
     spring(part) {
@@ -84,22 +144,16 @@
     },
     slider(part) {
       const size = part.heavy ? [44, 30] : [30, 22];
-      const stroke = `var(${COLOURS[part.series % COLOURS.length]})`;
-      const box = { x: -size[0] / 2, y: -size[1] / 2, width: size[0], height: size[1], rx: 3, stroke, "stroke-width": 3 };
-      const block = add("rect", "block", box);
+      const box = { x: -size[0] / 2, y: -size[1] / 2, width: size[0], height: size[1], rx: 3, "stroke-width": 3 };
+      const block = add("rect", "block", { ...box, stroke: colour(part) });
       title(block, part.name);
-      const turn = -part.angle * 180 / Math.PI;
-      return (k) => block.setAttribute("transform", `translate(${at(part.name, k).join(" ")}) rotate(${turn})`);
+      return carry(block, part, part.angle);
     },
     mass(part) {
-      const dot = add("circle", "mass", { r: part.at ? 9 : 4 });
+      const dot = add("circle", "mass", part.place
+        ? { r: 4, cx: part.place[0] * scale, cy: -part.place[1] * scale } : { r: 9 });
       title(dot, part.name);
-      if (part.at) return (k) => centre(dot, at(part.at, k));
-      return (k) => {
-        const [a, b] = [at(part.from, k), at(part.to, k)];
-        const [dx, dy] = [b[0] - a[0], b[1] - a[1]], [u, v] = part.place;
-        centre(dot, [a[0] + u * dx + v * dy, a[1] + u * dy - v * dx]);
-      };
+      return carry(dot, part);
     },
     point(part) {
       const joint = add("circle", "joint", { r: 5, "stroke-width": 2 });
@@ -121,6 +175,15 @@
   function centre(circle, [x, y]) {
     circle.setAttribute("cx", x);
     circle.setAttribute("cy", y);
+  }
+  // Two straight runs between pulleys: along the outside, or crossing between the axes.
+  function belt([x1, y1], [x2, y2], [r1, r2], crossed) {
+    const distance = Math.hypot(x2 - x1, y2 - y1), line = Math.atan2(y2 - y1, x2 - x1);
+    const lean = Math.acos((crossed ? r1 + r2 : r1 - r2) / distance);
+    return [lean, -lean].map((a) => {
+      const [c, s] = [Math.cos(line + a), Math.sin(line + a)], far = crossed ? -r2 : r2;
+      return `M${x1 + r1 * c} ${y1 + r1 * s}L${x2 + far * c} ${y2 + far * s}`;
+    }).join("");
   }
   function coil([x1, y1], [x2, y2]) {
     const length = Math.hypot(x2 - x1, y2 - y1) || 1, [nx, ny] = [-(y2 - y1) / length, (x2 - x1) / length];

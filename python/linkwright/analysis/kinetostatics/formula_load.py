@@ -1,0 +1,123 @@
+"""What a load by a formula does: the formula at all crank angles, and where its force acts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import reduce
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.analysis.kinetostatics.scene import Scene, unit
+from linkwright.analysis.kinetostatics.wrench import Wrenches
+from linkwright.errors import FindingError
+from linkwright.machine import FormulaLoad
+from linkwright.machine.formula import NUMBERS, Node, parse
+
+Floats = NDArray[np.float64]
+
+# Operators and functions of the grammar.
+_OPERATIONS: dict[str, Callable[..., Any]] = {
+    "negative": np.negative,
+    "+": np.add,
+    "-": np.subtract,
+    "*": np.multiply,
+    "/": np.divide,
+    "^": np.power,
+    "pow": np.power,
+    "<": np.less,
+    "<=": np.less_equal,
+    ">": np.greater,
+    ">=": np.greater_equal,
+    "where": np.where,
+    "step": lambda x: np.where(x < 0, 0.0, 1.0),
+    "min": lambda *x: reduce(np.minimum, x),
+    "max": lambda *x: reduce(np.maximum, x),
+    "asin": np.arcsin,
+    "acos": np.arccos,
+    "atan": np.arctan,
+    "atan2": np.arctan2,
+    **{
+        name: getattr(np, name) for name in ("sin", "cos", "tan", "tanh", "exp", "log", "sqrt", "abs", "sign")
+    },
+}
+
+
+def value(node: Node, names: dict[str, Any]) -> Any:
+    """The value of a formula.
+
+    Parameters
+    ----------
+    node : Node
+        Its tree.
+    names : dict
+        Number or array of each variable and constant.
+
+    Returns
+    -------
+    float or ndarray, shape (n,)
+        NaN or infinite where it has none.
+    """
+    if node.op == "number":
+        return float(node.value)
+    if node.op == "name":
+        return names[str(node.value)]
+    return _OPERATIONS[node.op](*(value(each, names) for each in node.args))
+
+
+def formula_wrenches(scene: Scene, load: FormulaLoad) -> Wrenches:
+    """What a load by a formula does.
+
+    Parameters
+    ----------
+    scene : Scene
+        The machine and its motion.
+    load : FormulaLoad
+        The load.
+
+    Returns
+    -------
+    Wrenches
+        On the members.
+
+    Raises
+    ------
+    FindingError
+        The formula has no value at some crank angle.
+    """
+    with np.errstate(all="ignore"):
+        found = value(parse(load.text), _names(scene, load)) * np.ones(scene.n)
+    if not np.isfinite(found).all():
+        at = np.degrees(scene.motion.crank_angle[int(np.argmin(np.isfinite(found)))])
+        raise FindingError(f'the formula "{load.text}" on {load.on} has no value at crank angle {at:.4g}°')
+    if load.torque is not None:
+        return Wrenches(scene).couple(load.on, found)
+    if load.direction is None and load.along is None:
+        return Wrenches(scene).along_slide(load.on, found)
+    direction = unit(scene.angle(load.along) + (load.direction or 0.0))
+    return Wrenches(scene).at_point(load.on, found[:, None] * direction)
+
+
+def _names(scene: Scene, load: FormulaLoad) -> dict[str, Any]:
+    """Variables and constants of a formula (docs/loads.md)."""
+    motion = scene.motion
+    turn = 2 * np.pi
+    names: dict[str, Any] = {
+        **NUMBERS,
+        "phi": motion.crank_angle % turn,
+        "omega": motion.speed,
+        "t": motion.time,
+    }
+    link = load.on if load.torque is not None else load.along
+    if link is not None:
+        psi = scene.angle(link)
+        names |= {"psi": np.arctan2(np.sin(psi), np.cos(psi)), "psi_dot": scene.angle(link, 1) * motion.speed}
+    if load.torque is None:
+        place, velocity = scene.point(load.on), scene.point(load.on, 1) * motion.speed[:, None]
+        names |= {"x": place[:, 0], "y": place[:, 1], "vx": velocity[:, 0], "vy": velocity[:, 1]}
+        names["v"] = np.hypot(velocity[:, 0], velocity[:, 1])
+        if load.direction is None and load.along is None:
+            slide = scene.kinematics.slides[load.on]
+            names |= {"s": slide.position, "v": slide.d1 * motion.speed}
+    return names | dict(load.constants)

@@ -1,0 +1,122 @@
+"""``linkwright balance FILE``: counterweights against the forces on the frame."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from linkwright.cli.common import File, Force, Json, Sets, option_value, put
+from linkwright.cli.forces import Speed
+from linkwright.errors import InputError
+
+if TYPE_CHECKING:
+    from linkwright.analysis.balancing import Balance
+    from linkwright.machine import Machine
+
+Links = Annotated[
+    str | None,
+    typer.Option(
+        "--links",
+        metavar="LINK,…",
+        help="Links with counterweights, such as A,R.rocker; they turn about fixed points.",
+        show_default=False,
+    ),
+]
+Partial = Annotated[
+    str | None,
+    typer.Option(
+        "--slider",
+        metavar="SLIDER",
+        help="Instead of --links: a counterweight on the crank against a share of this slider's mass.",
+        show_default=False,
+    ),
+]
+Share = Annotated[
+    float, typer.Option("--share", metavar="X", help="With --slider: share of the reciprocating mass.")
+]
+Radius = Annotated[
+    str | None,
+    typer.Option(
+        "--radius",
+        metavar="LENGTH",
+        help="Distance of the counterweights from their pivots. Without it, the length of the link.",
+        show_default=False,
+    ),
+]
+OutFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--out", metavar="FILE", help="Write the machine with counterweights there.", show_default=False
+    ),
+]
+
+
+def balance(
+    file: File,
+    set: Sets = None,
+    links: Links = None,
+    slider: Partial = None,
+    share: Share = 0.5,
+    radius: Radius = None,
+    speed: Speed = None,
+    json: Json = False,
+    out: OutFile = None,
+    force: Force = False,
+) -> None:
+    """Find counterweights.
+
+    Those on given links that make the force of inertia on the frame least, or one on the crank against a
+    share of a slider's mass; and what they change.
+    """
+    from linkwright.cli.tables import print_tables
+    from linkwright.files.read import read
+    from linkwright.files.write import dumps
+    from linkwright.report.force_tables import balance_tables
+
+    found = _found(read(file, set or ()), links, slider, share, radius, speed)
+    if json:
+        _print_json(found)
+    else:
+        print_tables("", balance_tables(found), found.after.findings)
+    if out is not None:
+        put(dumps(found.machine), out, force=force)
+    if found.after.findings:
+        raise typer.Exit(1)
+
+
+def _found(
+    machine: Machine,
+    links: str | None,
+    slider: str | None,
+    share: float,
+    radius: str | None,
+    speed: str | None,
+) -> Balance:
+    """The counterweights that the options ask for."""
+    from linkwright.analysis.balancing import balance as fit
+    from linkwright.analysis.counterweight_formulas import partial_balance
+    from linkwright.units import LENGTH, SPEED
+
+    at = None if radius is None else option_value("--radius", radius, LENGTH)
+    omega = None if speed is None else option_value("--speed", speed, SPEED)
+    if (links is None) == (slider is None):
+        found = "neither" if links is None else "both"
+        raise InputError(f"--links or --slider: found {found}, expected one of them")
+    if slider is not None:
+        return partial_balance(machine, slider, share=share, speed=omega, radius=at)
+    names = [each.strip() for each in (links or "").split(",") if each.strip()]
+    return fit(machine, names, speed=omega, radius=at)
+
+
+def _print_json(found: Balance) -> None:
+    """One object on standard output."""
+    from json import dumps
+
+    measures = {name: {"before": a, "after": b} for name, (a, b) in found.measures().items()}
+    weights = {
+        each.link: {k: v for k, v in vars(each).items() if k != "link"} for each in found.counterweights
+    }
+    listed = {"counterweights": weights, "rms": measures, "findings": list(found.after.findings)}
+    typer.echo(dumps(listed, allow_nan=False, ensure_ascii=False))

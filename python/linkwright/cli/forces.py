@@ -1,0 +1,218 @@
+"""``linkwright forces FILE``: what pins, guides and teeth bear, and what the drive must give."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.errors import InputError
+
+if TYPE_CHECKING:
+    from linkwright.analysis.kinetostatics.friction import Friction
+    from linkwright.analysis.kinetostatics.result import Forces
+    from linkwright.machine import Machine
+
+Speed = Annotated[
+    str | None,
+    typer.Option(
+        "--speed",
+        metavar="SPEED",
+        help='Constant speed of the crank, such as "10 rad/s" or "90 rpm". Without it, the steady motion.',
+        show_default=False,
+    ),
+]
+Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not peaks alone.")]
+Folder = Annotated[
+    Path | None,
+    typer.Option(
+        "--out",
+        metavar="DIR",
+        help="Write results.json, forces.csv and figures as SVG there.",
+        show_default=False,
+    ),
+]
+Cases = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--case",
+        metavar='"NAME: PATH=VALUE; …"',
+        help='A load case beside the others, such as "idle: loads.work.force=0". May be given again.',
+        show_default=False,
+    ),
+]
+Frictions = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--friction",
+        metavar='"PAIR: KEY=VALUE, …"',
+        help='Friction of a pin, guide or slot, such as "A: radius=20 mm, coefficient=0.1" or "S.guide: '
+        'coefficient=0.1"; also viscous, and length of a guide. May be given again.',
+        show_default=False,
+    ),
+]
+Angle = Annotated[str, typer.Option("--pressure-angle", metavar="ANGLE", help="Pressure angle of all teeth.")]
+
+
+def forces(
+    file: File,
+    set: Sets = None,
+    speed: Speed = None,
+    case: Cases = None,
+    friction: Frictions = None,
+    pressure_angle: Angle = "20 deg",
+    json: Json = False,
+    curves: Curves = False,
+    out: Folder = None,
+) -> None:
+    """Compute the forces in a machine.
+
+    Forces in all pins, guides, slots, teeth and cables, driving torque, force and moment on the frame;
+    along the steady motion, or at a constant speed.
+    """
+    from linkwright.cli.tables import print_tables
+    from linkwright.report.force_tables import cases_table, contribution_table, envelope_table
+
+    found = _cases(file, set or [], case or [], friction or [], speed, pressure_angle)
+    findings = [_named(name, each, found) for name, result in found.items() for each in result.findings]
+    first = next(iter(found.values()))
+    if json:
+        _print_json(found, findings, curves=curves)
+    elif len(found) > 1:
+        print_tables("", [cases_table(found)], findings)
+    else:
+        print_tables("", [envelope_table(first), contribution_table(first)], findings)
+    if out is not None:
+        _write(found, findings, out, quiet=json)
+    if findings:
+        raise typer.Exit(1)
+
+
+def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:
+    """A finding with its case, where there are several."""
+    return finding if len(cases) == 1 else f"{name}: {finding}"
+
+
+def _cases(
+    file: Path, sets: list[str], cases: list[str], frictions: list[str], speed: str | None, angle: str
+) -> dict[str, Forces]:
+    """Forces by case; of the machine as it is, where there are none."""
+    from linkwright.analysis.forces import forces as compute
+    from linkwright.files.read import read
+    from linkwright.units import ANGLE, SPEED
+
+    options: dict[str, Any] = {"pressure_angle": option_value("--pressure-angle", angle, ANGLE)}
+    if speed is not None:
+        options["speed"] = option_value("--speed", speed, SPEED)
+    machine = read(file, sets)
+    options["friction"] = _frictions(machine, frictions)
+    if not cases:
+        return {machine.name: compute(machine, **options)}
+    named = dict(_case(text) for text in cases)
+    return {name: compute(read(file, [*sets, *entries]), **options) for name, entries in named.items()}
+
+
+def _case(text: str) -> tuple[str, list[str]]:
+    """Name and overrides of a case."""
+    name, colon, entries = text.partition(":")
+    if not colon or not name.strip():
+        raise InputError(
+            f'--case: found "{text}", expected a name, a colon and entries, as in "idle: loads.work.force=0"'
+        )
+    return name.strip(), [each.strip() for each in entries.split(";") if each.strip()]
+
+
+def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
+    """Friction by pair."""
+    from linkwright.machine.structure import structure
+
+    if not texts:
+        return {}
+    pairs = structure(machine.linkage).pairs
+    found = {}
+    for text in texts:
+        # The last colon with a blank: a pin's name may hold one.
+        name, colon, entries = text.rpartition(": ")
+        if not colon:
+            example = '"A: radius=20 mm, coefficient=0.1"'
+            raise InputError(f'--friction: found "{text}", expected pair, colon and entries, as in {example}')
+        is_pin = name in pairs and pairs[name].kind == "pin"
+        found[name] = _friction(entries, is_pin=is_pin)
+    return found
+
+
+def _friction(entries: str, *, is_pin: bool) -> Friction:
+    """Friction from its entries."""
+    from linkwright.analysis.kinetostatics.friction import Friction
+    from linkwright.units import DAMPING, LENGTH, RATIO, TORSIONAL_DAMPING
+
+    kinds = {"coefficient": RATIO, "radius": LENGTH, "length": LENGTH}
+    kinds["viscous"] = TORSIONAL_DAMPING if is_pin else DAMPING
+    values = {}
+    for entry in entries.split(","):
+        key, sign, value = (part.strip() for part in entry.partition("="))
+        if not sign or key not in kinds:
+            raise InputError(
+                f'--friction: found "{entry.strip()}", expected {", ".join(kinds)} with = and a value'
+            )
+        values[key] = option_value(f"--friction {key}", value, kinds[key])
+    return Friction(**values)
+
+
+def _object(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> dict[str, Any]:
+    """What is printed and written as JSON."""
+    from linkwright.analysis.envelope import envelope
+
+    results = {}
+    for name, result in cases.items():
+        rows = {each.name: {k: v for k, v in vars(each).items() if k != "name"} for each in envelope(result)}
+        results[name] = _finite(result.to_dict(curves=curves) | {"envelope": rows})
+    return {"results": results, "findings": findings}
+
+
+def _finite(value: Any) -> Any:
+    """The same tree with None in place of numbers that JSON does not know."""
+    from math import isfinite
+
+    if isinstance(value, dict):
+        return {key: _finite(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [_finite(each) for each in value]
+    return None if isinstance(value, float) and not isfinite(value) else value
+
+
+def _print_json(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> None:
+    from json import dumps
+
+    typer.echo(dumps(_object(cases, findings, curves=curves), allow_nan=False, ensure_ascii=False))
+
+
+def _write(cases: dict[str, Forces], findings: list[str], folder: Path, *, quiet: bool) -> None:
+    """JSON, tables and figures; says where they are."""
+    from json import dumps
+
+    from linkwright.plot import cases_figure, forces_figure, hodograph_figure, polar_figure, svg
+    from linkwright.report.csv import forces_csv
+
+    texts = {
+        "results.json": dumps(_object(cases, findings, curves=True), allow_nan=False, ensure_ascii=False)
+        + "\n"
+    }
+    for number, result in enumerate(cases.values(), start=1):
+        end = "" if len(cases) == 1 else f"_{number}"
+        texts[f"forces{end}.csv"] = forces_csv(result)
+        texts[f"forces{end}.svg"] = svg(forces_figure(result))
+        texts[f"hodograph{end}.svg"] = svg(hodograph_figure(result))
+        texts[f"polar{end}.svg"] = svg(polar_figure(result))
+    if len(cases) > 1:
+        texts["load_cases.svg"] = svg(cases_figure(cases))
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in texts.items():
+            (folder / name).write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
+    listed = "\n".join(f"  {folder / name}" for name in texts)
+    typer.echo(f"Written:\n{listed}", err=quiet)

@@ -1,0 +1,132 @@
+"""``linkwright forces`` and ``linkwright balance``."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import linkwright as lw
+from linkwright.cli import application
+from linkwright.cli.check import summary
+
+RUNNER = CliRunner()
+
+FILE = """
+format = 1
+name = "Press"
+[mechanism.cranks.A]
+radius = "100 mm"
+[mechanism.sliders.S]
+crank = "A"
+rod = "240 mm"
+[bodies]
+S = { mass = "4 kg" }
+A = { mass = "1 kg" }
+[loads]
+work = { kind = "force", on = "S", force = "-200 N" }
+"""
+
+
+@pytest.fixture
+def press(tmp_path: Path) -> Path:
+    path = tmp_path / "press.toml"
+    path.write_text(FILE, encoding="utf-8")
+    return path
+
+
+def run(*words: str | Path) -> tuple[int, str]:
+    result = RUNNER.invoke(application(), [str(word) for word in words])
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+    return result.exit_code, result.output
+
+
+def test_table_has_the_forces(press: Path) -> None:
+    code, text = run("forces", press, "--speed", "60 rpm")
+    assert code == 0
+    assert "pin, A on S.rod" in text
+    assert "loads.work" in text
+    peak = lw.forces(lw.read(press), speed=6.283185307179586).pairs["A"].size.max()
+    assert f"{peak:.5g} N" in text
+
+
+def test_json_is_that_of_python(press: Path) -> None:
+    code, text = run("forces", press, "--speed", "10", "--json", "--curves")
+    assert code == 0
+    found = json.loads(text)["results"]["Press"]
+    result = lw.forces(lw.read(press), speed=10.0)
+    assert found["reaction_max"] == pytest.approx(result.reaction_max)
+    assert found["torque_drive"] == pytest.approx(result.torque_drive.tolist())
+    assert found["envelope"]["torque_drive"]["peak"] == pytest.approx(result.torque_drive_max)
+
+
+def test_cases_stand_in_columns(press: Path) -> None:
+    code, text = run(
+        *("forces", press, "--speed", "10", "--case", "idle: loads.work.force=0"),
+        *("--case", 'heavy: loads.work.force="-1 kN"; bodies.S.mass=8'),
+    )
+    assert code == 0
+    assert "idle" in text
+    assert "heavy" in text
+
+
+def test_friction_and_findings(press: Path) -> None:
+    words = ["forces", press, "--speed", "10", "--friction", "A: radius=20 mm, coefficient=0.1"]
+    code, text = run(*words, "--json")
+    assert code == 0
+    friction = {"A": lw.Friction(0.1, radius=0.02)}
+    wanted = lw.forces(lw.read(press), speed=10.0, friction=friction).torque_drive_max
+    assert json.loads(text)["results"]["Press"]["torque_drive_max"] == pytest.approx(wanted)
+    code, text = run(*words, "--friction", "S.guide: coefficient=6")
+    assert code == 1
+    assert "FINDING" in text
+    assert "locks" in text
+
+
+def test_folder_has_files(press: Path, tmp_path: Path) -> None:
+    code, _ = run("forces", press, "--speed", "10", "--out", tmp_path / "found")
+    assert code == 0
+    names = {path.name for path in (tmp_path / "found").iterdir()}
+    assert names == {"results.json", "forces.csv", "forces.svg", "hodograph.svg", "polar.svg"}
+    head, *rows = (tmp_path / "found" / "forces.csv").read_text(encoding="utf-8").splitlines()
+    assert len(rows) == 361
+    assert "A_x [N]" in head
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("forces",), "neither a motor"),
+        (("forces", "--speed", "fast"), "--speed"),
+        (("forces", "--speed", "1", "--case", "idle"), "--case"),
+        (("forces", "--speed", "1", "--friction", "A"), "--friction"),
+        (("forces", "--speed", "1", "--friction", "A: mu=1"), "mu=1"),
+        (("forces", "--speed", "1", "--friction", "B: coefficient=1"), "friction.B"),
+        (("balance", "--speed", "1"), "neither"),
+        (("balance", "--speed", "1", "--links", "S.rod"), "fixed points"),
+    ],
+)
+def test_wrong_input_is_named(press: Path, words: tuple[str, ...], said: str) -> None:
+    code, text = run(words[0], press, *words[1:])
+    assert code == 2
+    assert said in text
+
+
+def test_balance_writes_a_machine(press: Path, tmp_path: Path) -> None:
+    out = tmp_path / "balanced.toml"
+    code, text = run("balance", press, "--links", "A", "--speed", "10", "--radius", "80 mm", "--out", out)
+    assert code == 0
+    assert "Counterweights" in text
+    machine = lw.read(out)
+    assert machine.bodies["counterweight_A"].along == pytest.approx(-0.08, rel=1e-6)
+    code, text = run("balance", press, "--slider", "S", "--share", "0.5", "--speed", "10", "--json")
+    assert code == 0
+    weight = json.loads(text)["counterweights"]["A"]
+    # Half of 4 kg at the pin, and the crank's 1 kg in its middle.
+    assert weight["moment"] == pytest.approx((2 * 0.1 + 1 * 0.05), rel=1e-12)
+
+
+def test_check_says_the_mobility(press: Path) -> None:
+    assert "3 moving links, 4 pins and guides: W = 3·3 − 2·4 = 1" in summary(lw.read(press))
