@@ -1,4 +1,4 @@
-"""What does generality cost? A six-bar linkage from a file against a four-bar kernel written and compiled by hand."""
+"""What does generality cost? A six-bar linkage from a file against a four-bar kernel by hand."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""360 positions of a four-bar linkage with velocities and accelerations: how long does one call take, and the first?"""
+"""How long do 360 positions of a four-bar with velocities and accelerations take, at first and later?"""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def compared(array: object, named: object, repeats: int) -> list[Row]:
     fast, by_name, slow = seconds([array, named, lambda: peer.motion(made)], repeats=repeats)  # type: ignore[list-item]
     what = "pylinkage step_fast_with_kinematics, numba"
     note = "three joints, position, velocity, acceleration; pylinkage's turn of its own compiled solver"
-    begin = "a new process, from its imports (NumPy's not counted) to the first result; the peer loads what numba cached"
+    begin = "a new process, from its imports, NumPy's not counted; the peer loads what numba has cached"
     return [
         faster("360 positions, motions", fast, what, slow, target=10, note=note),
         faster(

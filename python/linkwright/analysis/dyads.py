@@ -1,8 +1,8 @@
 r"""Dyads as the core has them, and the angle at which each passes on its force.
 
 The transmission angle μ of a dyad is the angle between what pushes and what can give way (Volmer,
-*Getriebetechnik*; Norton, *Design of Machinery*, section on transmission angle): 90° is best, at 0° and 180° nothing
-is passed on.
+*Getriebetechnik*; Norton, *Design of Machinery*, section on transmission angle): 90° is best, at 0° and 180°
+nothing is passed on.
 
 | dyad | μ is the angle between |
 | --- | --- |

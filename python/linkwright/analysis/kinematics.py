@@ -145,7 +145,7 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool
 def kinematics_of(
     compiled: Compiled, angles: Floats, what: list[tuple[str, str]], *, third: bool = False
 ) -> Kinematics:
-    """`kinematics` of one compiled machine at angles where it closes; ``what`` holds pairs of part and name."""
+    """`kinematics` of one compiled machine where it closes; ``what`` holds pairs of part and name."""
     found = _collect(angles, motion_arrays(compiled, angles, what)[0], what)
     return with_third(compiled, found, what) if third else found
 
