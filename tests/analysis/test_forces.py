@@ -510,3 +510,15 @@ def test_study_has_the_forces_along_its_steady_motion() -> None:
     written = found.to_dict()["results"]["forces"]
     assert written["reaction_max"]["A1"] == pytest.approx(alone.reaction_max["A1"], rel=1e-4)
     assert {"torque_drive_max", "shaking_force_max"} <= written.keys()
+
+
+def test_every_kind_of_load_and_element_is_among_the_machines() -> None:
+    """A new kind of load or element must come here, where its laws are tested."""
+    from linkwright.machine import AnyLoad
+    from linkwright.machine.outline import KINDS
+
+    kinds = {each.model_fields["kind"].annotation for each in AnyLoad.__args__[0].__args__}
+    machines = [animal(name) for name in ZOO]
+    there = {type(load).model_fields["kind"].annotation for m in machines for load in m.loads.values()}
+    assert there == kinds
+    assert all(any(getattr(m.linkage, kind.table) for m in machines) for kind in KINDS)

@@ -135,8 +135,8 @@ def test_files_are_written(tmp_path: Path) -> None:
     folder = tmp_path / "new" / "folder"
     done = run(TWO_CARTS, "--out", folder)
     assert done.exit_code == 0
-    names = {"results.json", "steady_state.csv", "reduction.csv", "run_up.csv", "linkage.csv", "forces.csv"}
-    names |= {"report.html"}
+    curves = {f"{name}.csv" for name in ("linkage", "steady_state", "reduction", "run_up", "forces")}
+    names = {"results.json", "report.html", *curves}
     assert {path.name for path in folder.iterdir()} == names
     assert all(str(folder / name) in done.stdout for name in names)
     written = json.loads((folder / "results.json").read_text(encoding="utf-8"))
