@@ -29,8 +29,8 @@ Span = Annotated[
     typer.Option(
         "--angles",
         metavar='"FROM, TO"',
-        help='With --speed: crank angles between these alone, such as "-20 deg, 50 deg", for a mechanism that '
-        "does not turn fully.",
+        help='With --speed: crank angles between these alone, such as "-20 deg, 50 deg", for a mechanism '
+        "that does not turn fully.",
         show_default=False,
     ),
 ]
