@@ -173,7 +173,7 @@ def test_no_steady_motion() -> None:
     found = results(TWO_CARTS, "--set", "drive.gearbox.ratio=3")
     assert found["findings"][0].startswith("No steady motion: at best")
     assert found["findings"][1].startswith("Does not start")
-    assert set(found["results"]) == {"reduction", "constant_energy"}
+    assert set(found["results"]) == {"linkage", "reduction", "constant_energy"}
 
 
 def test_rod_shorter_than_crank(tmp_path: Path) -> None:
@@ -181,8 +181,10 @@ def test_rod_shorter_than_crank(tmp_path: Path) -> None:
     assert done.exit_code == 1
     found = results(TWO_CARTS, "--set", "mechanism.sliders.cart1.rod=0.1")
     assert "the rod of cart1 (0.1 m) does not reach its guide" in found["findings"][0]
-    assert found["results"] == {}
-    assert {path.name for path in tmp_path.iterdir()} == {"results.json", "report.html"}
+    # What the linkage does within its limits is known all the same.
+    assert set(found["results"]) == {"linkage"}
+    assert not found["results"]["linkage"]["turns_fully"]
+    assert {path.name for path in tmp_path.iterdir()} == {"results.json", "report.html", "linkage.csv"}
 
 
 def test_a_machine_without_a_motor_is_no_failure() -> None:

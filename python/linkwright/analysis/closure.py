@@ -17,7 +17,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.obstacle import describe
+from linkwright.analysis.obstacle import change_point, describe
 from linkwright.analysis.period import turns_to_repeat
 from linkwright.analysis.roots import minima, zeros
 from linkwright.engine import Compiled, compile_machine
@@ -112,6 +112,10 @@ def closure_of(compiled: Compiled) -> Closure:
     if not limiting:
         return full
     gaps = compiled.gaps(_over(turns, _FEW))[limiting]
+    flat = np.flatnonzero((gaps == 0).all(axis=1))
+    if len(flat):
+        # Guides that are always parallel never meet.
+        return Closure((), compiled.dyads[limiting[int(flat[0])]], turns=turns)
     if (gaps.min(axis=1) > _AMPLE * gaps.max(axis=1)).all():
         return full
     return _Search(compiled, limiting, turns).run() or full
@@ -150,7 +154,8 @@ class _Search:
 
     def _least(self, gaps: Floats) -> Floats:
         # A dyad behind one that does not close is NaN, and that one is negative.
-        return np.fmin.reduce(gaps / self.sizes, axis=0)
+        least: Floats = np.fmin.reduce(gaps / self.sizes, axis=0)
+        return least
 
     def spare(self, angles: Floats) -> Floats:
         """Least radicand of all dyads as a share of its greatest, at crank angles."""
@@ -258,16 +263,17 @@ def _closing(gaps: Floats) -> Flags:
 
 
 def _passes(compiled: Compiled, at: float) -> bool:
-    """Whether the links go on through a change point: their rates just before and just after it agree.
+    """Whether the links go on through a change point: directions and rates agree before, at and after it.
 
-    Where the core does not carry a dyad on, its joint stays on its side and the rates jump.
+    Where the core does not carry a dyad on, its joint stays on its side and the rates jump; a lever whose pin
+    passes over its pivot turns about at once.
     """
-    angles = np.array([at - _BESIDE, at + _BESIDE])
-    out = np.empty((1, 4 * len(compiled.links), 2))
+    angles = at + np.array([-_BESIDE, 0.0, _BESIDE])
+    out = np.empty((1, 4 * len(compiled.links), 3))
     compiled.first().motions(angles, [(_LINK, index) for index in compiled.links.values()], out.reshape(-1))
-    rates = out[0, 2::4]
-    jumps = np.abs(rates[:, 1] - rates[:, 0])
-    return bool((jumps <= _JUMP * (1 + np.abs(rates).max(axis=1))).all())
+    numbers = out.reshape(-1, 4, 3)[:, :3].reshape(-1, 3)
+    jumps = np.ptp(numbers, axis=1)
+    return bool((jumps <= _JUMP * (1 + np.abs(numbers).max(axis=1))).all())
 
 
 def require_full_turn(compiled: Compiled, machine: Machine) -> None:
@@ -343,10 +349,8 @@ def _error(found: Closure, machine: Machine) -> AssemblyError:
 def _sentence(found: Closure, machine: Machine) -> str:
     """What does not close, where, and the remedy."""
     if found.change_point is not None:
-        return (
-            f"{found.element} reaches a change point at crank angle {_deg(found.change_point)}°: its links "
-            "are in line there and the speeds are not determined; change a length by a little"
-        )
+        what, remedy = change_point(found.element, machine)
+        return f"{found.element} reaches a change point at crank angle {_deg(found.change_point)}°: {what}; {remedy}"
     what, remedy = describe(found.element, machine)
     if not found.ranges:
         return f"the mechanism does not close at any crank angle: {what}; {remedy}"

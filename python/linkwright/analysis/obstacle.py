@@ -38,6 +38,30 @@ def describe(element: str, machine: Machine) -> Words:
     return _group(element, mechanism)
 
 
+def change_point(element: str, machine: Machine) -> Words:
+    """Why the speeds of an element are not determined where it closes with nothing to spare, and the remedy.
+
+    Parameters
+    ----------
+    element : str
+        Name of a dyad or a group, as in `Closure.element`.
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    tuple of str
+        What happens there, and what to change.
+    """
+    if element in machine.linkage.slotted_levers:
+        what = "its pin passes over its pivot, where the lever has no direction"
+        return what, "move the pivot, or give the slot an offset"
+    what = "its links are in line there and the speeds are not determined"
+    if " and " in element:
+        what = "its links can go two ways there and the speeds are not determined"
+    return what, "change a length by a little"
+
+
 def _slider(name: str, mechanism: Mechanism) -> Words:
     rod = mechanism.sliders[name].rod
     return f"the rod of {name} ({rod:g} m) does not reach its guide", "lengthen the rod or shorten the crank"

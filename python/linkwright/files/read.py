@@ -30,6 +30,9 @@ Overrides = Sequence[str] | Mapping[str, Any]
 # What each override brought in.
 Places = Sequence[tuple[tuple[str, ...], Override]]
 
+# What tomllib says of a key or a table that is written twice.
+_TWICE = re.compile("Cannot (overwrite a value|declare .* twice)|Duplicate")
+
 _LINE_IN_MESSAGE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 
@@ -218,7 +221,8 @@ def _syntax(message: str, text: str, path: str) -> Problem:
     column = f" (column {match[2]})" if match and match[2] else " (end of the file)"
     lines = text.splitlines()
     found = show(lines[line - 1].strip()) if line <= len(lines) else "the end of the file"
-    return Problem(found=found, expected=f"TOML; {words}{column}", path=path, line=line)
+    remedy = "this name or key is there already; give each its own" if _TWICE.search(words) else ""
+    return Problem(found=found, expected=f"TOML; {words}{column}", remedy=remedy, path=path, line=line)
 
 
 def _check_format(tables: dict[str, Any], path: str, text: str) -> None:

@@ -99,7 +99,7 @@ def close_match(name: str, known: Iterable[str]) -> str:
 
 def suggestion(name: str, known: Iterable[str]) -> str:
     """The known names that a misspelt one may stand for; all of them if they are few."""
-    listed = list(known)
+    listed = list(dict.fromkeys(known))
     close = close_match(name, listed)
     if close:
         return close

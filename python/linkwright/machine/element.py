@@ -33,6 +33,9 @@ PositiveLength = Annotated[float, positive(LENGTH)]
 PositiveNumber = Annotated[float, positive(RATIO)]
 Number = Annotated[float, Quantity(RATIO)]
 
+# Sine of the angle between two directions below which they are parallel.
+_PARALLEL = 1e-9
+
 
 class FixedPoint(Description):
     """A point of the frame."""
@@ -155,12 +158,17 @@ class Crossing(Description):
     second: Guide = Field(description="The other.")
 
 
-class Yoke(Description):
+class Yoke(Checked):
     """A body on a guide, moved by a pin in its slot."""
 
     pin: str = Field(description="Moving point in the slot.")
     guide: Guide = Field(default_factory=Guide, description="What the body moves along.")
     slot: Angle = Field(math.pi / 2, description="Direction of the slot, from the guide.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if abs(math.sin(self.slot)) < _PARALLEL:
+            expected = "an angle across the guide, such as 90°"
+            yield fault("slot", found=f"{math.degrees(self.slot):.6g}°", expected=expected)
 
 
 class RigidPoint(Description):
@@ -171,7 +179,7 @@ class RigidPoint(Description):
     across: Length = Field(0.0, description="To the left of the link.")
 
 
-class Gear(Description):
+class Gear(Checked):
     """A gear, or a pulley, that turns in proportion to another."""
 
     kind: Literal["external", "internal", "belt", "crossed_belt"] = Field(
@@ -188,6 +196,11 @@ class Gear(Description):
     size: PositiveNumber = Field(description="Teeth, or radius in any unit that both have.")
     size_other: PositiveNumber = Field(description="Teeth or radius of the other gear.")
     phase: Angle = Field(0.0, description="Angle of this gear where the others stand at zero.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.kind == "internal" and self.size == self.size_other:
+            remedy = "one gear turns inside the other"
+            yield fault("size", found=self.size, expected="another size than size_other", remedy=remedy)
 
 
 class Rack(Description):

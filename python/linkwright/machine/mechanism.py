@@ -90,7 +90,7 @@ class Mechanism(Description):
         try:
             mechanism = handler(data)
         except ValidationError as error:
-            raise_faults(cls.__name__, [*faults_of(error), *Outline.of(data).faults()])
+            raise_faults(cls.__name__, [*faults_of(error), *Outline.of(data).faults(values_fit=False)])
             raise
         raise_faults(cls.__name__, Outline.of(mechanism).faults())
         return mechanism

@@ -32,6 +32,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.machine.assembly import Build, Part, build
 from linkwright.machine.base import fault, suggestion
+from linkwright.machine.guide_faults import guide_faults
 from linkwright.machine.plain import keys, look
 
 # The origin is a fixed point of every mechanism, unless a file gives this name to an element.
@@ -196,21 +197,37 @@ class Outline:
         needs = tuple(dict.fromkeys(element.references.values()))
         return Part(roles.get(kind.table, "element"), needs, makes)
 
-    def faults(self) -> list[InitErrorDetails]:
-        """What is wrong: names twice, references to nothing, circles, joints held too little or too much."""
+    def faults(self, *, values_fit: bool = True) -> list[InitErrorDetails]:
+        """What is wrong: names twice, references to nothing, circles, joints held too little or too much.
+
+        Parameters
+        ----------
+        values_fit : bool
+            Whether every element is sound by itself; otherwise the mobility is left for later.
+        """
         driven = [each for each in self.elements if each.kind.table not in ("points", *DRIVERS)]
         if driven and not self.names(*DRIVERS):
             remedy = "a linear driver would do as well"
             expected = "at least one crank, which moves the others"
             return [*self._twice(), fault("cranks", expected=expected, remedy=remedy)]
         found = [*self._twice(), *self._unknown()]
-        return found or [*self._circles()] or [*self._mobility()]
+        found = [*found, *self._circles()] if found else [*self._circles(), *guide_faults(self)]
+        return found or ([*self._mobility()] if values_fit else [])
 
     def _mobility(self) -> Iterator[InitErrorDetails]:
         """Joints that can still move, and bars that are too many."""
         found = self.build()
         kinds = {each.name: each.kind for each in self.elements}
         for joint in found.loose:
+            if found.stuck and (circle := self._mixed_circle(joint, found.stuck)):
+                yield fault(
+                    "joints",
+                    joint,
+                    found=circle,
+                    expected="bars and guides that end at what is placed before the joint",
+                    remedy="write all of the circle as joints and bars: then they are found together",
+                )
+                continue
             holds = [
                 each.name
                 for each in self.elements
@@ -224,15 +241,54 @@ class Outline:
                 remedy="it can still move while the crank stands; add a bar or a guide",
             )
         for name in dict.fromkeys(found.surplus):
-            kind = kinds[name]
             yield fault(
-                kind.table,
+                kinds[name].table,
                 name,
                 found="one condition too many",
                 expected="two bars or guides for each joint",
-                remedy="the mechanism moves without it, and is locked with it unless it always fits; "
-                "remove it, or write redundant = true to have that checked",
+                remedy=self._too_many(name),
             )
+
+    def _too_many(self, name: str) -> str:
+        """What to do about a bar or guide that is too many."""
+        drivers = self._drivers(name)
+        if len(drivers) > 1:
+            return (
+                f"the drivers {' and '.join(drivers)} both move what it joins, which one moves already; "
+                f"remove {name} or a driver, or write redundant = true to have checked that it always fits"
+            )
+        return (
+            "the mechanism moves without it, and is locked with it unless it always fits; "
+            "remove it, or write redundant = true to have that checked"
+        )
+
+    def _needs(self) -> dict[str, list[str]]:
+        """Each element → the moving elements that it hangs on, joints by the bars that hold them."""
+        makers = {point: point for point in self.moving_points} | self.links
+        needs = {e.name: [makers[n] for n in e.references.values() if n in makers] for e in self.elements}
+        for bar in (each for each in self.elements if each.kind.table == "bars" and not each.redundant):
+            for joint in set(needs[bar.name]) & set(self.names("joints")):
+                needs[joint] += [end for end in needs[bar.name] if end != joint]
+        return needs
+
+    def _drivers(self, name: str) -> list[str]:
+        """Drivers that an element hangs on."""
+        needs, found, open_ = self._needs(), {name}, [name]
+        while open_:
+            fresh = set(needs.get(open_.pop(), ())) - found
+            found |= fresh
+            open_ += fresh
+        return [each for each in self.names(*DRIVERS) if each in found]
+
+    def _mixed_circle(self, joint: str, stuck: list[str]) -> str:
+        """A circle from a joint through an element that waits for it; empty if there is none."""
+        joints = set(self.names("joints"))
+        waiting = {name: [n for n in needs if n in stuck] for name, needs in self._needs().items()}
+        # Joints that hold each other are no circle: they are found together.
+        for other in joints & set(waiting):
+            waiting[other] = [n for n in waiting[other] if n not in joints]
+        circle = _circle(waiting)
+        return " → ".join(circle) if circle and joint in circle else ""
 
     def _twice(self) -> Iterator[InitErrorDetails]:
         """Names that an earlier element has."""

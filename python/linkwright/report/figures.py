@@ -44,13 +44,13 @@ def figures(study: Study) -> Iterator[Captioned]:
     Captioned
         In the order of the page.
     """
-    yield from linkage_figures(study)
     yield from _unit(study)
     yield from _rotator(study)
     yield from _steady(study)
     yield from _motor(study)
     yield from _run_up(study)
     yield from _reduction(study)
+    yield from linkage_figures(study)
     yield from _forces(study)
 
 

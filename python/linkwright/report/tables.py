@@ -30,7 +30,7 @@ def tables(study: Study) -> list[Table]:
     """
     made = (_reduction(study), _steady(study), _measures(study), _drive(study), _run_up(study))
     last = (_run_down(study), _step_method(study), envelope_table(study.forces) if study.forces else None)
-    found = (*linkage_tables(study), *unit_tables(study), *made, *last)
+    found = (*unit_tables(study), *made, *last, *linkage_tables(study))
     return [table for table in found if table is not None]
 
 

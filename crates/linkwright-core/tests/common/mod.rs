@@ -2,6 +2,12 @@
 #![allow(dead_code, unreachable_pub)]
 
 use linkwright_core::drive::{Drive, Motor, Span};
+use linkwright_core::formula::{Formula, Op, Variable};
+use linkwright_core::linkage::coupled::{AngleOf, Law, Runner, Source, Sum, Turn};
+use linkwright_core::linkage::folding::{ChangePoint, Folding};
+use linkwright_core::linkage::group::{Bar, Carried, Condition, Group};
+use linkwright_core::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
+use linkwright_core::linkage::trace::{ChangePointSeries, Path};
 use linkwright_core::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod};
 use linkwright_core::plan::Plan;
 use linkwright_core::reduce::{Body, Load};
@@ -117,6 +123,165 @@ impl Builder {
         let (point, along, across) = (self.point(), self.number(along), self.number(across));
         self.mechanism.elements.push(Element::RigidPoint { point, link, origin, along, across });
         point
+    }
+
+    fn slide(&mut self) -> usize {
+        self.mechanism.n_slides += 1;
+        self.mechanism.n_slides - 1
+    }
+
+    /// A guide on a link.
+    pub fn line(&mut self, through: usize, link: usize, angle: f64, offset: f64) -> Line {
+        let [cos, sin, offset] = [angle.cos(), angle.sin(), offset].map(|x| self.number(x));
+        Line { through, link, cos, sin, offset }
+    }
+
+    pub fn guided_rod(&mut self, pin: usize, line: Line, rod: f64, sign: f64) {
+        let element = GuidedRod {
+            point: self.point(),
+            link: self.link(),
+            slide: self.slide(),
+            gap: self.gap(),
+            pin,
+            line,
+            rod: self.number(rod),
+            inverse_rod: self.number(1.0 / rod),
+            sign: self.number(sign),
+        };
+        self.mechanism.elements.push(Element::GuidedRod(element));
+    }
+
+    pub fn slotted_lever(&mut self, pin: usize, pivot: usize, offset: f64, sign: f64) {
+        let (link, slide, gap) = (self.link(), self.slide(), self.gap());
+        let (offset, sign) = (self.number(offset), self.number(sign));
+        let element = SlottedLever { link, slide, gap, pin, pivot, offset, sign };
+        self.mechanism.elements.push(Element::SlottedLever(element));
+    }
+
+    pub fn crossing(&mut self, first: Line, second: Line) {
+        let (point, slides, gap) = (self.point(), [self.slide(), self.slide()], self.gap());
+        self.mechanism.elements.push(Element::Crossing(Crossing {
+            point,
+            slides,
+            gap,
+            lines: [first, second],
+        }));
+    }
+
+    fn sum(&mut self, start: f64, terms: &[(Option<usize>, f64)]) -> Sum {
+        let start = self.number(start);
+        let terms = terms
+            .iter()
+            .map(|&(slide, factor)| (slide.map_or(Source::Drive, Source::Slide), self.number(factor)))
+            .collect();
+        Sum { start, terms }
+    }
+
+    /// A gear; terms are slides, or none for the crank angle, with their factors.
+    pub fn turn(&mut self, start: f64, terms: &[(Option<usize>, f64)]) {
+        let (link, slide, angle) = (self.link(), self.slide(), self.sum(start, terms));
+        self.mechanism.elements.push(Element::Turn(Turn { link, slide, angle }));
+    }
+
+    pub fn runner(&mut self, line: Line, start: f64, terms: &[(Option<usize>, f64)]) {
+        let (point, slide, place) = (self.point(), self.slide(), self.sum(start, terms));
+        self.mechanism.elements.push(Element::Runner(Runner { point, slide, line, place }));
+    }
+
+    /// The slide that holds a link's angle.
+    pub fn angle_of(&mut self, link: usize, winding: f64, centre: f64) -> usize {
+        let (slide, winding, centre) = (self.slide(), self.number(winding), self.number(centre));
+        self.mechanism.elements.push(Element::AngleOf(AngleOf { link, slide, winding, centre }));
+        slide
+    }
+
+    /// A coordinate 0.3 sin φ.
+    pub fn law_of_sine(&mut self) {
+        let slide = self.slide();
+        let size = self.number(0.3);
+        let ops = vec![Op::Number(size), Op::Variable(Variable::Phi), Op::Sin, Op::Mul];
+        let formula = Formula::new(ops).expect("a sound formula");
+        self.mechanism.elements.push(Element::Law(Law { slide, formula }));
+    }
+
+    /// Joints P, Q and the third corner of the plate PQ; bars from the pin to P, of the plate, from Q and from
+    /// the corner to two pivots. Gives the element's number.
+    pub fn triad(
+        &mut self,
+        pin: usize,
+        pivots: [usize; 2],
+        lengths: [f64; 4],
+        corner: (f64, f64),
+        near: [f64; 4],
+    ) -> usize {
+        let [p, q, k] = [self.point(), self.point(), self.point()];
+        let ends = [(pin, p), (p, q), (q, pivots[0]), (k, pivots[1])];
+        let plate = lengths[1];
+        let starts = near.iter().map(|&x| Table::new(&[0.0], &[x]).expect("one knot")).collect();
+        let conditions = ends
+            .iter()
+            .zip(lengths)
+            .map(|(&(from, to), length)| Condition::Distance { from, to, length: self.number(length) })
+            .collect();
+        let bars = ends
+            .iter()
+            .zip(lengths)
+            .map(|(&(from, to), length)| Bar {
+                link: self.link(),
+                from,
+                to,
+                inverse_length: self.number(1.0 / length),
+            })
+            .collect();
+        let (along, across) = (self.number(corner.0 / plate), self.number(corner.1 / plate));
+        let group = Group {
+            unknowns: vec![p, q],
+            carried: vec![Carried { point: k, from: p, to: q, along, across }],
+            bars,
+            conditions,
+            gap: self.gap(),
+            starts,
+            inverse_turns: self.number(1.0),
+            repeats: true,
+        };
+        self.mechanism.elements.push(Element::Group(group));
+        self.mechanism.elements.len() - 1
+    }
+
+    /// Gives a group the motion that was followed.
+    pub fn give_path(built: &mut Built, element: usize, path: &Path) {
+        let Element::Group(group) = &mut built.plan.mechanism.elements[element] else {
+            panic!("element {element} is no group");
+        };
+        let table = |place: &Vec<f64>| Table::new(&path.phi, place).expect("angles increase");
+        group.starts = path.places.iter().map(table).collect();
+    }
+
+    /// Turns a rocker into one with change points; its side is that at small positive crank angles.
+    pub fn give_change_points(built: &mut Built, element: usize, found: &[ChangePointSeries]) {
+        let Element::Rocker(rocker) = built.plan.mechanism.elements[element] else {
+            panic!("element {element} is no rocker");
+        };
+        let side = |phi: f64| found.iter().map(|(at, _)| ((phi - at) / 2.0).sin()).product::<f64>().signum();
+        let sign = built.q[rocker.sign] * side(1e-7);
+        built.q[rocker.sign] = sign;
+        let mut change_points = Vec::new();
+        for (at, series) in found {
+            let after = sign * side(at + 1e-7);
+            let mut number = |x: f64| {
+                built.q.push(x);
+                built.q.len() - 1
+            };
+            change_points.push(ChangePoint {
+                cos: number(at.cos()),
+                sin: number(at.sin()),
+                half_cos: number((at / 2.0).cos()),
+                half_sin: number((at / 2.0).sin()),
+                series: series.iter().map(|c| number(c * after)).collect(),
+            });
+        }
+        built.plan.n_parameters = built.q.len();
+        built.plan.mechanism.elements[element] = Element::Folding(Folding { rocker, change_points });
     }
 
     pub fn mass(&mut self, point: usize, mass: f64) {
