@@ -2,6 +2,11 @@
 #![allow(dead_code, unreachable_pub)]
 
 use linkwright_core::drive::{Drive, Motor, Span};
+use linkwright_core::linkage::coupled::{AngleOf, Runner, Source, Sum, Turn};
+use linkwright_core::linkage::folding::{ChangePoint, Folding};
+use linkwright_core::linkage::group::{Bar, Carried, Condition, Group};
+use linkwright_core::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
+use linkwright_core::linkage::trace::{change_point, follow};
 use linkwright_core::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod};
 use linkwright_core::plan::Plan;
 use linkwright_core::reduce::{Body, Load};
@@ -19,6 +24,7 @@ pub struct Builder {
     bodies: Vec<Body>,
     loads: Vec<Load>,
     tables: Vec<Table>,
+    carried: Vec<Carried>,
     q: Vec<f64>,
 }
 
@@ -30,6 +36,7 @@ impl Builder {
             bodies: Vec::new(),
             loads: Vec::new(),
             tables: Vec::new(),
+            carried: Vec::new(),
             q: Vec::new(),
         };
         b.fixed(0.0, 0.0);
@@ -116,6 +123,162 @@ impl Builder {
     pub fn rigid_point(&mut self, link: usize, origin: usize, along: f64, across: f64) -> usize {
         let (point, along, across) = (self.point(), self.number(along), self.number(across));
         self.mechanism.elements.push(Element::RigidPoint { point, link, origin, along, across });
+        point
+    }
+
+    fn slide(&mut self) -> usize {
+        self.mechanism.n_slides += 1;
+        self.mechanism.n_slides - 1
+    }
+
+    /// A guide on a link; on the frame with the link of [`Builder::frame`].
+    pub fn line(&mut self, through: usize, link: usize, angle: f64, offset: f64) -> Line {
+        let (cos, sin) = (self.number(angle.cos()), self.number(angle.sin()));
+        Line { through, link, cos, sin, offset: self.number(offset) }
+    }
+
+    /// A link that stays along x: a guide on it is one on the frame.
+    pub fn frame(&mut self) -> usize {
+        let (link, slide) = (self.link(), self.slide());
+        let angle = Sum { start: self.number(0.0), terms: vec![] };
+        self.mechanism.elements.push(Element::Turn(Turn { link, slide, angle }));
+        link
+    }
+
+    /// Point, link and slide of a rod on a guide that may turn.
+    pub fn guided_rod(&mut self, pin: usize, line: Line, rod: f64, sign: f64) -> [usize; 3] {
+        let (point, link, slide, gap) = (self.point(), self.link(), self.slide(), self.gap());
+        let (rod, inverse_rod, sign) = (self.number(rod), self.number(1.0 / rod), self.number(sign));
+        let element = GuidedRod { point, link, slide, gap, pin, line, rod, inverse_rod, sign };
+        self.mechanism.elements.push(Element::GuidedRod(element));
+        [point, link, slide]
+    }
+
+    /// Link and slide of a slotted lever.
+    pub fn slotted_lever(&mut self, pin: usize, pivot: usize, offset: f64, sign: f64) -> [usize; 2] {
+        let (link, slide, gap) = (self.link(), self.slide(), self.gap());
+        let (offset, sign) = (self.number(offset), self.number(sign));
+        self.mechanism.elements.push(Element::SlottedLever(SlottedLever {
+            link,
+            slide,
+            gap,
+            pin,
+            pivot,
+            offset,
+            sign,
+        }));
+        [link, slide]
+    }
+
+    /// Point and slides where two guides cross.
+    pub fn crossing(&mut self, lines: [Line; 2]) -> [usize; 3] {
+        let (point, slides, gap) = (self.point(), [self.slide(), self.slide()], self.gap());
+        self.mechanism.elements.push(Element::Crossing(Crossing { point, slides, gap, lines }));
+        [point, slides[0], slides[1]]
+    }
+
+    /// The continuous angle of a link as a slide.
+    pub fn angle_of(&mut self, link: usize, winding: f64, centre: f64) -> usize {
+        let slide = self.slide();
+        let (winding, centre) = (self.number(winding), self.number(centre));
+        self.mechanism.elements.push(Element::AngleOf(AngleOf { link, slide, winding, centre }));
+        slide
+    }
+
+    fn sum(&mut self, start: f64, terms: &[(Source, f64)]) -> Sum {
+        let terms = terms.iter().map(|&(source, factor)| (source, self.number(factor))).collect();
+        Sum { start: self.number(start), terms }
+    }
+
+    /// Link and slide of a gear.
+    pub fn gear(&mut self, start: f64, terms: &[(Source, f64)]) -> [usize; 2] {
+        let (link, slide, angle) = (self.link(), self.slide(), self.sum(start, terms));
+        self.mechanism.elements.push(Element::Turn(Turn { link, slide, angle }));
+        [link, slide]
+    }
+
+    /// Point and slide of a rack, a cable or a linear driver.
+    pub fn runner(&mut self, line: Line, start: f64, terms: &[(Source, f64)]) -> [usize; 2] {
+        let (point, slide, place) = (self.point(), self.slide(), self.sum(start, terms));
+        self.mechanism.elements.push(Element::Runner(Runner { point, slide, line, place }));
+        [point, slide]
+    }
+
+    /// Turns the last dyad RRR into one that passes its change points near the given angles; how many it has.
+    pub fn fold(&mut self, near: &[f64]) -> usize {
+        let element = self.mechanism.elements.len() - 1;
+        let found: Vec<_> =
+            near.iter().filter_map(|&phi| change_point(&self.mechanism, element, &self.q, phi)).collect();
+        let Element::Rocker(rocker) = self.mechanism.elements[element] else {
+            panic!("the last element is no dyad RRR");
+        };
+        // The side is that just after zero; each change point turns it.
+        let turn = |phi: f64| found.iter().map(|(at, _)| ((phi - at) / 2.0).sin().signum()).product::<f64>();
+        let given = self.q[rocker.sign];
+        self.q[rocker.sign] = given * turn(1e-7);
+        let mut change_points = vec![];
+        for (phi, series) in &found {
+            let after = self.q[rocker.sign] * turn(phi + 1e-7);
+            let [cos, sin, half_cos, half_sin] =
+                [phi.cos(), phi.sin(), (phi / 2.0).cos(), (phi / 2.0).sin()].map(|x| self.number(x));
+            let series = series.iter().map(|c| self.number(after * c)).collect();
+            change_points.push(ChangePoint { cos, sin, half_cos, half_sin, series });
+        }
+        self.mechanism.elements[element] = Element::Folding(Folding { rocker, change_points });
+        found.len()
+    }
+
+    /// A group of joints and the bars between points, followed from near the places of the joints at φ = 0; after
+    /// how many turns it repeats.
+    pub fn group(&mut self, bars: &[(usize, usize, f64)], unknowns: &[usize], near: &[f64]) -> Option<u32> {
+        let gap = self.gap();
+        let inverse_turns = self.number(1.0);
+        let starts = near.iter().map(|&x| Table::new(&[0.0], &[x]).expect("a sound table")).collect();
+        let conditions = bars
+            .iter()
+            .map(|&(from, to, length)| Condition::Distance { from, to, length: self.number(length) })
+            .collect();
+        let links = bars
+            .iter()
+            .map(|&(from, to, length)| Bar {
+                link: self.link(),
+                from,
+                to,
+                inverse_length: self.number(1.0 / length),
+            })
+            .collect();
+        let group = Group {
+            unknowns: unknowns.to_vec(),
+            carried: std::mem::take(&mut self.carried),
+            bars: links,
+            conditions,
+            gap,
+            starts,
+            inverse_turns,
+            repeats: true,
+        };
+        self.mechanism.elements.push(Element::Group(group));
+        let element = self.mechanism.elements.len() - 1;
+        let path = follow(&self.mechanism, element, &self.q, 0.0, near)?;
+        let turns = path.turns;
+        let cycle = f64::from(turns.unwrap_or(1));
+        self.q[inverse_turns] = 1.0 / cycle;
+        let Element::Group(group) = &mut self.mechanism.elements[element] else { unreachable!() };
+        let phi: Vec<f64> = path.phi.iter().map(|phi| phi / cycle).collect();
+        group.starts = path.places.iter().map(|x| Table::new(&phi, x).expect("a sound table")).collect();
+        group.repeats = turns.is_some();
+        turns
+    }
+
+    /// A point for a group to find.
+    pub fn joint(&mut self) -> usize {
+        self.point()
+    }
+
+    /// A point fixed to a bar of the next group, in lengths of the bar.
+    pub fn carried(&mut self, from: usize, to: usize, along: f64, across: f64) -> usize {
+        let (point, along, across) = (self.point(), self.number(along), self.number(across));
+        self.carried.push(Carried { point, from, to, along, across });
         point
     }
 
