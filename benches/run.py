@@ -17,7 +17,15 @@ from rich.console import Console
 from rich.table import Table
 
 # One file per question.
-CASES = ("steady_one", "transient_one", "steady_many", "motions_many", "start_up")
+CASES = (
+    "steady_one",
+    "transient_one",
+    "steady_many",
+    "motions_many",
+    "positions_one",
+    "general_many",
+    "start_up",
+)
 
 RESULTS = Path(__file__).parent / "results.json"
 

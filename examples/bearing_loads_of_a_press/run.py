@@ -16,7 +16,7 @@ FRICTION = {
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Peaks of the pins' forces along the steady motion, and work of friction over work of the loads in a turn."""
+    """Peaks along the steady motion, and work of friction over work of the loads in a turn."""
     smooth, rough = lw.forces(machine, n=1440), lw.forces(machine, n=1440, friction=FRICTION)
     lost = np.trapezoid(rough.power_friction, rough.time)
     work = np.trapezoid(rough.power_load, rough.time)

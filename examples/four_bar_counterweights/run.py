@@ -6,7 +6,7 @@ import linkwright as lw
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Root mean squares with counterweights on crank and rocker, and on the crank alone, over those without."""
+    """Root mean squares with two counterweights, or the crank's alone, over those without."""
     both = lw.balance(machine, ["A", "R.rocker"], radius=0.08).measures()
     one = lw.balance(machine, ["A"], radius=0.08).measures()
     return {

@@ -1,4 +1,4 @@
-"""Linkages over their cycle: closed forms of transmission angle, stroke and time ratio, Grashof's table, closure."""
+"""Linkages over their cycle: closed forms of transmission angle, stroke, time ratio; Grashof; closure."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from linkwright.analysis.roots import minima, zeros
 from linkwright.engine import compile_machine
 from linkwright.errors import AssemblyError, InputError, MachineError, ShapeError
 
-# Zeros are located to some units of rounding of the crank angle; what is computed from them keeps nine digits and more.
+# Zeros are located to some units of rounding of the crank angle; what is computed from them keeps nine digits
+# and more.
 EXACT = 1e-12
 
 
@@ -113,7 +114,7 @@ def test_slider_crank_with_offset_in_closed_form() -> None:
 
 
 def test_crank_shaper_time_ratio() -> None:
-    """A slotted lever about a point below the crank: the crank stands at right angles to the slot at its ends."""
+    """A slotted lever about a point below the crank: at its ends the crank is at right angles to it."""
     r, h = 0.1, 0.3
     machine = lw.loads(f"""
         format = 1
@@ -178,7 +179,7 @@ def test_extremes_are_those_of_a_fine_grid() -> None:
 
 
 def test_power_of_an_ideal_linkage() -> None:
-    """Mechanical advantage times velocity ratio is one: force out times speed out is torque in times speed in.
+    """Mechanical advantage times velocity ratio is one: the power that goes in comes out.
 
     The reduced torque of a constant force on the slider is the core's own principle of virtual work.
     """
@@ -306,7 +307,7 @@ def test_limits_in_closed_form() -> None:
 
 @pytest.mark.parametrize("short", [1e-3, 1e-5, 1e-7, 1e-8])
 def test_narrow_gaps_are_seen(short: float) -> None:
-    """Coupler and rocker too short by a little leave a gap about 180° that no grid of quarter degrees meets."""
+    """Coupler and rocker too short by a little leave a gap that no grid of quarter degrees meets."""
     r, a, b, d = 0.1, 0.2, 0.2, 0.3
     ((low, high),) = closure(four_bar(r, a, b, d + short)).ranges
     half = np.pi - angle_in_triangle(r, d + short, a + b)
@@ -332,7 +333,7 @@ def test_nothing_closes() -> None:
 
 
 def test_circuits_of_four_bars() -> None:
-    """A crank-rocker has two circuits, one for each assembly; a triple-rocker one, whose branches meet at limits."""
+    """A crank-rocker has a circuit for each assembly; a triple-rocker one, its branches meet at limits."""
     apart = lw.circuits(four_bar(0.1, 0.35, 0.3, 0.4))
     assert [circuit.turns_fully for circuit in apart] == [True, True]
     assert [circuit.branches[0].assembly for circuit in apart] == [{"R": "given"}, {"R": "other"}]
@@ -358,7 +359,8 @@ def test_path_of_a_crank_is_a_circle() -> None:
         (-0.1, 0.1, -0.1, 0.1), abs=1e-14
     )
     np.testing.assert_allclose(curve.curvature, 10.0, rtol=1e-12)
-    # A chord of a circle of radius r is straight to a thousandth of itself while r (1 − cos α) ≤ 2 r sin α/1000.
+    # A chord of a circle of radius r is straight to a thousandth of itself while r (1 − cos α) ≤ 2 r sin
+    # α/1000.
     alpha = 2 * np.arctan(2e-3)
     assert curve.straight_length == pytest.approx(0.2 * np.sin(alpha), rel=1e-2)
     assert not curve.double_points

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -128,7 +129,8 @@ def test_third_derivatives_in_closed_form() -> None:
 def test_third_derivatives_through_a_change_point() -> None:
     phi = np.linspace(0, 2 * np.pi, 33)
     found = lw.kinematics(four_bar(0.1, 0.4, 0.1, 0.4), phi, third=True)
-    # A parallelogram: the rocker turns as the crank. The series of twelve terms loses some digits three times.
+    # A parallelogram: the rocker turns as the crank. The series of twelve terms loses some digits three
+    # times.
     np.testing.assert_allclose(found.links["R.rocker"].d3, 0, atol=1e-6)
 
 
@@ -266,7 +268,7 @@ def test_motion_is_the_derivative_of_itself() -> None:
     for part in (found.points, found.links, found.slides):
         for name, path in part.items():
             chain = (path.position, path.velocity, path.acceleration, path.jerk)
-            for value, rate in zip(chain, chain[1:], strict=False):
+            for value, rate in pairwise(chain):
                 slope = (8 * (value[3:-1] - value[1:-3]) - (value[4:] - value[:-4])) / (12 * h)
                 size = 1 + np.abs(rate).max()
                 np.testing.assert_allclose(slope, rate[2:-2], atol=1e-7 * size, err_msg=name)

@@ -184,16 +184,6 @@ gravity = { kind = "gravity" }
 dry = { kind = "dry", on = "D", force = 20 }
 rub = { kind = "dry", on = "Y", force = 20 }
 """,
-    "guide that a crank pin carries": _CRANK
-    + """
-X = { mass = 2 }
-[mechanism.crossings.X]
-first = { through = "A", angle = "80 deg", offset = 0.1 }
-second = { offset = 0.4, angle = "10 deg" }
-[loads]
-gravity = { kind = "gravity" }
-push = { kind = "force", on = "X", force = 20 }
-""",
     "gears and a rack": _CRANK
     + """
 G = { mass = 3, inertia = 0.02, along = 0.01, across = 0.02 }

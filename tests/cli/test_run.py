@@ -135,7 +135,8 @@ def test_files_are_written(tmp_path: Path) -> None:
     folder = tmp_path / "new" / "folder"
     done = run(TWO_CARTS, "--out", folder)
     assert done.exit_code == 0
-    names = {"results.json", "steady_state.csv", "reduction.csv", "run_up.csv", "report.html"}
+    curves = {f"{name}.csv" for name in ("linkage", "steady_state", "reduction", "run_up", "forces")}
+    names = {"results.json", "report.html", *curves}
     assert {path.name for path in folder.iterdir()} == names
     assert all(str(folder / name) in done.stdout for name in names)
     written = json.loads((folder / "results.json").read_text(encoding="utf-8"))
@@ -172,7 +173,7 @@ def test_no_steady_motion() -> None:
     found = results(TWO_CARTS, "--set", "drive.gearbox.ratio=3")
     assert found["findings"][0].startswith("No steady motion: at best")
     assert found["findings"][1].startswith("Does not start")
-    assert set(found["results"]) == {"reduction", "constant_energy"}
+    assert set(found["results"]) == {"linkage", "reduction", "constant_energy"}
 
 
 def test_rod_shorter_than_crank(tmp_path: Path) -> None:
@@ -180,8 +181,10 @@ def test_rod_shorter_than_crank(tmp_path: Path) -> None:
     assert done.exit_code == 1
     found = results(TWO_CARTS, "--set", "mechanism.sliders.cart1.rod=0.1")
     assert "the rod of cart1 (0.1 m) does not reach its guide" in found["findings"][0]
-    assert found["results"] == {}
-    assert {path.name for path in tmp_path.iterdir()} == {"results.json", "report.html"}
+    # What the linkage does within its limits is known all the same.
+    assert set(found["results"]) == {"linkage"}
+    assert not found["results"]["linkage"]["turns_fully"]
+    assert {path.name for path in tmp_path.iterdir()} == {"results.json", "report.html", "linkage.csv"}
 
 
 def test_a_machine_without_a_motor_is_no_failure() -> None:

@@ -153,14 +153,15 @@ def test_words_of_a_file_are_no_markup(case: str) -> None:
 
 def test_figures_are_those_that_there_is_something_to_show_for() -> None:
     figures = {case: set(re.findall(r'id="figure-(\w+)"', page(case))) for case in CASES}
-    everything = {"reduction", "speed", "torque", "time", "motor", "run_up"}
+    forces = {"forces", "hodographs", "reactions"}
+    everything = {"reduction", "speed", "torque", "time", "motor", "run_up", "transmission"} | forces
     assert figures["two-carts"] == everything
     assert figures["stalls"] == everything
     assert figures["does not start"] == everything - {"run_up"}
-    assert figures["no steady motion"] == {"reduction", "motor"}
+    assert figures["no steady motion"] == {"reduction", "motor", "transmission"}
     assert figures["alone"] == {"reduction"}
-    assert figures["constant speed"] == {"reduction", "speed", "torque", "time"}
-    assert figures["does not close"] == set()
+    assert figures["constant speed"] == {"reduction", "speed", "torque", "time"} | forces
+    assert figures["does not close"] == {"transmission"}
 
 
 def test_write_report(tmp_path: Path) -> None:

@@ -38,13 +38,14 @@ def test_number(value: float | None, text: str) -> None:
 def test_tables_are_those_that_there_are_results_for() -> None:
     machine = read(TWO_CARTS)
     usual = ["reduction", "steady_state", "measures", "drive", "run_up"]
-    assert [table.name for table in tables(study(machine))] == usual
+    linkage = ["forces", "linkage", "transmission", "dead_points"]
+    assert [table.name for table in tables(study(machine))] == [*usual, *linkage]
     stepped = tables(study(machine, step=np.radians(1)))
-    assert [table.name for table in stepped] == [*usual, "step_method"]
+    assert [table.name for table in stepped] == [*usual, "step_method", *linkage]
     for table in stepped:
         assert {len(row) for row in table.rows} == {len(table.heads)}
     with_brake = read(TWO_CARTS, ["drive.brake.torque=100"])
-    assert [table.name for table in tables(study(with_brake))] == [*usual, "run_down"]
+    assert [table.name for table in tables(study(with_brake))] == [*usual, "run_down", *linkage]
 
 
 def test_curves_read_back_exactly() -> None:

@@ -133,7 +133,7 @@ def test_slot_passes_to_the_left_of_the_pivot(assembly: str, sign: int) -> None:
 
 
 def test_guide_on_a_link_counts_from_the_link() -> None:
-    slider = 'S = { crank = "B", rod = 0.4, on = "A", angle = "30 deg", offset = 0.03 }\n'
+    slider = 'S = { crank = "B", rod = 0.6, on = "A", angle = "30 deg", offset = 0.03 }\n'
     found = element("[mechanism.sliders]\n" + slider + '[mechanism.cranks.B]\nradius = 0.1\npivot = "P"\n')
     angle = 0.3 + np.radians(30)
     place = found.points["S"].position[0]

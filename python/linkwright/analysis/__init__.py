@@ -3,6 +3,11 @@
 | module | answers |
 | --- | --- |
 | `closure` | at which crank angles does the mechanism close? |
+| `linkage` | what are its extreme positions, transmission angles, dead points, its Grashof class? |
+| `circuits` | in which assemblies can it be put together, and which hang together? |
+| `coupler_curve` | what path does a point draw? |
+| `pose` | where is everything at one crank angle? |
+| `motion` | where is everything under a law of time? |
 | `kinematics` | how do points, links and slides move? |
 | `reduction` | what inertia and what load does the crank feel? |
 | `constant_energy` | how unevenly would it turn without motor and load? |

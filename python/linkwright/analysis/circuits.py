@@ -1,9 +1,10 @@
 """Circuits and branches: in which assemblies a linkage can be put together, and which of them hang together.
 
-Each dyad has two assemblies. A *branch* is one choice for every dyad and one range of the crank; at an end of its range
-the dyad that limits it is stretched or folded, and the linkage goes on in the other assembly of that dyad. Branches that
-meet so make a *circuit*: from one to another the linkage must be taken apart (Chase and Mirth, *Circuits and branches of
-single-degree-of-freedom planar linkages*, Journal of Mechanical Design 115 (1993) 223–230).
+Each dyad has two assemblies. A *branch* is one choice for every dyad and one range of the crank; at an end of
+its range the dyad that limits it is stretched or folded, and the linkage goes on in the other assembly of
+that dyad. Branches that meet so make a *circuit*: from one to another the linkage must be taken apart (Chase
+and Mirth, *Circuits and branches of single-degree-of-freedom planar linkages*, Journal of Mechanical Design
+115 (1993) 223–230).
 """
 
 from __future__ import annotations
@@ -86,8 +87,8 @@ def circuits(machine: Machine) -> tuple[Circuit, ...]:
     Raises
     ------
     InputError
-        More than 8 dyads have two assemblies, or the linkage has gears on swinging links, change points or groups:
-        these are known in the given assembly alone.
+        More than 8 dyads have two assemblies, or the linkage has gears on swinging links, change points or
+        groups: these are known in the given assembly alone.
     """
     compiled = compile_machine(machine).first()
     slots = _slots(compiled, machine)
@@ -109,13 +110,14 @@ def _slots(compiled: Compiled, machine: Machine) -> dict[str, int]:
     """
     if _TIED.intersection(row[0] for row in compiled.rows):
         raise InputError(
-            f"{machine.name}: circuits are found for linkages of cranks and dyads; this one has change points, gears "
-            "on moving links or a group, which are followed in the given assembly alone"
+            f"{machine.name}: circuits are found for linkages of cranks and dyads; this one has change "
+            "points, gears on moving links or a group, which are followed in the given assembly alone"
         )
     slots = {each.name: each.row[_SIGNS[each.row[0]]] for each in dyads_of(compiled) if each.row[0] in _SIGNS}
     if len(slots) > _DYADS_MAX:
         raise InputError(
-            f"{machine.name} has {len(slots)} dyads with two assemblies each; circuits are found for up to {_DYADS_MAX}"
+            f"{machine.name} has {len(slots)} dyads with two assemblies each; circuits are found for up to "
+            f"{_DYADS_MAX}"
         )
     return slots
 
@@ -153,7 +155,7 @@ def _joined(branches: list[Ended]) -> list[list[Ended]]:
 
 
 def _meet(first: Ended, second: Ended) -> bool:
-    """Whether two branches end at the same angle, by the same dyad, and differ in that dyad alone or behind it."""
+    """Whether two branches end at the same angle, by the same dyad, and differ in that dyad alone."""
     return any(
         _apart(a, b) < _MEET and dyad == limiting and _mirrored(first[0], second[0], dyad)
         for a, dyad in first[1]

@@ -154,7 +154,8 @@ class _Search:
 
     def _least(self, gaps: Floats) -> Floats:
         # A dyad behind one that does not close is NaN, and that one is negative.
-        return np.fmin.reduce(gaps / self.sizes, axis=0)
+        least: Floats = np.fmin.reduce(gaps / self.sizes, axis=0)
+        return least
 
     def spare(self, angles: Floats) -> Floats:
         """Least radicand of all dyads as a share of its greatest, at crank angles."""

@@ -8,7 +8,6 @@ r"""The path of a point: length, extent, curvature, its straightest portion, dou
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +18,7 @@ from linkwright.analysis.dyads import POINT, evaluate
 from linkwright.analysis.period import turns_to_repeat
 from linkwright.analysis.result import Result
 from linkwright.analysis.roots import brackets, minima, zeros
+from linkwright.analysis.straight_portion import straightest
 from linkwright.analysis.turning import Cycle
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import AssemblyError, MachineError, Problem, ShapeError
@@ -28,13 +28,6 @@ Floats = NDArray[np.float64]
 
 # Greatest distance from the chord, over its length, of what counts as straight.
 _STRAIGHT = 1e-3
-
-# Portions of the path between which all straight ones are looked for.
-_PORTIONS = 90
-
-# Points of a portion when it is looked at closely, and halvings when it is found not to be straight.
-_CLOSELY = 65
-_HALVINGS = 40
 
 # Speed of the point, over its greatest, at which its path has a cusp: its square is known to rounding.
 _STANDS = 1e-7
@@ -81,7 +74,8 @@ class CouplerCurve(Result):
     x_min, x_max, y_min, y_max : float
         Its extent, located exactly [m].
     straight_length : float
-        Chord of the longest portion that is straight: nowhere farther from its chord than a thousandth of it [m].
+        Chord of the longest portion that is straight: nowhere farther from its chord than a thousandth of it
+        [m].
     straight_from, straight_to : float
         Crank angles at its ends [rad]; the second is greater.
     straight_error : float
@@ -169,7 +163,7 @@ class _Path:
         with np.errstate(divide="ignore", invalid="ignore"):
             curvature = (x1 * y2 - y1 * x2) / speed**3
         (x_min, x_max), (y_min, y_max) = self._extent(0), self._extent(1)
-        start, end, chord, error = self._straightest(straight)
+        start, end, chord, error = straightest(self.at, self.cycle, straight)
         return CouplerCurve(
             crank_angle=self.cycle.angles,
             x=x,
@@ -210,48 +204,6 @@ class _Path:
             at = np.concatenate([at, near])
         values = self.at(at)[axis]
         return float(values.min()), float(values.max())
-
-    # -- straight portion --------------------------------------------------------------------------------
-
-    def _straightest(self, straight: float) -> tuple[float, float, float, float]:
-        """Ends, chord and error of the portion with the longest chord that is straight.
-
-        All portions between every few samples are looked at, then those whose ends are moved by less.
-        """
-        n = len(self.cycle.angles) - 1
-        stride = max(1, n // _PORTIONS)
-        # Two turns of a closed path, so that a portion may pass the first sample.
-        path = np.concatenate([self.place[:-1], self.place]) if self.cycle.repeats else self.place
-        chord, start, end = max(_longest(path, n, stride, straight), _longest(path, 2 * stride, 1, straight))
-        if self.cycle.repeats and start <= stride:
-            start, end = start + n, end + n
-        before = -1.0
-        while chord > before:
-            before = chord
-            around = range(max(0, start - stride), start + stride + 1), range(end - stride, end + stride + 1)
-            for first, last in product(*around):
-                fits = 0 < last - first <= n and last < len(path)
-                found = _chord(path[first : last + 1]) if fits else (0.0, 0.0)
-                if found[0] > chord and found[1] <= straight * found[0]:
-                    start, end, chord = first, last, found[0]
-        low, high = self.cycle.angles[0] + self.cycle.span / n * np.array([start, end])
-        return self._confirmed(float(low), float(high), straight)
-
-    def _confirmed(self, low: float, high: float, straight: float) -> tuple[float, float, float, float]:
-        """The portion looked at closely, and shrunk about its middle until it is straight there too."""
-        middle, half = 0.5 * (low + high), 0.5 * (high - low)
-        good, bad = 0.0, 2.0
-        for share in (1.0, *[0.0] * _HALVINGS):
-            share = share or 0.5 * (good + bad)
-            chord, error = _chord(self._between(middle - share * half, middle + share * half))
-            good, bad = (share, bad) if error <= straight * chord else (good, share)
-            if good == 1.0:
-                break
-        low, high = middle - good * half, middle + good * half
-        return low, high, *_chord(self._between(low, high))
-
-    def _between(self, low: float, high: float) -> Floats:
-        return self.at(np.linspace(low, high, _CLOSELY))[:2].T
 
     # -- double points and cusps -------------------------------------------------------------------------
 
@@ -305,39 +257,6 @@ class _Path:
         at, least = minima(lambda phi: np.hypot(*self.at(phi)[2:4]), angles[inner - 1], angles[inner + 1])
         found: Floats = at[least <= _STANDS * speed.max()]
         return found
-
-
-Portion = tuple[float, int, int]
-
-
-def _longest(path: Floats, most: int, stride: int, straight: float) -> Portion:
-    """Chord, first and last sample of the straight portion of up to ``most`` intervals with the longest chord."""
-    best: Portion = (0.0, 0, 1)
-    for count in range(stride, min(most, len(path) - 1) + 1, stride):
-        starts = np.arange(0, len(path) - count, stride)
-        chords, errors = _off_chords(path[starts[:, None] + np.arange(count + 1)])
-        fits = np.where(errors <= straight * chords, chords, 0.0)
-        at = int(fits.argmax())
-        best = max(best, (float(fits[at]), int(starts[at]), int(starts[at]) + count))
-    return best
-
-
-def _chord(part: Floats) -> tuple[float, float]:
-    """Chord and error of one portion."""
-    chords, errors = _off_chords(part[None])
-    return float(chords[0]), float(errors[0])
-
-
-def _off_chords(parts: Floats) -> tuple[Floats, Floats]:
-    """Chords of portions (k, samples, 2), and the greatest distance from each, or beyond its ends."""
-    along = parts[:, -1] - parts[:, 0]
-    chords = np.hypot(*along.T)
-    unit = along / np.maximum(chords, 1e-300)[:, None]
-    x, y = (parts - parts[:, :1]).transpose(2, 0, 1)
-    from_start = x * unit[:, :1] + y * unit[:, 1:]
-    across = np.abs(y * unit[:, :1] - x * unit[:, 1:])
-    beyond = np.maximum(-from_start, from_start - chords[:, None])
-    return chords, np.maximum(across, beyond).max(axis=1)
 
 
 def _crossings(place: Floats, *, closed: bool) -> list[tuple[int, int]]:

@@ -1,8 +1,8 @@
 """Where a linkage stops, turns back, or could go two ways: limits of the crank, change points, reversals.
 
-At a limit a radicand passes zero and the crank can go no farther. At a change point a radicand touches zero, a double
-root: both assemblies meet, and the motion goes on. At a reversal an output stands still; driven by that output, the
-mechanism is at a dead point there.
+At a limit a radicand passes zero and the crank can go no farther. At a change point a radicand touches zero,
+a double root: both assemblies meet, and the motion goes on. At a reversal an output stands still; driven by
+that output, the mechanism is at a dead point there.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ class DeadPoint(NamedTuple):
     element : str
         Name of the dyad, or of the link or slide that turns back.
     kind : str
-        ``"limit of the crank"``, ``"change point passed"``, ``"change point not passed"`` (both links in line, their
-        rates not determined) or ``"output reversal"``.
+        ``"limit of the crank"``, ``"change point passed"``, ``"change point not passed"`` (both links in
+        line, their rates not determined) or ``"output reversal"``.
     multiplicity : int
         Of the zero: 1 where a sign changes, 2 where a radicand touches zero.
     """

@@ -1,8 +1,8 @@
 r"""Dyads as the core has them, and the angle at which each passes on its force.
 
 The transmission angle μ of a dyad is the angle between what pushes and what can give way (Volmer,
-*Getriebetechnik*; Norton, *Design of Machinery*, section on transmission angle): 90° is best, at 0° and 180° nothing
-is passed on.
+*Getriebetechnik*; Norton, *Design of Machinery*, section on transmission angle): 90° is best, at 0° and 180°
+nothing is passed on.
 
 | dyad | μ is the angle between |
 | --- | --- |
@@ -123,7 +123,7 @@ def transmission(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> tuple[F
         The machine.
     dyad : Dyad
         Not a group.
-    found : list of ndarray
+    found : list of ndarray, shapes (4, n) and (3, n)
         What the core gave for `transmission_channels`.
 
     Returns

@@ -1,7 +1,8 @@
 """Four-bar loops of a mechanism and their class after Grashof.
 
-With the shortest link s, the longest l and the others p, q: only if s + l ≤ p + q can a link turn fully against the
-others, and which one depends on where the shortest is (Grashof 1883; Norton, *Design of Machinery*, section 2.12).
+With the shortest link s, the longest l and the others p, q: only if s + l ≤ p + q can a link turn fully
+against the others, and which one depends on where the shortest is (Grashof 1883; Norton, *Design of
+Machinery*, section 2.12).
 """
 
 from __future__ import annotations
@@ -57,8 +58,9 @@ class FourBar:
     def grashof(self) -> str:
         """The class in words.
 
-        ``crank-rocker``, ``rocker-crank`` (the follower turns), ``double-crank (drag link)``, ``double-rocker`` (the
-        coupler turns), ``triple-rocker`` (nothing turns), or ``change-point`` with its kind.
+        ``crank-rocker``, ``rocker-crank`` (the follower turns), ``double-crank (drag link)``,
+        ``double-rocker`` (the coupler turns), ``triple-rocker`` (nothing turns), or ``change-point`` with its
+        kind.
         """
         spare = self.sum_others - self.sum_extremes
         if abs(spare) <= _SAME * self.sum_others:
@@ -76,8 +78,12 @@ class FourBar:
         """The kind of a linkage whose links can all come into line."""
         opposite = _same(self.driver, self.follower) and _same(self.coupler, self.ground)
         if opposite:
-            words = {True: "parallelogram", False: "antiparallelogram"}
-            return words.get(self.is_parallel, "parallelogram or antiparallelogram")  # type: ignore[call-overload]
+            words = {
+                True: "parallelogram",
+                False: "antiparallelogram",
+                None: "parallelogram or antiparallelogram",
+            }
+            return words[self.is_parallel]
         beside_driver = _same(self.driver, self.coupler) and _same(self.follower, self.ground)
         beside_follower = _same(self.coupler, self.follower) and _same(self.driver, self.ground)
         return "kite" if beside_driver or beside_follower else "links in line once a turn"

@@ -145,7 +145,7 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool
 def kinematics_of(
     compiled: Compiled, angles: Floats, what: list[tuple[str, str]], *, third: bool = False
 ) -> Kinematics:
-    """`kinematics` of one compiled machine at angles where it closes; ``what`` holds pairs of part and name."""
+    """`kinematics` of one compiled machine where it closes; ``what`` holds pairs of part and name."""
     found = _collect(angles, motion_arrays(compiled, angles, what)[0], what)
     return with_third(compiled, found, what) if third else found
 
@@ -202,17 +202,24 @@ def _collect(phi: Floats, table: Floats, what: list[tuple[str, str]]) -> Kinemat
     found = Kinematics(phi, {}, {}, {})
     at = 0
     for part, name in what:
-        rows = np.moveaxis(table[..., at : at + _WIDTHS[part], :], -2, 0)
+        rows = table[..., at : at + _WIDTHS[part], :]
         at += _WIDTHS[part]
         if part == "points":
-            pairs = [np.stack((rows[i], rows[i + 1]), axis=-1) for i in (0, 2, 4)]
+            # Views, not copies: x and y of a point lie one after the other.
+            pairs = [rows[..., i : i + 2, :].swapaxes(-1, -2) for i in (0, 2, 4)]
             found.points[name] = PointMotion(*pairs)
         elif part == "links":
-            angle = np.unwrap(np.arctan2(rows[1], rows[0]))
-            found.links[name] = LinkMotion(angle, rows[2], rows[3])
+            angle = _continuous(np.arctan2(rows[..., 1, :], rows[..., 0, :]))
+            found.links[name] = LinkMotion(angle, rows[..., 2, :], rows[..., 3, :])
         else:
-            found.slides[name] = SlideMotion(*rows)
+            found.slides[name] = SlideMotion(rows[..., 0, :], rows[..., 1, :], rows[..., 2, :])
     return found
+
+
+def _continuous(angles: Floats) -> Floats:
+    """Angles without jumps; most have none."""
+    has_jumps = (np.abs(angles[..., 1:] - angles[..., :-1]) > np.pi).any()
+    return np.unwrap(angles) if has_jumps else angles
 
 
 def motions(

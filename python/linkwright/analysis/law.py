@@ -109,9 +109,9 @@ class RampLaw:
     def __post_init__(self) -> None:
         if not self.duration > 0 or self.shape not in _RISES or bool(self.angle) == bool(self.speed):
             raise ShapeError(
-                f"a ramp needs a duration above zero, a shape of {' or '.join(_RISES)}, and either an angle or a "
-                f"speed; found duration {self.duration!r}, shape {self.shape!r}, angle {self.angle!r}, speed "
-                f"{self.speed!r}"
+                f"a ramp needs a duration above zero, a shape of {' or '.join(_RISES)}, and either an angle "
+                f"or a speed; found duration {self.duration!r}, shape {self.shape!r}, angle {self.angle!r}, "
+                f"speed {self.speed!r}"
             )
 
     def at(self, times: Floats) -> Floats:
@@ -135,7 +135,7 @@ class RampLaw:
 
 
 class TableLaw:
-    """A natural cubic spline through points: speed and acceleration have no jumps, the jerk jumps at the points.
+    """A natural cubic spline through points: speed and acceleration are continuous, the jerk jumps.
 
     Parameters
     ----------
@@ -152,8 +152,8 @@ class TableLaw:
         t, phi = (np.asarray(each, dtype=float) for each in (times, angles))
         if t.ndim != 1 or t.shape != phi.shape or len(t) < 3 or not np.isfinite([t, phi]).all():
             raise ShapeError(
-                f"a table of times and angles needs two lists of one length, at least 3 finite numbers each; found "
-                f"shapes {t.shape} and {phi.shape}"
+                f"a table of times and angles needs two lists of one length, at least 3 finite numbers each; "
+                f"found shapes {t.shape} and {phi.shape}"
             )
         if (np.diff(t) <= 0).any():
             at = int(np.argmax(np.diff(t) <= 0))
@@ -193,8 +193,8 @@ class FunctionLaw:
     Parameters
     ----------
     function : callable
-        Takes times [s], gives angles [rad]. It may use arithmetic, numpy's elementary functions, comparisons and
-        `numpy.where`.
+        Takes times [s], gives angles [rad]. It may use arithmetic, numpy's elementary functions, comparisons
+        and `numpy.where`.
     """
 
     def __init__(self, function: Callable[[Any], Any]) -> None:
@@ -225,7 +225,7 @@ def as_law(law: Law | Callable[[Any], Any] | Sequence[ArrayLike]) -> Law:
 
     Parameters
     ----------
-    law : Law, callable or pair of array_like
+    law : Law, callable or pair of array_like, shape (n,)
         See the classes of this module.
 
     Returns
@@ -239,7 +239,7 @@ def as_law(law: Law | Callable[[Any], Any] | Sequence[ArrayLike]) -> Law:
         It is none of these.
     """
     if hasattr(law, "at"):
-        return law  # type: ignore[return-value]
+        return law
     if callable(law):
         return FunctionLaw(law)
     if isinstance(law, Sequence | np.ndarray) and len(law) == 2:

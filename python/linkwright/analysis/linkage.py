@@ -1,8 +1,9 @@
-r"""A linkage over its cycle: extreme positions, strokes, time ratios, transmission angles, velocity ratios, Grashof.
+r"""A linkage over its cycle: extreme positions, time ratios, transmission angles, velocity ratios, Grashof.
 
 .. math::
 
-    i = \frac{d\psi}{d\varphi}\ \text{or}\ \frac{ds}{d\varphi}, \qquad \frac{M_\text{out}}{M_\text{in}} = \frac{1}{i}
+    i = \frac{d\psi}{d\varphi}\ \text{or}\ \frac{ds}{d\varphi}, \qquad \frac{M_\text{out}}{M_\text{in}} =
+    \frac{1}{i}
 
 Extremes are zeros of exact derivatives: bracketed on a grid, then located to rounding.
 """
@@ -158,7 +159,7 @@ class Linkage(Result):
         raise KeyError(name)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Whether the crank turns fully, the period, the elements by name and the dead points, ready for JSON.
+        """Whether the crank turns fully, period, elements by name and dead points, ready for JSON.
 
         Parameters
         ----------
@@ -220,7 +221,7 @@ def linkage(machine: Machine) -> Linkage:
     where = closure_of(compiled)
     if not where.ranges:
         raise AssemblyError(
-            f"the mechanism does not close at any crank angle: {where.element} cannot reach; change the lengths",
+            f"the mechanism closes at no crank angle: {where.element} cannot reach; change the lengths",
             element=where.element,
         )
     period = turns_to_repeat(compiled) if where.turns_fully else None

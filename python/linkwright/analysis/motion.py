@@ -33,8 +33,8 @@ class Path:
 
     Attributes
     ----------
-    position, velocity, acceleration, jerk : ndarray
-        Shape (n, 2) of a point [m, m/s, m/s², m/s³], (n,) of a slide, and of a link with angles in [rad].
+    position, velocity, acceleration, jerk : ndarray, shape (n, 2) or (n,)
+        Of a point two columns [m, m/s, m/s², m/s³]; of a slide, and of a link with angles in [rad], one.
     """
 
     position: Floats
@@ -97,9 +97,9 @@ def motion(
     ----------
     machine : Machine
         The machine; of a batch, the first. Drive and loads play no part.
-    law : Law, callable or pair of array_like
-        Crank angle over time: a law of `linkwright.analysis.law`, a function written with numpy, or a table of times
-        and angles [s, rad].
+    law : Law, callable or pair of array_like, shape (k,)
+        Crank angle over time: a law of `linkwright.analysis.law`, a function written with numpy, or a table
+        of times and angles [s, rad].
     times : array_like, shape (n,)
         Increasing [s].
 
@@ -122,15 +122,17 @@ def motion(
     compiled = compile_machine(machine).first()
     rates = driver.at(t)
     if not np.isfinite(rates).all():
-        raise ShapeError(
-            f"the law gives no finite angle or rate at t = {t[int(np.argmin(np.isfinite(rates).all(axis=0)))]:g} s"
-        )
+        first = t[int(np.argmin(np.isfinite(rates).all(axis=0)))]
+        raise ShapeError(f"the law gives no finite angle or rate at t = {first:g} s")
     _require_within(compiled, machine, driver, t)
     found = kinematics_of(compiled, np.ascontiguousarray(rates[0]), everything(compiled), third=True)
     columns = rates[:, :, None]
     return Motion(
-        t,
-        *rates,
+        time=t,
+        crank_angle=rates[0],
+        speed=rates[1],
+        acceleration=rates[2],
+        crank_jerk=rates[3],
         points={name: _path(each.position, each, columns) for name, each in found.points.items()},
         links={name: _path(each.angle, each, rates) for name, each in found.links.items()},
         slides={name: _path(each.position, each, rates) for name, each in found.slides.items()},
@@ -173,8 +175,8 @@ def _require_within(compiled: Compiled, machine: Machine, law: Law, times: Float
     at = float(zeros(lambda t: law.at(t)[0] - limit, *ends)[0][0])
     raise AssemblyError(
         f"the law of the crank passes the limit of {where.element} at t = {at:.6g} s, crank angle "
-        f"{np.degrees(limit):.6g}°: the mechanism closes from {np.degrees(low):.6g}° to {np.degrees(high):.6g}° only; "
-        "keep the law within that range",
+        f"{np.degrees(limit):.6g}°: the mechanism closes from {np.degrees(low):.6g}° to "
+        f"{np.degrees(high):.6g}° only; keep the law within that range",
         element=where.element,
         crank_angle=limit,
     )

@@ -21,7 +21,7 @@ class Output(NamedTuple):
         Name of the link or slide.
     kind : str
         ``"swing"`` of a link or ``"stroke"`` along a guide.
-    part, index : int
+    part, number : int
         What the core calls it.
     """
 
@@ -29,7 +29,7 @@ class Output(NamedTuple):
     name: str
     kind: Literal["swing", "stroke"]
     part: int
-    index: int
+    number: int
 
 
 def outputs_of(compiled: Compiled, mechanism: Mechanism) -> list[Output]:

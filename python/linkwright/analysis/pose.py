@@ -113,8 +113,8 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
     """
     if not np.isfinite([crank_angle, speed, acceleration]).all():
         raise ShapeError(
-            f"finite numbers are needed for angle, speed and acceleration of the crank, found {crank_angle!r}, "
-            f"{speed!r}, {acceleration!r}"
+            f"finite numbers are needed for angle, speed and acceleration of the crank, found "
+            f"{crank_angle!r}, {speed!r}, {acceleration!r}"
         )
     compiled = compile_machine(machine).first()
     at = np.array([crank_angle], dtype=np.float64)

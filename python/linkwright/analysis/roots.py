@@ -1,7 +1,7 @@
 """Zeros and extremes of smooth functions of the crank angle, many at once, to rounding.
 
-A function takes a list of angles and gives a value for each; the k-th angle belongs to the k-th problem, so that
-one call of the core serves all of them.
+A function takes a list of angles and gives a value for each; the k-th angle belongs to the k-th problem, so
+that one call of the core serves all of them.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ Function = Callable[[Floats], Floats]
 # Rounds at most: bisection alone, from 0.02 rad to rounding, needs 50.
 _ROUNDS = 100
 
-# Golden section, and rounds that take a bracket of a degree to 1e-9 rad: beyond that a minimum is flat to rounding.
+# Golden section, and rounds that take a bracket of a degree to 1e-9 rad: beyond that a minimum is flat to
+# rounding.
 _GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 _GOLDEN_ROUNDS = 38
 
@@ -35,12 +36,11 @@ def zeros(function: Function, low: Floats, high: Floats) -> tuple[Floats, Floats
     Returns
     -------
     near, far : ndarray, shape (k,)
-        Where the function is nearest to zero, and the other end of what is left of the bracket; the sign differs
-        between them, and they are a few units of rounding apart.
+        Where the function is nearest to zero, and the other end of what is left of the bracket; the sign
+        differs between them, and they are a few units of rounding apart.
 
-    References
-    ----------
-    .. [1] Chandrupatla, A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function
+    References ---------- .. [1] Chandrupatla, A new hybrid quadratic/bisection algorithm for finding the zero
+    of a nonlinear function
        without using derivatives, Advances in Engineering Software 28 (1997) 145–149.
     """
     a, b = np.array(high, dtype=float), np.array(low, dtype=float)
@@ -113,7 +113,7 @@ def brackets(values: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
     Returns
     -------
-    row, column : ndarray of int
+    row, column : ndarray of int, shape (m,)
         Function, and the sample before the change; a sample that is zero counts as positive.
     """
     finite = np.isfinite(values)

@@ -6,8 +6,9 @@
 | 2 | `steady_state` | a motor |
 | 3 | `run_up` | steady motion to settle to |
 | 4 | `run_down` | a brake, and steady motion to begin with |
-| 5 | `linkage` | a linkage that closes somewhere |
-| 6 | `pumping_unit`, `rod_rotator` | such a unit, such a rotator; nothing of the above |
+| 5 | `forces` | steady motion to act in |
+| 6 | `linkage` | a linkage that closes somewhere |
+| 7 | `pumping_unit`, `rod_rotator` | such a unit, such a rotator; nothing of the above |
 
 What fails becomes a finding, and the study goes on with what does not depend on it.
 """
@@ -22,7 +23,10 @@ from typing import Any, TypeVar
 from linkwright.analysis.cautions import cautions, has_inertia
 from linkwright.analysis.closure import require_full_turn
 from linkwright.analysis.constant_energy import ConstantEnergy, constant_energy_of
+from linkwright.analysis.forces import forces
 from linkwright.analysis.gear_torque import GearTorque
+from linkwright.analysis.kinetostatics.motion import Motion
+from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.linkage import Linkage, linkage
 from linkwright.analysis.pumping_unit import PumpingUnitMotion, pumping_unit
 from linkwright.analysis.reduction import Reduction, reduction
@@ -44,6 +48,10 @@ T = TypeVar("T")
 # ask of the curves that they are given.
 _INTERVALS = 1440
 
+# Intervals of the turn for forces, a degree: no line shows more, and four times as many take as much time as
+# all the rest.
+_INTERVALS_OF_FORCES = 360
+
 # A run-up that failed is followed again for its curve alone: no line shows more than this.
 _ATTEMPT_ACCURACY = 1e-6
 
@@ -56,7 +64,7 @@ class Study:
     ----------
     machine : Machine
         The machine.
-    reduction, constant_energy, steady_state, run_up, run_down, step_method : Result or None
+    reduction, constant_energy, steady_state, run_up, run_down, step_method, forces : Result or None
         Results by analysis; None where there is none.
     pumping_unit, rotator : Result or None
         Motion of the polished rod and of its rotator.
@@ -78,6 +86,7 @@ class Study:
     run_down: RunDown | None = None
     step_method: StepMotion | None = None
     attempt: Transient | None = None
+    forces: Forces | None = None
     pumping_unit: PumpingUnitMotion | None = None
     rotator: RodRotatorMotion | None = None
     linkage: Linkage | None = None
@@ -91,8 +100,8 @@ class Study:
 
     def results(self) -> dict[str, Result]:
         """The results that there are, by analysis."""
-        first = ("linkage", "pumping_unit", "gear_torque", "rotator")
-        names = (*first, "reduction", "constant_energy", "steady_state", "step_method", "run_up", "run_down")
+        first = ("linkage", "pumping_unit", "gear_torque", "rotator", "reduction", "constant_energy")
+        names = (*first, "steady_state", "step_method", "run_up", "run_down", "forces")
         found = {name: getattr(self, name) for name in names}
         return {name: result for name, result in found.items() if result is not None}
 
@@ -183,6 +192,10 @@ def _driven(machine: Machine, found: _Findings, accuracy: float, step: float | N
     started, attempt = _run_up(machine, steady, found)
     stopped = found.of(run_down, machine, steady=steady) if steady and _has_brake(machine) else None
     stepped = found.of(step_method, machine, step=step) if step is not None else None
+    # Angles without an answer for forces are no fault of the motion: they are said as warnings.
+    beside = _Findings()
+    borne = beside.of(_forces, machine, steady) if steady else None
+    told = (*beside.sentences(), *(borne.findings if borne else ()))
     return Study(
         machine,
         reduced,
@@ -192,8 +205,16 @@ def _driven(machine: Machine, found: _Findings, accuracy: float, step: float | N
         stopped,
         stepped,
         attempt,
-        warnings=cautions(machine, reduced, steady),
+        borne,
+        warnings=(*cautions(machine, reduced, steady), *told),
     )
+
+
+def _forces(machine: Machine, steady: SteadyState) -> Forces:
+    """Forces along the steady motion, at some of its angles."""
+    some = slice(None, None, _INTERVALS // _INTERVALS_OF_FORCES)
+    curves = (steady.crank_angle, steady.speed, steady.acceleration, steady.time)
+    return forces(machine, Motion(*(curve[some] for curve in curves)))
 
 
 @dataclass

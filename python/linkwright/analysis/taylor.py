@@ -1,8 +1,8 @@
 r"""Numbers that carry their first three derivatives by time, for functions written with numpy.
 
-A `Taylor` holds the coefficients of :math:`f(t + h) = \sum c_k h^k`. Sums and products follow from Cauchy's product;
-functions from their differential equation, coefficient by coefficient (Griewank and Walther, *Evaluating Derivatives*,
-section 13.2). The derivatives are exact; nothing is differenced.
+A `Taylor` holds the coefficients of :math:`f(t + h) = \sum c_k h^k`. Sums and products follow from Cauchy's
+product; functions from their differential equation, coefficient by coefficient (Griewank and Walther,
+*Evaluating Derivatives*, section 13.2). The derivatives are exact; nothing is differenced.
 """
 
 from __future__ import annotations
@@ -47,7 +47,8 @@ class Taylor:
     @property
     def derivatives(self) -> Floats:
         """Value and three derivatives, (4, n)."""
-        return self.c * _FACTORIALS
+        found: Floats = self.c * _FACTORIALS
+        return found
 
     # -- numpy -------------------------------------------------------------------------------------------
 
@@ -76,34 +77,34 @@ class Taylor:
         return Taylor(c)
 
     def __add__(self, other: Any) -> Any:
-        return np.add(self, other)
+        return _apply(np.add, self, other)
 
     def __sub__(self, other: Any) -> Any:
-        return np.subtract(self, other)
+        return _apply(np.subtract, self, other)
 
     def __mul__(self, other: Any) -> Any:
-        return np.multiply(self, other)
+        return _apply(np.multiply, self, other)
 
     def __truediv__(self, other: Any) -> Any:
-        return np.divide(self, other)
+        return _apply(np.divide, self, other)
 
     def __pow__(self, other: Any) -> Any:
-        return np.power(self, other)
+        return _apply(np.power, self, other)
 
     def __radd__(self, other: Any) -> Any:
-        return np.add(other, self)
+        return _apply(np.add, other, self)
 
     def __rsub__(self, other: Any) -> Any:
-        return np.subtract(other, self)
+        return _apply(np.subtract, other, self)
 
     def __rmul__(self, other: Any) -> Any:
-        return np.multiply(other, self)
+        return _apply(np.multiply, other, self)
 
     def __rtruediv__(self, other: Any) -> Any:
-        return np.divide(other, self)
+        return _apply(np.divide, other, self)
 
     def __rpow__(self, other: Any) -> Any:
-        return np.power(other, self)
+        return _apply(np.power, other, self)
 
     def __neg__(self) -> Taylor:
         return Taylor(-self.c)
@@ -112,16 +113,21 @@ class Taylor:
         return _absolute(self)
 
     def __lt__(self, other: Any) -> Any:
-        return np.less(self, other)
+        return _apply(np.less, self, other)
 
     def __le__(self, other: Any) -> Any:
-        return np.less_equal(self, other)
+        return _apply(np.less_equal, self, other)
 
     def __gt__(self, other: Any) -> Any:
-        return np.greater(self, other)
+        return _apply(np.greater, self, other)
 
     def __ge__(self, other: Any) -> Any:
-        return np.greater_equal(self, other)
+        return _apply(np.greater_equal, self, other)
+
+
+def _apply(function: Any, *args: Any) -> Any:
+    """A function of numpy, whose types know nothing of this class."""
+    return function(*args)
 
 
 def _product(a: Taylor, b: Taylor) -> Taylor:

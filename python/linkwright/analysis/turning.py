@@ -29,7 +29,8 @@ _INTERVALS = 360
 # Where the sweep begins, off the angles at which symmetric linkages have their extremes.
 _OFFSET = 0.0123
 
-# Part of its range at each end that the curves of a linkage with limits keep clear of: rates have no limit there [rad].
+# Part of its range at each end that the curves of a linkage with limits keep clear of: rates have no limit
+# there [rad].
 _MARGIN = 1e-7
 
 # Share of the travel by which extreme positions of different turns may differ and be the same.
@@ -45,7 +46,7 @@ class Cycle:
 
     Attributes
     ----------
-    angles : ndarray
+    angles : ndarray, shape (n,)
         [rad].
     ends : ndarray, shape (2,)
         The first and the last; of a linkage with limits those themselves [rad].
@@ -77,7 +78,7 @@ class Cycle:
 
 @dataclass(frozen=True)
 class Travel:
-    """Extreme positions of an output [rad or m], the crank angles there, turns where it turns on, time ratio."""
+    """Extreme positions of an output [rad or m], the crank angles there, turns, time ratio."""
 
     low: float
     high: float
@@ -107,7 +108,7 @@ class Swept:
         channels = [transmission_channels(compiled, each) for each in self.dyads]
         self._ends = np.cumsum([0, *(len(each) for each in channels)])
         self._channels = [each for part in channels for each in part]
-        self._channels += [(each.part, each.index) for each in self.outputs]
+        self._channels += [(each.part, each.number) for each in self.outputs]
         self.mu, self.position, slopes = self._at(cycle.angles)
         for k, output in enumerate(self.outputs):
             if output.part == LINK:
@@ -175,10 +176,11 @@ class Swept:
         if self.outputs[k].part == LINK:
             near = np.interp(at, self.cycle.angles, self.position[k])
             values = near + (values - near + np.pi) % (2 * np.pi) - np.pi
-        return values
+        found: Floats = values
+        return found
 
     def ratios(self, k: int) -> tuple[float, float] | tuple[None, None]:
-        """Extremes of the output's speed over that of the crank; None where a limit of the motion lets them grow."""
+        """Extremes of the output's speed over the crank's; None where a limit lets them grow."""
         if not self.cycle.repeats and not self._is_whole():
             return None, None
         at = self._zeros[len(self.dyads) + len(self.outputs) + k]
@@ -206,8 +208,8 @@ class Swept:
 def _time_ratio(at: Floats, values: Floats, span: float) -> float | None:
     """Crank angle of the slower way between the extreme positions over that of the quicker one.
 
-    Over several turns an output may come to its extremes several times: the ways are those from one lowest position
-    to the next highest, and on to the next lowest.
+    Over several turns an output may come to its extremes several times: the ways are those from one lowest
+    position to the next highest, and on to the next lowest.
     """
     same = _EQUAL * np.ptp(values)
     lows = at[values <= values.min() + same]

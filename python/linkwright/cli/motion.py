@@ -1,4 +1,4 @@
-"""``linkwright motion FILE``: where everything is, at one crank angle, over a turn, or under a law of time."""
+"""``linkwright motion FILE``: where everything is, at one crank angle, over a turn or over time."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ LawText = Annotated[
     typer.Option(
         "--law",
         metavar="FORMULA|FILE",
-        help='Crank angle [rad] over time t [s]: a formula such as "2*pi*t", or a CSV file of times and angles.',
+        help='Crank angle [rad] over time t [s]: a formula as "2*pi*t", or a CSV file of times and angles.',
         show_default=False,
     ),
 ]

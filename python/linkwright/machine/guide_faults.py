@@ -24,6 +24,10 @@ _ENDS: dict[str, dict[str, tuple[str, ...]]] = {
 }
 
 
+# Tables of what moves on a guide without turning against it, and so can carry another guide.
+_SLIDING = ("linear_drivers", "racks", "sliders", "yokes")
+
+
 def guide_faults(outline: Outline) -> Iterator[InitErrorDetails]:
     """Guides through points of another body, crossings at rest, gears that nothing turns.
 
@@ -52,14 +56,15 @@ def guide_faults(outline: Outline) -> Iterator[InitErrorDetails]:
 
 
 def _through(each: Element, before: str, outline: Outline) -> Iterator[InitErrorDetails]:
-    """A guide on the frame goes through a fixed point, one on a link through a point of it."""
+    """A guide on the frame or on what slides goes through its point, one on a link through a point of it."""
     name, on = each.references.get(f"{before}through"), each.references.get(f"{before}on")
     if name is None:
         return
     place = (each.kind.table, each.name, *f"{before}through".split("."))
-    if on is None and name not in outline.fixed_points:
-        remedy = f'{outline.instead(name)}; a guide that moves is carried by a link: say which with "on"'
-        yield fault(*place, found=name, expected="the name of a fixed point", remedy=remedy)
+    if on is None and name not in (*outline.fixed_points, *outline.names(*_SLIDING)):
+        remedy = f'{outline.instead(name)}; a guide that turns is carried by a link: say which with "on"'
+        expected = "the name of a fixed point, or of something that slides"
+        yield fault(*place, found=name, expected=expected, remedy=remedy)
     elif on is not None and name not in (own := points_of(on, outline)):
         remedy = "there is " + ", ".join(f'"{point}"' for point in own) if own else "leave it out"
         yield fault(*place, found=name, expected=f"the name of a point of {on}", remedy=remedy)

@@ -112,8 +112,10 @@ def polar_figure(forces: Forces) -> Figure:
     figure = Figure(figsize=(4.6, 4.6), layout="constrained")
     axes = figure.add_subplot(projection="polar")
     for name, colour in zip(_largest(forces), LINES, strict=False):
-        axes.plot(forces.crank_angle, forces.pairs[name].size, color=colour, label=f"{name} [N]")
-    axes.legend(loc="lower left", bbox_to_anchor=(-0.1, 1.02), ncols=2)
+        axes.plot(forces.crank_angle, forces.pairs[name].size, color=colour, label=name)
+    axes.set_xlabel("crank angle φ [°]")
+    axes.set_ylabel("size of the reaction [N]", labelpad=28)
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.15, 1.07), ncols=2)
     return figure
 
 

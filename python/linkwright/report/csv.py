@@ -20,6 +20,8 @@ def curves_csv(result: Result) -> str:
     str
         One column a curve, such as ``speed [rad/s]``; numbers that read back exactly; empty without curves.
     """
+    if isinstance(result, Forces):
+        return forces_csv(result)
     curves = result.curves()
     if not curves:
         return ""

@@ -9,8 +9,11 @@ from linkwright.analysis.study import Study
 from linkwright.machine import ConstantSpeedMotor
 from linkwright.plot import (
     attempt_figure,
+    forces_figure,
     gear_torque_figure,
+    hodograph_figure,
     motor_figure,
+    polar_figure,
     polished_rod_figure,
     reduction_figure,
     rotator_figure,
@@ -41,13 +44,34 @@ def figures(study: Study) -> Iterator[Captioned]:
     Captioned
         In the order of the page.
     """
-    yield from linkage_figures(study)
     yield from _unit(study)
     yield from _rotator(study)
     yield from _steady(study)
     yield from _motor(study)
     yield from _run_up(study)
     yield from _reduction(study)
+    yield from linkage_figures(study)
+    yield from _forces(study)
+
+
+def _forces(study: Study) -> Iterator[Captioned]:
+    forces = study.forces
+    if forces is None:
+        return
+    pins = forces.reaction_max
+    largest = max(pins, key=lambda name: pins[name])
+    caption = (
+        f"What pins and guides bear along the steady motion: {largest} at most {number(pins[largest])} N. "
+        f"The drive gives up to {number(forces.torque_drive_max)} N m at the crank."
+    )
+    yield Captioned("forces", "Forces in the pairs", caption, forces_figure(forces))
+    caption = (
+        f"Ends of the force vectors over a turn, a mark at φ = 0; the frame feels up to "
+        f"{number(forces.shaking_force_max)} N."
+    )
+    yield Captioned("hodographs", "Hodographs of forces", caption, hodograph_figure(forces))
+    caption = "Size of the largest reactions over the crank angle: where a journal is loaded, and when."
+    yield Captioned("reactions", "Reactions, polar", caption, polar_figure(forces))
 
 
 def _unit(study: Study) -> Iterator[Captioned]:

@@ -77,7 +77,8 @@ def _words(curves: list[CouplerCurve]) -> str:
         extras = [f"{len(each)} {word}" for each, word in _special(curve) if each]
         more = f", {' and '.join(extras)}" if extras else ""
         parts.append(
-            f"{curve.point}: {number(curve.length)} m long, straight over {number(curve.straight_length)} m{more}"
+            f"{curve.point}: {number(curve.length)} m long, straight over "
+            f"{number(curve.straight_length)} m{more}"
         )
     return "; ".join(parts) + ". Straight means nowhere farther from the chord than a thousandth of it."
 

@@ -1,4 +1,4 @@
-"""A linkage as tables of text: extreme positions and strokes, transmission angles, four-bar loops, dead points."""
+"""A linkage as tables of text: travel, transmission angles, four-bar loops, dead points."""
 
 from __future__ import annotations
 

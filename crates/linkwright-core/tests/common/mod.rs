@@ -2,11 +2,12 @@
 #![allow(dead_code, unreachable_pub)]
 
 use linkwright_core::drive::{Drive, Motor, Span};
-use linkwright_core::linkage::coupled::{AngleOf, Runner, Source, Sum, Turn};
+use linkwright_core::formula::{Formula, Op, Variable};
+use linkwright_core::linkage::coupled::{AngleOf, Law, Runner, Source, Sum, Turn};
 use linkwright_core::linkage::folding::{ChangePoint, Folding};
 use linkwright_core::linkage::group::{Bar, Carried, Condition, Group};
 use linkwright_core::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
-use linkwright_core::linkage::trace::{change_point, follow};
+use linkwright_core::linkage::trace::{ChangePointSeries, Path, follow};
 use linkwright_core::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod};
 use linkwright_core::plan::Plan;
 use linkwright_core::reduce::{Body, Load};
@@ -24,7 +25,6 @@ pub struct Builder {
     bodies: Vec<Body>,
     loads: Vec<Load>,
     tables: Vec<Table>,
-    carried: Vec<Carried>,
     q: Vec<f64>,
 }
 
@@ -36,7 +36,6 @@ impl Builder {
             bodies: Vec::new(),
             loads: Vec::new(),
             tables: Vec::new(),
-            carried: Vec::new(),
             q: Vec::new(),
         };
         b.fixed(0.0, 0.0);
@@ -131,101 +130,122 @@ impl Builder {
         self.mechanism.n_slides - 1
     }
 
-    /// A guide on a link; on the frame with the link of [`Builder::frame`].
+    /// A guide on a link.
     pub fn line(&mut self, through: usize, link: usize, angle: f64, offset: f64) -> Line {
-        let (cos, sin) = (self.number(angle.cos()), self.number(angle.sin()));
-        Line { through, link, cos, sin, offset: self.number(offset) }
+        let [cos, sin, offset] = [angle.cos(), angle.sin(), offset].map(|x| self.number(x));
+        Line { through, link, cos, sin, offset }
     }
 
-    /// A link that stays along x: a guide on it is one on the frame.
-    pub fn frame(&mut self) -> usize {
-        let (link, slide) = (self.link(), self.slide());
-        let angle = Sum { start: self.number(0.0), terms: vec![] };
-        self.mechanism.elements.push(Element::Turn(Turn { link, slide, angle }));
-        link
-    }
-
-    /// Point, link and slide of a rod on a guide that may turn.
-    pub fn guided_rod(&mut self, pin: usize, line: Line, rod: f64, sign: f64) -> [usize; 3] {
-        let (point, link, slide, gap) = (self.point(), self.link(), self.slide(), self.gap());
-        let (rod, inverse_rod, sign) = (self.number(rod), self.number(1.0 / rod), self.number(sign));
-        let element = GuidedRod { point, link, slide, gap, pin, line, rod, inverse_rod, sign };
+    pub fn guided_rod(&mut self, pin: usize, line: Line, rod: f64, sign: f64) {
+        let element = GuidedRod {
+            point: self.point(),
+            link: self.link(),
+            slide: self.slide(),
+            gap: self.gap(),
+            pin,
+            line,
+            rod: self.number(rod),
+            inverse_rod: self.number(1.0 / rod),
+            sign: self.number(sign),
+        };
         self.mechanism.elements.push(Element::GuidedRod(element));
-        [point, link, slide]
     }
 
-    /// Link and slide of a slotted lever.
-    pub fn slotted_lever(&mut self, pin: usize, pivot: usize, offset: f64, sign: f64) -> [usize; 2] {
+    pub fn slotted_lever(&mut self, pin: usize, pivot: usize, offset: f64, sign: f64) {
         let (link, slide, gap) = (self.link(), self.slide(), self.gap());
         let (offset, sign) = (self.number(offset), self.number(sign));
-        self.mechanism.elements.push(Element::SlottedLever(SlottedLever {
-            link,
-            slide,
-            gap,
-            pin,
-            pivot,
-            offset,
-            sign,
-        }));
-        [link, slide]
+        let element = SlottedLever { link, slide, gap, pin, pivot, offset, sign };
+        self.mechanism.elements.push(Element::SlottedLever(element));
     }
 
-    /// Point and slides where two guides cross.
-    pub fn crossing(&mut self, lines: [Line; 2]) -> [usize; 3] {
+    pub fn crossing(&mut self, first: Line, second: Line) {
         let (point, slides, gap) = (self.point(), [self.slide(), self.slide()], self.gap());
-        self.mechanism.elements.push(Element::Crossing(Crossing { point, slides, gap, lines }));
-        [point, slides[0], slides[1]]
+        self.mechanism.elements.push(Element::Crossing(Crossing {
+            point,
+            slides,
+            gap,
+            lines: [first, second],
+        }));
     }
 
-    /// The continuous angle of a link as a slide.
+    fn sum(&mut self, start: f64, terms: &[(Option<usize>, f64)]) -> Sum {
+        let start = self.number(start);
+        let terms = terms
+            .iter()
+            .map(|&(slide, factor)| (slide.map_or(Source::Drive, Source::Slide), self.number(factor)))
+            .collect();
+        Sum { start, terms }
+    }
+
+    /// A gear; terms are slides, or none for the crank angle, with their factors.
+    pub fn turn(&mut self, start: f64, terms: &[(Option<usize>, f64)]) {
+        let (link, slide, angle) = (self.link(), self.slide(), self.sum(start, terms));
+        self.mechanism.elements.push(Element::Turn(Turn { link, slide, angle }));
+    }
+
+    pub fn runner(&mut self, line: Line, start: f64, terms: &[(Option<usize>, f64)]) {
+        let (point, slide, place) = (self.point(), self.slide(), self.sum(start, terms));
+        self.mechanism.elements.push(Element::Runner(Runner { point, slide, line, place }));
+    }
+
+    /// The slide that holds a link's angle.
     pub fn angle_of(&mut self, link: usize, winding: f64, centre: f64) -> usize {
-        let slide = self.slide();
-        let (winding, centre) = (self.number(winding), self.number(centre));
+        let (slide, winding, centre) = (self.slide(), self.number(winding), self.number(centre));
         self.mechanism.elements.push(Element::AngleOf(AngleOf { link, slide, winding, centre }));
         slide
     }
 
-    fn sum(&mut self, start: f64, terms: &[(Source, f64)]) -> Sum {
-        let terms = terms.iter().map(|&(source, factor)| (source, self.number(factor))).collect();
-        Sum { start: self.number(start), terms }
+    /// A coordinate 0.3 sin φ.
+    pub fn law_of_sine(&mut self) {
+        let slide = self.slide();
+        let size = self.number(0.3);
+        let ops = vec![Op::Number(size), Op::Variable(Variable::Phi), Op::Sin, Op::Mul];
+        let formula = Formula::new(ops).expect("a sound formula");
+        self.mechanism.elements.push(Element::Law(Law { slide, formula }));
     }
 
-    /// Link and slide of a gear.
-    pub fn gear(&mut self, start: f64, terms: &[(Source, f64)]) -> [usize; 2] {
-        let (link, slide, angle) = (self.link(), self.slide(), self.sum(start, terms));
-        self.mechanism.elements.push(Element::Turn(Turn { link, slide, angle }));
-        [link, slide]
-    }
-
-    /// Point and slide of a rack, a cable or a linear driver.
-    pub fn runner(&mut self, line: Line, start: f64, terms: &[(Source, f64)]) -> [usize; 2] {
-        let (point, slide, place) = (self.point(), self.slide(), self.sum(start, terms));
-        self.mechanism.elements.push(Element::Runner(Runner { point, slide, line, place }));
-        [point, slide]
-    }
-
-    /// Turns the last dyad RRR into one that passes its change points near the given angles; how many it has.
-    pub fn fold(&mut self, near: &[f64]) -> usize {
-        let element = self.mechanism.elements.len() - 1;
-        let found: Vec<_> =
-            near.iter().filter_map(|&phi| change_point(&self.mechanism, element, &self.q, phi)).collect();
-        let Element::Rocker(rocker) = self.mechanism.elements[element] else {
-            panic!("the last element is no dyad RRR");
+    /// Joints P, Q and the third corner of the plate PQ; bars from the pin to P, of the plate, from Q and from
+    /// the corner to two pivots. Gives the element's number.
+    pub fn triad(
+        &mut self,
+        pin: usize,
+        pivots: [usize; 2],
+        lengths: [f64; 4],
+        corner: (f64, f64),
+        near: [f64; 4],
+    ) -> usize {
+        let [p, q, k] = [self.point(), self.point(), self.point()];
+        let ends = [(pin, p), (p, q), (q, pivots[0]), (k, pivots[1])];
+        let plate = lengths[1];
+        let starts = near.iter().map(|&x| Table::new(&[0.0], &[x]).expect("one knot")).collect();
+        let conditions = ends
+            .iter()
+            .zip(lengths)
+            .map(|(&(from, to), length)| Condition::Distance { from, to, length: self.number(length) })
+            .collect();
+        let bars = ends
+            .iter()
+            .zip(lengths)
+            .map(|(&(from, to), length)| Bar {
+                link: self.link(),
+                from,
+                to,
+                inverse_length: self.number(1.0 / length),
+            })
+            .collect();
+        let (along, across) = (self.number(corner.0 / plate), self.number(corner.1 / plate));
+        let group = Group {
+            unknowns: vec![p, q],
+            carried: vec![Carried { point: k, from: p, to: q, along, across }],
+            bars,
+            conditions,
+            gap: self.gap(),
+            starts,
+            inverse_turns: self.number(1.0),
+            repeats: true,
         };
-        // The side is that just after zero; each change point turns it.
-        let turn = |phi: f64| found.iter().map(|(at, _)| ((phi - at) / 2.0).sin().signum()).product::<f64>();
-        let given = self.q[rocker.sign];
-        self.q[rocker.sign] = given * turn(1e-7);
-        let mut change_points = vec![];
-        for (phi, series) in &found {
-            let after = self.q[rocker.sign] * turn(phi + 1e-7);
-            let [cos, sin, half_cos, half_sin] =
-                [phi.cos(), phi.sin(), (phi / 2.0).cos(), (phi / 2.0).sin()].map(|x| self.number(x));
-            let series = series.iter().map(|c| self.number(after * c)).collect();
-            change_points.push(ChangePoint { cos, sin, half_cos, half_sin, series });
-        }
-        self.mechanism.elements[element] = Element::Folding(Folding { rocker, change_points });
-        found.len()
+        self.mechanism.elements.push(Element::Group(group));
+        self.mechanism.elements.len() - 1
     }
 
     /// A group of joints and the bars between points, followed from near the places of the joints at φ = 0; after
@@ -249,7 +269,7 @@ impl Builder {
             .collect();
         let group = Group {
             unknowns: unknowns.to_vec(),
-            carried: std::mem::take(&mut self.carried),
+            carried: vec![],
             bars: links,
             conditions,
             gap,
@@ -275,11 +295,40 @@ impl Builder {
         self.point()
     }
 
-    /// A point fixed to a bar of the next group, in lengths of the bar.
-    pub fn carried(&mut self, from: usize, to: usize, along: f64, across: f64) -> usize {
-        let (point, along, across) = (self.point(), self.number(along), self.number(across));
-        self.carried.push(Carried { point, from, to, along, across });
-        point
+    /// Gives a group the motion that was followed.
+    pub fn give_path(built: &mut Built, element: usize, path: &Path) {
+        let Element::Group(group) = &mut built.plan.mechanism.elements[element] else {
+            panic!("element {element} is no group");
+        };
+        let table = |place: &Vec<f64>| Table::new(&path.phi, place).expect("angles increase");
+        group.starts = path.places.iter().map(table).collect();
+    }
+
+    /// Turns a rocker into one with change points; its side is that at small positive crank angles.
+    pub fn give_change_points(built: &mut Built, element: usize, found: &[ChangePointSeries]) {
+        let Element::Rocker(rocker) = built.plan.mechanism.elements[element] else {
+            panic!("element {element} is no rocker");
+        };
+        let side = |phi: f64| found.iter().map(|(at, _)| ((phi - at) / 2.0).sin()).product::<f64>().signum();
+        let sign = built.q[rocker.sign] * side(1e-7);
+        built.q[rocker.sign] = sign;
+        let mut change_points = Vec::new();
+        for (at, series) in found {
+            let after = sign * side(at + 1e-7);
+            let mut number = |x: f64| {
+                built.q.push(x);
+                built.q.len() - 1
+            };
+            change_points.push(ChangePoint {
+                cos: number(at.cos()),
+                sin: number(at.sin()),
+                half_cos: number((at / 2.0).cos()),
+                half_sin: number((at / 2.0).sin()),
+                series: series.iter().map(|c| number(c * after)).collect(),
+            });
+        }
+        built.plan.n_parameters = built.q.len();
+        built.plan.mechanism.elements[element] = Element::Folding(Folding { rocker, change_points });
     }
 
     pub fn mass(&mut self, point: usize, mass: f64) {

@@ -11,14 +11,17 @@ from linkwright.analysis.kinetostatics.applied import Applied
 from linkwright.analysis.kinetostatics.equilibrium import Solution
 from linkwright.analysis.kinetostatics.pairs import PairModel
 from linkwright.analysis.kinetostatics.result import Contribution, Forces, PairForce
-from linkwright.analysis.kinetostatics.scene import Scene
-from linkwright.analysis.kinetostatics.wrench import Wrenches
+from linkwright.analysis.kinetostatics.scene import Scene, cross
 from linkwright.errors import FindingError
+from linkwright.machine.structure import FRAME
 
 Floats = NDArray[np.float64]
 
 # Share of the greatest tension that a cable may push by rounding.
 _SLACK = 1e-9
+
+# Kinds of models that are no pairs.
+_DRIVES = ("torque", "force")
 
 
 class Collector:
@@ -47,19 +50,19 @@ class Collector:
         self.scene, self.models, self.sources, self.solution = scene, models, sources, solution
         sizes = np.cumsum([0] + [len(model.unknowns) for model in models])
         self.spans = [slice(int(a), int(b)) for a, b in pairwise(sizes)]
+        self.works = {model.name: model.unknowns[0].power() for model in models if model.kind in _DRIVES}
         if (solution.singular | solution.locked).all():
             raise FindingError(_where(self.solution, scene.motion.crank_angle)[0])
 
     def forces(self) -> Forces:
         """Everything, by name."""
-        shares = {name: self._contribution(k, each) for k, (name, each) in enumerate(self.sources.items())}
-        total = self.solution.x.sum(axis=-1)
-        pairs = {pair.name: pair for pair in self._pairs(total)}
-        drives = {
-            model.name: total[:, span.start]
-            for model, span in zip(self.models, self.spans, strict=True)
-            if model.kind in ("torque", "force")
+        shares = {
+            name: self._contribution(k, name, each) for k, (name, each) in enumerate(self.sources.items())
         }
+        total = self.solution.x.sum(axis=-1)
+        spans = list(zip(self.models, self.spans, strict=True))
+        pairs = {m.name: self._pair(m, span, total) for m, span in spans if m.kind not in _DRIVES}
+        drives = {m.name: total[:, span.start] for m, span in spans if m.kind in _DRIVES}
         motion = self.scene.motion
         torque = np.sum([each.torque_drive for each in shares.values()], axis=0)
         return Forces(
@@ -78,13 +81,21 @@ class Collector:
             findings=(*_where(self.solution, motion.crank_angle), *self._slack(pairs)),
         )
 
-    def _passed(self, model: PairModel, span: slice, x: Floats) -> Wrenches:
-        """What a pair does to all members for values (n, unknowns) of all unknowns."""
-        found = Wrenches(self.scene)
+    def _passed(self, model: PairModel, span: slice, x: Floats, member: str) -> Floats:
+        """What a pair does to a member for values (n, unknowns) of all unknowns: force and moment, (n, 3)."""
+        i = self.scene.index[member]
+        found = np.zeros((self.scene.n, 3))
         for j, unknown in enumerate(model.unknowns):
-            found.values += x[:, span.start + j, None, None] * unknown.values
-        if model.extra is not None:
-            found.values += self._dry(span, x)[:, None, None] * model.extra.values
+            found += x[:, span.start + j, None] * unknown.values[:, i]
+        if model.is_nonlinear and model.extra is not None:
+            found += self._dry(span, x)[:, None] * model.extra.values[:, i]
+        return found
+
+    def _viscous(self, model: PairModel) -> Floats:
+        """Viscous friction of a pair on its second member, (n, 3)."""
+        if model.extra is None or not model.friction.viscous:
+            return np.zeros((self.scene.n, 3))
+        found: Floats = model.viscous[:, None] * model.extra.on_member(model.second)
         return found
 
     def _dry(self, span: slice, x: Floats) -> Floats:
@@ -92,48 +103,33 @@ class Collector:
         found: Floats = (self.solution.slopes[:, span] * x[:, span]).sum(axis=1)
         return found
 
-    def _pairs(self, total: Floats) -> list[PairForce]:
-        found = []
-        for model, span in zip(self.models, self.spans, strict=True):
-            pair = (
-                self.scene.structure.pairs.get(model.name) if model.kind not in ("torque", "force") else None
-            )
-            if pair is None:
-                continue
-            passed = self._passed(model, span, total)
-            teeth = model.kind in ("mesh", "rack")
-            extra = (
-                np.zeros(self.scene.n)
-                if model.extra is None or teeth
-                else self._dry(span, total) + model.viscous
-            )
-            if model.extra is not None:
-                passed.values += model.viscous[:, None, None] * model.extra.values
-            at = passed.on_member(pair.second)
-            arm = self.scene.point(pair.point) - self.scene.reference(pair.second)
-            moment = at[:, 2] - (arm[:, 0] * at[:, 1] - arm[:, 1] * at[:, 0])
-            normal = total[:, span.start]
-            if model.kind == "pin":
-                normal = np.hypot(at[:, 0], at[:, 1])
-            found.append(
-                PairForce(pair.name, pair.kind, pair.first, pair.second, at[:, :2], moment, extra, normal)
-            )
-        return found
+    def _pair(self, model: PairModel, span: slice, total: Floats) -> PairForce:
+        """The force of one pair."""
+        pair = self.scene.structure.pairs[model.name]
+        at = self._passed(model, span, total, pair.second) + self._viscous(model)
+        arm = self.scene.point(pair.point) - self.scene.reference(pair.second)
+        moment = at[:, 2] - cross(arm, at[:, :2])
+        friction = np.zeros(self.scene.n)
+        if model.kind in ("pin", "guide", "slot"):
+            friction = self._dry(span, total) + model.viscous
+        normal = np.hypot(at[:, 0], at[:, 1]) if model.kind == "pin" else total[:, span.start]
+        return PairForce(pair.name, pair.kind, pair.first, pair.second, at[:, :2], moment, friction, normal)
 
-    def _contribution(self, k: int, source: Applied) -> Contribution:
+    def _contribution(self, k: int, name: str, source: Applied) -> Contribution:
         """The share of one source."""
         x = self.solution.x[..., k]
         torque = source.resisting + 0.0
         frame = source.wrenches.values[:, -1].copy()
         reactions = {}
         for model, span in zip(self.models, self.spans, strict=True):
-            passed = self._passed(model, span, x)
-            frame += passed.values[:, -1]
-            if model.kind in ("torque", "force"):
+            frame += self._passed(model, span, x, FRAME)
+            if model.kind in _DRIVES:
                 # The work of the drive on this member in a radian of the crank.
-                torque = torque + x[:, span.start] * model.unknowns[0].power()
-            else:
-                reactions[model.name] = passed.on_member(model.second)[:, :2]
+                torque = torque + x[:, span.start] * self.works[model.name]
+                continue
+            at = self._passed(model, span, x, model.second)
+            at += self._viscous(model) if name == "friction" else 0.0
+            reactions[model.name] = at[:, :2]
         return Contribution(reactions, torque, frame[:, :2], frame[:, 2])
 
     def _powers(self, torque: Floats, total: Floats) -> dict[str, Floats]:

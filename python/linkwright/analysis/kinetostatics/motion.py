@@ -100,10 +100,13 @@ def motion_at(
 
 def _at_speed(speed: float, acceleration: float, angles: ArrayLike) -> Motion:
     """The same speed and acceleration at every angle."""
-    phi = np.atleast_1d(np.asarray(angles, dtype=np.float64))
-    if phi.ndim != 1 or not np.isfinite(phi).all() or not np.isfinite([speed, acceleration]).all():
-        raise ShapeError(
-            f"a list of finite crank angles, a speed and an acceleration are needed, found {angles!r}"
-        )
+    try:
+        phi = np.atleast_1d(np.asarray(angles, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise ShapeError(f"crank angles in radians are needed, found {angles!r}") from None
+    if phi.ndim != 1 or not phi.size or not np.isfinite(phi).all():
+        raise ShapeError(f"a list of finite crank angles is needed, found an array of shape {phi.shape}")
+    if not np.isfinite([speed, acceleration]).all():
+        raise InputError(f"speed {speed} rad/s, acceleration {acceleration} rad/s²: expected finite numbers")
     time = phi / speed if speed else phi
     return Motion(phi, np.full_like(phi, speed), np.full_like(phi, acceleration), time)

@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.kinematics import kinematics
 from linkwright.analysis.kinetostatics.motion import Motion
+from linkwright.engine import compile_machine
+from linkwright.errors import InputError
 from linkwright.machine import Guide, Machine
 from linkwright.machine.structure import FRAME, structure
 
@@ -22,13 +24,24 @@ class Scene:
         One machine.
     motion : Motion
         Its motion.
+
+    Raises
+    ------
+    ShapeError
+        The entries describe many machines.
+    InputError
+        Nothing moves.
     """
 
     def __init__(self, machine: Machine, motion: Motion) -> None:
+        # Refuses entries that are arrays over many machines.
+        _ = compile_machine(machine).one
         self.machine = machine
         self.mechanism = machine.linkage
         self.motion = motion
         self.structure = structure(self.mechanism)
+        if not self.structure.members:
+            raise InputError("mechanism: found nothing that moves, expected a crank or a linear driver")
         self.links = self.mechanism.links()
         self.kinematics = kinematics(machine, motion.crank_angle)
         self.n = len(motion.crank_angle)

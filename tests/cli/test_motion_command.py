@@ -1,0 +1,86 @@
+"""``linkwright motion``: poses, turns, laws."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from linkwright.cli import application
+
+FOUR_BAR = Path(__file__).parents[2] / "examples" / "four_bar_coupler_curve" / "machine.toml"
+
+
+def run(*args: object):
+    return CliRunner().invoke(application(), ["motion", str(FOUR_BAR), *map(str, args)])
+
+
+def columns(text: str) -> dict[str, list[float]]:
+    """Columns of a CSV by name without unit."""
+    rows = list(csv.reader(io.StringIO(text)))
+    return {head: [float(row[k]) for row in rows[1:]] for k, head in enumerate(rows[0])}
+
+
+def test_a_pose() -> None:
+    done = run("--at", "30 deg", "--speed", "2 rad/s", "--json")
+    assert done.exit_code == 0
+    found = json.loads(done.stdout)
+    assert found["crank_angle"] == pytest.approx(np.pi / 6)
+    assert found["points"]["A"]["velocity"] == pytest.approx([-0.05, 0.1 * np.cos(np.pi / 6)])
+    table = run("--at", "30 deg").stdout
+    assert "C.rocker angle [rad]" in table
+    assert run("--at", "30 deg", "--csv").stdout.startswith("name,quantity,position,velocity,acceleration\n")
+
+
+def test_a_turn() -> None:
+    found = columns(run("--csv", "--steps", 36).stdout)
+    assert len(found["time [s]"]) == 37
+    assert found["crank_angle [rad]"][-1] == pytest.approx(2 * np.pi)
+    np.testing.assert_allclose(found["A.x [m]"], 0.05 * np.cos(found["crank_angle [rad]"]), atol=1e-15)
+    assert {"K.y.jerk [m/s³]", "C.rocker.angle.velocity [rad/s]"} <= found.keys()
+    # People see what moves, without its rates.
+    head = run("--steps", 4).stdout.splitlines()[0].split()
+    assert head[:4] == ["time", "crank_angle", "A.x", "A.y"]
+    assert "O.x" not in head
+
+
+def test_a_law(tmp_path: Path) -> None:
+    found = columns(run("--law", "3*t^2", "--duration", "2 s", "--steps", 4, "--csv").stdout)
+    np.testing.assert_allclose(found["crank_angle [rad]"], 3 * np.array(found["time [s]"]) ** 2)
+    assert set(found["acceleration [rad/s²]"]) == {6.0}
+    table = tmp_path / "law.csv"
+    table.write_text("time,angle\n0,0\n1,2\n3,4\n", encoding="utf-8")
+    found = json.loads(run("--law", table, "--steps", 3, "--json").stdout)
+    assert found["time"] == [0.0, 1.0, 2.0, 3.0]
+    assert found["crank_angle"][1] == pytest.approx(2)
+
+
+@pytest.mark.parametrize(
+    ("args", "words"),
+    [
+        (("--at", "30 m"), "--at: found"),
+        (("--at", "1", "--law", "t"), "not both"),
+        (("--law", "2*"), "character 3"),
+        (("--steps", "0"), "--steps"),
+        (("--speed", "-1 rad/s"), "above zero"),
+        (("--law", "t", "--duration", "0 s"), "--duration"),
+        (("--law", "missing.csv"), "missing.csv"),
+    ],
+)
+def test_wrong_input(args: tuple[str, ...], words: str) -> None:
+    done = run(*args)
+    assert done.exit_code == 2
+    assert words in done.output
+
+
+def test_a_table_with_words(tmp_path: Path) -> None:
+    table = tmp_path / "law.csv"
+    table.write_text("0,0\n1,two\n", encoding="utf-8")
+    done = run("--law", table)
+    assert done.exit_code == 2
+    assert "law.csv:2" in done.output
