@@ -203,7 +203,7 @@ class Rows(Numbers):
         return slide
 
     def _slider(self, name: str, slider: Slider) -> None:
-        if slider.on is not None:
+        if slider.on is not None or slider.through in self.mechanism.moving_points():
             self._guided_rod(name, slider)
             return
         pin = self.points[slider.crank]
