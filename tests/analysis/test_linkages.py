@@ -96,6 +96,24 @@ S = { crank = "A", rod = 0.3, on = "still", angle = "30 deg", offset = 0.02 }
     assert np.abs(motion.links["S.rod"].d1 - 1).max() < 1e-14
 
 
+def test_guide_through_a_slider_goes_with_it() -> None:
+    """A compound slide: the second slider moves on a guide that the first one carries along."""
+    slides = machine(
+        """
+[mechanism.cranks]
+A = { radius = 0.1 }
+B = { radius = 0.05, phase = "90 deg" }
+[mechanism.sliders]
+S = { crank = "A", rod = 0.4 }
+T = { crank = "B", rod = 0.9, through = "S", angle = "80 deg" }
+"""
+    )
+    motion = lw.kinematics(slides, TURN)
+    assert rates_error(motion) < 1e-11
+    off = motion.points["T"].position - motion.points["S"].position
+    assert np.abs(off @ [-np.sin(np.radians(80)), np.cos(np.radians(80))]).max() < 1e-15
+
+
 def test_yoke_is_a_crossing() -> None:
     yoke = machine(
         "[mechanism.cranks]\nA = { radius = 0.1 }\n[mechanism.yokes]\n"

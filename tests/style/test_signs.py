@@ -79,3 +79,73 @@ def test_gear_efficiency_acts_by_direction() -> None:
         at_motor, at_crank = compile_machine(lw.loads(text + gearbox + more)).motor_torques([5.0, 12.0])
         assert at_motor == pytest.approx([5.0, -2.0])
         assert at_crank == pytest.approx([5.0 * 10 * 0.8, -2.0 * 10 * factor])
+
+
+LINKAGE = """
+format = 1
+name = "Elements on a crank"
+[mechanism.points]
+P = { x = 0.5, y = 0 }
+[mechanism.cranks.A]
+radius = 0.2
+"""
+
+
+def element(text: str, angle: float = 0.3) -> lw.Kinematics:
+    """The crank with one more element, at one angle."""
+    return lw.kinematics(lw.loads(LINKAGE + text), [angle])
+
+
+@pytest.mark.parametrize(
+    ("kind", "sense"), [("external", -1), ("crossed_belt", -1), ("internal", 1), ("belt", 1)]
+)
+def test_sense_and_phase_of_gears(kind: str, sense: int) -> None:
+    gear = f'G = {{ kind = "{kind}", pivot = "P", meshes = "A", size = 2, size_other = 1, phase = "40 deg" }}'
+    found = element("[mechanism.gears]\n" + gear).links["G"]
+    assert found.d1[0] == pytest.approx(sense / 2)
+    assert found.angle[0] == pytest.approx(np.radians(40) + sense * 0.3 / 2)
+
+
+@pytest.mark.parametrize(("side", "sign"), [("right", 1), ("left", -1)])
+def test_rack_on_the_right_goes_ahead(side: str, sign: int) -> None:
+    rack = f'T = {{ gear = "A", radius = 0.1, side = "{side}", guide = {{ angle = "90 deg" }} }}'
+    assert element("[mechanism.racks]\n" + rack).points["T"].d1[0] == pytest.approx([0, sign * 0.1])
+
+
+@pytest.mark.parametrize(("side", "sign"), [("left", -1), ("right", 1)])
+def test_cable_on_the_left_is_drawn_in(side: str, sign: int) -> None:
+    """It hangs down; left of downward is to the right of the page."""
+    cable = f'H = {{ link = "A", radius = 0.1, length = 1, side = "{side}" }}'
+    found = element("[mechanism.cables]\n" + cable)
+    assert found.slides["H"].d1[0] == pytest.approx(sign * 0.1)
+    assert found.points["H"].position[0] == pytest.approx([-sign * 0.1, -1 - sign * 0.1 * 0.3])
+
+
+@pytest.mark.parametrize(("assembly", "sign"), [("ahead", 1), ("behind", -1)])
+def test_slot_passes_to_the_left_of_the_pivot(assembly: str, sign: int) -> None:
+    lever = f'L = {{ pin = "A", pivot = "P", offset = 0.05, assembly = "{assembly}" }}'
+    found = element("[mechanism.slotted_levers]\n" + lever)
+    angle, pin = found.links["L"].angle[0], found.points["A"].position[0] - [0.5, 0]
+    along, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
+    assert pin @ across == pytest.approx(0.05)
+    assert np.sign(pin @ along) == sign
+    assert found.slides["L"].position[0] == pytest.approx(pin @ along)
+
+
+def test_guide_on_a_link_counts_from_the_link() -> None:
+    slider = 'S = { crank = "B", rod = 0.6, on = "A", angle = "30 deg", offset = 0.03 }\n'
+    found = element("[mechanism.sliders]\n" + slider + '[mechanism.cranks.B]\nradius = 0.1\npivot = "P"\n')
+    angle = 0.3 + np.radians(30)
+    place = found.points["S"].position[0]
+    assert place @ [-np.sin(angle), np.cos(angle)] == pytest.approx(0.03)
+    assert place @ [np.cos(angle), np.sin(angle)] == pytest.approx(found.slides["S"].position[0])
+
+
+def test_slot_of_a_yoke_counts_from_its_guide() -> None:
+    found = element('[mechanism.yokes]\nY = { pin = "A", slot = "60 deg", guide = { angle = "20 deg" } }')
+    u = found.points["Y"].position[0] - found.points["A"].position[0]
+    assert u @ [-np.sin(np.radians(80)), np.cos(np.radians(80))] == pytest.approx(0, abs=1e-15)
+    assert found.slides["Y.slot"].position[0] == pytest.approx(
+        u @ [np.cos(np.radians(80)), np.sin(np.radians(80))]
+    )
+    assert found.links["Y"].angle[0] == pytest.approx(np.radians(20))

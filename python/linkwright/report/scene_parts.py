@@ -108,18 +108,19 @@ def _all_guides(mechanism: Mechanism) -> Iterator[tuple[str, str, Guide]]:
 
 def _guides(mechanism: Mechanism, motion: Kinematics, series: dict[str, int]) -> Iterator[Scene]:
     """Straight lines that points move on: on the frame, or as a rail on a link."""
-    links = mechanism.links()
+    links, moving = mechanism.links(), mechanism.moving_points()
     for point, slide, guide in _all_guides(mechanism):
-        if guide.on is not None:
+        carrier = guide.through if guide.through in moving else None
+        if guide.on is not None or carrier is not None:
             yield {
                 "kind": "rail",
                 "name": slide,
-                "at": guide.through or links[guide.on].start,
+                "at": guide.through or links[guide.on or ""].start,
                 "link": guide.on,
                 "angle": float(guide.angle),
                 "offset": float(guide.offset),
                 "span": _span(motion.slides[slide].position),
-                "series": series[links[guide.on].element],
+                "series": series[links[guide.on].element if guide.on else carrier or point],
             }
             continue
         path = motion.points[point].position

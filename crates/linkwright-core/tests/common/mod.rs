@@ -7,7 +7,7 @@ use linkwright_core::linkage::coupled::{AngleOf, Law, Runner, Source, Sum, Turn}
 use linkwright_core::linkage::folding::{ChangePoint, Folding};
 use linkwright_core::linkage::group::{Bar, Carried, Condition, Group};
 use linkwright_core::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
-use linkwright_core::linkage::trace::{ChangePointSeries, Path};
+use linkwright_core::linkage::trace::{ChangePointSeries, Path, follow};
 use linkwright_core::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod};
 use linkwright_core::plan::Plan;
 use linkwright_core::reduce::{Body, Load};
@@ -246,6 +246,53 @@ impl Builder {
         };
         self.mechanism.elements.push(Element::Group(group));
         self.mechanism.elements.len() - 1
+    }
+
+    /// A group of joints and the bars between points, followed from near the places of the joints at φ = 0; after
+    /// how many turns it repeats.
+    pub fn group(&mut self, bars: &[(usize, usize, f64)], unknowns: &[usize], near: &[f64]) -> Option<u32> {
+        let gap = self.gap();
+        let inverse_turns = self.number(1.0);
+        let starts = near.iter().map(|&x| Table::new(&[0.0], &[x]).expect("a sound table")).collect();
+        let conditions = bars
+            .iter()
+            .map(|&(from, to, length)| Condition::Distance { from, to, length: self.number(length) })
+            .collect();
+        let links = bars
+            .iter()
+            .map(|&(from, to, length)| Bar {
+                link: self.link(),
+                from,
+                to,
+                inverse_length: self.number(1.0 / length),
+            })
+            .collect();
+        let group = Group {
+            unknowns: unknowns.to_vec(),
+            carried: vec![],
+            bars: links,
+            conditions,
+            gap,
+            starts,
+            inverse_turns,
+            repeats: true,
+        };
+        self.mechanism.elements.push(Element::Group(group));
+        let element = self.mechanism.elements.len() - 1;
+        let path = follow(&self.mechanism, element, &self.q, 0.0, near)?;
+        let turns = path.turns;
+        let cycle = f64::from(turns.unwrap_or(1));
+        self.q[inverse_turns] = 1.0 / cycle;
+        let Element::Group(group) = &mut self.mechanism.elements[element] else { unreachable!() };
+        let phi: Vec<f64> = path.phi.iter().map(|phi| phi / cycle).collect();
+        group.starts = path.places.iter().map(|x| Table::new(&phi, x).expect("a sound table")).collect();
+        group.repeats = turns.is_some();
+        turns
+    }
+
+    /// A point for a group to find.
+    pub fn joint(&mut self) -> usize {
+        self.point()
     }
 
     /// Gives a group the motion that was followed.
