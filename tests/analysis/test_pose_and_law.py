@@ -182,7 +182,9 @@ T = np.linspace(0.05, 1.95, 20)
         constant_speed(3.0, 0.5),
         RampLaw(2.0, angle=1.5, start=0.2),
         RampLaw(1.0, speed=4.0, shape="4-5-6-7"),
-        FunctionLaw(lambda t: 2 * np.sin(3 * t) ** 2 + t / (1 + t**2) - np.exp(-t) * np.sqrt(1 + t)),
+        FunctionLaw(
+            lambda t: 2 * np.sin(3 * t**2) ** 2 + np.cos(t**3) * t / (1 + t**2) - np.exp(-t) * np.sqrt(1 + t)
+        ),
         FunctionLaw(lambda t: np.where(t < 1, t**3, 3 * t - 2)),
         FormulaLaw("2*pi*t + 0.1*sin(5*t)^2 + tanh(t)*atan(t)"),
         FormulaLaw("where(t < 1, t^2, 2*t - 1) + max(0.33, t, 2*t) + atan2(t, 2)"),

@@ -159,6 +159,7 @@ def test_figures_are_those_that_there_is_something_to_show_for() -> None:
     assert figures["stalls"] == everything
     assert figures["does not start"] == everything - {"run_up"}
     assert figures["no steady motion"] == {"reduction", "motor", "transmission"}
+    # Without mass, load and motor there is nothing but motion, and of a crank alone not even that to show.
     assert figures["alone"] == set()
     assert figures["constant speed"] == {"reduction", "speed", "torque", "time"} | forces
     assert figures["does not close"] == {"transmission"}
