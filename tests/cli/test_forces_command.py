@@ -62,6 +62,16 @@ def test_json_is_that_of_python(press: Path) -> None:
     assert found["envelope"]["torque_drive"]["peak"] == pytest.approx(result.torque_drive_max)
 
 
+def test_angles_are_those_asked_for(press: Path) -> None:
+    # A crank longer than its rod turns within a range alone.
+    words = ("forces", press, "--speed", "1", "--set", "mechanism.cranks.A.radius=0.3", "--json", "--curves")
+    assert run(*words)[0] == 1
+    code, text = run(*words, "--angles=-30 deg, 40 deg")
+    assert code == 0
+    found = json.loads(text)["results"]["Press"]["crank_angle"]
+    assert [found[0], found[-1]] == pytest.approx([-0.5235987755982988, 0.6981317007977318])
+
+
 def test_cases_stand_in_columns(press: Path) -> None:
     code, text = run(
         *("forces", press, "--speed", "10", "--case", "idle: loads.work.force=0"),
@@ -104,6 +114,8 @@ def test_folder_has_files(press: Path, tmp_path: Path) -> None:
         (("forces", "--speed", "1", "--friction", "A"), "--friction"),
         (("forces", "--speed", "1", "--friction", "A: mu=1"), "mu=1"),
         (("forces", "--speed", "1", "--friction", "B: coefficient=1"), "friction.B"),
+        (("forces", "--speed", "1", "--angles", "3 deg"), "--angles"),
+        (("forces", "--angles", "3 deg, 5 deg"), "--speed"),
         (("balance", "--speed", "1"), "neither"),
         (("balance", "--speed", "1", "--links", "S.rod"), "fixed points"),
     ],

@@ -24,6 +24,16 @@ Speed = Annotated[
         show_default=False,
     ),
 ]
+Span = Annotated[
+    str | None,
+    typer.Option(
+        "--angles",
+        metavar='"FROM, TO"',
+        help='With --speed: crank angles between these alone, such as "-20 deg, 50 deg", for a mechanism '
+        "that does not turn fully.",
+        show_default=False,
+    ),
+]
 Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not peaks alone.")]
 Folder = Annotated[
     Path | None,
@@ -56,10 +66,15 @@ Frictions = Annotated[
 Angle = Annotated[str, typer.Option("--pressure-angle", metavar="ANGLE", help="Pressure angle of all teeth.")]
 
 
+# Intervals between the ends of --angles.
+_ANGLES = 360
+
+
 def forces(
     file: File,
     set: Sets = None,
     speed: Speed = None,
+    angles: Span = None,
     case: Cases = None,
     friction: Frictions = None,
     pressure_angle: Angle = "20 deg",
@@ -75,7 +90,7 @@ def forces(
     from linkwright.cli.tables import print_tables
     from linkwright.report.force_tables import cases_table, contribution_table, envelope_table
 
-    found = _cases(file, set or [], case or [], friction or [], speed, pressure_angle)
+    found = _cases(file, set or [], case or [], friction or [], _motion(speed, angles, pressure_angle))
     findings = [_named(name, each, found) for name, result in found.items() for each in result.findings]
     first = next(iter(found.values()))
     if json:
@@ -95,17 +110,30 @@ def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:
     return finding if len(cases) == 1 else f"{name}: {finding}"
 
 
+def _motion(speed: str | None, span: str | None, pressure_angle: str) -> dict[str, Any]:
+    """What the options say about motion and teeth."""
+    from linkwright.units import ANGLE, SPEED
+
+    options: dict[str, Any] = {"pressure_angle": option_value("--pressure-angle", pressure_angle, ANGLE)}
+    if speed is not None:
+        options["speed"] = option_value("--speed", speed, SPEED)
+    if span is not None:
+        ends = [option_value("--angles", each.strip(), ANGLE) for each in span.split(",")]
+        if len(ends) != 2 or ends[0] >= ends[1] or speed is None:
+            found = f'"{span}"' + ("" if speed is not None else " without --speed")
+            raise InputError(f"--angles: found {found}, expected two increasing angles, and --speed")
+        low, high = ends
+        options["angles"] = [low + (high - low) * k / _ANGLES for k in range(_ANGLES + 1)]
+    return options
+
+
 def _cases(
-    file: Path, sets: list[str], cases: list[str], frictions: list[str], speed: str | None, angle: str
+    file: Path, sets: list[str], cases: list[str], frictions: list[str], options: dict[str, Any]
 ) -> dict[str, Forces]:
     """Forces by case; of the machine as it is, where there are none."""
     from linkwright.analysis.forces import forces as compute
     from linkwright.files.read import read
-    from linkwright.units import ANGLE, SPEED
 
-    options: dict[str, Any] = {"pressure_angle": option_value("--pressure-angle", angle, ANGLE)}
-    if speed is not None:
-        options["speed"] = option_value("--speed", speed, SPEED)
     machine = read(file, sets)
     options["friction"] = _frictions(machine, frictions)
     if not cases:

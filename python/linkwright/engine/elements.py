@@ -103,6 +103,7 @@ class Rows(Numbers):
         # Start point of each link, the origin being known even where an element bears its name.
         self.starts: dict[str, int] = {}
         self.origin = -1
+        self.fixed: dict[str, Any] = {}
         self.frame = -1
         # Links that were placed before the group whose rows are being made.
         self.known: set[str] = set()
@@ -132,7 +133,8 @@ class Rows(Numbers):
     def build(self) -> None:
         """Fixed points first, then the moving elements in build order."""
         self.origin = self._fixed("", 0.0, 0.0)
-        for name, point in self.mechanism.fixed_points().items():
+        self.fixed = self.mechanism.fixed_points()
+        for name, point in self.fixed.items():
             self._fixed(name, point.x, point.y)
         steps = self.mechanism.steps()
         # The frame is the link after the last: all others must be known before the first guide.
@@ -203,7 +205,7 @@ class Rows(Numbers):
         return slide
 
     def _slider(self, name: str, slider: Slider) -> None:
-        if slider.on is not None or slider.through in self.mechanism.moving_points():
+        if slider.on is not None or slider.through not in (None, *self.fixed):
             self._guided_rod(name, slider)
             return
         pin = self.points[slider.crank]

@@ -23,6 +23,7 @@ from linkwright.plot.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.ticker import Locator
 
     from linkwright.analysis.kinetostatics.result import Forces
 
@@ -54,8 +55,8 @@ def forces_figure(forces: Forces) -> Figure:
         sizes.plot(degrees, forces.pairs[name].size, color=colour, label=name)
     sizes.set_ylabel("size of the reaction\n[N]")
     legend_above(sizes)
-    turn_axis(torque, label=False)
-    turn_axis(sizes)
+    _angle_axis(torque, degrees, label=False)
+    _angle_axis(sizes, degrees)
     return figure
 
 
@@ -142,9 +143,25 @@ def cases_figure(cases: Mapping[str, Forces]) -> Figure:
     frame.set_ylabel("force on the frame\n[N]")
     legend_above(torque)
     zero_line(torque)
-    turn_axis(torque, label=False)
-    turn_axis(frame)
+    _angle_axis(torque, degrees, label=False)
+    _angle_axis(frame, degrees)
     return figure
+
+
+def _angle_axis(axes: Axes, degrees: np.ndarray, *, label: bool = True) -> None:
+    """One turn along x, or the angles that there are."""
+    turn_axis(axes, label=label)
+    if abs(degrees[0]) > 1e-6 or abs(degrees[-1] - 360) > 1e-6:
+        axes.set_xticks([])
+        axes.autoscale(axis="x")
+        axes.xaxis.set_major_locator(_ticks())
+
+
+def _ticks() -> Locator:
+    """Round angles."""
+    from matplotlib.ticker import MaxNLocator
+
+    return MaxNLocator(nbins=9, steps=[1, 1.5, 3, 4.5, 6, 9, 10])
 
 
 def _largest(forces: Forces) -> list[str]:
