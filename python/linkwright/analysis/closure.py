@@ -350,7 +350,8 @@ def _sentence(found: Closure, machine: Machine) -> str:
     """What does not close, where, and the remedy."""
     if found.change_point is not None:
         what, remedy = change_point(found.element, machine)
-        return f"{found.element} reaches a change point at crank angle {_deg(found.change_point)}°: {what}; {remedy}"
+        where = f"{found.element} reaches a change point at crank angle {_deg(found.change_point)}°"
+        return f"{where}: {what}; {remedy}"
     what, remedy = describe(found.element, machine)
     if not found.ranges:
         return f"the mechanism does not close at any crank angle: {what}; {remedy}"
