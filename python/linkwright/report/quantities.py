@@ -75,8 +75,8 @@ SHOWN = {
     "rod_travel": Shown("rise of the polished rod", "s", _M),
     "torque_factor": Shown("torque factor", "TF", _M),
     "torque_factor_d1": Shown("derivative of the torque factor", "TF′", "m/rad²"),
-    "torque_factor_max": Shown("greatest torque factor, upstroke", "TF_max", _M),
-    "torque_factor_min": Shown("least torque factor, downstroke", "TF_min", _M),
+    "torque_factor_max": Shown("greatest torque factor, upstroke", "max TF", _M),
+    "torque_factor_min": Shown("least torque factor, downstroke", "min TF", _M),
     "bottom_angle": Shown("bottom of the stroke", "θ_b", _RAD),
     "top_angle": Shown("top of the stroke", "θ_t", _RAD),
     "upstroke_angle": Shown("angle of the upstroke", "θ_u", _RAD),
@@ -114,8 +114,8 @@ SHOWN = {
     "lever_length": Shown("length of the lever", "l_5", _M),
     "lever_turns_per_cycle": Shown("turns of the lever in a turn of the crank", "", ""),
     "lever_swing": Shown("range of the lever's angle", "", _RAD),
-    "transfer_min": Shown("least transfer function of the lever", "φ_5′_min", ""),
-    "transfer_max": Shown("greatest transfer function of the lever", "φ_5′_max", ""),
+    "transfer_min": Shown("least transfer function of the lever", "min φ_5′", ""),
+    "transfer_max": Shown("greatest transfer function of the lever", "max φ_5′", ""),
     "lever_speed": Shown("speed of the lever", "ω_5", _RPS),
     "lever_acceleration": Shown("acceleration of the lever", "ε_5", _RPS2),
     "string_speed": Shown("speed of the rod string", "ω_s", _RPS),
@@ -170,9 +170,14 @@ _LARGE = 1e7
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
+# Angles are differences of angles of order one: below this they are rounding [rad].
+_ROUNDING = 1e-12
+
+
 def degrees(angle: float) -> str:
-    """An angle in radians as text in degrees."""
-    return f"{math.degrees(angle):.5g}°".replace("-", "−")
+    """An angle in radians as text in degrees; what is left of zero by rounding is zero."""
+    shown = 0.0 if abs(angle) < _ROUNDING else math.degrees(angle)
+    return f"{shown:.5g}°".replace("-", "−")
 
 
 def pretty_unit(unit: str) -> str:
