@@ -170,8 +170,8 @@ _LARGE = 1e7
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-# Angles are differences of angles of order one: below this they are rounding [rad].
-_ROUNDING = 1e-12
+# An angle at which links are in line follows from a root: below that of the rounding unit it is zero [rad].
+_ROUNDING = 2e-8
 
 
 def degrees(angle: float) -> str:
