@@ -232,27 +232,38 @@ class _Search:
 
 def _endless(compiled: Compiled, limiting: list[int]) -> Closure:
     """A motion that never repeats: from where it is at angle zero as far as it goes, both ways."""
-    reach = 2 * np.pi
+    reach, found = 2 * np.pi, Closure(((0.0, 2 * np.pi),), "", turns=None)
     for _ in range(_DOUBLINGS if limiting else 0):
         angles = np.linspace(-reach, reach, 2 * _ANGLES + 1)
         gaps = compiled.gaps(angles)[limiting]
         closes = _closing(gaps)
-        element = compiled.dyads[limiting[int(np.argmin(np.nan_to_num(gaps, nan=-1.0).min(axis=1)))]]
+        sizes = np.nan_to_num(np.abs(gaps)).max(axis=1, keepdims=True)
+        worst = np.nan_to_num(gaps / np.maximum(sizes, 1e-300), nan=-1.0).min(axis=1)
+        element = compiled.dyads[limiting[int(np.argmin(worst))]]
         if not closes[_ANGLES]:
             return Closure((), element, turns=None)
-        ahead, behind = closes[_ANGLES:], closes[_ANGLES::-1]
-        if not ahead.all() and not behind.all():
-            inside = np.array([-(np.argmin(behind) - 1), np.argmin(ahead) - 1]) * (angles[1] - angles[0])
-            outside = inside + np.array([-1.0, 1.0]) * (angles[1] - angles[0])
-
-            def least(at: Floats) -> Floats:
-                found: Floats = np.fmin.reduce(compiled.gaps(at)[limiting], axis=0)
-                return found
-
-            low, high = zeros(least, inside, outside)[0]
-            return Closure(((float(low), float(high)),), element, turns=None)
+        ends = [_first_end(compiled, limiting, angles[_ANGLES::way], closes[_ANGLES::way]) for way in (-1, 1)]
+        if ends != [None, None]:
+            low = -reach if ends[0] is None else ends[0]
+            high = reach if ends[1] is None else ends[1]
+            found = Closure(((low, high),), element, turns=None)
+        if None not in ends:
+            break
         reach *= 2
-    return Closure(((0.0, 2 * np.pi),), "", turns=None)
+    return found
+
+
+def _first_end(compiled: Compiled, limiting: list[int], angles: Floats, closes: Flags) -> float | None:
+    """Where a motion that starts at the first angle ends; None if it goes on to the last."""
+    if closes.all():
+        return None
+
+    def least(at: Floats) -> Floats:
+        found: Floats = np.fmin.reduce(compiled.gaps(at)[limiting], axis=0)
+        return found
+
+    first = int(np.argmin(closes))
+    return float(zeros(least, angles[first - 1 : first], angles[first : first + 1])[0][0])
 
 
 def _closing(gaps: Floats) -> Flags:
@@ -342,7 +353,8 @@ def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None
 
 def _error(found: Closure, machine: Machine) -> AssemblyError:
     """The error that tells of a mechanism that does not turn fully."""
-    at = found.ranges[0][1] % (2 * np.pi) if found.ranges else 0.0
+    at = found.ranges[0][1] if found.ranges else 0.0
+    at = at if found.turns is None else at % (2 * np.pi * found.turns)
     return AssemblyError(_sentence(found, machine), element=found.element, crank_angle=at)
 
 

@@ -73,7 +73,8 @@ def _of_closure(compiled: Compiled, where: Closure) -> Iterator[DeadPoint]:
         yield DeadPoint(where.change_point, where.element, NOT_PASSED, 2)
     elif not where.turns_fully:
         for end in (end for limits in where.ranges for end in limits):
-            yield DeadPoint(end % (2 * np.pi), limiter_at(compiled, end), LIMIT, 1)
+            at = end if where.turns is None else end % (2 * np.pi * where.turns)
+            yield DeadPoint(at, limiter_at(compiled, end), LIMIT, 1)
 
 
 def _passed(swept: Swept) -> Iterator[DeadPoint]:

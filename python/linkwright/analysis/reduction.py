@@ -96,8 +96,6 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     ------
     AssemblyError
         The mechanism does not close all round.
-    FindingError
-        It does not repeat after one turn of the crank.
         A load has no value at some angle.
 
     Notes

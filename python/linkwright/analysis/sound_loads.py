@@ -47,9 +47,7 @@ def require_sound_loads(compiled: Compiled, machine: Machine) -> None:
     if not doubtful:
         return
     phi = turn_angles(_ANGLES)
-    for name, load in doubtful.items():
-        if isinstance(load, TorsionalSpring):
-            _require_half_turns(name, load, compiled, phi)
+    require_half_turns(compiled, machine)
     if np.isfinite(_torques(compiled, phi)).all():
         return
     for name, load in doubtful.items():
@@ -57,6 +55,19 @@ def require_sound_loads(compiled: Compiled, machine: Machine) -> None:
         torques = _torques(alone, phi)
         if not np.isfinite(torques).all():
             raise FindingError(_no_value(name, load, float(phi[np.argmin(np.isfinite(torques))])))
+
+
+def require_half_turns(compiled: Compiled, machine: Machine) -> None:
+    """Raise if a torsional spring is turned beyond half a turn from its free angle.
+
+    Raises
+    ------
+    FindingError
+        Names the spring and the angle.
+    """
+    for name, load in machine.loads.items():
+        if isinstance(load, TorsionalSpring):
+            _require_half_turns(name, load, compiled, turn_angles(_ANGLES))
 
 
 def _torques(compiled: Compiled, phi: Floats) -> Floats:
@@ -87,7 +98,7 @@ def _require_half_turns(name: str, load: TorsionalSpring, compiled: Compiled, ph
     if load.against is not None:
         turned = turned - _angle(compiled, load.against, phi)
     turned = turned - 2 * np.pi * np.round(turned[0] / (2 * np.pi))
-    if np.abs(turned).max() >= np.pi:
+    if np.nanmax(np.abs(turned), initial=0.0) >= np.pi:
         at = np.degrees(phi[np.argmax(np.abs(turned) >= np.pi)])
         raise FindingError(
             f"the torsional spring {name} is turned by more than 180° from its free angle at crank angle "

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.closure import require_full_turn
 from linkwright.analysis.reduction import NO_INERTIA
 from linkwright.analysis.result import Result
-from linkwright.analysis.sound_loads import require_sound_loads
+from linkwright.analysis.sound_loads import require_half_turns, require_sound_loads
 from linkwright.engine import compile_machine
 from linkwright.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
@@ -181,11 +181,14 @@ def transient(
     if motor and machine.drive and isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a motor of constant speed has no run-up: it turns at its speed under any load")
     compiled = compile_machine(machine, motor=motor, brake=brake)
+    require_half_turns(compiled, machine)
     end, torques, evaluations, curves = compiled.transient((angle, speed), duration, turns, accuracy)
     if end == End.DOES_NOT_CLOSE:
         require_full_turn(compiled, machine)
         require_sound_loads(compiled, machine)
         raise SteadyStateError(NO_INERTIA)
+    if not np.isfinite(torques).all():
+        require_sound_loads(compiled, machine)
     if end == End.INACCURATE:
         raise ConvergenceError(
             f"the motion was given up at {curves[0][-1]:.6g} s: steps became too small or too many for an "

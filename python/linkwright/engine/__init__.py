@@ -1,4 +1,4 @@
-"""From a machine's description to the arrays of the core, and back. The only module that uses `_core`.
+"""From a machine's description to the arrays of the core, and back. The only package that uses `_core`.
 
 A `Compiled` machine is a plan (what is there, as small integer tables) and a list of parameters (the
 numbers). An entry of the description that holds an array over many machines becomes a parameter that varies
@@ -274,6 +274,9 @@ def _parts(machine: Machine) -> list[object]:
         parts.append(len(table))
         parts += table
         parts += table.values()
+    # Constants of formulas are the one part that can be changed in place.
+    for each in (*mechanism.cranks.values(), *mechanism.linear_drivers.values(), *machine.loads.values()):
+        parts += getattr(each, "constants", {}).values()
     return parts
 
 

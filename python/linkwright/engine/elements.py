@@ -105,6 +105,8 @@ class Rows(Numbers):
         self.origin = -1
         self.fixed: dict[str, Any] = {}
         self.frame = -1
+        # How many of the numbers are the mechanism's own.
+        self.n_own = 0
         # Links that were placed before the group whose rows are being made.
         self.known: set[str] = set()
 
@@ -148,6 +150,7 @@ class Rows(Numbers):
                 self._group(step)
         # The hidden origin has served: nobody can ask for it by name.
         self.points.pop("")
+        self.n_own = len(self.parameters)
 
     def _element(self, name: str) -> None:
         """The rows of one element, by the table that it stands in."""
@@ -400,7 +403,7 @@ class Rows(Numbers):
         carried = self._carried(bars, step)
         bars = list(dict.fromkeys([*bars, *(self.mechanism.rigid_points[name].link for name in carried)]))
         coordinates = [value for name in step.names for value in (joints[name].x, joints[name].y)]
-        tables = [self._table((0.0,), (float(value),)) for value in coordinates]
+        tables = [self._table((0.0,), (float(np.ravel(value)[0]),)) for value in coordinates]
         turns = self.slot(1.0)
         row = [12, self._dyad(" and ".join(step.names)), turns, 1]
         row += [len(step.names), *(self.points[name] for name in step.names)]

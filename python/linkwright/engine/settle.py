@@ -13,11 +13,14 @@ They are settled in build order, each with what stands before it.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright import _core
+from linkwright.engine.driver_law import require_smooth
 from linkwright.engine.elements import Continuous, Foldable, Pending, Rows, Side, Solved
 from linkwright.errors import AssemblyError
 
@@ -60,9 +63,10 @@ class Settled:
         Raises
         ------
         AssemblyError
-            A group does not close where it is assembled, a link turns irregularly, or a redundant bar does
-            not fit.
+            A law cannot be followed, a group does not close where it is assembled, a link turns irregularly,
+            or a redundant bar does not fit.
         """
+        self._check_laws()
         for each in self.rows.pending:
             self._settle(each)
         self._check_redundant()
@@ -77,6 +81,19 @@ class Settled:
                 self._fold(each)
             case Solved():
                 self._follow(each)
+
+    def _check_laws(self) -> None:
+        """A driver's law must have a value everywhere, and no jump."""
+        mechanism = self.rows.mechanism
+        laws = {name: crank.law for name, crank in mechanism.cranks.items()}
+        laws |= {name: driver.law for name, driver in mechanism.linear_drivers.items()}
+        for name, law in laws.items():
+            if law is not None:
+                require_smooth(name, law, partial(self._law, self.rows.slides[f"{name}.law"]))
+
+    def _law(self, slide: int, angles: Floats) -> Floats:
+        """Value and slope of a law, (2, n)."""
+        return self._motion(2, slide, angles)[:2]
 
     def _changed(self, plan: _core.Plan) -> None:
         """Goes on with another plan."""
@@ -98,7 +115,7 @@ class Settled:
         at = np.array([self.assembled_at])
         joint = self.rows.mechanism.joints[each.joint]
         x, y = self._motion(0, each.pin, at)[:2, 0]
-        to = np.array([joint.x - x, joint.y - y], dtype=float)
+        to = np.array([_first(joint.x) - x, _first(joint.y) - y])
         if each.pivot is not None:
             u, v = self._motion(0, each.pivot, at)[:2, 0] - (x, y)
             side = u * to[1] - v * to[0]
@@ -135,7 +152,7 @@ class Settled:
                 "a gear, a rack or a cable on it has no unambiguous place beyond 356°",
                 element=each.name,
             )
-        near = float(np.ravel(each.near)[0])
+        near = _first(each.near)
         turns = np.round((near - psi[0]) / (2 * np.pi))
         self.parameters[each.winding] = winding
         self.parameters[each.centre] = 0.5 * (rest.min() + rest.max()) + 2 * np.pi * turns
@@ -145,7 +162,7 @@ class Settled:
 
     def _fold(self, each: Foldable) -> None:
         """Finds the change points of a dyad, and gives its row their series."""
-        if self.rows.varying:
+        if any(slot < self.rows.n_own for slot in self.rows.varying):
             # Rows of a batch have their change points elsewhere, and most have none.
             return
         angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)[:-1]
@@ -170,8 +187,7 @@ class Settled:
     def _give_change_points(self, each: Foldable, found: dict[float, list[float]]) -> None:
         """Turns the row of a dyad into one with change points.
 
-        The given side is that at small positive crank angles; the series has the sign that the root has just
-        after its change point.
+        The given side is that at small positive crank angles.
         """
         at = np.array(sorted(found))
         just_after = 1e-7
@@ -182,9 +198,8 @@ class Settled:
         row = [*_folding_row(self.rows.rows[each.row], self.rows.frame), len(at)]
         numbers: list[float] = []
         for phi in at:
-            after = sign * np.sign(np.prod(np.sin((phi + just_after - at) / 2)))
             angles = (np.cos(phi), np.sin(phi), np.cos(phi / 2), np.sin(phi / 2))
-            numbers += [*angles, *(after * np.array(found[phi]))]
+            numbers += [*angles, *found[phi]]
         row += list(range(len(self.parameters), len(self.parameters) + len(numbers)))
         self.parameters = np.concatenate([self.parameters, numbers])
         self.rows.parameters += numbers
@@ -197,7 +212,7 @@ class Settled:
         """Follows a group over the turn from where it is assembled."""
         element = sum(row[0] != 0 for row in self.rows.rows[: each.row])
         joints = [self.rows.mechanism.joints[name] for name in each.names]
-        near = np.array([value for joint in joints for value in (joint.x, joint.y)], dtype=np.float64)
+        near = np.array([_first(value) for joint in joints for value in (joint.x, joint.y)])
         path = _core.follow_group(self.plan, self.parameters, element, self.assembled_at, near)
         if path is None:
             names = " and ".join(each.names)
@@ -221,11 +236,12 @@ class Settled:
     # -- redundant bars ----------------------------------------------------------------------------------
 
     def _check_redundant(self) -> None:
-        """A redundant bar must fit at every angle."""
+        """A redundant bar must fit at every angle; of a batch, in the first machine."""
         mechanism = self.rows.mechanism
         for name, bar in mechanism.bars.items():
             if bar.redundant:
-                self._check_fit(name, self.rows.points[bar.start], self.rows.points[bar.end], bar.length)
+                ends = self.rows.points[bar.start], self.rows.points[bar.end]
+                self._check_fit(name, *ends, _first(bar.length))
 
     def _check_fit(self, name: str, start: int, end: int, length: float) -> None:
         angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
@@ -241,6 +257,11 @@ class Settled:
                 element=name,
                 crank_angle=float(angles[worst]),
             )
+
+
+def _first(value: Any) -> float:
+    """A number; of an array over many machines, that of the first."""
+    return float(np.ravel(value)[0])
 
 
 def _folding_row(row: list[int], frame: int) -> list[int]:

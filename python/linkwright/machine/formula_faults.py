@@ -13,6 +13,7 @@ from linkwright.machine.formula import (
     DEPTH,
     FUNCTIONS,
     NUMBERS,
+    SPEEDS,
     VARIABLES,
     FormulaError,
     depth,
@@ -98,7 +99,9 @@ def text_faults(
         if name not in known:
             expected = f'a variable or constant at character {at}, where "{name}" stands'
             yield fault(key, found=text, expected=expected, remedy=_meant(name, known))
-    if any(depth(program(each)) > DEPTH for each in terms(tree)):
+    # A law of a driver is worked as a whole, a load summand by summand.
+    parts = terms(tree) if set(variables) >= SPEEDS else (tree,)
+    if any(depth(program(each)) > DEPTH for each in parts):
         expected = f"at most {DEPTH} numbers at once before an operator joins them"
         yield fault(key, found=text, expected=expected, remedy="write it as a sum of shorter parts")
 

@@ -31,7 +31,7 @@ pub const TERMS: usize = 12;
 /// a radian away is good to (0.03/0.5)¹² = 2e-15.
 const NEAR: f64 = 0.03;
 
-/// A change point: cos φ_c, sin φ_c, cos ½φ_c, sin ½φ_c and the coefficients of S/δ.
+/// A change point: cos φ_c, sin φ_c, cos ½φ_c, sin ½φ_c and the coefficients of √h, which is positive.
 #[derive(Clone, Debug)]
 pub struct ChangePoint {
     pub cos: Slot,
@@ -96,34 +96,52 @@ fn near<R: Real>(series: &[Slot], q: &[R], delta: R) -> Series<R> {
     [p * delta, p + p1 * delta, p1 * 2.0 + p2 * delta]
 }
 
+/// Sign of S where the root would be positive: that of `side` times the half-angle sines of all change points.
+/// Just after change point `passed` its sine is that of a small angle, times ±1 by the turn: the cosine.
+#[inline(always)]
+fn sign_of<R: Real>(
+    change_points: &[ChangePoint],
+    side: R,
+    q: &[R],
+    (half_sin, half_cos): (R, R),
+    passed: Option<usize>,
+) -> R {
+    let mut product = side;
+    for (k, at) in change_points.iter().enumerate() {
+        product = product
+            * if passed == Some(k) {
+                half_cos * q[at.half_cos] + half_sin * q[at.half_sin]
+            } else {
+                half_sin * q[at.half_cos] - half_cos * q[at.half_sin]
+            };
+    }
+    product.select_lt(R::splat(0.0), R::splat(-1.0), R::splat(1.0))
+}
+
 /// S with two derivatives at any crank angle, from g and the side where the product of half-angle sines is
 /// positive.
 #[inline(always)]
 fn root<R: Real>(
     change_points: &[ChangePoint],
-    mut side: R,
+    side: R,
     q: &[R],
     angle: Angle<R>,
     g: Series<R>,
 ) -> Series<R> {
-    let (half_sin, half_cos) = (angle.phi * 0.5).sin_cos();
-    for at in change_points {
-        side = side * (half_sin * q[at.half_cos] - half_cos * q[at.half_sin]);
-    }
-    let one = R::splat(1.0);
-    let sign = side.select_lt(R::splat(0.0), -one, one);
-    let S = sign * g[0].sqrt();
+    let halves = (angle.phi * 0.5).sin_cos();
+    let S = sign_of(change_points, side, q, halves, None) * g[0].sqrt();
     let half = (S + S).recip();
     let S1 = g[1] * half;
     let mut found = [S, S1, (g[2] - S1.squared() * 2.0) * half];
-    for at in change_points {
+    for (nth, at) in change_points.iter().enumerate() {
         let sine = angle.sin * q[at.cos] - angle.cos * q[at.sin];
         let cosine = angle.cos * q[at.cos] + angle.sin * q[at.sin];
         // The opposite side of the turn has the same sine: it is put out of reach.
-        let distance = cosine.select_lt(R::splat(0.0), one, sine.abs());
+        let distance = cosine.select_lt(R::splat(0.0), R::splat(1.0), sine.abs());
+        let sign = sign_of(change_points, side, q, halves, Some(nth));
         let close = near(&at.series, q, small_angle(sine));
         for k in 0..3 {
-            found[k] = distance.select_lt(R::splat(NEAR), close[k], found[k]);
+            found[k] = distance.select_lt(R::splat(NEAR), close[k] * sign, found[k]);
         }
     }
     found

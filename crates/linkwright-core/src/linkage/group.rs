@@ -136,7 +136,7 @@ impl Group {
     #[inline(always)]
     pub(super) fn solve<R: Real, const ORDER: u8>(&self, q: &[R], m: &mut Motion<R>) {
         let n = self.size();
-        let mut system = System::new(n);
+        let mut system = System::new(n, self.carried.len());
         let mut rounds_left = R::ROUNDS;
         for _ in 0..ROUNDS_MAX {
             self.carry::<R, 0>(q, m);
@@ -334,54 +334,57 @@ impl Group {
                     let minus = R::splat(-1.0);
                     match *condition {
                         Condition::Distance { from, to, .. } => {
-                            self.spread(to, a[0] * R::splat(2.0), row, q, system);
-                            self.spread(from, a[0] * R::splat(-2.0), row, q, system);
+                            self.spread(to, a[0] * R::splat(2.0), row, system);
+                            self.spread(from, a[0] * R::splat(-2.0), row, system);
                         }
                         Condition::OnLine { point, line, .. } => {
-                            self.spread(point, a[0], row, q, system);
-                            self.spread(line.through, a[0] * minus, row, q, system);
+                            self.spread(point, a[0], row, system);
+                            self.spread(line.through, a[0] * minus, row, system);
                         }
                         Condition::OnBar { point, line, bar, .. } => {
-                            self.spread(point, a[0], row, q, system);
-                            self.spread(line.through, a[0] * minus, row, q, system);
+                            self.spread(point, a[0], row, system);
+                            self.spread(line.through, a[0] * minus, row, system);
                             // n·c by u: n = Z u with Z a turn and a factor, so Zᵀ c.
                             let (cos, sin) =
                                 (q[line.cos] * q[bar.inverse_length], q[line.sin] * q[bar.inverse_length]);
                             let back = b[0].left() * minus;
                             let by_u = (back * cos).plus(back.left(), -sin);
-                            self.spread(bar.to, by_u, row, q, system);
-                            self.spread(bar.from, by_u * minus, row, q, system);
+                            self.spread(bar.to, by_u, row, system);
+                            self.spread(bar.from, by_u * minus, row, system);
                         }
                     }
+                    self.hand_on(row, q, system);
                 }
             },
         )
     }
 
-    /// Adds a gradient by a point to the row: an unknown takes it, a carried point hands it on to its ends.
+    /// Adds a gradient by a point to the row; a carried point keeps it for [`Group::hand_on`].
     #[inline(always)]
-    fn spread<R: Real>(&self, point: usize, gradient: Vec2<R>, row: usize, q: &[R], system: &mut System<R>) {
+    fn spread<R: Real>(&self, point: usize, gradient: Vec2<R>, row: usize, system: &mut System<R>) {
         R::outline(
             #[inline(always)]
             || {
-                // Carried points hang on ends that come before them: handed on from the last to the first.
-                let mut open = [(point, gradient); 8];
-                let mut left = 1;
-                while left > 0 {
-                    left -= 1;
-                    let (point, gradient) = open[left];
-                    if let Some(k) = self.unknowns.iter().position(|&unknown| unknown == point) {
-                        system.add(row, 2 * k, gradient);
-                    } else if let Some(each) = self.carried.iter().find(|each| each.point == point) {
-                        // Kᵀ of B ↦ (α + iβ) B is g ↦ (α − iβ) g.
-                        let to_end = (gradient * q[each.along]).plus(gradient.left(), -q[each.across]);
-                        open[left] = (each.to, to_end);
-                        open[left + 1] = (each.from, gradient - to_end);
-                        left += 2;
-                    }
+                if let Some(k) = self.unknowns.iter().position(|&unknown| unknown == point) {
+                    system.add(row, 2 * k, gradient);
+                } else if let Some(c) = self.carried.iter().position(|each| each.point == point) {
+                    system.kept[c] = system.kept[c] + gradient;
                 }
             },
         )
+    }
+
+    /// Hands the gradients that carried points keep on to their ends, from the last to the first: each hangs on
+    /// points that come before it. K ↦ (α + iβ) B turns back to g ↦ (α − iβ) g.
+    #[inline(always)]
+    fn hand_on<R: Real>(&self, row: usize, q: &[R], system: &mut System<R>) {
+        for (c, each) in self.carried.iter().enumerate().rev() {
+            let gradient = system.kept[c];
+            system.kept[c] = Vec2::zero();
+            let to_end = (gradient * q[each.along]).plus(gradient.left(), -q[each.across]);
+            self.spread(each.to, to_end, row, system);
+            self.spread(each.from, gradient - to_end, row, system);
+        }
     }
 }
 
@@ -404,13 +407,21 @@ struct System<R> {
     columns: Vec<R>,
     upper: Vec<R>,
     rhs: Vec<R>,
+    /// Gradients by the points carried by bars, until they are handed on.
+    kept: Vec<Vec2<R>>,
 }
 
 impl<R: Real> System<R> {
     #[inline(always)]
-    fn new(n: usize) -> Self {
+    fn new(n: usize, n_carried: usize) -> Self {
         let zero = R::splat(0.0);
-        System { n, columns: vec![zero; n * n], upper: vec![zero; n * n], rhs: vec![zero; n] }
+        System {
+            n,
+            columns: vec![zero; n * n],
+            upper: vec![zero; n * n],
+            rhs: vec![zero; n],
+            kept: vec![Vec2::zero(); n_carried],
+        }
     }
 
     #[inline(always)]

@@ -314,7 +314,6 @@ impl Builder {
         built.q[rocker.sign] = sign;
         let mut change_points = Vec::new();
         for (at, series) in found {
-            let after = sign * side(at + 1e-7);
             let mut number = |x: f64| {
                 built.q.push(x);
                 built.q.len() - 1
@@ -324,7 +323,7 @@ impl Builder {
                 sin: number(at.sin()),
                 half_cos: number((at / 2.0).cos()),
                 half_sin: number((at / 2.0).sin()),
-                series: series.iter().map(|c| number(c * after)).collect(),
+                series: series.iter().map(|&c| number(c)).collect(),
             });
         }
         built.plan.n_parameters = built.q.len();
