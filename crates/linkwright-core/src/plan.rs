@@ -337,13 +337,14 @@ impl<'a> Row<'a> {
         })
     }
 
-    /// `cos sin half_cos half_sin`, then the coefficients of the series
+    /// `cos sin half_cos half_sin reach`, then the coefficients of the series
     fn change_point(&mut self) -> Result<ChangePoint, PlanError> {
         Ok(ChangePoint {
             cos: self.slot()?,
             sin: self.slot()?,
             half_cos: self.slot()?,
             half_sin: self.slot()?,
+            reach: self.slot()?,
             series: (0..TERMS).map(|_| self.slot()).collect::<Result<_, _>>()?,
         })
     }

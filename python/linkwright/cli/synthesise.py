@@ -79,8 +79,8 @@ _PATIENCE = 1.0
 
 
 def synthesise() -> None:
-    """Find a linkage for poses, dead centres, a function, a path or a straight line; the result is "
-    "a machine file."""
+    """Find a linkage for poses, dead centres, a function, a path or a straight line; the result is a machine
+    file."""
 
 
 def dead_centre(

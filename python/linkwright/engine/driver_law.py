@@ -18,6 +18,9 @@ _LOOK = 720
 # into: a smooth law differs by its third derivative times h³/12, some 1e-7 of its range.
 _DIFFERS = 1e-4
 
+# Beyond this a sine has no digits left that mean anything [rad, m, and their slopes].
+_LARGEST = 1e6
+
 # Halvings of an interval after which what is left of a rise is a jump: half a degree is then 1e-11 rad.
 _HALVINGS = 30
 
@@ -39,11 +42,11 @@ def require_smooth(name: str, text: str, law: Callable[[Floats], Floats]) -> Non
     """
     phi = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
     value, slope = law(phi)
-    known = np.isfinite(value) & np.isfinite(slope)
+    known = (np.abs(value) < _LARGEST) & (np.abs(slope) < _LARGEST)
     if not known.all():
         at = float(phi[int(np.argmin(known))])
         remedy = "look for a division by zero, a root or a logarithm"
-        raise _error(name, text, at, "has no finite value or slope", remedy)
+        raise _error(name, text, at, "has no usable value or slope", remedy)
     rise = np.diff(value) - 0.5 * (slope[1:] + slope[:-1]) * np.diff(phi)
     size = float(np.ptp(value))
     for interval in np.flatnonzero(np.abs(rise) > _DIFFERS * size):

@@ -36,6 +36,18 @@ _NEAR_ZERO = 1e-3
 # Largest swing of a link about its mean turning that leaves its angle unambiguous, in radians.
 _SWING_MAX = 1.98 * np.pi
 
+# Farthest from a change point that its series is used [rad]: there the direct root has lost some 1/δ² = 1e3
+# of its digits in its slope. Nearer, where its last terms would be more than this share of the first.
+_REACH = 0.03
+_LAST_TERM = 1e-15
+
+# Angles between two of the look, and the distance over the length of the links at which pin and pivot then meet.
+_FINE = 401
+_MEETS = 1e-4
+
+# A joint's place this near to the line of its bars, over their length, says nothing of its side.
+_IN_LINE = 1e-9
+
 # A whole number of turns is one to this.
 _WHOLE = 1e-6
 
@@ -118,7 +130,7 @@ class Settled:
         to = np.array([_first(joint.x) - x, _first(joint.y) - y])
         if each.pivot is not None:
             u, v = self._motion(0, each.pivot, at)[:2, 0] - (x, y)
-            side = u * to[1] - v * to[0]
+            side = (u * to[1] - v * to[0]) / max(np.hypot(u, v), 1e-300)
         else:
             assert each.guide is not None
             link, angle = each.guide
@@ -127,6 +139,13 @@ class Settled:
                 [cos * np.cos(angle) - sin * np.sin(angle), sin * np.cos(angle) + cos * np.sin(angle)]
             )
             side = float(direction @ to)
+        if abs(side) <= _IN_LINE * float(np.hypot(*to)):
+            raise AssemblyError(
+                f"the joint {each.joint} is given in line with what holds it, so its side is not known; give "
+                "its place at another crank angle (assembled_at), or a little aside",
+                element=each.joint,
+                crank_angle=self.assembled_at,
+            )
         self.parameters[each.slot] = 1.0 if side > 0 else -1.0
         self.gaps = None
 
@@ -178,11 +197,23 @@ class Settled:
         element = sum(row[0] != 0 for row in self.rows.rows[: each.row])
         found: dict[float, list[float]] = {}
         for near in angles[lowest]:
+            if self._coincide(self.rows.rows[each.row], float(near)):
+                # The direction from pin to pivot is lost there: no series carries the motion on.
+                return
             point = _core.change_point(self.plan, self.parameters, element, float(near))
             if point is not None and not any(_turns_apart(point[0], other) < _WHOLE for other in found):
                 found[point[0]] = point[1]
         if found:
             self._give_change_points(each, found)
+
+    def _coincide(self, row: list[int], near: float) -> bool:
+        """Whether the pin of a dyad RRR passes over its pivot about an angle of the look."""
+        if row[0] != 3:
+            return False
+        angles = near + np.linspace(-1.0, 1.0, _FINE) * 2 * np.pi / _LOOK
+        u = self._motion(0, row[5], angles)[:2] - self._motion(0, row[6], angles)[:2]
+        lengths = self.parameters[row[7]] + self.parameters[row[8]]
+        return bool(np.hypot(*u).min() < _MEETS * lengths)
 
     def _give_change_points(self, each: Foldable, found: dict[float, list[float]]) -> None:
         """Turns the row of a dyad into one with change points.
@@ -199,7 +230,7 @@ class Settled:
         numbers: list[float] = []
         for phi in at:
             angles = (np.cos(phi), np.sin(phi), np.cos(phi / 2), np.sin(phi / 2))
-            numbers += [*angles, *found[phi]]
+            numbers += [*angles, _reach(np.array(found[phi])), *found[phi]]
         row += list(range(len(self.parameters), len(self.parameters) + len(numbers)))
         self.parameters = np.concatenate([self.parameters, numbers])
         self.rows.parameters += numbers
@@ -257,6 +288,13 @@ class Settled:
                 element=name,
                 crank_angle=float(angles[worst]),
             )
+
+
+def _reach(series: Floats) -> float:
+    """How far from a change point its series is used [rad]: as far as its last terms are rounding."""
+    last = np.arange(len(series) - 3, len(series))
+    share = _LAST_TERM * abs(series[0]) / np.maximum(np.abs(series[last]), 1e-300)
+    return float(min(_REACH, (share ** (1.0 / last)).min()))
 
 
 def _first(value: Any) -> float:

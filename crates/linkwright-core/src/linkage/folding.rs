@@ -26,18 +26,15 @@ use crate::real::Real;
 /// Coefficients kept of the series of S/δ.
 pub const TERMS: usize = 12;
 
-/// Distance from a change point \[rad\] within which the series is used. At its edge the direct root has lost
-/// some 1/δ² = 1e3 of its digits in S′ and the series of a linkage whose nearest other singularity is half
-/// a radian away is good to (0.03/0.5)¹² = 2e-15.
-const NEAR: f64 = 0.03;
-
-/// A change point: cos φ_c, sin φ_c, cos ½φ_c, sin ½φ_c and the coefficients of √h, which is positive.
+/// A change point: cos φ_c, sin φ_c, cos ½φ_c, sin ½φ_c, the distance \[rad\] within which the
+/// series is used, and the coefficients of √h, which is positive.
 #[derive(Clone, Debug)]
 pub struct ChangePoint {
     pub cos: Slot,
     pub sin: Slot,
     pub half_cos: Slot,
     pub half_sin: Slot,
+    pub reach: Slot,
     pub series: Vec<Slot>,
 }
 
@@ -58,23 +55,23 @@ pub struct FoldingRod {
 
 /// U = u·u with two derivatives.
 #[inline(always)]
-fn square<R: Real>(pin: &Place<R>, pivot: &Place<R>) -> Series<R> {
+pub(super) fn square<R: Real>(pin: &Place<R>, pivot: &Place<R>) -> Series<R> {
     let (u, u1, u2) = (pivot.p - pin.p, pivot.d1 - pin.d1, pivot.d2 - pin.d2);
     [u.dot(u), u.dot(u1) * 2.0, (u1.dot(u1) + u.dot(u2)) * 2.0]
 }
 
-/// g = 4a²U − (U + a² − b²)² with two derivatives.
+/// g = ((a + b)² − U)(U − (a − b)²) with two derivatives: Heron's form loses fewer digits where links of very
+/// different length come into line.
 #[inline(always)]
 pub(super) fn radicand<R: Real>(g: &Rocker, q: &[R], m: &Motion<R>) -> Series<R> {
     let [U, U1, U2] = square(&m.points[g.pin], &m.points[g.pivot]);
     let (a, b) = (q[g.coupler], q[g.rocker]);
-    let projected = U + (a - b) * (a + b);
-    let four = a.squared() * 4.0;
-    let slope = four - projected * 2.0;
-    [four * U - projected.squared(), slope * U1, slope * U2 - U1.squared() * 2.0]
+    let (stretched, folded) = ((a + b).squared() - U, U - (a - b).squared());
+    let slope = stretched - folded;
+    [stretched * folded, slope * U1, slope * U2 - U1.squared() * 2.0]
 }
 
-/// δ = φ − φ_c by its sine, for |δ| a little above [`NEAR`] at most: the next term is below 1e-16.
+/// δ = φ − φ_c by its sine, for |δ| up to a little above 0.03: the next term is below 1e-16.
 #[inline(always)]
 fn small_angle<R: Real>(sine: R) -> R {
     let z = sine.squared();
@@ -141,7 +138,7 @@ fn root<R: Real>(
         let sign = sign_of(change_points, side, q, halves, Some(nth));
         let close = near(&at.series, q, small_angle(sine));
         for k in 0..3 {
-            found[k] = distance.select_lt(R::splat(NEAR), close[k] * sign, found[k]);
+            found[k] = distance.select_lt(q[at.reach], close[k] * sign, found[k]);
         }
     }
     found

@@ -4,7 +4,7 @@
 //! [`follow`] follows a group from a first position over the crank angle, so that its start is known at any
 //! angle afterwards. Both are done once for a machine.
 
-use super::folding::{TERMS, radicand};
+use super::folding::{TERMS, radicand, square};
 use super::group::Group;
 use super::guided::{GuidedRod, rod_radicand};
 use super::{Element, Mechanism, Motion, Rocker};
@@ -20,6 +20,13 @@ const ORDERS: usize = TERMS + 2;
 /// 1e-6 of their length: rounding of lengths given to all digits is far below, rounding of printed ones
 /// far above.
 const TOUCHES: f64 = 1e-12;
+
+/// Rounding of (a + b)² − U, over [`TOUCHES`]: some 100 units of the last place.
+const ROUNDING: f64 = 0.02;
+
+/// Square of the distance of pin and pivot, over that of the links' sum, below which they coincide: there the
+/// direction from one to the other is lost, and with it the motion.
+const COINCIDE: f64 = 1e-12;
 
 /// The crank angle of a change point, and the coefficients of S/δ there up to the sign.
 pub type ChangePointSeries = (f64, [f64; TERMS]);
@@ -40,10 +47,14 @@ impl Dyad {
         }
     }
 
-    /// What the radicand is measured against.
+    /// What the radicand is measured against: its greatest value, and for links of very different length the
+    /// rounding of its factors.
     fn size(&self, q: &[f64]) -> f64 {
         match self {
-            Dyad::Rocker(e) => 4.0 * (q[e.coupler] * q[e.rocker]).powi(2),
+            Dyad::Rocker(e) => {
+                let (a, b) = (q[e.coupler], q[e.rocker]);
+                4.0 * a * b * (a * b + ROUNDING * (a + b).powi(2))
+            }
             Dyad::Rod(e) => q[e.rod].powi(2),
         }
     }
@@ -51,12 +62,17 @@ impl Dyad {
 
 impl Mechanism {
     /// Series of the radicand of a dyad about a crank angle.
+    /// NaN where pin and pivot coincide.
     fn radicand_series(&self, element: usize, dyad: &Dyad, q: &[f64], phi: f64) -> [f64; ORDERS] {
         let q: Vec<Jet<f64, ORDERS>> = q.iter().map(|&x| Jet::constant(x)).collect();
         let mut m = Motion::new(self, &q);
         self.place_first::<_, 1>(element, &q, Angle::new(Jet::variable(phi)), &mut m);
         match dyad {
-            Dyad::Rocker(e) => radicand(e, &q, &m)[0].c,
+            Dyad::Rocker(e) => {
+                let apart = square(&m.points[e.pin], &m.points[e.pivot])[0].c[0];
+                let sum = (q[e.coupler] + q[e.rocker]).c[0];
+                if apart <= COINCIDE * sum * sum { [f64::NAN; ORDERS] } else { radicand(e, &q, &m)[0].c }
+            }
             Dyad::Rod(e) => rod_radicand(e, &q, &m)[0].c,
         }
     }

@@ -323,6 +323,7 @@ impl Builder {
                 sin: number(at.sin()),
                 half_cos: number((at / 2.0).cos()),
                 half_sin: number((at / 2.0).sin()),
+                reach: number(0.03),
                 series: series.iter().map(|&c| number(c)).collect(),
             });
         }

@@ -188,11 +188,15 @@ def _rows(scene: Scene) -> tuple[NDArray[np.intp], Floats]:
 
 def _solved(A: Floats, b: Floats) -> tuple[Floats, Bools]:
     """Solution of each system; zero and a mark where a matrix is singular."""
-    singular: Bools = np.zeros(len(A), dtype=np.bool_)
+    # Where the mechanism has no motion there are no forces either.
+    unknown: Bools = ~(np.isfinite(A).all(axis=(1, 2)) & np.isfinite(b).all(axis=(1, 2)))
+    A = np.where(unknown[:, None, None], np.eye(A.shape[1]), A)
+    b = np.where(unknown[:, None, None], 0.0, b)
+    singular = unknown
     try:
         return np.asarray(np.linalg.solve(A, b), dtype=np.float64), singular
     except np.linalg.LinAlgError:
-        singular = np.asarray(~(np.linalg.cond(A) < _UNBOUNDED))
+        singular = unknown | np.asarray(~(np.linalg.cond(A) < _UNBOUNDED))
         A = np.where(singular[:, None, None], np.eye(A.shape[1]), A)
         found = np.linalg.solve(A, np.where(singular[:, None, None], 0.0, b))
         return np.asarray(found, dtype=np.float64), singular
