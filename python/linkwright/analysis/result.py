@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
@@ -72,3 +74,23 @@ class Result:
         for kind in reversed(type(self).__mro__):
             names += [name for name, member in vars(kind).items() if isinstance(member, property)]
         return {name: getattr(self, name) for name in dict.fromkeys(names) if not name.startswith("_")}
+
+
+def finite(value: Any) -> Any:
+    """The same tree with None in place of numbers that JSON does not know.
+
+    Parameters
+    ----------
+    value : object
+        Tables, lists and numbers.
+
+    Returns
+    -------
+    object
+        Likewise; NaN and infinities are None.
+    """
+    if isinstance(value, Mapping):
+        return {key: finite(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [finite(each) for each in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -15,8 +15,7 @@ What fails becomes a finding, and the study goes on with what does not depend on
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
@@ -30,7 +29,7 @@ from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.linkage import Linkage, linkage
 from linkwright.analysis.pumping_unit import PumpingUnitMotion, pumping_unit
 from linkwright.analysis.reduction import Reduction, reduction
-from linkwright.analysis.result import Result
+from linkwright.analysis.result import Result, finite
 from linkwright.analysis.rod_rotator import RodRotatorMotion, rod_rotator
 from linkwright.analysis.run_down import RunDown, run_down
 from linkwright.analysis.run_up import RunUp, run_up, start_of
@@ -122,7 +121,7 @@ class Study:
         results = {name: result.to_dict(curves=curves) for name, result in self.results().items()}
         return {
             "machine": self.machine.name,
-            "results": _finite(results),
+            "results": finite(results),
             "findings": list(self.findings),
             "warnings": [*self.findings, *self.warnings],
         }
@@ -273,12 +272,3 @@ def _has_brake(machine: Machine) -> bool:
 
 def _keeps_speed(machine: Machine) -> bool:
     return machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor)
-
-
-def _finite(value: Any) -> Any:
-    """The same tree with None in place of numbers that JSON does not know."""
-    if isinstance(value, Mapping):
-        return {key: _finite(each) for key, each in value.items()}
-    if isinstance(value, list):
-        return [_finite(each) for each in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

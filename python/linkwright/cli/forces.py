@@ -192,23 +192,13 @@ def _friction(entries: str, *, is_pin: bool) -> Friction:
 def _object(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> dict[str, Any]:
     """What is printed and written as JSON."""
     from linkwright.analysis.envelope import envelope
+    from linkwright.analysis.result import finite
 
     results = {}
     for name, result in cases.items():
         rows = {each.name: {k: v for k, v in vars(each).items() if k != "name"} for each in envelope(result)}
-        results[name] = _finite(result.to_dict(curves=curves) | {"envelope": rows})
+        results[name] = finite(result.to_dict(curves=curves) | {"envelope": rows})
     return {"results": results, "findings": findings}
-
-
-def _finite(value: Any) -> Any:
-    """The same tree with None in place of numbers that JSON does not know."""
-    from math import isfinite
-
-    if isinstance(value, dict):
-        return {key: _finite(each) for key, each in value.items()}
-    if isinstance(value, list):
-        return [_finite(each) for each in value]
-    return None if isinstance(value, float) and not isfinite(value) else value
 
 
 def _print_json(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> None:

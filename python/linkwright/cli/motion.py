@@ -79,11 +79,12 @@ def _pose(machine: Machine, at: str, omega: float, *, json: bool, csv: bool) -> 
     from json import dumps
 
     from linkwright.analysis.pose import pose
+    from linkwright.analysis.result import finite
     from linkwright.units import ANGLE
 
     found = pose(machine, option_value("--at", at, ANGLE), speed=omega)
     if json:
-        return dumps(found.to_dict(), allow_nan=False, ensure_ascii=False) + "\n"
+        return dumps(finite(found.to_dict()), allow_nan=False, ensure_ascii=False) + "\n"
     rows = list(_pose_rows(found))
     if csv:
         lines = ["name,quantity,position,velocity,acceleration"]
@@ -124,6 +125,7 @@ def _motion(
 
     from linkwright.analysis.law import constant_speed
     from linkwright.analysis.motion import motion as follow
+    from linkwright.analysis.result import finite
     from linkwright.report.csv import curves_csv
     from linkwright.units import TIME
 
@@ -139,7 +141,7 @@ def _motion(
         raise InputError(f"--duration: found {end:g} s, expected more than {start:g} s")
     found = follow(machine, driver, np.linspace(start, end, steps + 1))
     if json:
-        return dumps(found.to_dict(curves=True) | _lists(found.curves()), allow_nan=False) + "\n"
+        return dumps(finite(found.to_dict(curves=True) | _lists(found.curves())), allow_nan=False) + "\n"
     if csv:
         return curves_csv(found)
     return _table(found.curves())

@@ -41,7 +41,7 @@ _SWING_MAX = 1.98 * np.pi
 _REACH = 0.03
 _LAST_TERM = 1e-15
 
-# Angles between two of the look, and the distance over the length of the links at which pin and pivot then meet.
+# Angles between two of the look, and the distance over the length of the links at which pin and pivot meet.
 _FINE = 401
 _MEETS = 1e-4
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import linkwright
+from linkwright.analysis.result import finite
 from linkwright.analysis.study import Study
 from linkwright.errors import InputError
 from linkwright.files.write import dumps
@@ -104,7 +105,7 @@ def _picture(figure: Any, name: str, title: str) -> Markup:
 
 def _embedded(scene: dict[str, Any] | None) -> str:
     """Data for a script element: nothing in it may end that element."""
-    return json.dumps(scene, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    return json.dumps(finite(scene), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
 def _grouped(parts: list[Part]) -> list[tuple[str, list[Part]]]:

@@ -189,7 +189,8 @@ def _rows(scene: Scene) -> tuple[NDArray[np.intp], Floats]:
 def _solved(A: Floats, b: Floats) -> tuple[Floats, Bools]:
     """Solution of each system; zero and a mark where a matrix is singular."""
     # Where the mechanism has no motion there are no forces either.
-    unknown: Bools = ~(np.isfinite(A).all(axis=(1, 2)) & np.isfinite(b).all(axis=(1, 2)))
+    known = np.isfinite(A).all(axis=(1, 2)) & np.isfinite(b).all(axis=(1, 2))
+    unknown: Bools = np.logical_not(known)
     A = np.where(unknown[:, None, None], np.eye(A.shape[1]), A)
     b = np.where(unknown[:, None, None], 0.0, b)
     singular = unknown
