@@ -80,8 +80,10 @@ def forces(
     InputError
         Motion and speed are both given, or neither where the machine has none; wrong friction.
 
-    Notes ----- Bars marked redundant carry no force between their ends: dimensions alone do not say what
-    they would carry.
+    Notes
+    -----
+    Bars marked redundant carry no force between their ends: dimensions alone do not say what they would
+    carry.
 
     References
     ----------

@@ -134,7 +134,7 @@ class Compiled:
         return self.parameters
 
     def gaps(self, angles: Floats) -> Floats:
-        """Radicand of each dyad at crank angles, (dyads, n) [m² or m⁴]; negative where it does not close."""
+        """Radicand of each dyad at crank angles, (dyads, n); negative where it does not close."""
         return _core.gaps(self.plan, self.parameters, angles)
 
     def third(self, angles: Floats, what: Sequence[tuple[int, int]]) -> Floats:

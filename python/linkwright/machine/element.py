@@ -4,7 +4,7 @@
 | --- | --- | --- |
 | `points` | points of the frame | – |
 | `cranks` | cranks on the crankshaft | driver |
-| `linear_drivers` | points moved along a guide in proportion to the crank angle | driver |
+| `linear_drivers` | points moved along a guide, in proportion to the crank angle or by a law | driver |
 | `sliders` | a rod to a slider on a guide | dyad RRP |
 | `rockers` | a coupler and a rocker that meet in a joint | dyad RRR |
 | `slotted_levers` | a lever with a slot, or an oscillating cylinder, moved by a pin | dyad RPR |

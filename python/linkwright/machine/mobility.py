@@ -63,8 +63,10 @@ def mobility(mechanism: Mechanism) -> Mobility:
     Mobility
         W is 1, less one for each redundant bar: all cranks and drivers turn together.
 
-    Notes ----- A pin that two guides cross at counts as two blocks with a pin. A driver on another pivot
-    than the first is held to it by the drive, which counts as a pair of two freedoms.
+    Notes
+    -----
+    A pin that two guides cross at counts as two blocks with a pin. A driver on another pivot than the first
+    is held to it by the drive, which counts as a pair of two freedoms.
     """
     found = structure(mechanism)
     pairs = [pair.kind for pair in found.pairs.values()]

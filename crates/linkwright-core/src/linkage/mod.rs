@@ -8,7 +8,7 @@
 //! | here | crank, rod on a fixed guide (RRP), rocker (RRR), point of a link |
 //! | [`guided`] | guides that may turn: RRP, RPR, PRP, RPP |
 //! | [`coupled`] | gears, belts, racks, cables, linear drivers |
-//! | [`folding`] | the rocker through its change points |
+//! | [`folding`] | the dyads RRR and RRP through their change points |
 //! | [`group`] | groups that do not split into dyads |
 //! | [`trace`] | what the last two need to know of the motion beforehand |
 //!
@@ -132,8 +132,9 @@ pub struct Motion<R> {
     pub points: Vec<Place<R>>,
     pub links: Vec<Heading<R>>,
     pub slides: Vec<Slide<R>>,
-    /// Radicand of each dyad's assembly \[m² for a slider's rod, m⁴ for a rocker\]: negative where it does
-    /// not close.
+    /// Radicand of each dyad's assembly \[m² for a rod and a slotted lever, m⁴ for a rocker, none for two guides
+    /// that cross, a power of m for a group\]: negative where it does not close, zero where its motion is not
+    /// determined.
     pub gaps: Vec<R>,
 }
 
