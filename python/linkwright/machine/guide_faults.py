@@ -61,13 +61,22 @@ def _through(each: Element, before: str, outline: Outline) -> Iterator[InitError
     if name is None:
         return
     place = (each.kind.table, each.name, *f"{before}through".split("."))
-    if on is None and name not in (*outline.fixed_points, *outline.names(*_SLIDING)):
+    if on is None and name not in (*outline.fixed_points, *_sliding(outline)):
         remedy = f'{outline.instead(name)}; a guide that turns is carried by a link: say which with "on"'
         expected = "the name of a fixed point, or of something that slides"
         yield fault(*place, found=name, expected=expected, remedy=remedy)
     elif on is not None and name not in (own := points_of(on, outline)):
         remedy = "there is " + ", ".join(f'"{point}"' for point in own) if own else "leave it out"
         yield fault(*place, found=name, expected=f"the name of a point of {on}", remedy=remedy)
+
+
+def _sliding(outline: Outline) -> list[str]:
+    """Names of what slides without turning: its own guide is on no link."""
+    return [
+        each.name
+        for each in outline.elements
+        if each.kind.table in _SLIDING and not any(key.split(".")[-1] == "on" for key in each.references)
+    ]
 
 
 def points_of(link: str, outline: Outline) -> list[str]:

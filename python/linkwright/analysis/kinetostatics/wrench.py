@@ -100,7 +100,11 @@ def turns_guide(guide: Guide, scene: Scene) -> str:
     if guide.on is not None:
         return guide.on
     carrier = FRAME if guide.through is None else scene.carrier(guide.through)
-    stands = carrier == FRAME or (
-        scene.structure.members[carrier].link is None and scene.structure.members[carrier].turns
-    )
-    return carrier if stands else FRAME
+    return carrier if carrier == FRAME or _keeps_direction(carrier, scene) else FRAME
+
+
+def _keeps_direction(member: str, scene: Scene) -> bool:
+    """Whether a member slides without turning, and can take a moment: a block, or a yoke on the frame."""
+    found = scene.structure.members[member]
+    yoke = scene.mechanism.yokes.get(member)
+    return found.turns and (found.link is None or (yoke is not None and yoke.guide.on is None))
