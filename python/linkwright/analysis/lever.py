@@ -12,6 +12,7 @@ from linkwright.analysis.closure import require_full_turn
 from linkwright.analysis.kinematics import motion_arrays
 from linkwright.analysis.pumping_unit import PolishedRod, turn_extreme
 from linkwright.engine import Compiled, compile_machine
+from linkwright.errors import AssemblyError
 from linkwright.machine import Machine, Mechanism, PumpingUnit, RodRotator
 from linkwright.machine.pumping_unit import ROD
 from linkwright.machine.rod_rotator import LEVER, LINK, PIN, Lengths, lengths
@@ -94,6 +95,14 @@ class Lever:
         """Link and lever at crank angles [rad]."""
         asked = [("points", PIN), ("points", ROD), ("links", LINK), ("links", LEVER)]
         found = motion_arrays(self.compiled, np.ascontiguousarray(angles), asked)[0]
+        if not np.isfinite(found).all():
+            at = float(angles[int(np.argmin(np.isfinite(found).all(axis=0)))])
+            raise AssemblyError(
+                f"the pin of the rotator passes over the hanger at crank angle {np.degrees(at):.2f}°, where "
+                "the lever may point anywhere; give the hanger cable a free length (pumping_unit.cable)",
+                element="rotator",
+                crank_angle=at,
+            )
         pin, hanger, link, lever = found[0:2], found[6:8], found[12:16], found[16:20]
         l_4, l_5 = self.lengths
         gap = pin + l_4 * link[:2] - hanger - l_5 * lever[:2]
