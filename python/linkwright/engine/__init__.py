@@ -272,11 +272,15 @@ def _parts(machine: Machine) -> list[object]:
     tables = [getattr(mechanism, kind.table) for kind in KINDS]
     for table in (*tables, machine.bodies, machine.loads):
         parts.append(len(table))
-        parts += table
-        parts += table.values()
+        if table:
+            parts += table
+            parts += table.values()
     # Constants of formulas are the one part that can be changed in place.
-    for each in (*mechanism.cranks.values(), *mechanism.linear_drivers.values(), *machine.loads.values()):
-        parts += getattr(each, "constants", {}).values()
+    drivers = (*mechanism.cranks.values(), *mechanism.linear_drivers.values())
+    written: list[Any] = [driver for driver in drivers if driver.law is not None]
+    written += [load for load in machine.loads.values() if isinstance(load, FormulaLoad)]
+    for each in written:
+        parts += each.constants.values()
     return parts
 
 
