@@ -276,8 +276,7 @@ def _parts(machine: Machine) -> list[object]:
             parts += table
             parts += table.values()
     # Constants of formulas are the one part that can be changed in place.
-    drivers = (*mechanism.cranks.values(), *mechanism.linear_drivers.values())
-    written: list[Any] = [driver for driver in drivers if driver.law is not None]
+    written: list[Any] = [*mechanism.cranks.values(), *mechanism.linear_drivers.values()]
     written += [load for load in machine.loads.values() if isinstance(load, FormulaLoad)]
     for each in written:
         parts += each.constants.values()
