@@ -22,7 +22,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.engine import Compiled
+from linkwright.engine import FOLDING, Compiled
 
 Floats = NDArray[np.float64]
 Channel = tuple[int, int]
@@ -45,9 +45,6 @@ _DYADS: dict[int, tuple[str, int]] = {
 }
 _ROD = 2
 _GUIDED_RODS = (5, 15)
-
-# Kinds of rows with change points → entries before their number.
-_FOLDING = {11: 12, 15: 14}
 
 
 @dataclass(frozen=True)
@@ -79,7 +76,7 @@ def dyads_of(compiled: Compiled) -> list[Dyad]:
 
 def _dyad(compiled: Compiled, row: tuple[int, ...]) -> Dyad:
     kind, at = _DYADS[row[0]]
-    passed = _change_points(compiled, row, _FOLDING[row[0]]) if row[0] in _FOLDING else ()
+    passed = _change_points(compiled, row, FOLDING[row[0]]) if row[0] in FOLDING else ()
     return Dyad(compiled.dyads[row[at]], kind, row, passed)  # type: ignore[arg-type]
 
 

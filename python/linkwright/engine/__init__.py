@@ -253,7 +253,7 @@ def _not_usable(machine: Machine, reason: str) -> MachineError:
 
 # Kinds of rows: dyads with change points, and where the number of these stands; sums over the crank angle and
 # links, groups, and laws, whose motion may take several turns or never repeat.
-_FOLDING = {11: 12, 15: 14}
+FOLDING = {11: 12, 15: 14}
 _RUNNING = (8, 9, 12, 14)
 
 # Entries beyond this size, or below its reciprocal, are named when a machine cannot be computed.
@@ -471,7 +471,7 @@ class _Translator(Rows):
             links=self.links,
             slides=self.slides,
             dyads=tuple(self.dyads),
-            passing=frozenset(self.dyads[row[4]] for row in self.rows if row[0] in _FOLDING),
+            passing=frozenset(self.dyads[row[4]] for row in self.rows if row[0] in FOLDING),
             one_turn=not any(_may_run_on(row) for row in self.rows),
             speed_guess=guess,
             gear_factors=(ratio, forward, reverse),
@@ -500,7 +500,7 @@ class _Translator(Rows):
 
 def _may_run_on(row: list[int]) -> bool:
     """Whether the motion of a row may need more than one turn: an odd number of change points takes two."""
-    count = _FOLDING.get(row[0])
+    count = FOLDING.get(row[0])
     return row[0] in _RUNNING or (count is not None and row[count] % 2 == 1)
 
 

@@ -2,68 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import reduce
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.formula_value import value
 from linkwright.analysis.kinetostatics.scene import Scene, unit
 from linkwright.analysis.kinetostatics.wrench import Wrenches
 from linkwright.errors import FindingError
 from linkwright.machine import FormulaLoad
-from linkwright.machine.formula import NUMBERS, Node, parse
+from linkwright.machine.formula import NUMBERS, parse
 
 Floats = NDArray[np.float64]
-
-# Operators and functions of the grammar.
-_OPERATIONS: dict[str, Callable[..., Any]] = {
-    "negative": np.negative,
-    "+": np.add,
-    "-": np.subtract,
-    "*": np.multiply,
-    "/": np.divide,
-    "^": np.power,
-    "pow": np.power,
-    "<": np.less,
-    "<=": np.less_equal,
-    ">": np.greater,
-    ">=": np.greater_equal,
-    "where": np.where,
-    "step": lambda x: np.where(x < 0, 0.0, 1.0),
-    "min": lambda *x: reduce(np.minimum, x),
-    "max": lambda *x: reduce(np.maximum, x),
-    "asin": np.arcsin,
-    "acos": np.arccos,
-    "atan": np.arctan,
-    "atan2": np.arctan2,
-    **{
-        name: getattr(np, name) for name in ("sin", "cos", "tan", "tanh", "exp", "log", "sqrt", "abs", "sign")
-    },
-}
-
-
-def value(node: Node, names: dict[str, Any]) -> Any:
-    """The value of a formula.
-
-    Parameters
-    ----------
-    node : Node
-        Its tree.
-    names : dict
-        Number or array of each variable and constant.
-
-    Returns
-    -------
-    float or ndarray, shape (n,)
-        NaN or infinite where it has none.
-    """
-    if node.op == "number":
-        return float(node.value)
-    if node.op == "name":
-        return names[str(node.value)]
-    return _OPERATIONS[node.op](*(value(each, names) for each in node.args))
 
 
 def formula_wrenches(scene: Scene, load: FormulaLoad) -> Wrenches:
