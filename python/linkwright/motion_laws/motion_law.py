@@ -1,0 +1,361 @@
+"""A motion law: lift over angle, or over time, in pieces that are polynomials and harmonics.
+
+Each piece counts its own u from 0 to 1 and is
+
+.. math:: s(u) = \\sum_i c_i u^i + \\sum_j (a_j \\cos k_j u + b_j \\sin k_j u)
+
+Every law of the textbooks has this form, and so have its derivatives, its sums with others, its stretched and
+its mirrored image: all of them are exact.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.motion_laws.zeros import zeros
+
+Floats = NDArray[np.float64]
+Side = Literal["after", "before"]
+
+# Share of the whole domain below which two breaks are one.
+_SAME = 1e-12
+
+
+class Harmonic(NamedTuple):
+    """a cos ku + b sin ku.
+
+    Attributes
+    ----------
+    frequency : float
+        k [rad over the piece].
+    cosine, sine : float
+        a, b.
+    """
+
+    frequency: float
+    cosine: float
+    sine: float
+
+
+class Piece(NamedTuple):
+    """A stretch of a law, over u from 0 to 1.
+
+    Attributes
+    ----------
+    polynomial : tuple of float
+        Coefficients from the constant on; none is zero.
+    harmonics : tuple of Harmonic
+        What is added to the polynomial.
+    """
+
+    polynomial: tuple[float, ...]
+    harmonics: tuple[Harmonic, ...] = ()
+
+    def at(self, u: ArrayLike) -> Floats:
+        """Value over u, of the same shape."""
+        u = np.asarray(u, dtype=float)
+        value = np.zeros_like(u)
+        for coefficient in reversed(self.polynomial):
+            value = value * u + coefficient
+        for k, a, b in self.harmonics:
+            value = value + a * np.cos(k * u) + b * np.sin(k * u)
+        return value
+
+    def derivative(self, length: float) -> Piece:
+        """Derivative by x = length·u."""
+        polynomial = tuple(i * c / length for i, c in enumerate(self.polynomial))[1:]
+        harmonics = tuple(Harmonic(k, k * b / length, -k * a / length) for k, a, b in self.harmonics)
+        return Piece(polynomial, harmonics)
+
+    def scaled(self, factor: float, shift: float = 0.0) -> Piece:
+        """Factor times the piece, plus a constant."""
+        polynomial = [factor * c for c in self.polynomial] or [0.0]
+        polynomial[0] += shift
+        return Piece(
+            tuple(polynomial), tuple(Harmonic(k, factor * a, factor * b) for k, a, b in self.harmonics)
+        )
+
+    def part(self, low: float, high: float) -> Piece:
+        """The stretch from u = low to high, counted from 0 to 1 anew; low above high turns it round."""
+        width = high - low
+        n = len(self.polynomial)
+        shifted = tuple(
+            math.fsum(self.polynomial[j] * math.comb(j, i) * low ** (j - i) for j in range(i, n)) * width**i
+            for i in range(n)
+        )
+        return Piece(shifted, tuple(_shifted(each, low, width) for each in self.harmonics))
+
+    def plus(self, other: Piece) -> Piece:
+        """The sum of two pieces over the same stretch."""
+        n = max(len(self.polynomial), len(other.polynomial))
+        first, second = (each.polynomial + (0.0,) * (n - len(each.polynomial)) for each in (self, other))
+        polynomial = tuple(a + b for a, b in zip(first, second, strict=True))
+        return Piece(polynomial, self.harmonics + other.harmonics)
+
+    @property
+    def waves(self) -> float:
+        """The highest frequency [rad over the piece]."""
+        return max((abs(each.frequency) for each in self.harmonics), default=0.0)
+
+    def vanishes(self, scale: float) -> bool:
+        """Whether all coefficients are zero within rounding of a scale."""
+        sizes = [*self.polynomial, *(x for each in self.harmonics for x in each[1:])]
+        return all(abs(each) <= 64 * np.finfo(float).eps * scale for each in sizes)
+
+
+def _shifted(harmonic: Harmonic, low: float, width: float) -> Harmonic:
+    """A harmonic over low + width·u."""
+    k, a, b = harmonic
+    cos, sin = math.cos(k * low), math.sin(k * low)
+    return Harmonic(k * width, a * cos + b * sin, b * cos - a * sin)
+
+
+class Extreme(NamedTuple):
+    """A greatest or least value.
+
+    Attributes
+    ----------
+    at : float
+        Where.
+    value : float
+        How much.
+    side : str
+        Whether it is reached ``"after"`` that place or ``"before"`` it; only at a jump the two differ.
+    """
+
+    at: float
+    value: float
+    side: Side
+
+
+@dataclass(frozen=True)
+class MotionLaw:
+    """A law in pieces.
+
+    Attributes
+    ----------
+    breaks : tuple of float, length n + 1
+        Ends of the pieces, increasing [rad, s or –].
+    pieces : tuple of Piece, length n
+        The pieces.
+    """
+
+    breaks: tuple[float, ...]
+    pieces: tuple[Piece, ...]
+
+    @classmethod
+    def of(cls, start: float, *stretches: tuple[float, Piece]) -> MotionLaw:
+        """A law from lengths and pieces, one after the other.
+
+        Parameters
+        ----------
+        start : float
+            Where the first begins.
+        *stretches : tuple of float and Piece
+            Length and piece; those without length are left out.
+        """
+        kept = [(length, piece) for length, piece in stretches if length > 0]
+        ends = [math.fsum([start, *(length for length, _ in kept[:i])]) for i in range(len(kept) + 1)]
+        return cls(tuple(ends), tuple(piece for _, piece in kept))
+
+    @property
+    def start(self) -> float:
+        """Where it begins."""
+        return self.breaks[0]
+
+    @property
+    def end(self) -> float:
+        """Where it ends."""
+        return self.breaks[-1]
+
+    @property
+    def length(self) -> float:
+        """From start to end."""
+        return self.end - self.start
+
+    def _stretches(self) -> Iterable[tuple[float, float, Piece]]:
+        """Start, length and piece of each."""
+        for low, high, piece in zip(self.breaks, self.breaks[1:], self.pieces, strict=False):
+            yield low, high - low, piece
+
+    def at(self, x: ArrayLike, order: int = 0, side: Side = "after") -> Floats:
+        """Value or derivative.
+
+        Parameters
+        ----------
+        x : array_like
+            Where; beyond the ends the outer pieces go on.
+        order : int
+            Of the derivative.
+        side : {"after", "before"}
+            Which piece counts at a break.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of ``x``.
+        """
+        x = np.asarray(x, dtype=float)
+        law = self.derivative(order)
+        inner = np.array(self.breaks[1:-1])
+        index = np.searchsorted(inner, x, side="right" if side == "after" else "left")
+        value = np.zeros_like(x)
+        for i, (low, length, piece) in enumerate(law._stretches()):
+            here = index == i
+            if here.any():
+                value[here] = piece.at((x[here] - low) / length)
+        return value
+
+    def derivative(self, order: int = 1) -> MotionLaw:
+        """The law's derivative of any order, piece by piece; jumps at breaks are left out."""
+        law = self
+        for _ in range(order):
+            law = law._derivative
+        return law
+
+    @cached_property
+    def _derivative(self) -> MotionLaw:
+        pieces = tuple(piece.derivative(length) for _, length, piece in self._stretches())
+        return MotionLaw(self.breaks, pieces)
+
+    # -- laws from laws ----------------------------------------------------------------------------------
+
+    def scaled(self, factor: float, shift: float = 0.0) -> MotionLaw:
+        """Factor times the law, plus a constant."""
+        return MotionLaw(self.breaks, tuple(piece.scaled(factor, shift) for piece in self.pieces))
+
+    def placed(self, start: float, length: float) -> MotionLaw:
+        """The same course over another stretch: values stay, derivatives change."""
+        scale = length / self.length
+        inner = tuple(start + (x - self.start) * scale for x in self.breaks[1:-1])
+        return MotionLaw((start, *inner, start + length), self.pieces)
+
+    def reversed(self) -> MotionLaw:
+        """The law run through backwards, over the same stretch."""
+        inner = tuple(self.start + (self.end - x) for x in self.breaks[-2:0:-1])
+        pieces = tuple(piece.part(1.0, 0.0) for piece in self.pieces[::-1])
+        return MotionLaw((self.start, *inner, self.end), pieces)
+
+    def stretch(self, low: float, high: float) -> MotionLaw:
+        """The part between two places inside the law."""
+        return self._cut([low, *(x for x in self.breaks if low < x < high), high])
+
+    def shifted(self, by: float) -> MotionLaw:
+        """The law over its whole stretch, starting ``by`` later and going on at its start: for periodic laws."""
+        by = by % self.length
+        if by == 0:
+            return self
+        cut = self.end - by
+        tail, head = self.stretch(cut, self.end), self.stretch(self.start, cut)
+        return joined([tail.placed(self.start, by), head.placed(self.start + by, self.length - by)])
+
+    def _cut(self, breaks: Sequence[float]) -> MotionLaw:
+        """The same law with other breaks, of which none lies inside a piece unseen."""
+        own, pieces = np.array(self.breaks), []
+        for low, high in zip(breaks, breaks[1:], strict=False):
+            i = int(np.clip(np.searchsorted(own, 0.5 * (low + high)) - 1, 0, len(self.pieces) - 1))
+            start, length = self.breaks[i], self.breaks[i + 1] - self.breaks[i]
+            ends = (low - start) / length, (high - start) / length
+            whole = abs(ends[0]) < _SAME and abs(ends[1] - 1) < _SAME
+            pieces.append(self.pieces[i] if whole else self.pieces[i].part(*ends))
+        return MotionLaw(tuple(breaks), tuple(pieces))
+
+    # -- what is special about it ------------------------------------------------------------------------
+
+    def jumps(self, order: int) -> Floats:
+        """By how much a derivative jumps at each inner break, (n − 1,)."""
+        inner = np.array(self.breaks[1:-1])
+        return self.at(inner, order, "after") - self.at(inner, order, "before")
+
+    def zeros(self, order: int = 0) -> list[float]:
+        """Where a derivative is zero inside the pieces, increasing; a piece that is zero throughout has none."""
+        law = self.derivative(order)
+        scale = max((float(np.abs(p.at(np.linspace(0, 1, 9))).max()) for p in law.pieces), default=0.0)
+        found: list[float] = []
+        for low, length, piece in law._stretches():
+            if not piece.vanishes(scale):
+                degree = max(len(piece.polynomial) - 1, 0)
+                found += [low + length * u for u in zeros(piece.at, degree, piece.waves)]
+        return found
+
+    def extremes(self, order: int = 0) -> tuple[Extreme, Extreme]:
+        """The least and the greatest value of a derivative.
+
+        Parameters
+        ----------
+        order : int
+            Of the derivative.
+
+        Returns
+        -------
+        tuple of Extreme
+            Least and greatest; of equal ones the first.
+        """
+        ends = [(x, "after") for x in self.breaks[:-1]] + [(x, "before") for x in self.breaks[1:]]
+        listed: list[Extreme] = []
+        for side in ("after", "before"):
+            places = [x for x, which in ends if which == side]
+            places += self.zeros(order + 1) if side == "after" else []
+            values = self.at(np.array(places), order, side)
+            listed += [Extreme(x, float(v), side) for x, v in zip(places, values, strict=True)]
+        listed.sort(key=lambda each: each.at)
+        return min(listed, key=lambda each: each.value), max(listed, key=lambda each: each.value)
+
+    def peak(self, order: int = 0) -> Extreme:
+        """The value of a derivative that is largest in size."""
+        return max(self.extremes(order)[::-1], key=lambda each: abs(each.value))
+
+    def integral_of_square(self, order: int = 0) -> float:
+        """∫ (dⁿs/dxⁿ)² dx over the law, to rounding.
+
+        Gauss–Legendre with as many nodes a piece as integrate its polynomial exactly, and its harmonics to
+        rounding.
+        """
+        total: list[float] = []
+        for _, length, piece in self.derivative(order)._stretches():
+            nodes = len(piece.polynomial) + 24 + int(2 * piece.waves)
+            x, weight = np.polynomial.legendre.leggauss(nodes)
+            total += list(0.5 * length * weight * piece.at(0.5 * (x + 1)) ** 2)
+        return math.fsum(total)
+
+
+def joined(laws: Sequence[MotionLaw]) -> MotionLaw:
+    """Laws one after the other; each begins where the one before ends.
+
+    Parameters
+    ----------
+    laws : sequence of MotionLaw
+        In their order; their values are taken as they are.
+    """
+    breaks = [laws[0].start]
+    for law in laws:
+        breaks += law.breaks[1:]
+    return MotionLaw(tuple(breaks), tuple(piece for law in laws for piece in law.pieces))
+
+
+def combined(*terms: tuple[float, MotionLaw]) -> MotionLaw:
+    """A sum of laws over the same stretch, each times a factor.
+
+    Parameters
+    ----------
+    *terms : tuple of float and MotionLaw
+        Factor and law.
+    """
+    first = terms[0][1]
+    breaks: list[float] = []
+    for x in sorted({x for _, law in terms for x in law.breaks}):
+        if not breaks or x - breaks[-1] > _SAME * first.length:
+            breaks.append(x)
+    breaks[-1] = first.end
+    cut = [law._cut(breaks).scaled(factor) for factor, law in terms]
+    pieces = list(cut[0].pieces)
+    for law in cut[1:]:
+        pieces = [a.plus(b) for a, b in zip(pieces, law.pieces, strict=True)]
+    return MotionLaw(tuple(breaks), tuple(pieces))
