@@ -113,6 +113,9 @@ class Cam:
     def rows(self, size: _Floats, phi: _Floats, before: bool) -> _Floats:
         """The 12 rows at angles."""
 
+    def curve(self, size: _Floats, phi: _Floats, before: bool, away: float) -> _Floats:
+        """x, y and their first and second derivatives of a curve beside the pitch curve, at angles (6, n)."""
+
     def search(self, columns: Sequence[_Floats], n: int, per_turn: int) -> _Floats:
         """Largest tan γ, least soundness, greatest and least bend of each cam (n, 4)."""
 

@@ -111,6 +111,27 @@ impl Cam {
         table(py, &rows, phi.len())
     }
 
+    /// Place, first and second derivative of a curve beside the pitch curve, seen from the cam.
+    fn curve<'py>(
+        &self,
+        py: Python<'py>,
+        size: Floats<'_>,
+        phi: Floats<'_>,
+        before: bool,
+        away: f64,
+    ) -> PyResult<Table<'py>> {
+        let cam = CoreCam::new(self.kind, self.sense, self.side, dimensions(&size)?);
+        let phi = phi.as_slice()?;
+        let mut rows = vec![Vec::with_capacity(phi.len()); 6];
+        for &phi in phi {
+            let (piece, at) = self.law.piece(phi, before);
+            for (row, &x) in rows.iter_mut().zip(cam.curve(piece, at, away).as_flattened()) {
+                row.push(x);
+            }
+        }
+        table(py, &rows, phi.len())
+    }
+
     /// Results of many cams; each column has one entry or one a cam.
     fn search<'py>(
         &self,

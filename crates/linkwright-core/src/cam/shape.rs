@@ -6,7 +6,9 @@
 
 use super::{Cam, Contact, Kind};
 use crate::dual::Dual;
+use crate::jet::Jet;
 use crate::motion_law::{MotionLaw, Piece};
+use crate::real::Lift;
 use std::f64::consts::TAU;
 
 /// What is known at each angle.
@@ -78,17 +80,32 @@ impl Cam<f64> {
         [s, s1, s2, s3, pitch.x, pitch.y, normal.x, normal.y, gamma, contact.bend, sound, contact.along]
     }
 
-    /// A quantity and its derivative by the cam angle.
-    fn quantity(&self, what: Quantity, piece: &Piece, phi: f64) -> (f64, f64) {
-        let cam = Cam::<Dual<f64>> {
+    /// The same cam in a number that carries derivatives.
+    fn lifted<R: Lift<f64>>(&self) -> Cam<R> {
+        Cam {
             kind: self.kind,
             sense: self.sense,
             side: self.side,
-            size: self.size.map(Dual::constant),
-            start: Dual::constant(self.start),
-            cos: Dual::constant(self.cos),
-            sin: Dual::constant(self.sin),
-        };
+            size: self.size.map(R::lift),
+            start: R::lift(self.start),
+            cos: R::lift(self.cos),
+            sin: R::lift(self.sin),
+        }
+    }
+
+    /// A curve seen from the cam, `away` from the pitch curve along its normal: place, and first and second
+    /// derivative by the cam angle.
+    pub fn curve(&self, piece: &Piece, phi: f64, away: f64) -> [[f64; 2]; 3] {
+        let cam = self.lifted::<Jet<f64, 3>>();
+        let at = Jet::variable(phi);
+        let contact = cam.contact(piece.at(at));
+        let p = cam.from_cam(contact.pitch.plus(contact.normal, Jet::constant(away)), at);
+        [[p.x.c[0], p.y.c[0]], [p.x.c[1], p.y.c[1]], [2.0 * p.x.c[2], 2.0 * p.y.c[2]]]
+    }
+
+    /// A quantity and its derivative by the cam angle.
+    fn quantity(&self, what: Quantity, piece: &Piece, phi: f64) -> (f64, f64) {
+        let cam = self.lifted::<Dual<f64>>();
         let contact = cam.contact(piece.at(Dual { value: phi, d: 1.0 }));
         let found = what.of(&contact);
         (found.value, found.d)
