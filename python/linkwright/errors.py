@@ -5,6 +5,7 @@
 | `UnitError` | input | a number or a text is not the quantity that was asked for |
 | `MachineError` | input | a description contradicts itself; lists every problem |
 | `MachineFileError` | input | the same for a file: with file and line |
+| `LawError` | input | a motion law cannot do what it was asked for |
 | `ShapeError` | input | arrays do not fit together |
 | `AssemblyError` | finding | the links do not close |
 | `StartError` | finding | the drive does not start, stalls or runs backwards |
@@ -103,6 +104,14 @@ class MachineError(InputError):
 
 class MachineFileError(MachineError):
     """A machine file cannot be read, or describes no machine; the problems have a file and a line."""
+
+
+class LawError(InputError):
+    """A motion law cannot do what it was asked for; ``problem`` says what, with a key of the law."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(problem)
+        self.problem = problem
 
 
 class ShapeError(InputError):

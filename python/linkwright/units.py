@@ -83,6 +83,11 @@ class Kind:
 
 
 _PER_SECOND = Dimension(s=-1)
+_M_RAD = Dimension(m=1, rad=-1)
+_M_RAD2 = Dimension(m=1, rad=-2)
+_M_RAD3 = Dimension(m=1, rad=-3)
+_PER_RAD = Dimension(rad=-1)
+_PER_RAD2 = Dimension(rad=-2)
 _M = Dimension(m=1)
 _KG = Dimension(kg=1)
 _S = Dimension(s=1)
@@ -135,6 +140,14 @@ TORSIONAL_DAMPING = Kind(
     angle_free=True,
 )
 RATIO = Kind("a ratio", "", "", "90 %", _ONE)
+# Derivatives of a follower's lift, or of its swing, by the angle of the cam.
+LIFT_D1 = Kind("a length per cam angle", "m/rad", "metres per radian", "20 mm/rad", _M_RAD)
+LIFT_D2 = Kind(
+    "a length per cam angle squared", "m/rad^2", "metres per radian squared", "50 mm/rad^2", _M_RAD2
+)
+LIFT_D3 = Kind("a length per cam angle cubed", "m/rad^3", "metres per radian cubed", "90 mm/rad^3", _M_RAD3)
+SWING_D2 = Kind("a number per angle", "1/rad", "per radian", "0.5 1/rad", _PER_RAD)
+SWING_D3 = Kind("a number per angle squared", "1/rad^2", "per radian squared", "0.9 1/rad^2", _PER_RAD2)
 
 KINDS = (
     LENGTH,
@@ -156,6 +169,11 @@ KINDS = (
     DAMPING,
     TORSIONAL_DAMPING,
     RATIO,
+    LIFT_D1,
+    LIFT_D2,
+    LIFT_D3,
+    SWING_D2,
+    SWING_D3,
 )
 
 _TURN = 2 * math.pi
@@ -205,6 +223,11 @@ COMMON: dict[Dimension, dict[str, float]] = {
     _W: {"W": 1.0, "kW": 1e3, "MW": 1e6, "hp": 745.6998715822701, "N m/s": 1.0, "J/s": 1.0},
     _PER_SECOND: {"Hz": 1.0, "1/s": 1.0, "s^-1": 1.0, "1/min": 1 / 60, "min^-1": 1 / 60},
     _ONE: {"": 1.0, "%": 1e-2},
+    _M_RAD: {"m/rad": 1.0, "mm/rad": 1e-3, "mm/deg": 1e-3 / _DEGREE},
+    _M_RAD2: {"m/rad^2": 1.0, "mm/rad^2": 1e-3, "mm/deg^2": 1e-3 / _DEGREE**2},
+    _M_RAD3: {"m/rad^3": 1.0, "mm/rad^3": 1e-3},
+    _PER_RAD: {"1/rad": 1.0, "rad^-1": 1.0, "1/deg": 1 / _DEGREE},
+    _PER_RAD2: {"1/rad^2": 1.0, "rad^-2": 1.0},
 }
 
 _FACTORS = {text: (factor, dimension) for dimension, row in COMMON.items() for text, factor in row.items()}
