@@ -21,7 +21,7 @@ _INSTRUCTIONS = (
 
 
 def encoded(law: MotionLaw) -> list[float]:
-    """A motion law as the core reads it: see `MotionLaw::decode` in `crates/linkwright-core/src/motion_law.rs`."""
+    """A motion law as the core reads it, `MotionLaw::decode` in `crates/linkwright-core`."""
     numbers = [float(len(law.pieces))]
     for (low, high), piece in zip(pairwise(law.breaks), law.pieces, strict=True):
         numbers += [low, high - low, len(piece.polynomial), *piece.polynomial, len(piece.harmonics)]

@@ -5,9 +5,9 @@ r"""A cam on the crankshaft and the follower that it moves.
 | translating | along a line, to the left of the cam's centre by the offset | a point on a slide |
 | oscillating | about its own pivot | a link with a point at its end |
 
-Its sections say how it moves over a turn. Where the lift is least, the contact lies on the base circle, r_0 from
-the cam's centre; a roller's centre then lies on the prime circle, r_0 + r_r. Two followers that touch one cam on
-opposite sides have their distance, the breadth, instead: b = 2 (r_0 + r_r) + lift.
+Its sections say how it moves over a turn. Where the lift is least, the contact lies on the base circle, r_0
+from the cam's centre; a roller's centre then lies on the prime circle, r_0 + r_r. Two followers that touch
+one cam on opposite sides have their distance, the breadth, instead: b = 2 (r_0 + r_r) + lift.
 
 In the mechanism a cam stands for a driver that follows the programme (`follower_of`).
 """
@@ -25,8 +25,8 @@ from pydantic_core import InitErrorDetails
 from linkwright.machine.base import Checked, Description, fault
 from linkwright.machine.element import Crank, FixedPoint, Guide, LinearDriver, PositiveLength
 from linkwright.machine.motion_section import MotionSection, programme
-from linkwright.machine.section_faults import section_faults
 from linkwright.machine.plain import look
+from linkwright.machine.section_faults import section_faults
 from linkwright.units import ANGLE, PRESSURE, Angle, Bound, Length, Quantity, positive
 
 if TYPE_CHECKING:
@@ -44,8 +44,8 @@ _LIMIT = Bound(
     lambda value: 0 < value < np.pi / 2,
 )
 
-# Largest pressure angle by rule of thumb: a translating follower jams in its guide beyond 30°, an arm bears more.
-# Norton, Cam Design and Manufacturing Handbook, 2nd ed., section 7.3.
+# Largest pressure angle by rule of thumb: a translating follower jams in its guide beyond 30°, an arm bears
+# more. Norton, Cam Design and Manufacturing Handbook, 2nd ed., section 7.3.
 _USUAL_LIMIT = {"translating": np.pi / 6, "oscillating": 7 * np.pi / 36}
 
 
@@ -77,8 +77,8 @@ class Cam(Checked):
     )
     closure: Literal["spring", "groove", "conjugate", "constant_diameter", "constant_breadth"] = Field(
         "spring",
-        description="What keeps the follower on the cam: a force, a groove, a second cam for a second follower, or "
-        "the same cam between two followers (points or rollers; flat faces).",
+        description="What keeps the follower on the cam: a force, a groove, a second cam for a second "
+        "follower, or the same cam between two followers (points or rollers; flat faces).",
     )
     sections: tuple[MotionSection, ...] = Field(description="How the follower moves over a turn.")
     phase: Angle = Field(0.0, description="Crank angle at which the first section begins.")
@@ -99,8 +99,8 @@ class Cam(Checked):
     direction: Angle = Field(0.0, description="Of the follower's line, outwards, from x.")
     offset: Length = Field(
         0.0,
-        description="Of the follower's line to the left of the cam's centre; of an oscillating face, from its pivot "
-        "to the cam.",
+        description="Of the follower's line to the left of the cam's centre; of an oscillating face, from "
+        "its pivot to the cam.",
     )
     face_tilt: Annotated[float, Quantity(ANGLE, _ACUTE)] = Field(
         0.0, description="Of a translating face: of its normal from the direction of travel."
@@ -236,8 +236,8 @@ class Cam(Checked):
             yield fault("arm_pivot", expected="the fixed point that the follower turns about")
         if self.arm_length is None and self.is_roller:
             yield fault("arm_length", expected="a length: from the follower's pivot to roller or edge")
-        for key in ("direction", "face_tilt") if self.is_roller else ("direction", "face_tilt", "arm_length"):
-            if key in self.model_fields_set and key != "arm_length":
+        for key in ("direction", "face_tilt"):
+            if key in self.model_fields_set:
                 yield fault(key, found=getattr(self, key), expected="nothing for an oscillating follower")
         if self.is_roller and "offset" in self.model_fields_set:
             yield fault("offset", found=self.offset, expected="nothing for an arm with a roller or edge")
@@ -320,8 +320,7 @@ def _to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str) -> tu
 
 
 def start_of(cam: Cam, size: Sizes) -> Any:
-    """Place of the follower at zero lift: from the cam's centre along its line [m], or the arm's angle from the line
-    between the pivots [rad]; NaN where there is none.
+    """Place of the follower at zero lift; NaN where there is none.
 
     Parameters
     ----------
@@ -329,13 +328,19 @@ def start_of(cam: Cam, size: Sizes) -> Any:
         The cam.
     size : Sizes
         Its dimensions.
+
+    Returns
+    -------
+    float or ndarray
+        From the cam's centre along the follower's line [m], or angle of the arm from the line between the
+        pivots [rad].
     """
     prime = size.base_radius + size.roller_radius
     with np.errstate(invalid="ignore", divide="ignore"):
         if cam.is_oscillating:
-            a, l = size.distance, size.arm
+            a, arm = size.distance, size.arm
             if cam.is_roller:
-                return np.arccos((a**2 + l**2 - prime**2) / (2 * a * l))
+                return np.arccos((a**2 + arm**2 - prime**2) / (2 * a * arm))
             return np.arcsin((size.base_radius + size.offset) / a)
         if cam.is_roller:
             return np.sqrt(prime**2 - size.offset**2)
@@ -390,14 +395,15 @@ def cam_place_faults(mechanism: object) -> Iterator[InitErrorDetails]:
             continue
         if not cam.is_oscillating:
             prime = size.base_radius + size.roller_radius
-            remedy = f"make base_radius larger than {abs(size.offset) - size.roller_radius:.6g} m or the offset smaller"
+            least = abs(size.offset) - size.roller_radius
+            remedy = f"make base_radius larger than {least:.6g} m or the offset smaller"
             expected = f"less than base_radius + roller_radius, {prime:.6g} m"
             yield fault("cams", name, "offset", found=size.offset, expected=expected, remedy=remedy)
         elif cam.is_roller:
             low = abs(size.distance - size.arm) - size.roller_radius
             high = size.distance + size.arm - size.roller_radius
             expected = f"between {low:.6g} and {high:.6g} m"
-            remedy = f"the arm of {size.arm:.6g} m, {size.distance:.6g} m from the cam, reaches no other base circle"
+            remedy = f"the arm of {size.arm:.6g} m has its pivot {size.distance:.6g} m from the cam"
             yield fault("cams", name, "base_radius", found=size.base_radius, expected=expected, remedy=remedy)
         else:
             expected = f"at most {size.distance - size.offset:.6g} m, or the pivot farther away"

@@ -11,8 +11,8 @@ from typing import Any, Literal, NamedTuple, Self
 from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
 
 from linkwright.machine.assembly import Step
-from linkwright.machine.cam import Cam, cam_place_faults
 from linkwright.machine.base import Description, Name, faults_of, raise_faults
+from linkwright.machine.cam import Cam, cam_place_faults
 from linkwright.machine.element import (
     Bar,
     Cable,
