@@ -306,14 +306,29 @@ def sizes(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> Size
     """
     distance: Any = 0.0
     if cam.is_oscillating:
-        dx, dy = _to_arm_pivot(cam, points, origin)
+        dx, dy = to_arm_pivot(cam, points, origin)
         distance = np.hypot(dx, dy)
     arm = 0.0 if cam.arm_length is None else cam.arm_length
     return Sizes(cam.base, cam.radius_of_roller, cam.offset, distance, arm, cam.face_tilt)
 
 
-def _to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str) -> tuple[Any, Any]:
-    """From the cam's centre to the follower's pivot."""
+def to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> tuple[Any, Any]:
+    """From the cam's centre to the follower's pivot.
+
+    Parameters
+    ----------
+    cam : Cam
+        A cam with an oscillating follower.
+    points : Mapping of str to FixedPoint
+        The fixed points.
+    origin : str
+        Name of the point of a cam without a pivot.
+
+    Returns
+    -------
+    x, y : float or ndarray
+        [m].
+    """
     centre, pivot = points.get(cam.pivot or origin), points[cam.arm_pivot or ""]
     x, y = (0.0, 0.0) if centre is None else (centre.x, centre.y)
     return pivot.x - x, pivot.y - y
@@ -366,7 +381,7 @@ def follower_of(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -
         return TranslatingFollower.model_construct(
             guide=guide, start=start, per_turn=None, law=None, constants={}, cam=cam
         )
-    dx, dy = _to_arm_pivot(cam, points, origin)
+    dx, dy = to_arm_pivot(cam, points, origin)
     turn = -1.0 if cam.side == "left" else 1.0
     phase = np.arctan2(dy, dx) + np.pi + turn * start
     radius = size.distance if cam.arm_length is None else cam.arm_length
