@@ -11,6 +11,7 @@
 | `StartError` | finding | the drive does not start, stalls or runs backwards |
 | `SteadyStateError` | finding | there is no periodic motion |
 | `ConvergenceError` | finding | a method did not reach the accuracy asked for |
+| `CamError` | finding | a cam cannot be made or followed |
 | `SynthesisError` | finding | no linkage does what was asked for |
 
 An input error means exit code 2 of the command line, a finding exit code 1. Nothing here needs the
@@ -172,6 +173,10 @@ class ConvergenceError(FindingError):
         self.method = method
         self.iterations = iterations
         self.residual = residual
+
+
+class CamError(FindingError):
+    """A cam cannot be made or followed; the message has angle, numbers and the smallest change."""
 
 
 class SynthesisError(FindingError):
