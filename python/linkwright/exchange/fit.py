@@ -24,6 +24,9 @@ TOLERANCE = 1e-6
 # coordinates in a file, and of directions between neighbouring places.
 _FINEST = 1e-12
 
+# Share of the size that is kept back for rounding of the coordinates in a file.
+_ROUNDING = 1e-14
+
 # What is aimed at if the tolerance was missed by what samples did not see, and how often.
 _LESS, _TRIES = 0.98, 6
 
@@ -54,14 +57,15 @@ def fit(
     ConvergenceError
         The tolerance asks for too many pieces.
     """
-    _refuse(track, form, tolerance)
-    aim = tolerance
+    extent = size(track.parts[0].curve)
+    _refuse(form, tolerance, extent)
+    aim = kept = tolerance - _ROUNDING * extent
     for _ in range(_TRIES):
         path = _path(track, form, aim)
         found = deviation(path, track)
-        if found.largest <= tolerance:
+        if found.largest <= kept:
             return path, found
-        aim *= _LESS * tolerance / found.largest
+        aim *= _LESS * kept / found.largest
     raise ConvergenceError(
         f"the curve as {form} is {found.largest:.3g} m off where {tolerance:.3g} m were asked for; "
         "ask for a wider tolerance",
@@ -80,11 +84,11 @@ def _path(track: Track, form: Form, tolerance: float) -> Outline | Spline:
     return spline(track, tolerance, 5 if form == "spline" else 3)
 
 
-def _refuse(track: Track, form: Form, tolerance: float) -> None:
+def _refuse(form: Form, tolerance: float, extent: float) -> None:
     """What cannot be asked for."""
     if form not in FORMS:
         raise InputError(f'form "{form}": expected {", ".join(FORMS)}')
-    finest = _FINEST * size(track.parts[0].curve)
+    finest = _FINEST * extent
     if not finest <= tolerance < float("inf"):
         raise InputError(
             f"tolerance {tolerance:g} m: expected at least {finest:.1g} m (10⁻¹² of the curve's size), "

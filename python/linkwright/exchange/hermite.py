@@ -142,4 +142,6 @@ def _joined(ends: Floats, pieces: Floats, multiplicity: NDArray[np.intp], degree
     widths = np.diff(ends)
     which = [a + int(widths[a:b].argmax()) if b > a else a for a, b in zip(first, last, strict=True)]
     shares = (arguments - ends[which][:, None]) / widths[which][:, None]
-    return Spline(degree, knots, _blossom(pieces[which], list(shares.T)))
+    controls = _blossom(pieces[which], list(shares.T))
+    controls[-1] = controls[0]
+    return Spline(degree, knots, controls)

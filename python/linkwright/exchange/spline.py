@@ -74,48 +74,67 @@ class Spline:
 
     def at(self, which: Whole, u: Floats) -> Floats:
         """Places on pieces (k,) at shares (k, m) of them, (k, m, 2) [m]."""
-        return self.values(self._parameter(which, u))[0]
+        return self.evaluated.at(which, u)
 
     def distances(self, which: Whole, places: Floats) -> Floats:
         """Distance of places (k, m, 2) from pieces (k,), (k, m) [m]."""
-        return distances_from(self.values, self.cuts, which, places)
+        return self.evaluated.distances(which, places)
 
-    def _parameter(self, which: Whole, u: Floats) -> Floats:
-        """The parameter at shares of pieces."""
-        low = self.cuts[which][:, None]
-        return np.asarray(low + u * (self.cuts[which + 1][:, None] - low))
+    @property
+    def evaluated(self) -> EvaluatedSpline:
+        """The spline as a path in pieces."""
+        return EvaluatedSpline(self.cuts, self.values)
 
 
-def distances_from(
-    values: Callable[[Floats], tuple[Floats, Floats]], cuts: Floats, which: Whole, places: Floats
-) -> Floats:
-    """Distance of places from pieces of a curve, by Gauss–Newton from the nearest of samples.
+@dataclass(frozen=True)
+class EvaluatedSpline:
+    """A closed path in pieces, by whatever evaluates it.
 
-    Parameters
+    Attributes
     ----------
-    values : callable
-        From parameters of any shape to places and first derivatives, (…, 2) each.
     cuts : ndarray, shape (n + 1,)
-        Ends of the pieces.
-    which : ndarray, shape (k,)
-        Numbers of pieces.
-    places : ndarray, shape (k, m, 2)
-        For each its places [m].
-
-    Returns
-    -------
-    ndarray, shape (k, m)
-        Never too small [m].
+        Ends of the pieces, in the parameter of the path.
+    values : callable
+        From parameters of any shape to places [m] and first derivatives, (…, 2) each.
     """
-    low, high = cuts[which][:, None], cuts[which + 1][:, None]
-    samples = low + (high - low) * np.linspace(0, 1, _SAMPLES)
-    gaps = np.linalg.norm(places[:, :, None] - values(samples)[0][:, None], axis=-1)
-    x = np.take_along_axis(samples, gaps.argmin(axis=-1), axis=1)
-    least = gaps.min(axis=-1)
-    for _ in range(_ROUNDS):
-        place, slope = values(x)
-        off = places - place
-        least = np.minimum(least, np.linalg.norm(off, axis=-1))
-        square = np.maximum((slope**2).sum(axis=-1), np.finfo(float).tiny)
-        x = np.clip(x + (off * slope).sum(axis=-1) / square, low, high)
-    return np.asarray(least)
+
+    cuts: Floats
+    values: Callable[[Floats], tuple[Floats, Floats]]
+
+    @cached_property
+    def vertices(self) -> Floats:
+        """Where the pieces begin, (n, 2) [m]."""
+        return self.values(self.cuts[:-1])[0]
+
+    def at(self, which: Whole, u: Floats) -> Floats:
+        """Places on pieces (k,) at shares (k, m) of them, (k, m, 2) [m]."""
+        low = self.cuts[which][:, None]
+        return self.values(low + u * (self.cuts[which + 1][:, None] - low))[0]
+
+    def distances(self, which: Whole, places: Floats) -> Floats:
+        """Distance of places from pieces, by Gauss–Newton from the nearest of samples.
+
+        Parameters
+        ----------
+        which : ndarray, shape (k,)
+            Numbers of pieces.
+        places : ndarray, shape (k, m, 2)
+            For each its places [m].
+
+        Returns
+        -------
+        ndarray, shape (k, m)
+            Never too small [m].
+        """
+        low, high = self.cuts[which][:, None], self.cuts[which + 1][:, None]
+        samples = low + (high - low) * np.linspace(0, 1, _SAMPLES)
+        gaps = np.linalg.norm(places[:, :, None] - self.values(samples)[0][:, None], axis=-1)
+        x = np.take_along_axis(samples, gaps.argmin(axis=-1), axis=1)
+        least = gaps.min(axis=-1)
+        for _ in range(_ROUNDS):
+            place, slope = self.values(x)
+            off = places - place
+            least = np.minimum(least, np.linalg.norm(off, axis=-1))
+            square = np.maximum((slope**2).sum(axis=-1), np.finfo(float).tiny)
+            x = np.clip(x + (off * slope).sum(axis=-1) / square, low, high)
+        return np.asarray(least)

@@ -80,6 +80,11 @@ class Track:
             values[here] = getattr(part, what)(part.low + (wrapped[here] - self.ends[i]))
         return values
 
+    @property
+    def samples(self) -> Floats:
+        """Places along the whole curve, with both ends of each stretch, (n, 2) [m]."""
+        return self._samples[1]
+
     @cached_property
     def _samples(self) -> tuple[Floats, Floats]:
         """τ and places along the whole curve, with both ends of each stretch."""
