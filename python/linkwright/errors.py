@@ -5,11 +5,13 @@
 | `UnitError` | input | a number or a text is not the quantity that was asked for |
 | `MachineError` | input | a description contradicts itself; lists every problem |
 | `MachineFileError` | input | the same for a file: with file and line |
+| `LawError` | input | a motion law cannot do what it was asked for |
 | `ShapeError` | input | arrays do not fit together |
 | `AssemblyError` | finding | the links do not close |
 | `StartError` | finding | the drive does not start, stalls or runs backwards |
 | `SteadyStateError` | finding | there is no periodic motion |
 | `ConvergenceError` | finding | a method did not reach the accuracy asked for |
+| `CamError` | finding | a cam cannot be made or followed |
 | `SynthesisError` | finding | no linkage does what was asked for |
 | `ExchangeError` | finding | a curve cannot be manufactured, or a written file does not keep its tolerance |
 
@@ -106,6 +108,14 @@ class MachineFileError(MachineError):
     """A machine file cannot be read, or describes no machine; the problems have a file and a line."""
 
 
+class LawError(InputError):
+    """A motion law cannot do what it was asked for; ``problem`` says what, with a key of the law."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(problem)
+        self.problem = problem
+
+
 class ShapeError(InputError):
     """Arrays do not fit together."""
 
@@ -164,6 +174,10 @@ class ConvergenceError(FindingError):
         self.method = method
         self.iterations = iterations
         self.residual = residual
+
+
+class CamError(FindingError):
+    """A cam cannot be made or followed; the message has angle, numbers and the smallest change."""
 
 
 class SynthesisError(FindingError):

@@ -1,0 +1,12 @@
+"""Cam and follower: what presses on what, and how the follower really moves.
+
+| module | answers |
+| --- | --- |
+| `contact` | which followers touch which cam, and the curves that follow from it |
+| `profile` | what is known of a cam: lift, pressure angle, curvature over a turn, and their extremes |
+| `opposite` | do two followers touch one cam at every angle? |
+| `faults` | is it undercut, pointed, crossed, too hollow for its cutter, too steep? |
+| `least_base` | how small may the base circle be, how large the roller? |
+| `hertz` | how hard do cam and roller press on each other, and how deep does it reach? |
+| `checks` | inputs that make no sense, told by name |
+"""
