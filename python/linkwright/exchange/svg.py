@@ -138,7 +138,9 @@ def _refuse_scale(file: File, root: ElementTree.Element) -> None:
     except (ValueError, IndexError):
         is_true = False
     if not is_true:
-        raise ExchangeError(f'{file}: width "{width}" over viewBox "{" ".join(box)}" is not one millimetre a unit')
+        raise ExchangeError(
+            f'{file}: width "{width}" over viewBox "{" ".join(box)}" is not one millimetre a unit'
+        )
 
 
 def _outline(file: File, layer: str, data: str) -> Outline:
