@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import InputError
-from linkwright.exchange.deviation import Deviation
 from linkwright.exchange.curve import ClosedCurve
+from linkwright.exchange.deviation import Deviation
 from linkwright.exchange.track import Track
 
 # Usual layers of outlines, and those of what is drawn beside them.
