@@ -1,12 +1,15 @@
 """The compiled kernels. Used by `linkwright.engine` only; everything is SI and contiguous."""
 
+from collections.abc import Sequence
 from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "Cam",
     "Plan",
+    "cam_crossings",
     "change_point",
     "follow_group",
     "gaps",
@@ -39,6 +42,7 @@ class Plan:
         table_x: _Floats,
         table_y: _Floats,
         formulas: _Ints,
+        motion_laws: _Floats,
     ) -> Plan: ...
     @property
     def has_laws(self) -> bool:
@@ -95,3 +99,25 @@ def transient(
 
 def kinks(plan: Plan, q: _Floats) -> _Floats:
     """Crank angles between which the reduced machine is smooth, from 0 to 2π."""
+
+@final
+class Cam:
+    """A motion law over a turn and the kind of cam that follows it: `crates/linkwright-core/src/cam`."""
+
+    def __new__(cls, law: _Floats, kind: int, sense: float, side: float) -> Cam: ...
+    def shape(
+        self, size: _Floats, n: int, levels: Sequence[tuple[int, float]]
+    ) -> tuple[_Floats, NDArray[np.uint32], _Floats, _Floats, list[_Floats]]:
+        """Angles, pieces, 12 rows, extremes (angle, value), and where rows pass levels (angle, sign)."""
+
+    def rows(self, size: _Floats, phi: _Floats, before: bool) -> _Floats:
+        """The 12 rows at angles."""
+
+    def curve(self, size: _Floats, phi: _Floats, before: bool, away: float) -> _Floats:
+        """x, y and their first and second derivatives of a curve beside the pitch curve, at angles (6, n)."""
+
+    def search(self, columns: Sequence[_Floats], n: int, per_turn: int) -> _Floats:
+        """Largest tan γ, least soundness, greatest and least bend of each cam (n, 4)."""
+
+def cam_crossings(x: _Floats, y: _Floats) -> _Floats:
+    """Crossings of the sides of a closed polygon: side and share of both, place (n, 4)."""

@@ -5,12 +5,15 @@
 | `UnitError` | input | a number or a text is not the quantity that was asked for |
 | `MachineError` | input | a description contradicts itself; lists every problem |
 | `MachineFileError` | input | the same for a file: with file and line |
+| `LawError` | input | a motion law cannot do what it was asked for |
 | `ShapeError` | input | arrays do not fit together |
 | `AssemblyError` | finding | the links do not close |
 | `StartError` | finding | the drive does not start, stalls or runs backwards |
 | `SteadyStateError` | finding | there is no periodic motion |
 | `ConvergenceError` | finding | a method did not reach the accuracy asked for |
+| `CamError` | finding | a cam cannot be made or followed |
 | `SynthesisError` | finding | no linkage does what was asked for |
+| `ExchangeError` | finding | a curve cannot be manufactured, or a written file does not keep its tolerance |
 
 An input error means exit code 2 of the command line, a finding exit code 1. Nothing here needs the
 compiled core.
@@ -105,6 +108,14 @@ class MachineFileError(MachineError):
     """A machine file cannot be read, or describes no machine; the problems have a file and a line."""
 
 
+class LawError(InputError):
+    """A motion law cannot do what it was asked for; ``problem`` says what, with a key of the law."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(problem)
+        self.problem = problem
+
+
 class ShapeError(InputError):
     """Arrays do not fit together."""
 
@@ -165,5 +176,13 @@ class ConvergenceError(FindingError):
         self.residual = residual
 
 
+class CamError(FindingError):
+    """A cam cannot be made or followed; the message has angle, numbers and the smallest change."""
+
+
 class SynthesisError(FindingError):
     """No linkage of the kind does what was asked for; the message has the numbers and what to change."""
+
+
+class ExchangeError(FindingError):
+    """A curve has no outline that can be manufactured, or what was read back is not what was to be written."""

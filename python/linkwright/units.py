@@ -83,6 +83,11 @@ class Kind:
 
 
 _PER_SECOND = Dimension(s=-1)
+_M_RAD = Dimension(m=1, rad=-1)
+_M_RAD2 = Dimension(m=1, rad=-2)
+_M_RAD3 = Dimension(m=1, rad=-3)
+_PER_RAD = Dimension(rad=-1)
+_PER_RAD2 = Dimension(rad=-2)
 _M = Dimension(m=1)
 _KG = Dimension(kg=1)
 _S = Dimension(s=1)
@@ -97,6 +102,7 @@ _N_M_RAD = Dimension(m=2, kg=1, s=-2, rad=-1)
 _KG_M2 = Dimension(m=2, kg=1)
 _KG_M = Dimension(m=-1, kg=1)
 _N_PER_M = Dimension(kg=1, s=-2)
+_PA = Dimension(m=-1, kg=1, s=-2)
 _N_S_M = Dimension(kg=1, s=-1)
 _N_M_S = Dimension(m=2, kg=1, s=-1)
 _N_M_S_RAD = Dimension(m=2, kg=1, s=-1, rad=-1)
@@ -121,6 +127,7 @@ INERTIA = Kind(
     "a moment of inertia", "kg m^2", "kilogram metres squared", "0.14 kg m^2", _KG_M2, angle_free=True
 )
 MASS_PER_LENGTH = Kind("a mass per length", "kg/m", "kilograms per metre", "80 kg/m", _KG_M)
+PRESSURE = Kind("a pressure", "Pa", "pascals", "210 GPa", _PA)
 STIFFNESS = Kind("a stiffness", "N/m", "newtons per metre", "2000 N/m", _N_PER_M)
 TORSIONAL_STIFFNESS = Kind(
     "a torsional stiffness", "N m/rad", "newton metres per radian", "5e4 N m/rad", _N_M_RAD, angle_free=True
@@ -135,6 +142,14 @@ TORSIONAL_DAMPING = Kind(
     angle_free=True,
 )
 RATIO = Kind("a ratio", "", "", "90 %", _ONE)
+# Derivatives of a follower's lift, or of its swing, by the angle of the cam.
+LIFT_D1 = Kind("a length per cam angle", "m/rad", "metres per radian", "20 mm/rad", _M_RAD)
+LIFT_D2 = Kind(
+    "a length per cam angle squared", "m/rad^2", "metres per radian squared", "50 mm/rad^2", _M_RAD2
+)
+LIFT_D3 = Kind("a length per cam angle cubed", "m/rad^3", "metres per radian cubed", "90 mm/rad^3", _M_RAD3)
+SWING_D2 = Kind("a number per angle", "1/rad", "per radian", "0.5 1/rad", _PER_RAD)
+SWING_D3 = Kind("a number per angle squared", "1/rad^2", "per radian squared", "0.9 1/rad^2", _PER_RAD2)
 
 KINDS = (
     LENGTH,
@@ -151,11 +166,17 @@ KINDS = (
     POWER,
     INERTIA,
     MASS_PER_LENGTH,
+    PRESSURE,
     STIFFNESS,
     TORSIONAL_STIFFNESS,
     DAMPING,
     TORSIONAL_DAMPING,
     RATIO,
+    LIFT_D1,
+    LIFT_D2,
+    LIFT_D3,
+    SWING_D2,
+    SWING_D3,
 )
 
 _TURN = 2 * math.pi
@@ -198,6 +219,7 @@ COMMON: dict[Dimension, dict[str, float]] = {
     _N_M_RAD: {"N m/rad": 1.0, "kN m/rad": 1e3, "MN m/rad": 1e6, "N m/deg": 1 / _DEGREE},
     _KG_M2: {"kg m^2": 1.0, "kg cm^2": 1e-4, "kg mm^2": 1e-6, "g cm^2": 1e-7, "g mm^2": 1e-9, "t m^2": 1e3},
     _KG_M: {"kg/m": 1.0, "g/m": 1e-3, "kg/mm": 1e3, "g/mm": 1.0, "t/m": 1e3},
+    _PA: {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "N/mm^2": 1e6, "N/m^2": 1.0},
     _N_PER_M: {"N/m": 1.0, "kN/m": 1e3, "MN/m": 1e6, "N/mm": 1e3, "kN/mm": 1e6},
     _N_S_M: {"N s/m": 1.0, "kN s/m": 1e3, "N s/mm": 1e3, "kg/s": 1.0},
     _N_M_S: {"N m s": 1.0, "kN m s": 1e3},
@@ -205,6 +227,11 @@ COMMON: dict[Dimension, dict[str, float]] = {
     _W: {"W": 1.0, "kW": 1e3, "MW": 1e6, "hp": 745.6998715822701, "N m/s": 1.0, "J/s": 1.0},
     _PER_SECOND: {"Hz": 1.0, "1/s": 1.0, "s^-1": 1.0, "1/min": 1 / 60, "min^-1": 1 / 60},
     _ONE: {"": 1.0, "%": 1e-2},
+    _M_RAD: {"m/rad": 1.0, "mm/rad": 1e-3, "mm/deg": 1e-3 / _DEGREE},
+    _M_RAD2: {"m/rad^2": 1.0, "mm/rad^2": 1e-3, "mm/deg^2": 1e-3 / _DEGREE**2},
+    _M_RAD3: {"m/rad^3": 1.0, "mm/rad^3": 1e-3},
+    _PER_RAD: {"1/rad": 1.0, "rad^-1": 1.0, "1/deg": 1 / _DEGREE},
+    _PER_RAD2: {"1/rad^2": 1.0, "rad^-2": 1.0},
 }
 
 _FACTORS = {text: (factor, dimension) for dimension, row in COMMON.items() for text, factor in row.items()}

@@ -1,4 +1,4 @@
-//! Many machines of one structure: rows into lanes, lanes over threads. The only file that knows rayon.
+//! Many machines of one structure: rows into lanes, lanes over threads.
 //!
 //! A row is one machine: the base parameters with some slots replaced. Rows that lanes cannot do to the
 //! accuracy asked for (a kink of the drive's characteristic inside the range of speed, no convergence) are

@@ -3,7 +3,7 @@
 //! `(a + a′ε)(b + b′ε) = ab + (a′b + ab′)ε`, ε² = 0. The derivative is exact to rounding, which is what
 //! lets Newton's method converge quadratically without a second description of any formula.
 
-use crate::real::{Lift, Real};
+use crate::real::{COEFFICIENTS, Lift, Real};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number with its derivative.
@@ -142,6 +142,15 @@ impl<R: Real> Real for Dual<R> {
     fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
         let slope = self.value.map(|x| (f(x).1, 0.0));
         Dual { value: self.value.map(&f), d: slope * self.d }
+    }
+    /// The slope of a coefficient is the next one, times its order.
+    #[inline(always)]
+    fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]) {
+        let mut all = [R::splat(0.0); COEFFICIENTS];
+        self.value.taylor(f, &mut all[..to.len() + 1]);
+        for (k, x) in to.iter_mut().enumerate() {
+            *x = Dual { value: all[k], d: all[k + 1] * (k + 1) as f64 * self.d };
+        }
     }
     #[inline(always)]
     fn exp(self) -> Self {

@@ -15,6 +15,8 @@ pub enum PlanError {
     Table { number: usize },
     /// A formula that does not leave one number, or keeps too many at once.
     Formula { number: usize },
+    /// A motion law whose list ends early, or whose pieces do not make a turn.
+    MotionLaw,
 }
 
 impl fmt::Display for PlanError {
@@ -32,6 +34,9 @@ impl fmt::Display for PlanError {
             }
             PlanError::Formula { number } => {
                 write!(f, "formula {number} does not leave one number, or keeps too many at once")
+            }
+            PlanError::MotionLaw => {
+                write!(f, "the pieces of a motion law must follow one another for a turn")
             }
         }
     }

@@ -9,7 +9,7 @@
 //!
 //! Source: e.g. Griewank and Walther, *Evaluating Derivatives*, 2nd ed., chapter 13, table 13.2.
 
-use crate::real::{Lift, Real};
+use crate::real::{COEFFICIENTS, Lift, Real};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The coefficients of a series; `c[k]` is the k-th derivative over k!.
@@ -309,6 +309,26 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
         }
         c[0] = c[0].map(&f);
         Jet { c }
+    }
+    /// f(x₀ + δ) = Σ f_j δʲ, and the series of its k-th coefficient likewise, with binomials.
+    #[inline(always)]
+    fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]) {
+        R::outline(
+            #[inline(always)]
+            || {
+                let mut all = [R::splat(0.0); COEFFICIENTS];
+                self.c[0].taylor(f, &mut all[..to.len() + N - 1]);
+                let mut delta = self;
+                delta.c[0] = R::splat(0.0);
+                for (k, x) in to.iter_mut().enumerate() {
+                    *x = Self::splat(0.0);
+                    for j in (0..N).rev() {
+                        let binomial: f64 = (1..=j).map(|i| (k + i) as f64 / i as f64).product();
+                        *x = *x * delta + Self::constant(all[k + j] * binomial);
+                    }
+                }
+            },
+        );
     }
     #[inline(always)]
     fn max_lane(self) -> f64 {

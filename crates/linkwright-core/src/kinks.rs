@@ -8,7 +8,7 @@
 use crate::cycle::Machine;
 use crate::further::{Further, stretch};
 use crate::law::{FormulaLoad, Law};
-use crate::linkage::{Motion, Slot};
+use crate::linkage::{Element, Motion, Slot};
 use crate::plan::Plan;
 use crate::plane::Angle;
 use crate::real::Real;
@@ -148,6 +148,7 @@ impl<R: Real> Machine<'_, R> {
                 self.zeros(*watch, values, &mut lanes, m);
             }
         }
+        self.programme_joints(&mut lanes);
         for lane in &mut lanes {
             lane.extend(self.plan.angle_knots());
             for angle in lane.iter_mut() {
@@ -156,6 +157,21 @@ impl<R: Real> Machine<'_, R> {
             lane.sort_by(f64::total_cmp);
         }
         level(lanes)
+    }
+
+    /// Adds the joints of motion laws in pieces, where a derivative jumps.
+    #[inline(always)]
+    fn programme_joints(&self, lanes: &mut [Vec<f64>]) {
+        let mut row = vec![0.0; R::LANES];
+        for element in &self.plan.mechanism.elements {
+            let Element::Programme(programme) = element else { continue };
+            for piece in programme.law.pieces() {
+                (self.q[programme.phase] + piece.start).store(&mut row);
+                for (lane, joint) in lanes.iter_mut().zip(&row) {
+                    lane.push(joint.rem_euclid(TAU));
+                }
+            }
+        }
     }
 
     /// All watched quantities over the scan angles: watch by watch, angle by angle, lane by lane.

@@ -5,7 +5,7 @@
 //! [`Real`]; [`in_lanes`] runs it on the widest registers this processor has, [`scalar`] on `f64`.
 #![allow(unsafe_code)]
 
-use crate::real::Real;
+use crate::real::{COEFFICIENTS, Real};
 use pulp::Simd;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -162,6 +162,22 @@ impl<S: Simd> Real for V<S> {
         Self::load(&lanes)
     }
     #[inline(always)]
+    fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]) {
+        let mut lanes = [0.0; 8];
+        self.store(&mut lanes);
+        let mut rows = [[0.0; 8]; COEFFICIENTS];
+        let mut one = [0.0; COEFFICIENTS];
+        for (lane, &x) in lanes[..Self::LANES].iter().enumerate() {
+            f(x, &mut one[..to.len()]);
+            for (row, &c) in rows.iter_mut().zip(&one[..to.len()]) {
+                row[lane] = c;
+            }
+        }
+        for (to, row) in to.iter_mut().zip(&rows) {
+            *to = Self::load(row);
+        }
+    }
+    #[inline(always)]
     fn max_lane(self) -> f64 {
         let mut lanes = [0.0; 8];
         self.store(&mut lanes);
@@ -281,6 +297,15 @@ impl<R: Real> Real for Pair<R> {
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
         Pair(self.0.map(&f), self.1.map(&f))
+    }
+    #[inline(always)]
+    fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]) {
+        let (mut first, mut second) = ([R::splat(0.0); COEFFICIENTS], [R::splat(0.0); COEFFICIENTS]);
+        self.0.taylor(f, &mut first[..to.len()]);
+        self.1.taylor(f, &mut second[..to.len()]);
+        for (to, (a, b)) in to.iter_mut().zip(first.into_iter().zip(second)) {
+            *to = Pair(a, b);
+        }
     }
     #[inline(always)]
     fn max_lane(self) -> f64 {

@@ -5,7 +5,7 @@
 //! | module | answers |
 //! | --- | --- |
 //! | [`real`], [`lanes`], [`dual`], [`jet`] | what a number is: scalar, SIMD lanes, with a derivative, with many |
-//! | [`plane`], [`table`] | vectors and motions in the plane; tables |
+//! | [`plane`], [`table`], [`motion_law`] | vectors and motions in the plane; tables; laws in pieces |
 //! | [`plan`], [`error`] | a machine's structure as it crosses the border |
 //! | [`linkage`] | positions and transfer functions of points, links and slides |
 //! | [`formula`] | what a user writes as text, as a program |
@@ -21,6 +21,7 @@
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
 //! | [`rk`], [`transient`] | motion in time from given angle and speed, with its events |
 //! | [`batch`] | many machines: lanes and threads |
+//! | [`cam`] | profiles of cams: contact, pressure angle, curvature, many cams |
 //! | [`status`] | why a machine has no answer |
 //!
 //! Everything is SI: m, kg, s, rad, N, N m, J. φ is the crank angle, counter-clockwise positive.
@@ -29,6 +30,7 @@
 #![allow(missing_docs)]
 
 pub mod batch;
+pub mod cam;
 pub mod cycle;
 pub mod drive;
 pub mod dual;
@@ -43,6 +45,7 @@ pub mod law;
 pub mod layout;
 pub mod linkage;
 pub mod measures;
+pub mod motion_law;
 pub mod plan;
 pub mod plane;
 pub mod real;

@@ -8,11 +8,12 @@ use crate::error::PlanError;
 use crate::formula::{Degree, Formula, Op, Variable};
 use crate::further::Further;
 use crate::law::{Carrier, FormulaLoad, Law};
-use crate::linkage::coupled::{self, AngleOf, Runner, Source, Sum, Turn};
+use crate::linkage::coupled::{self, AngleOf, Programme, Runner, Source, Sum, Turn};
 use crate::linkage::folding::{ChangePoint, Folding, FoldingRod, TERMS};
 use crate::linkage::group::{Bar, Carried, Condition, Group};
 use crate::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
 use crate::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod, Slot};
+use crate::motion_law::MotionLaw;
 use crate::reduce::{Body, Load};
 use crate::table::Table;
 
@@ -51,6 +52,8 @@ pub struct Encoded<'a> {
     pub table_y: &'a [f64],
     /// Formulas end to end, each with its number of instructions in front.
     pub formulas: &'a [i32],
+    /// Motion laws end to end, as [`MotionLaw::decode`] reads them.
+    pub motion_laws: &'a [f64],
 }
 
 const ROW_WIDTH: usize = 8;
@@ -66,6 +69,7 @@ struct Bounds {
     gaps: usize,
     tables: usize,
     formulas: usize,
+    motion_laws: usize,
 }
 
 fn index(value: i32, bound: usize, what: &'static str) -> Result<usize, PlanError> {
@@ -94,6 +98,9 @@ impl Bounds {
     fn formula(&self, value: i32) -> Result<usize, PlanError> {
         index(value, self.formulas, "formula")
     }
+    fn motion_law(&self, value: i32) -> Result<usize, PlanError> {
+        index(value, self.motion_laws, "motion law")
+    }
     /// A link, or −1 for the frame.
     fn link_or_frame(&self, value: i32) -> Result<Option<usize>, PlanError> {
         if value == -1 { Ok(None) } else { self.link(value).map(Some) }
@@ -113,6 +120,7 @@ impl Plan {
         let size = |value, what| index(value, i32::MAX as usize, what);
         let parameters = size(parameters, "parameter")?;
         let formulas = decode_formulas(code.formulas, parameters)?;
+        let motion_laws = decode_motion_laws(code.motion_laws)?;
         let bounds = Bounds {
             parameters,
             points: size(points, "point")?,
@@ -121,11 +129,13 @@ impl Plan {
             gaps: size(gaps, "dyad")?,
             tables: tables.len(),
             formulas: formulas.len(),
+            motion_laws: motion_laws.len(),
         };
+        let known = Known { tables: &tables, formulas: &formulas, motion_laws: &motion_laws };
         let (mut ground, mut elements) = (Vec::new(), Vec::new());
         let mut rest = code.elements;
         while !rest.is_empty() {
-            let mut row = Row::first_of(&mut rest, &bounds, &tables, &formulas)?;
+            let mut row = Row::first_of(&mut rest, &bounds, &known)?;
             match row.kind {
                 FIXED_POINT => ground.push(row.fixed()?),
                 _ => elements.push(row.element()?),
@@ -219,18 +229,19 @@ struct Row<'a> {
     kind: i32,
     rest: &'a [i32],
     bounds: &'a Bounds,
+    known: &'a Known<'a>,
+}
+
+/// What rows refer to by number and take along.
+struct Known<'a> {
     tables: &'a [Table],
     formulas: &'a [Formula],
+    motion_laws: &'a [MotionLaw],
 }
 
 impl<'a> Row<'a> {
     /// Takes the first row off a list.
-    fn first_of(
-        list: &mut &'a [i32],
-        bounds: &'a Bounds,
-        tables: &'a [Table],
-        formulas: &'a [Formula],
-    ) -> Result<Self, PlanError> {
+    fn first_of(list: &mut &'a [i32], bounds: &'a Bounds, known: &'a Known<'a>) -> Result<Self, PlanError> {
         let short = |found, expected| PlanError::Length { what: "elements", found, expected };
         let &[kind, length, ref rest @ ..] = *list else {
             return Err(short(list.len(), 2));
@@ -238,7 +249,7 @@ impl<'a> Row<'a> {
         let length = index(length, i32::MAX as usize, "length of a row")?;
         let row = rest.get(..length).ok_or_else(|| short(rest.len(), length))?;
         *list = &rest[length..];
-        Ok(Row { kind, rest: row, bounds, tables, formulas })
+        Ok(Row { kind, rest: row, bounds, known })
     }
 
     fn next(&mut self) -> Result<i32, PlanError> {
@@ -275,7 +286,7 @@ impl<'a> Row<'a> {
 
     fn table(&mut self) -> Result<Table, PlanError> {
         let value = self.next()?;
-        Ok(self.tables[self.bounds.table(value)?].clone())
+        Ok(self.known.tables[self.bounds.table(value)?].clone())
     }
 
     /// A list: how many, then each.
@@ -411,7 +422,8 @@ impl<'a> Row<'a> {
     /// `6 slotted lever: link slide gap pin pivot offset sign` · `7 crossing: point slide slide gap line line` ·
     /// `8 turn: link slide sum` · `9 runner: point slide line sum` · `10 angle: link slide winding centre` ·
     /// `11 folding: rocker`, list of change points · `12 group` · `13 bar` ·
-    /// `14 law: slide formula` · `15 folding rod: guided rod`, list of change points
+    /// `14 law: slide formula` · `15 folding rod: guided rod`, list of change points ·
+    /// `16 programme: slide phase law`
     fn element(&mut self) -> Result<Element, PlanError> {
         Ok(match self.kind {
             1 => Element::Crank {
@@ -486,8 +498,14 @@ impl<'a> Row<'a> {
             14 => {
                 let slide = self.slide()?;
                 let formula = self.next()?;
-                let formula = self.formulas[self.bounds.formula(formula)?].clone();
+                let formula = self.known.formulas[self.bounds.formula(formula)?].clone();
                 Element::Law(coupled::Law { slide, formula })
+            }
+            16 => {
+                let (slide, phase) = (self.slide()?, self.slot()?);
+                let law = self.next()?;
+                let law = self.known.motion_laws[self.bounds.motion_law(law)?].clone();
+                Element::Programme(Programme { slide, phase, law })
             }
             kind => return Err(PlanError::Kind { what: "element", kind }),
         })
@@ -618,6 +636,14 @@ fn decode_formulas(mut code: &[i32], parameters: usize) -> Result<Vec<Formula>, 
 }
 
 /// `0 number: slot` · `1 zero` · `2 variable: which` · `8 whole power: exponent`; the others have no operand.
+fn decode_motion_laws(mut list: &[f64]) -> Result<Vec<MotionLaw>, PlanError> {
+    let mut laws = Vec::new();
+    while !list.is_empty() {
+        laws.push(MotionLaw::decode(&mut list)?);
+    }
+    Ok(laws)
+}
+
 fn decode_op(code: i32, operand: i32, parameters: usize) -> Result<Op, PlanError> {
     let unknown = PlanError::Kind { what: "instruction", kind: code };
     Ok(match code {

@@ -28,6 +28,11 @@ impl<R: Real> Vec2<R> {
     pub fn dot(self, o: Self) -> R {
         self.x.mul_add(o.x, self.y * o.y)
     }
+    /// The component of the vector product across the plane: positive where `o` points to the left of `self`.
+    #[inline(always)]
+    pub fn cross(self, o: Self) -> R {
+        self.x.mul_add(o.y, -(self.y * o.x))
+    }
     /// Turned by +90°: the direction to the left of `self`.
     #[inline(always)]
     pub fn left(self) -> Self {

@@ -9,6 +9,9 @@
 use std::f64::consts::FRAC_PI_2;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+/// Most Taylor coefficients that a number can ask for: the series at a change point, and the few beyond it.
+pub const COEFFICIENTS: usize = 24;
+
 /// A real number, or a bundle of them that is worked on together.
 pub trait Real:
     Copy
@@ -44,6 +47,9 @@ pub trait Real:
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self;
     /// Applies a scalar function `x ↦ (value, slope)` lane by lane; only tables need it.
     fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self;
+    /// Taylor coefficients at `self` of a scalar function, lane by lane: `f` fills in as many as there is room
+    /// for. Only motion laws need it.
+    fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]);
     /// Largest lane; of several lanes a NaN is passed over.
     fn max_lane(self) -> f64;
     /// Runs `f` as a function of its own, compiled for the same instruction set. Cuts kernels at their
@@ -170,6 +176,10 @@ impl Real for f64 {
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
         f(self).0
+    }
+    #[inline(always)]
+    fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]) {
+        f(self, to);
     }
     #[inline(always)]
     fn max_lane(self) -> f64 {

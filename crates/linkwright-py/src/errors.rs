@@ -12,6 +12,7 @@ pub(crate) fn plan_error(error: PlanError) -> PyErr {
         PlanError::Length { .. }
         | PlanError::Kind { .. }
         | PlanError::Table { .. }
-        | PlanError::Formula { .. } => PyValueError::new_err(text),
+        | PlanError::Formula { .. }
+        | PlanError::MotionLaw => PyValueError::new_err(text),
     }
 }

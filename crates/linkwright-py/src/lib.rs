@@ -4,6 +4,7 @@
 #![allow(missing_docs, clippy::too_many_arguments)]
 
 mod arrays;
+mod cam;
 mod errors;
 
 use arrays::{as_indices, below, channels, column};
@@ -39,6 +40,7 @@ impl Plan {
         table_x: Floats<'_>,
         table_y: Floats<'_>,
         formulas: Ints<'_>,
+        motion_laws: Floats<'_>,
     ) -> PyResult<Self> {
         let code = Encoded {
             sizes: sizes.as_slice()?,
@@ -50,6 +52,7 @@ impl Plan {
             table_x: table_x.as_slice()?,
             table_y: table_y.as_slice()?,
             formulas: formulas.as_slice()?,
+            motion_laws: motion_laws.as_slice()?,
         };
         CorePlan::decode(&code).map(Plan).map_err(plan_error)
     }
@@ -307,6 +310,8 @@ fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Curve<'py
 
 #[pymodule(gil_used = false)]
 mod _core {
+    #[pymodule_export]
+    use super::cam::{Cam, cam_crossings};
     #[pymodule_export]
     use super::{
         Plan, change_point, follow_group, gaps, kinks, law_torques, motions, motor_torques, reductions,

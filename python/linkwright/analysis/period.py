@@ -72,7 +72,9 @@ def _places(compiled: Compiled, angles: Floats) -> Floats:
     out = np.empty((1, 6 * n_points + 4 * len(compiled.links), len(angles)))
     compiled.first().motions(angles, what, out.reshape(-1))
     points = out[0, : 6 * n_points].reshape(n_points, 6, -1)[:, :2].reshape(2 * n_points, -1)
-    links = out[0, 6 * n_points :].reshape(len(compiled.links), 4, -1)[:, :2].reshape(-1, len(angles))
+    links = (
+        out[0, 6 * n_points :].reshape(len(compiled.links), 4, len(angles))[:, :2].reshape(-1, len(angles))
+    )
     points = np.where(np.isfinite(points), points, 0.0)
     size = np.abs(points).max(initial=0.0)
     places: Floats = np.nan_to_num(np.concatenate([points / (size or 1.0), links]))

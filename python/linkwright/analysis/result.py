@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
+# What a table in a result may hold to be written out.
+_PLAIN = (bool, int, float, str, tuple, dict)
+
+
 class Result:
     """Base of the frozen results of analyses: dataclasses of SI scalars, tables (tuples) and arrays.
 
@@ -38,7 +42,8 @@ class Result:
                 if curves:
                     found[name] = value.tolist()
             elif isinstance(value, tuple):
-                found[name] = list(value)
+                if all(x is None or isinstance(x, _PLAIN) for x in value):
+                    found[name] = list(value)
             elif isinstance(value, np.generic):
                 found[name] = value.item()
             elif value is None or isinstance(value, bool | int | float | str):

@@ -19,6 +19,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
+from linkwright.analysis.cam.faults import cam_cautions, cam_faults
+from linkwright.analysis.cam.loaded import LoadedCam, loaded_cam
+from linkwright.analysis.cam.profile import CamProfile, cam_profile
 from linkwright.analysis.cautions import cautions, has_inertia
 from linkwright.analysis.closure import require_full_turn
 from linkwright.analysis.constant_energy import ConstantEnergy, constant_energy_of
@@ -38,7 +41,7 @@ from linkwright.analysis.step_method import StepMotion, step_method
 from linkwright.analysis.transient import Transient, transient
 from linkwright.analysis.unit_cautions import unit_cautions
 from linkwright.engine import compile_machine, drive_inertia
-from linkwright.errors import FindingError
+from linkwright.errors import CamError, FindingError
 from linkwright.machine import ConstantSpeedMotor, Machine
 
 T = TypeVar("T")
@@ -69,6 +72,10 @@ class Study:
         Motion of the polished rod and of its rotator.
     linkage : Linkage or None
         Extreme positions, transmission angles and Grashof classes.
+    cams : tuple of CamProfile
+        Its cams; ``"cam"`` among the results, or ``"cam.NAME"`` if there are several.
+    loaded_cams : tuple of LoadedCam
+        The same under load, ``"cam_force"``.
     attempt : Transient or None
         The motion from the start to the stall, where the run-up fails on the way.
     findings : tuple of str
@@ -89,6 +96,8 @@ class Study:
     pumping_unit: PumpingUnitMotion | None = None
     rotator: RodRotatorMotion | None = None
     linkage: Linkage | None = None
+    cams: tuple[CamProfile, ...] = ()
+    loaded_cams: tuple[LoadedCam, ...] = ()
     findings: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
 
@@ -101,8 +110,11 @@ class Study:
         """The results that there are, by analysis."""
         first = ("linkage", "pumping_unit", "gear_torque", "rotator", "reduction", "constant_energy")
         names = (*first, "steady_state", "step_method", "run_up", "run_down", "forces")
-        found = {name: getattr(self, name) for name in names}
-        return {name: result for name, result in found.items() if result is not None}
+        found: dict[str, Result | None] = {name: getattr(self, name) for name in names}
+        single = len(self.cams) == 1
+        cams: dict[str, Result] = {"cam" if single else f"cam.{each.name}": each for each in self.cams}
+        cams |= {"cam_force" if single else f"cam_force.{each.name}": each for each in self.loaded_cams}
+        return {**cams, **{name: result for name, result in found.items() if result is not None}}
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Name, results, findings and warnings, ready for JSON.
@@ -154,15 +166,47 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     rotator = found.of(rod_rotator, machine, n=_INTERVALS) if machine.rod_rotator else None
     # A linkage that closes nowhere is told of by what follows.
     moved = _Findings().of(linkage, machine)
+    cams = _cams(machine, found)
     driven = _moved(machine, found) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
+    loaded = _loaded(machine, cams, driven.forces, found)
     return replace(
         driven,
         pumping_unit=unit,
         rotator=rotator,
         linkage=moved if moved is not None and moved.elements else None,
+        cams=cams,
+        loaded_cams=loaded,
         findings=found.sentences(),
-        warnings=(*unit_cautions(machine, unit, rotator), *driven.warnings),
+        warnings=(*unit_cautions(machine, unit, rotator), *_cam_warnings(cams), *driven.warnings),
     )
+
+
+def _cams(machine: Machine, found: _Findings) -> tuple[CamProfile, ...]:
+    """All cams; what makes one impossible is a finding."""
+    looked = [found.of(cam_profile, machine, name) for name in machine.mechanism.cams]
+    profiles = tuple(each for each in looked if each is not None)
+    found.errors += [CamError(text) for each in profiles for text in cam_faults(each)]
+    return profiles
+
+
+def _loaded(
+    machine: Machine, cams: tuple[CamProfile, ...], borne: Forces | None, found: _Findings
+) -> tuple[LoadedCam, ...]:
+    """The cams under load; a follower that leaves its cam is a finding."""
+    speed = None if machine.drive is None else machine.drive.speed
+    if not (machine.bodies or machine.loads) or (borne is None and speed is None):
+        return ()
+    along = borne if borne is not None else _Findings().of(forces, machine, speed=speed)
+    if along is None:
+        return ()
+    looked = [_Findings().of(loaded_cam, machine, each, along) for each in cams]
+    loaded = tuple(each for each in looked if each is not None)
+    found.errors += [CamError(text) for each in loaded for text in each.findings]
+    return loaded
+
+
+def _cam_warnings(cams: tuple[CamProfile, ...]) -> tuple[str, ...]:
+    return tuple(sentence(text) for each in cams for text in cam_cautions(each))
 
 
 def _is_motion_alone(machine: Machine) -> bool:

@@ -495,6 +495,7 @@ class _Translator(Rows):
             np.array([value for x, _ in self.tables for value in x], dtype=np.float64),
             np.array([value for _, y in self.tables for value in y], dtype=np.float64),
             _ints(self.formulas),
+            np.array(self.motion_laws, dtype=np.float64),
         )
 
 

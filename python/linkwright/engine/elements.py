@@ -16,16 +16,19 @@ import numpy as np
 from linkwright.engine.numbers import Numbers
 from linkwright.machine import (
     Cable,
+    Cam,
     Crank,
     Crossing,
     Gear,
     Guide,
     LinearDriver,
     Mechanism,
+    OscillatingFollower,
     Rack,
     Rocker,
     Slider,
     SlottedLever,
+    TranslatingFollower,
     Yoke,
     formula,
 )
@@ -184,6 +187,11 @@ class Rows(Numbers):
 
     def _crank(self, name: str, crank: Crank) -> None:
         pivot = self._fixed_or_origin(crank.pivot)
+        if isinstance(crank, OscillatingFollower):
+            self._turn(name, crank.phase, [(self._programme(name, crank.cam), crank.turn)])
+            row = [4, self._point(name), self.links[name], pivot]
+            self.rows.append(row + self.slots(crank.radius, 0.0))
+            return
         if crank.law is not None:
             self._turn(name, crank.phase, [(self._law(name, crank.law, crank.constants), 1.0)])
             row = [4, self._point(name), self.links[name], pivot]
@@ -193,7 +201,9 @@ class Rows(Numbers):
         self.rows.append(row + self.slots(crank.radius, np.cos(crank.phase), np.sin(crank.phase)))
 
     def _linear_driver(self, name: str, driver: LinearDriver) -> None:
-        if driver.law is not None:
+        if isinstance(driver, TranslatingFollower):
+            terms = [(self._programme(name, driver.cam), 1.0)]
+        elif driver.law is not None:
             terms = [(self._law(name, driver.law, driver.constants), 1.0)]
         else:
             assert driver.per_turn is not None
@@ -205,6 +215,12 @@ class Rows(Numbers):
         slide = self._slide(f"{name}.law")
         known = {key: self.slot(value) for key, value in constants.items()}
         self.rows.append([14, slide, self._formula(formula.parse(law), known)])
+        return slide
+
+    def _programme(self, name: str, cam: Cam) -> int:
+        """A coordinate that follows the lift of a cam."""
+        slide = self._slide(f"{name}.lift")
+        self.rows.append([16, slide, self.slot(cam.phase), self._motion_law(cam.lift)])
         return slide
 
     def _slider(self, name: str, slider: Slider) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from linkwright.machine import formula
+from linkwright.motion_laws.motion_law import MotionLaw
 
 # Variables and instructions of formulas in the order of the core's modules `formula` and `plan`.
 _VARIABLES = ("phi", "omega", "t", "x", "y", "vx", "vy", "v", "s", "psi", "psi_dot")
@@ -16,6 +18,15 @@ _INSTRUCTIONS = (
     *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "sqrt", "tanh"),
     *("abs", "sign", "step", "min", "max", "where"),
 )
+
+
+def encoded(law: MotionLaw) -> list[float]:
+    """A motion law as the core reads it, `MotionLaw::decode` in `crates/linkwright-core`."""
+    numbers = [float(len(law.pieces))]
+    for (low, high), piece in zip(pairwise(law.breaks), law.pieces, strict=True):
+        numbers += [low, high - low, len(piece.polynomial), *piece.polynomial, len(piece.harmonics)]
+        numbers += [x for harmonic in piece.harmonics for x in harmonic]
+    return numbers
 
 
 class Numbers:
@@ -27,6 +38,8 @@ class Numbers:
         self.tables: list[tuple[Sequence[float], Sequence[float]]] = []
         self.formulas: list[int] = []
         self.n_formulas = 0
+        self.motion_laws: list[float] = []
+        self.n_motion_laws = 0
 
     def slot(self, value: Any) -> int:
         """Adds a parameter; one that is an array varies from row to row."""
@@ -42,6 +55,12 @@ class Numbers:
     def _table(self, x: Sequence[float], y: Sequence[float]) -> int:
         self.tables.append((x, y))
         return len(self.tables) - 1
+
+    def _motion_law(self, law: MotionLaw) -> int:
+        """Adds a motion law over a turn."""
+        self.motion_laws += encoded(law)
+        self.n_motion_laws += 1
+        return self.n_motion_laws - 1
 
     def _formula(self, term: formula.Node, constants: dict[str, int]) -> int:
         """Adds the instructions of a formula."""

@@ -8,6 +8,7 @@
 | `catalogue` | published motors |
 | `element` | cranks, dyads, gears, cables, joints and bars |
 | `mechanism` | all elements by name |
+| `cam`, `motion_section`, `motion_law` | cams, and how their followers move |
 | `assembly` | in which order a mechanism is built; what is missing or too much |
 | `pumping_unit`, `polished_rod_load`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
 | `unit_catalogue` | published pumping units |
@@ -23,6 +24,7 @@
 
 from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.body import Body
+from linkwright.machine.cam import Cam, OscillatingFollower, TranslatingFollower
 from linkwright.machine.catalogue import CatalogueMotor, motor, motors
 from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
 from linkwright.machine.element import (
@@ -84,6 +86,7 @@ __all__ = [
     "Body",
     "Brake",
     "Cable",
+    "Cam",
     "CatalogueMotor",
     "CatalogueUnit",
     "ConstantForce",
@@ -114,6 +117,7 @@ __all__ = [
     "Machine",
     "Mechanism",
     "Motor",
+    "OscillatingFollower",
     "PolishedRodLoad",
     "PumpingUnit",
     "Rack",
@@ -129,6 +133,7 @@ __all__ = [
     "TorqueSpeed",
     "TorsionalDamper",
     "TorsionalSpring",
+    "TranslatingFollower",
     "ViscousFriction",
     "Yoke",
     "addresses",

@@ -3,12 +3,14 @@
 | description | makes |
 | --- | --- |
 | `pumping_unit` | points `crankshaft`, `saddle`; crank `crank`; rocker `beam`; cable `polished_rod` |
+| a cam | the driver that follows it: a linear driver or a crank of its name |
 | `rod_rotator` | point `rotator_pin` on the beam; rocker `rotator`: coupler the link, rocker the lever |
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import Any, TypeVar
 
 import numpy as np
@@ -16,7 +18,8 @@ from pydantic import BaseModel
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import fault
-from linkwright.machine.element import Cable, Crank, FixedPoint, RigidPoint, Rocker
+from linkwright.machine.cam import Cam, follower_of
+from linkwright.machine.element import Cable, Crank, FixedPoint, LinearDriver, RigidPoint, Rocker
 from linkwright.machine.mechanism import Mechanism
 from linkwright.machine.outline import KINDS, Outline
 from linkwright.machine.plain import keys, look
@@ -36,6 +39,34 @@ _ROTATOR: dict[str, dict[str, dict[str, str]]] = {
     "rigid_points": {PIN: {"link": BEAM_LINK}},
     "rockers": {ROTATOR: {"crank": PIN, "pivot": ROD}},
 }
+
+
+def with_followers(own: Mechanism) -> Mechanism:
+    """A mechanism with a driver in place of each cam; the same mechanism gives the same.
+
+    Parameters
+    ----------
+    own : Mechanism
+        What the file builds of elements.
+    """
+    if not own.cams:
+        return own
+    return _kept((own,), partial(_driven, own), _has_arrays(*own.cams.values(), *own.points.values()))
+
+
+def _driven(own: Mechanism) -> Mechanism:
+    points = own.fixed_points()
+    made = {name: follower_of(cam, points) for name, cam in own.cams.items()}
+    cranks = {name: each for name, each in made.items() if isinstance(each, Crank)}
+    drivers = {name: each for name, each in made.items() if isinstance(each, LinearDriver)}
+    cams: dict[str, Cam] = {}
+    return own.with_entries(
+        {
+            "cams": cams,
+            "cranks": {**own.cranks, **cranks},
+            "linear_drivers": {**own.linear_drivers, **drivers},
+        }
+    )
 
 
 def mechanism_of(unit: PumpingUnit, rotator: RodRotator | None = None) -> Mechanism:
@@ -112,25 +143,40 @@ def merged(own: Mechanism, unit: PumpingUnit, rotator: RodRotator | None) -> Mec
     Mechanism
         All elements.
     """
-    key = (id(own), id(unit), id(rotator))
+    parts = (own, unit, rotator)
+    return _kept(parts, partial(_merged, *parts), _has_arrays(unit, rotator))
+
+
+def _merged(own: Mechanism, unit: PumpingUnit, rotator: RodRotator | None) -> Mechanism:
+    expanded = mechanism_of(unit, rotator)
+    tables = (kind.table for kind in KINDS)
+    return own.with_entries({name: {**getattr(own, name), **getattr(expanded, name)} for name in tables})
+
+
+def _has_arrays(*parts: BaseModel | None) -> bool:
+    """Whether entries of some parts vary over many machines."""
+    return any(isinstance(value, np.ndarray) for part in parts if part is not None for _, value in part)
+
+
+def _kept(parts: tuple[object, ...], make: Callable[[], Mechanism], varies: bool) -> Mechanism:
+    """What is made of some parts, the same as before if they are the same."""
+    key = tuple(map(id, parts))
     known = _known.get(key)
     if known is not None:
         return known[1]
-    expanded = mechanism_of(unit, rotator)
-    tables = (kind.table for kind in KINDS)
-    made = own.with_entries({name: {**getattr(own, name), **getattr(expanded, name)} for name in tables})
-    if any(isinstance(value, np.ndarray) for part in (unit, rotator) if part for _, value in part):
+    made = make()
+    if varies:
         # Arrays are large, and may change in place.
         return made
     if len(_known) >= _KNOWN_MAX:
         _known.pop(next(iter(_known)), None)
-    _known[key] = ((own, unit, rotator), made)
+    _known[key] = (parts, made)
     return made
 
 
-# Mechanisms merged last, with the parts they were made of: these keep their identity while they stand here,
+# Mechanisms made last, with the parts they were made of: these keep their identity while they stand here,
 # and the engine knows a machine again by the identity of its elements.
-_known: dict[tuple[int, int, int], tuple[tuple[object, ...], Mechanism]] = {}
+_known: dict[tuple[int, ...], tuple[tuple[object, ...], Mechanism]] = {}
 _KNOWN_MAX = 16
 
 

@@ -12,7 +12,7 @@ from linkwright.errors import MachineError
 from linkwright.machine.base import Description, fault, faults_of, raise_faults
 from linkwright.machine.body import Body, body_faults
 from linkwright.machine.drive import Drive
-from linkwright.machine.linkage import expansion_faults, merged, outline_of
+from linkwright.machine.linkage import expansion_faults, merged, outline_of, with_followers
 from linkwright.machine.loads import AnyLoad
 from linkwright.machine.loads.references import load_faults
 from linkwright.machine.mechanism import Mechanism
@@ -69,10 +69,9 @@ class Machine(Description):
 
     @property
     def linkage(self) -> Mechanism:
-        """The whole mechanism: elements of the file, and those that a pumping unit expands into."""
-        if self.pumping_unit is None:
-            return self.mechanism
-        return merged(self.mechanism, self.pumping_unit, self.rod_rotator)
+        """The whole mechanism: elements of the file, and those that cams and a pumping unit expand into."""
+        own = with_followers(self.mechanism)
+        return own if self.pumping_unit is None else merged(own, self.pumping_unit, self.rod_rotator)
 
     @model_validator(mode="wrap")
     @classmethod

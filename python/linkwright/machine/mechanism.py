@@ -12,6 +12,7 @@ from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_va
 
 from linkwright.machine.assembly import Step
 from linkwright.machine.base import Description, Name, faults_of, raise_faults
+from linkwright.machine.cam import Cam, cam_place_faults
 from linkwright.machine.element import (
     Bar,
     Cable,
@@ -67,6 +68,7 @@ class Mechanism(Description):
     linear_drivers: dict[Name, LinearDriver] = Field(
         default_factory=dict, description="Points moved along a guide by the drive, by name."
     )
+    cams: dict[Name, Cam] = Field(default_factory=dict, description="Cams and their followers by name.")
     slotted_levers: dict[Name, SlottedLever] = Field(
         default_factory=dict, description="Slotted levers by name."
     )
@@ -93,6 +95,7 @@ class Mechanism(Description):
             raise_faults(cls.__name__, [*faults_of(error), *Outline.of(data).faults(values_fit=False)])
             raise
         raise_faults(cls.__name__, Outline.of(mechanism).faults())
+        raise_faults(cls.__name__, cam_place_faults(mechanism))
         return mechanism
 
     def fixed_points(self) -> dict[str, FixedPoint]:
@@ -119,6 +122,9 @@ class Mechanism(Description):
         found: dict[str, Link] = {}
         for name, crank in self.cranks.items():
             found[name] = Link("crank", name, crank.pivot or ORIGIN, name, crank.radius)
+        for name, cam in self.cams.items():
+            if cam.is_oscillating:
+                found[name] = Link("crank", name, cam.arm_pivot or ORIGIN, name, cam.arm_length or 0.0)
         for name, slider in self.sliders.items():
             found[f"{name}.rod"] = Link("rod", name, slider.crank, name, slider.rod)
         for name, rocker in self.rockers.items():

@@ -5,6 +5,7 @@
 | fixed point `P` | `P` | – | – | – |
 | crank `A` | `A`, its pin | `A`, pivot → pin | – | a fixed point |
 | linear driver `D` | `D` | – | `D` | its guide |
+| cam `C` | `C`, on the follower | `C`, if it oscillates, pivot → `C` | `C`, if it translates | fixed points |
 | slider `S` | `S` | `S.rod`, driving point → slider | `S` | a moving point, its guide |
 | rocker `R` | `R`, joint | `R.coupler`, driving point → joint; `R.rocker`, pivot → joint | – | two points |
 | slotted lever `L` | – | `L`, pivot → pin | `L`, distance along the slot | a moving point, a point |
@@ -50,6 +51,8 @@ class ElementKind(NamedTuple):
     links: tuple[str, ...] = ()
     slides: tuple[str, ...] = ()
     references: Mapping[str, Wanted] = MappingProxyType({})
+    # Key and value that tell elements of one table apart; the first of such kinds is that without the key.
+    variant: tuple[str, str] | None = None
 
 
 def _guide(key: str, **others: Wanted) -> dict[str, Wanted]:
@@ -61,6 +64,20 @@ KINDS = (
     ElementKind("points", "fixed point"),
     ElementKind("cranks", "crank", links=("",), references={"pivot": "fixed point"}),
     ElementKind("linear_drivers", "linear driver", slides=("",), references=_guide("guide")),
+    ElementKind(
+        "cams",
+        "cam",
+        slides=("",),
+        references={"pivot": "fixed point"},
+        variant=("follower", "translating"),
+    ),
+    ElementKind(
+        "cams",
+        "cam",
+        links=("",),
+        references={"pivot": "fixed point", "arm_pivot": "fixed point"},
+        variant=("follower", "oscillating"),
+    ),
     ElementKind(
         "sliders",
         "slider",
@@ -110,7 +127,7 @@ KINDS = (
 )
 
 # Tables of the elements that the drive moves.
-DRIVERS = ("cranks", "linear_drivers")
+DRIVERS = ("cranks", "linear_drivers", "cams")
 
 
 @dataclass(frozen=True, slots=True)
@@ -363,6 +380,8 @@ def _elements(kind: ElementKind, table: object) -> Iterator[Element]:
     """The elements of one table."""
     for name in keys(table):
         element = look(table, name)
+        if kind.variant is not None and (look(element, kind.variant[0]) == "oscillating") != bool(kind.links):
+            continue
         found: dict[str, object] = {}
         for key in kind.references:
             part: object = element

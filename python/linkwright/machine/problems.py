@@ -15,9 +15,6 @@ from linkwright.machine.schema_walk import annotation_at, kinds_at, model_of, wo
 from linkwright.machine.text import join
 from linkwright.units import show
 
-# Where a table has a `kind`, pydantic puts that kind into the place of an error: its position there.
-_KIND_IN_PLACE = {"loads": 2, "drive": 2}
-
 
 def problems(error: ValidationError, model: type[BaseModel], data: object) -> list[Problem]:
     """All problems that an error holds.
@@ -42,7 +39,7 @@ def problems(error: ValidationError, model: type[BaseModel], data: object) -> li
 
 def _problem(error: ErrorDetails, model: type[BaseModel], data: object) -> Problem:
     """One problem in words."""
-    place = _place(error["loc"])
+    place = _place(error["loc"], model, data)
     context: dict[str, Any] = error.get("ctx") or {}
     match error["type"]:
         case "problem":
@@ -57,13 +54,20 @@ def _problem(error: ErrorDetails, model: type[BaseModel], data: object) -> Probl
     return Problem(join(place), show(error["input"]), words_of(annotation_at(model, place, data)))
 
 
-def _place(location: Iterable[str | int]) -> tuple[str, ...]:
-    """The keys from the top down, without pydantic's own marks between them."""
-    parts = [str(part) for part in location if part != "[key]"]
-    kind = _KIND_IN_PLACE.get(parts[0], 0) if parts else 0
-    if kind and len(parts) > kind and (parts[0] == "loads" or parts[1] == "motor"):
-        del parts[kind]
-    return tuple(parts)
+def _place(location: Iterable[str | int], model: type[BaseModel], data: object) -> tuple[str, ...]:
+    """The keys from the top down, without pydantic's own marks between them.
+
+    Where a table has a `kind`, pydantic puts that kind into the place of an error.
+    """
+    place: list[str] = []
+    node, tagged = data, False
+    for part in (str(each) for each in location if each != "[key]"):
+        kinds = kinds_at(annotation_at(model, place, data)) if place and not tagged else []
+        tagged = len(kinds) > 1 and (part in kinds or part == look(node, "kind"))
+        if not tagged:
+            place.append(part)
+            node = look(node, part)
+    return tuple(place)
 
 
 def _as_written(place: Sequence[str], data: object, found: str) -> str:
@@ -89,7 +93,11 @@ def _wrong_kind(place: tuple[str, ...], model: type[BaseModel], data: object) ->
     """A table whose kind is missing or unknown."""
     known = kinds_at(annotation_at(model, place[:-1], data))
     found = data
-    for key in place:
+    for n, key in enumerate(place):
+        if isinstance(found, str):
+            # A name in place of a table.
+            place = place[:n]
+            break
         found = look(found, key)
     expected = "one of " + ", ".join(f'"{each}"' for each in known)
     if found is None:

@@ -67,8 +67,11 @@ def words_of(annotation: Any) -> str:
         return quoted[0] if len(quoted) == 1 else "one of " + ", ".join(quoted)
     if any(_is_model(each) or get_origin(each) is dict for each in bare):
         return "a table"
-    if any(get_origin(each) is tuple for each in bare):
-        return "a list of two names"
+    lists = [each for each in bare if get_origin(each) is tuple]
+    if lists:
+        return "a list of whole numbers" if get_args(lists[0])[0] is int else "a list of two names"
+    if int in bare:
+        return "a whole number"
     return "a text" if str in bare else "another value"
 
 

@@ -1,9 +1,5 @@
 """A motion law: lift over angle, or over time, in pieces that are polynomials and harmonics.
 
-Each piece counts its own u from 0 to 1 and is
-
-.. math:: s(u) = \\sum_i c_i u^i + \\sum_j (a_j \\cos k_j u + b_j \\sin k_j u)
-
 Every law of the textbooks has this form, and so have its derivatives, its sums with others, its stretched and
 its mirrored image: all of them are exact.
 """
@@ -14,107 +10,22 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.motion_laws.piece import Harmonic, Piece
 from linkwright.motion_laws.zeros import zeros
+
+__all__ = ["Extreme", "Harmonic", "MotionLaw", "Piece", "combined", "joined"]
 
 Floats = NDArray[np.float64]
 Side = Literal["after", "before"]
 
 # Share of the whole domain below which two breaks are one.
 _SAME = 1e-12
-
-
-class Harmonic(NamedTuple):
-    """a cos ku + b sin ku.
-
-    Attributes
-    ----------
-    frequency : float
-        k [rad over the piece].
-    cosine, sine : float
-        a, b.
-    """
-
-    frequency: float
-    cosine: float
-    sine: float
-
-
-class Piece(NamedTuple):
-    """A stretch of a law, over u from 0 to 1.
-
-    Attributes
-    ----------
-    polynomial : tuple of float
-        Coefficients from the constant on; none is zero.
-    harmonics : tuple of Harmonic
-        What is added to the polynomial.
-    """
-
-    polynomial: tuple[float, ...]
-    harmonics: tuple[Harmonic, ...] = ()
-
-    def at(self, u: ArrayLike) -> Floats:
-        """Value over u, of the same shape."""
-        u = np.asarray(u, dtype=float)
-        value = np.zeros_like(u)
-        for coefficient in reversed(self.polynomial):
-            value = value * u + coefficient
-        for k, a, b in self.harmonics:
-            value = value + a * np.cos(k * u) + b * np.sin(k * u)
-        return value
-
-    def derivative(self, length: float) -> Piece:
-        """Derivative by x = length·u."""
-        polynomial = tuple(i * c / length for i, c in enumerate(self.polynomial))[1:]
-        harmonics = tuple(Harmonic(k, k * b / length, -k * a / length) for k, a, b in self.harmonics)
-        return Piece(polynomial, harmonics)
-
-    def scaled(self, factor: float, shift: float = 0.0) -> Piece:
-        """Factor times the piece, plus a constant."""
-        polynomial = [factor * c for c in self.polynomial] or [0.0]
-        polynomial[0] += shift
-        return Piece(
-            tuple(polynomial), tuple(Harmonic(k, factor * a, factor * b) for k, a, b in self.harmonics)
-        )
-
-    def part(self, low: float, high: float) -> Piece:
-        """The stretch from u = low to high, counted from 0 to 1 anew; low above high turns it round."""
-        width = high - low
-        n = len(self.polynomial)
-        shifted = tuple(
-            math.fsum(self.polynomial[j] * math.comb(j, i) * low ** (j - i) for j in range(i, n)) * width**i
-            for i in range(n)
-        )
-        return Piece(shifted, tuple(_shifted(each, low, width) for each in self.harmonics))
-
-    def plus(self, other: Piece) -> Piece:
-        """The sum of two pieces over the same stretch."""
-        n = max(len(self.polynomial), len(other.polynomial))
-        first, second = (each.polynomial + (0.0,) * (n - len(each.polynomial)) for each in (self, other))
-        polynomial = tuple(a + b for a, b in zip(first, second, strict=True))
-        return Piece(polynomial, self.harmonics + other.harmonics)
-
-    @property
-    def waves(self) -> float:
-        """The highest frequency [rad over the piece]."""
-        return max((abs(each.frequency) for each in self.harmonics), default=0.0)
-
-    def vanishes(self, scale: float) -> bool:
-        """Whether all coefficients are zero within rounding of a scale."""
-        sizes = [*self.polynomial, *(x for each in self.harmonics for x in each[1:])]
-        return all(abs(each) <= 64 * np.finfo(float).eps * scale for each in sizes)
-
-
-def _shifted(harmonic: Harmonic, low: float, width: float) -> Harmonic:
-    """A harmonic over low + width·u."""
-    k, a, b = harmonic
-    cos, sin = math.cos(k * low), math.sin(k * low)
-    return Harmonic(k * width, a * cos + b * sin, b * cos - a * sin)
 
 
 class Extreme(NamedTuple):
@@ -225,6 +136,20 @@ class MotionLaw:
         pieces = tuple(piece.derivative(length) for _, length, piece in self._stretches())
         return MotionLaw(self.breaks, pieces)
 
+    def integral(self, start: float = 0.0) -> MotionLaw:
+        """The law whose derivative this is, continuous, beginning with a value.
+
+        Parameters
+        ----------
+        start : float
+            That value.
+        """
+        pieces: list[Piece] = []
+        for _, length, piece in self._stretches():
+            pieces.append(piece.integral(length, start))
+            start = float(pieces[-1].at(1.0))
+        return MotionLaw(self.breaks, tuple(pieces))
+
     # -- laws from laws ----------------------------------------------------------------------------------
 
     def scaled(self, factor: float, shift: float = 0.0) -> MotionLaw:
@@ -248,18 +173,18 @@ class MotionLaw:
         return self._cut([low, *(x for x in self.breaks if low < x < high), high])
 
     def shifted(self, by: float) -> MotionLaw:
-        """The law over its whole stretch, starting ``by`` later and going on at its start: for periodic laws."""
+        """A periodic law over its whole stretch, starting ``by`` later and going on at its start."""
         by = by % self.length
-        if by == 0:
-            return self
         cut = self.end - by
+        if not self.start < cut < self.end:
+            return self
         tail, head = self.stretch(cut, self.end), self.stretch(self.start, cut)
         return joined([tail.placed(self.start, by), head.placed(self.start + by, self.length - by)])
 
     def _cut(self, breaks: Sequence[float]) -> MotionLaw:
         """The same law with other breaks, of which none lies inside a piece unseen."""
         own, pieces = np.array(self.breaks), []
-        for low, high in zip(breaks, breaks[1:], strict=False):
+        for low, high in pairwise(breaks):
             i = int(np.clip(np.searchsorted(own, 0.5 * (low + high)) - 1, 0, len(self.pieces) - 1))
             start, length = self.breaks[i], self.breaks[i + 1] - self.breaks[i]
             ends = (low - start) / length, (high - start) / length
@@ -275,7 +200,7 @@ class MotionLaw:
         return self.at(inner, order, "after") - self.at(inner, order, "before")
 
     def zeros(self, order: int = 0) -> list[float]:
-        """Where a derivative is zero inside the pieces, increasing; a piece that is zero throughout has none."""
+        """Where a derivative is zero inside the pieces, increasing; a piece that is zero has none."""
         law = self.derivative(order)
         scale = max((float(np.abs(p.at(np.linspace(0, 1, 9))).max()) for p in law.pieces), default=0.0)
         found: list[float] = []

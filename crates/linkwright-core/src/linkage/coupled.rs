@@ -8,6 +8,7 @@ use super::guided::{Line, on_line};
 use super::{Motion, Slot};
 use crate::formula::{Formula, Inputs};
 use crate::jet::Jet;
+use crate::motion_law::MotionLaw;
 use crate::plane::{Angle, Vec2};
 use crate::real::Real;
 
@@ -83,6 +84,20 @@ pub struct AngleOf {
 pub struct Law {
     pub slide: usize,
     pub formula: Formula,
+}
+
+/// A coordinate that follows a motion law, which begins at crank angle `phase`: the lift of a cam's follower.
+#[derive(Clone, Debug)]
+pub struct Programme {
+    pub slide: usize,
+    pub phase: Slot,
+    pub law: MotionLaw,
+}
+
+#[inline(always)]
+pub(super) fn programme<R: Real>(e: &Programme, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
+    let [s, d1, d2] = e.law.at(angle.phi - q[e.phase]);
+    m.slides[e.slide].set(s, d1, d2);
 }
 
 /// The formula worked in series of φ, which brings its derivatives along.

@@ -7,7 +7,7 @@
 //! | --- | --- |
 //! | here | crank, rod on a fixed guide (RRP), rocker (RRR), point of a link |
 //! | [`guided`] | guides that may turn: RRP, RPR, PRP, RPP |
-//! | [`coupled`] | gears, belts, racks, cables, linear drivers |
+//! | [`coupled`] | gears, belts, racks, cables, linear drivers, cam followers |
 //! | [`folding`] | the dyads RRR and RRP through their change points |
 //! | [`group`] | groups that do not split into dyads |
 //! | [`trace`] | what the last two need to know of the motion beforehand |
@@ -23,7 +23,7 @@ pub mod group;
 pub mod guided;
 pub mod trace;
 
-use coupled::{AngleOf, Law, Runner, Turn};
+use coupled::{AngleOf, Law, Programme, Runner, Turn};
 use folding::{Folding, FoldingRod};
 use group::{Bar, Group};
 use guided::{Crossing, GuidedRod, Line, SlottedLever};
@@ -76,6 +76,8 @@ pub enum Element {
     Bar(Bar),
     /// A coordinate by a formula of the crank angle.
     Law(Law),
+    /// A coordinate that follows a motion law in pieces.
+    Programme(Programme),
 }
 
 /// Fields of the dyad RRP. The guide has direction (`cos`, `sin`) and passes `offset` to the left of point
@@ -255,6 +257,7 @@ impl Element {
                 guided::bar(m, e.link, &from, &to, q[e.inverse_length]);
             }
             Element::Law(e) => coupled::law(e, q, angle, m),
+            Element::Programme(e) => coupled::programme(e, q, angle, m),
             Element::Crank { .. }
             | Element::SliderRod(_)
             | Element::Rocker(_)

@@ -2,6 +2,12 @@
 
 | module | answers |
 | --- | --- |
+| `contact` | which followers touch which cam, and the curves that follow from it |
+| `profile` | what is known of a cam: lift, pressure angle, curvature over a turn, and their extremes |
+| `opposite` | do two followers touch one cam at every angle? |
+| `faults` | is it undercut, pointed, crossed, too hollow for its cutter, too steep? |
+| `loaded` | what presses on the cam in its machine, how hard, and when contact is lost |
+| `least_base` | how small may the base circle be, how large the roller? |
 | `hertz` | how hard do cam and roller press on each other, and how deep does it reach? |
 | `contact_force` | what do cam and follower press on each other, which flank carries, what torque? |
 | `bearing` | how do guide or pivot hold the follower, and what does their friction take? |

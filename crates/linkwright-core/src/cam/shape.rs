@@ -1,0 +1,245 @@
+//! A cam over the whole turn: contacts at many angles, extremes and zeros located to rounding.
+//!
+//! Each piece of the law is looked at by itself, both ends included: a derivative that jumps at a joint has two
+//! values there, and both count. Between neighbouring angles an extreme is a zero of the exact derivative (dual
+//! numbers), and every zero is enclosed before it is refined.
+
+use super::{Cam, Contact, Kind};
+use crate::dual::Dual;
+use crate::jet::Jet;
+use crate::motion_law::{MotionLaw, Piece};
+use crate::real::Lift;
+use std::f64::consts::TAU;
+
+/// What is known at each angle.
+#[derive(Clone, Debug, Default)]
+pub struct Shape {
+    /// Cam angles, increasing; each joint of the law twice, from before and from after.
+    pub phi: Vec<f64>,
+    /// Piece of the law that each angle belongs to.
+    pub piece: Vec<u32>,
+    /// One row each of [`ROWS`].
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// Lift and derivatives; pitch point and normal seen from the cam; pressure angle; bend, soundness and place
+/// along the face as in [`super`].
+pub const ROWS: usize = 12;
+
+/// Quantities whose extremes and zeros are located.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// tan γ, whose extremes are those of γ.
+    Lead,
+    /// Curvature of the pitch curve, or radius of curvature under a flat face.
+    Bend,
+    /// Place of the contact on a flat face.
+    Along,
+}
+
+/// Where a quantity is largest or least, and how much.
+#[derive(Clone, Copy, Debug)]
+pub struct Extreme {
+    pub phi: f64,
+    pub value: f64,
+}
+
+/// Angles of a piece, both ends included: its share of n a turn.
+pub(super) fn angles(piece: &Piece, n: usize) -> impl Iterator<Item = f64> + use<> {
+    let steps = ((n as f64 * piece.length / TAU).round() as usize).max(LEAST);
+    let (start, step) = (piece.start, piece.length / steps as f64);
+    (0..=steps).map(move |i| start + step * i as f64)
+}
+
+/// Least number of intervals in a piece; a shorter one still shows its extremes.
+const LEAST: usize = 16;
+
+impl Cam<f64> {
+    /// Contacts at about n angles a turn, piece by piece.
+    pub fn shape(&self, law: &MotionLaw, n: usize) -> Shape {
+        let mut shape = Shape { rows: vec![Vec::with_capacity(n + n / 4); ROWS], ..Shape::default() };
+        for (number, piece) in law.pieces().iter().enumerate() {
+            for phi in angles(piece, n) {
+                shape.phi.push(phi);
+                shape.piece.push(number as u32);
+                for (row, x) in shape.rows.iter_mut().zip(self.row(piece, phi)) {
+                    row.push(x);
+                }
+            }
+        }
+        shape
+    }
+
+    /// All rows at one angle of a piece.
+    pub fn row(&self, piece: &Piece, phi: f64) -> [f64; ROWS] {
+        let [s, s1, s2, s3] = piece.at(phi);
+        let contact = self.contact([s, s1, s2]);
+        let [pitch, normal] = self.from_cam([contact.pitch, contact.normal], phi);
+        let gamma = contact.lead.y.atan2(contact.lead.x);
+        let sound = self.soundness(&contact);
+        [s, s1, s2, s3, pitch.x, pitch.y, normal.x, normal.y, gamma, contact.bend, sound, contact.along]
+    }
+
+    /// The same cam in a number that carries derivatives.
+    fn lifted<R: Lift<f64>>(&self) -> Cam<R> {
+        Cam {
+            kind: self.kind,
+            sense: self.sense,
+            side: self.side,
+            size: self.size.map(R::lift),
+            start: R::lift(self.start),
+            cos: R::lift(self.cos),
+            sin: R::lift(self.sin),
+        }
+    }
+
+    /// A curve seen from the cam, `away` from the pitch curve along its normal: place, and first and second
+    /// derivative by the cam angle.
+    pub fn curve(&self, piece: &Piece, phi: f64, away: f64) -> [[f64; 2]; 3] {
+        let cam = self.lifted::<Jet<f64, 3>>();
+        let at = Jet::variable(phi);
+        let contact = cam.contact(piece.at(at));
+        let [p] = cam.from_cam([contact.pitch.plus(contact.normal, Jet::constant(away))], at);
+        [[p.x.c[0], p.y.c[0]], [p.x.c[1], p.y.c[1]], [2.0 * p.x.c[2], 2.0 * p.y.c[2]]]
+    }
+
+    /// A quantity and its derivative by the cam angle.
+    fn quantity(&self, what: Quantity, piece: &Piece, phi: f64) -> (f64, f64) {
+        let cam = self.lifted::<Dual<f64>>();
+        let contact = cam.contact(piece.at(Dual { value: phi, d: 1.0 }));
+        let found = what.of(&contact);
+        (found.value, found.d)
+    }
+
+    /// The greatest of sign·quantity over the turn.
+    pub fn extreme(&self, what: Quantity, sign: f64, law: &MotionLaw, shape: &Shape) -> Extreme {
+        let values: Vec<f64> = (0..shape.phi.len()).map(|i| sign * what.read(shape, i)).collect();
+        let mut best = Extreme { phi: f64::NAN, value: f64::NEG_INFINITY };
+        for (i, &value) in values.iter().enumerate() {
+            if value > best.value {
+                best = Extreme { phi: shape.phi[i], value };
+            }
+        }
+        for i in peaks(&values, &shape.piece, best.value) {
+            let piece = &law.pieces()[shape.piece[i] as usize];
+            let slope = |phi: f64| self.quantity(what, piece, phi).1;
+            let phi = zero(slope, shape.phi[i - 1], shape.phi[i + 1]);
+            let value = sign * self.quantity(what, piece, phi).0;
+            if value > best.value {
+                best = Extreme { phi, value };
+            }
+        }
+        Extreme { phi: best.phi, value: sign * best.value }
+    }
+
+    /// Angles where a sampled row passes a level, with the sign of what comes after: +1 where it is above.
+    /// A joint where it jumps over the level counts as such.
+    pub fn passes(&self, row: usize, level: f64, law: &MotionLaw, shape: &Shape) -> Vec<(f64, f64)> {
+        let values = &shape.rows[row];
+        let mut found = Vec::new();
+        for i in 1..values.len() {
+            let (a, b) = (values[i - 1] - level, values[i] - level);
+            if (a < 0.0) == (b < 0.0) || a.is_nan() || b.is_nan() {
+                continue;
+            }
+            let piece = &law.pieces()[shape.piece[i] as usize];
+            let phi = if shape.piece[i] == shape.piece[i - 1] {
+                zero(|phi| self.row(piece, phi)[row] - level, shape.phi[i - 1], shape.phi[i])
+            } else {
+                shape.phi[i]
+            };
+            found.push((phi, if b < 0.0 { -1.0 } else { 1.0 }));
+        }
+        found
+    }
+}
+
+impl Quantity {
+    fn of<R: crate::real::Real>(self, contact: &Contact<R>) -> R {
+        match self {
+            Quantity::Lead => contact.lead.y / contact.lead.x,
+            Quantity::Bend => contact.bend,
+            Quantity::Along => contact.along,
+        }
+    }
+
+    /// The same from a shape.
+    fn read(self, shape: &Shape, i: usize) -> f64 {
+        match self {
+            Quantity::Lead => shape.rows[8][i].tan(),
+            Quantity::Bend => shape.rows[9][i],
+            Quantity::Along => shape.rows[11][i],
+        }
+    }
+
+    /// All that a kind of follower has.
+    pub fn of_kind(kind: Kind) -> &'static [Quantity] {
+        if kind.is_roller() {
+            &[Quantity::Lead, Quantity::Bend]
+        } else {
+            &[Quantity::Lead, Quantity::Bend, Quantity::Along]
+        }
+    }
+}
+
+/// Samples inside pieces that are higher than the one before and not lower than the one after, and whose
+/// parabola reaches the highest sample.
+fn peaks(values: &[f64], piece: &[u32], highest: f64) -> Vec<usize> {
+    let inside = |i: &usize| piece[i - 1] == piece[i + 1];
+    let top = |i: usize| {
+        let (a, b, c) = (values[i - 1], values[i], values[i + 1]);
+        let bend = 2.0 * b - a - c;
+        b + if bend > 0.0 { (c - a).powi(2) / (8.0 * bend) } else { 0.0 }
+    };
+    // The parabola may fall short of the peak by a little: one that nearly reaches is looked at too.
+    let nearly = |i: usize| top(i) + 0.1 * (top(i) - values[i]).abs() >= highest;
+    (1..values.len().saturating_sub(1))
+        .filter(inside)
+        .filter(|&i| values[i] > values[i - 1] && values[i] >= values[i + 1] && nearly(i))
+        .collect()
+}
+
+/// A zero between two angles where the signs differ, else the end where the function is nearest to zero.
+///
+/// # Source
+/// Chandrupatla, *Advances in Engineering Software* 28 (1997) 145–149.
+pub fn zero(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
+    let (mut a, mut b) = (high, low);
+    let (mut fa, mut fb) = (f(a), f(b));
+    if (fa < 0.0) == (fb < 0.0) {
+        return if fa.abs() <= fb.abs() { a } else { b };
+    }
+    let mut share = 0.5;
+    for _ in 0..ROUNDS {
+        let x = a + share * (b - a);
+        let fx = f(x);
+        let (c, fc) = if (fx < 0.0) == (fa < 0.0) {
+            (a, fa)
+        } else {
+            let old = (b, fb);
+            (b, fb) = (a, fa);
+            old
+        };
+        (a, fa) = (x, fx);
+        let near = if fa.abs() < fb.abs() { a } else { b };
+        let least = (2.0 * f64::EPSILON * near.abs() + 1e-16) / (b - a).abs();
+        if least > 0.5 || fa == 0.0 || fb == 0.0 {
+            break;
+        }
+        share = inverse_quadratic([a, b, c], [fa, fb, fc]).clamp(least, 1.0 - least);
+    }
+    if fa.abs() < fb.abs() { a } else { b }
+}
+
+/// Rounds at most; bisection alone, from a degree to rounding, needs 50.
+const ROUNDS: usize = 100;
+
+/// Where between a and b to look next: by inverse quadratic interpolation where that is safe, else in the middle.
+fn inverse_quadratic([a, b, c]: [f64; 3], [fa, fb, fc]: [f64; 3]) -> f64 {
+    let (xi, phi) = ((a - b) / (c - b), (fa - fb) / (fc - fb));
+    if phi * phi < xi && (1.0 - phi).powi(2) < 1.0 - xi {
+        fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+    } else {
+        0.5
+    }
+}

@@ -1,0 +1,172 @@
+//! Cams at the border.
+
+use linkwright_core::cam::crossing::crossings;
+use linkwright_core::cam::search::{Cams, RESULTS, search};
+use linkwright_core::cam::shape::{Quantity, ROWS};
+use linkwright_core::cam::{Cam as CoreCam, Dimensions, Kind};
+use linkwright_core::motion_law::MotionLaw;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::errors::plan_error;
+use crate::{Curve, Floats, Table};
+
+/// A law and the kind of cam that follows it.
+#[pyclass(frozen, module = "linkwright._core")]
+pub(crate) struct Cam {
+    law: MotionLaw,
+    kind: Kind,
+    sense: f64,
+    side: f64,
+}
+
+/// Angles, pieces, rows, extremes, passes.
+type Shaped<'py> = (Curve<'py>, Bound<'py, PyArray1<u32>>, Table<'py>, Table<'py>, Vec<Table<'py>>);
+
+fn table<'py>(py: Python<'py>, rows: &[Vec<f64>], width: usize) -> PyResult<Table<'py>> {
+    let table = PyArray2::<f64>::zeros(py, [rows.len(), width], false);
+    for (to, from) in table.readwrite().as_slice_mut()?.chunks_exact_mut(width.max(1)).zip(rows) {
+        to.copy_from_slice(from);
+    }
+    Ok(table)
+}
+
+fn dimensions(list: &Floats<'_>) -> PyResult<Dimensions<f64>> {
+    let &[base_radius, roller_radius, offset, distance, arm, tilt] = list.as_slice()? else {
+        return Err(PyValueError::new_err("a cam has six dimensions"));
+    };
+    Ok(Dimensions { base_radius, roller_radius, offset, distance, arm, tilt })
+}
+
+#[pymethods]
+impl Cam {
+    #[new]
+    fn new(law: Floats<'_>, kind: u8, sense: f64, side: f64) -> PyResult<Self> {
+        let mut list = law.as_slice()?;
+        let law = MotionLaw::decode(&mut list).map_err(plan_error)?;
+        let kind = Kind::of(kind).ok_or_else(|| PyValueError::new_err("no such kind of cam"))?;
+        Ok(Cam { law, kind, sense, side })
+    }
+
+    fn shape<'py>(
+        &self,
+        py: Python<'py>,
+        size: Floats<'_>,
+        n: usize,
+        levels: Vec<(usize, f64)>,
+    ) -> PyResult<Shaped<'py>> {
+        let cam = CoreCam::new(self.kind, self.sense, self.side, dimensions(&size)?);
+        if levels.iter().any(|&(row, _)| row >= ROWS) {
+            return Err(PyValueError::new_err("no such row"));
+        }
+        let (shape, extremes, passes) = py.detach(|| {
+            let shape = cam.shape(&self.law, n);
+            let mut extremes = Vec::new();
+            for &what in Quantity::of_kind(self.kind) {
+                for sign in [1.0, -1.0] {
+                    let found = cam.extreme(what, sign, &self.law, &shape);
+                    extremes.push(vec![found.phi, found.value]);
+                }
+            }
+            let passes: Vec<Vec<Vec<f64>>> = levels
+                .iter()
+                .map(|&(row, level)| {
+                    let found = cam.passes(row, level, &self.law, &shape);
+                    found.into_iter().map(|(phi, sign)| vec![phi, sign]).collect()
+                })
+                .collect();
+            (shape, extremes, passes)
+        });
+        let width = shape.phi.len();
+        Ok((
+            PyArray1::from_vec(py, shape.phi),
+            PyArray1::from_vec(py, shape.piece),
+            table(py, &shape.rows, width)?,
+            table(py, &extremes, 2)?,
+            passes.iter().map(|rows| table(py, rows, 2)).collect::<PyResult<_>>()?,
+        ))
+    }
+
+    /// All rows at cam angles; at a joint from after it, or from before.
+    fn rows<'py>(
+        &self,
+        py: Python<'py>,
+        size: Floats<'_>,
+        phi: Floats<'_>,
+        before: bool,
+    ) -> PyResult<Table<'py>> {
+        let cam = CoreCam::new(self.kind, self.sense, self.side, dimensions(&size)?);
+        let phi = phi.as_slice()?;
+        let rows = py.detach(|| {
+            let mut rows = vec![Vec::with_capacity(phi.len()); ROWS];
+            for &phi in phi {
+                let (piece, at) = self.law.piece(phi, before);
+                for (row, x) in rows.iter_mut().zip(cam.row(piece, at)) {
+                    row.push(x);
+                }
+            }
+            rows
+        });
+        table(py, &rows, phi.len())
+    }
+
+    /// Place, first and second derivative of a curve beside the pitch curve, seen from the cam.
+    fn curve<'py>(
+        &self,
+        py: Python<'py>,
+        size: Floats<'_>,
+        phi: Floats<'_>,
+        before: bool,
+        away: f64,
+    ) -> PyResult<Table<'py>> {
+        let cam = CoreCam::new(self.kind, self.sense, self.side, dimensions(&size)?);
+        let phi = phi.as_slice()?;
+        let mut rows = vec![Vec::with_capacity(phi.len()); 6];
+        for &phi in phi {
+            let (piece, at) = self.law.piece(phi, before);
+            for (row, &x) in rows.iter_mut().zip(cam.curve(piece, at, away).as_flattened()) {
+                row.push(x);
+            }
+        }
+        table(py, &rows, phi.len())
+    }
+
+    /// Results of many cams; each column has one entry or one a cam.
+    fn search<'py>(
+        &self,
+        py: Python<'py>,
+        columns: Vec<Floats<'py>>,
+        n: usize,
+        per_turn: usize,
+    ) -> PyResult<Table<'py>> {
+        let columns = columns.iter().map(|column| column.as_slice()).collect::<Result<Vec<_>, _>>()?;
+        if columns.iter().any(|column| column.len() != 1 && column.len() != n) {
+            return Err(PyValueError::new_err("columns of one entry, or one for each cam"));
+        }
+        let &[base_radius, roller_radius, offset, distance, arm, tilt, lift] = columns.as_slice() else {
+            return Err(PyValueError::new_err("six dimensions and the factor on the lift"));
+        };
+        let size = Dimensions { base_radius, roller_radius, offset, distance, arm, tilt };
+        let cams = Cams { kind: self.kind, sense: self.sense, side: self.side, size, lift, n };
+        let out = PyArray2::<f64>::zeros(py, [n, RESULTS], false);
+        {
+            let mut to = out.readwrite();
+            let to = to.as_slice_mut()?;
+            py.detach(|| search(&self.law, &cams, per_turn, to));
+        }
+        Ok(out)
+    }
+}
+
+/// Sides of a closed polygon that cross: share of each and the place, (n, 4).
+#[pyfunction]
+pub(crate) fn cam_crossings<'py>(py: Python<'py>, x: Floats<'_>, y: Floats<'_>) -> PyResult<Table<'py>> {
+    let (x, y) = (x.as_slice()?, y.as_slice()?);
+    if x.len() != y.len() {
+        return Err(PyValueError::new_err("as many x as y"));
+    }
+    let found = py.detach(|| crossings(x, y));
+    let rows: Vec<Vec<f64>> = found.iter().map(|c| vec![c.first, c.second, c.x, c.y]).collect();
+    table(py, &rows, 4)
+}

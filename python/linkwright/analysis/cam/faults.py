@@ -1,0 +1,251 @@
+r"""What is wrong with a cam: undercut, pointed, crossed, too hollow, not of constant diameter; and what is
+doubtful.
+
+| fault | condition |
+| --- | --- |
+| undercut by the roller | 1 − r κ < 0: the roller is larger than the pitch curve's radius of curvature |
+| undercut under a flat face | ρ < 0: the face does not touch the cam there |
+| undercut in a groove | 1 + r κ < 0: the outer flank, where the pitch curve is hollow |
+| arm as fast as the cam | β′ changes its sign: the face turns over the cam |
+| locked | d·n ≤ 0: pressure angle of 90° or more |
+| crossed | the profile crosses itself where it is nowhere undercut |
+| hollow | the cutter is larger than the least concave radius |
+| diameter | two followers do not both touch |
+
+Each is told with the cam angle, the amount, and the smallest change that mends it. A profile whose radius is
+smaller than allowed, or a pressure angle above its limit, is a caution: the cam can be made.
+
+References
+----------
+.. [1] Norton, Cam Design and Manufacturing Handbook, 2nd ed., sections 7.3 and 7.4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.analysis.cam.least_base import base_for_pressure_angle, least_sound_base
+from linkwright.analysis.cam.profile import CamProfile, Flank
+from linkwright.engine.cam import crossings
+
+# A soundness below this is a sharp point, but for rounding.
+_SHARP = 1e-9
+
+
+def cam_faults(profile: CamProfile) -> tuple[str, ...]:
+    """What makes the cam impossible, in sentences.
+
+    Parameters
+    ----------
+    profile : CamProfile
+        The cam.
+
+    Returns
+    -------
+    tuple of str
+        Empty for a sound cam.
+    """
+    found: list[str] = []
+    for flank in profile.flanks:
+        told = [*_locked(profile, flank), *_undercut(profile, flank)]
+        found += told or [*_crossed(profile, flank), *_hollow(profile, flank)]
+    return (*found, *_diameter(profile))
+
+
+def cam_cautions(profile: CamProfile) -> tuple[str, ...]:
+    """What the designer should know, in sentences.
+
+    Parameters
+    ----------
+    profile : CamProfile
+        The cam.
+
+    Returns
+    -------
+    tuple of str
+        Pressure angle and curvature against their limits; derivatives that jump.
+    """
+    return (*_steep(profile), *_tight(profile), *_jumps(profile))
+
+
+def _degrees(angle: float) -> str:
+    return f"{np.degrees(angle) % 360:.4g}°"
+
+
+def _mm(length: float) -> str:
+    return f"{1e3 * length:.5g} mm"
+
+
+def _subject(profile: CamProfile, flank: Flank) -> str:
+    """Name of the cam, and of the contact if there are several."""
+    several = len(profile.flanks) > 1 and flank.contact.name != "cam"
+    return f"cam {profile.name}, {flank.contact.name}" if several else f"cam {profile.name}"
+
+
+def _range(flank: Flank, passes: np.ndarray) -> str:
+    """Angles between which something is wrong; passes downwards begin it."""
+    down, up = passes[passes[:, 1] < 0, 0], passes[passes[:, 1] > 0, 0]
+    if not len(down) or not len(up):
+        return "all round"
+    ends = [up[np.argmax(up > a)] if (up > a).any() else up[0] for a in down]
+    spans = [f"{_degrees(a)} to {_degrees(b)}" for a, b in zip(down, ends, strict=True)]
+    return "from cam angle " + ", ".join(spans[:4]) + (", …" if len(spans) > 4 else "")
+
+
+def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
+    """A profile that the follower cuts away again."""
+    shape, size = flank.shape, flank.contact.sizes
+    if shape.rows["soundness"].min() < _SHARP:
+        base = least_sound_base(profile.cam, flank.contact)
+        change = f"a base radius of more than {_mm(base)}" if base else "another law or a smaller lift"
+        if flank.contact.kernel.is_roller:
+            bend = shape.greatest["bend"]
+            roller = f"a roller of less than {_mm(1 / bend.value)} radius"
+            what = (
+                f"the pitch curve's radius of curvature is {_mm(1 / bend.value)} at {_degrees(bend.angle)}, "
+                "and the "
+                f"roller's radius {_mm(size.roller_radius)}"
+            )
+            change = f"{roller}, or {change}"
+        else:
+            bend = shape.least["bend"]
+            what = (
+                f"under the flat face its radius of curvature is {_mm(bend.value)} at {_degrees(bend.angle)}"
+            )
+        where = _range(flank, shape.passes[0])
+        yield f"{_subject(profile, flank)} is undercut {where}: {what}; it takes {change}"
+    elif not flank.contact.kernel.is_roller and _turns_over(flank):
+        yield (
+            f"{_subject(profile, flank)}: the follower turns as fast as the cam, so that its face rolls "
+            "over it; "
+            "it takes a longer section or a smaller swing"
+        )
+    hollow = shape.least.get("bend")
+    if profile.cam.closure == "groove" and hollow and hollow.value < 0:
+        least = -1.0 / hollow.value
+        if least <= size.roller_radius:
+            yield (
+                f"{_subject(profile, flank)}: the outer flank of the groove is undercut at "
+                f"{_degrees(hollow.angle)}, "
+                f"where the pitch curve is hollow with {_mm(least)} radius of curvature and the roller's "
+                "radius is "
+                f"{_mm(size.roller_radius)}; it takes a roller of less than {_mm(least)} radius, or a "
+                "larger base radius"
+            )
+
+
+def _turns_over(flank: Flank) -> bool:
+    """Whether the normal of an oscillating face turns back against the cam."""
+    contact = flank.contact
+    if contact.sizes.distance == 0:
+        return False
+    fastest = contact.law.extremes(1)
+    return max(abs(each.value) for each in fastest) >= 1.0
+
+
+def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
+    """A follower that cannot be moved by any force."""
+    gamma = flank.shape.rows["pressure_angle"]
+    worst = int(np.argmax(np.abs(gamma)))
+    if not np.isfinite(gamma).all():
+        where = _degrees(float(flank.shape.angle[int(np.argmin(np.isfinite(gamma)))]))
+        yield f"{_subject(profile, flank)}: at {where} the follower has no place, beyond its reach"
+    elif abs(gamma[worst]) >= np.pi / 2:
+        yield (
+            f"{_subject(profile, flank)} cannot move its follower at "
+            f"{_degrees(float(flank.shape.angle[worst]))}: the "
+            f"pressure angle is {np.degrees(abs(gamma[worst])):.4g}°; it takes a larger base radius or "
+            "longer sections"
+        )
+
+
+def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
+    """A profile that crosses itself though it is nowhere undercut."""
+    # Joints stand twice among the angles: a side of no length crosses nothing.
+    angle = flank.shape.angle
+    keep = np.append(np.diff(angle) > 0, False)
+    points = flank.profile[keep]
+    for first, second, x, y in crossings(points)[:1]:
+        at = [
+            _degrees(float(np.interp(side, np.arange(keep.sum()), angle[keep]))) for side in (first, second)
+        ]
+        yield (
+            f"the profile of {_subject(profile, flank)} crosses itself: at {at[0]} and {at[1]} it passes "
+            "the same "
+            f"point, ({1e3 * x:.4g}, {1e3 * y:.4g}) mm; it takes a larger base radius"
+        )
+
+
+def _hollow(profile: CamProfile, flank: Flank) -> Iterator[str]:
+    """A cutter that does not fit into the concave parts."""
+    cutter, concave = profile.cam.cutter_radius, flank.concave
+    if cutter is not None and concave is not None and cutter >= concave.value:
+        yield (
+            f"{_subject(profile, flank)} cannot be cut with a cutter of {_mm(cutter)} radius: at "
+            f"{_degrees(concave.angle)} the profile is hollow with {_mm(concave.value)} radius; it takes a "
+            "cutter of less "
+            "than that"
+        )
+
+
+def _diameter(profile: CamProfile) -> Iterator[str]:
+    """Two followers of which one leaves the cam or is pressed into it."""
+    both = profile.opposite
+    if both is None or both.is_constant:
+        return
+    worst = max((both.least, both.greatest), key=lambda each: abs(each.value - both.breadth))
+    apart = worst.value - both.breadth
+    what = "too thick" if apart > 0 else "too thin"
+    yield (
+        f"cam {profile.name} is not of constant {profile.cam.closure.removeprefix('constant_')}: at "
+        f"{_degrees(worst.angle)} it is {_mm(abs(apart))} {what} for followers "
+        f"{_mm(both.breadth)} apart; it takes a motion whose second half turn is the first one mirrored, "
+        "s(φ + 180°) = h − s(φ), or one follower held by a spring"
+    )
+
+
+def _steep(profile: CamProfile) -> Iterator[str]:
+    """A pressure angle above its limit."""
+    limit = profile.cam.limit
+    if profile.pressure_angle_max <= limit:
+        return
+    base = base_for_pressure_angle(profile.cam, profile.flanks[0].contact, limit)
+    remedy = (
+        f"a base radius of {_mm(base)} brings it down to that"
+        if base
+        else "no base radius brings it down to that"
+    )
+    yield (
+        f"the pressure angle of cam {profile.name} reaches {np.degrees(profile.pressure_angle_max):.4g}° at "
+        f"{_degrees(profile.pressure_angle_max_angle)}, above {np.degrees(limit):.4g}°: {remedy}"
+    )
+
+
+def _tight(profile: CamProfile) -> Iterator[str]:
+    """A radius of curvature below what is allowed."""
+    limit, found = profile.cam.curvature_limit, profile.curvature_radius_convex_min
+    if limit is not None and found is not None and 0 <= found < limit:
+        yield (
+            f"the profile of cam {profile.name} has a radius of curvature of {_mm(found)} at "
+            f"{_degrees(profile.curvature_radius_min_angle or 0.0)}, below {_mm(limit)}: make the base "
+            "radius larger"
+        )
+
+
+def _jumps(profile: CamProfile) -> Iterator[str]:
+    """Joints where velocity or acceleration jumps, or jerk."""
+    words = {0: "lift", 1: "velocity", 2: "acceleration"}
+    for order, what in words.items():
+        angles = [j.angle for j in profile.cam.programme.joints if j.order == order - 1]
+        if angles:
+            effect = (
+                "the follower cannot follow" if order == 0 else "a blow" if order == 1 else "a sudden force"
+            )
+            places = ", ".join(_degrees(angle) for angle in angles)
+            yield f"the {what} of cam {profile.name} jumps at {places}: {effect}"
+    jerks = [j for j in profile.cam.programme.joints if j.order == 2]
+    if jerks:
+        places = ", ".join(_degrees(joint.angle) for joint in jerks)
+        yield f"the jerk of cam {profile.name} jumps at {places} by a finite step; acceleration is continuous"

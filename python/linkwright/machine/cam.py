@@ -1,0 +1,421 @@
+r"""A cam on the crankshaft and the follower that it moves.
+
+| follower | moves | makes |
+| --- | --- | --- |
+| translating | along a line, to the left of the cam's centre by the offset | a point on a slide |
+| oscillating | about its own pivot | a link with a point at its end |
+
+Its sections say how it moves over a turn. Where the lift is least, the contact lies on the base circle, r_0
+from the cam's centre; a roller's centre then lies on the prime circle, r_0 + r_r. Two followers that touch
+one cam on opposite sides have their distance, the breadth, instead: b = 2 (r_0 + r_r) + lift.
+
+In the mechanism a cam stands for a driver that follows the programme (`follower_of`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+
+import numpy as np
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.machine.base import Checked, Description, fault
+from linkwright.machine.element import Crank, FixedPoint, Guide, LinearDriver, PositiveLength
+from linkwright.machine.follower_motion import FollowerMotion, follower_motion
+from linkwright.machine.motion_section import MotionSection
+from linkwright.machine.plain import look
+from linkwright.machine.section_faults import section_faults
+from linkwright.units import ANGLE, PRESSURE, Angle, Bound, Length, Quantity, positive
+
+if TYPE_CHECKING:
+    from linkwright.motion_laws.motion_law import MotionLaw
+    from linkwright.motion_laws.programme import Programme
+
+_ACUTE = Bound(
+    " between -90 and 90 deg,",
+    {"exclusiveMinimum": -np.pi / 2, "exclusiveMaximum": np.pi / 2},
+    lambda value: -np.pi / 2 < value < np.pi / 2,
+)
+_LIMIT = Bound(
+    " between 0 and 90 deg,",
+    {"exclusiveMinimum": 0, "exclusiveMaximum": np.pi / 2},
+    lambda value: 0 < value < np.pi / 2,
+)
+
+# Largest pressure angle by rule of thumb: a translating follower jams in its guide beyond 30°, an arm bears
+# more. Norton, Cam Design and Manufacturing Handbook, 2nd ed., section 7.3.
+_USUAL_LIMIT = {"translating": np.pi / 6, "oscillating": 7 * np.pi / 36}
+
+
+class SecondFollower(Description):
+    """The second follower of a conjugate pair of cams, fixed to the first."""
+
+    roller_radius: PositiveLength | None = Field(
+        None, description="Of its roller. Without it, that of the first."
+    )
+    distance: PositiveLength | None = Field(
+        None, description="Of a translating follower: between the two rollers along its line."
+    )
+    arm_length: PositiveLength | None = Field(
+        None, description="Of an oscillating follower: length of its arm. Without it, that of the first."
+    )
+    angle: Annotated[float, Quantity(ANGLE)] | None = Field(
+        None, description="Of an oscillating follower: between the two arms, across the cam."
+    )
+
+
+class Cam(Checked):
+    """A cam on the crankshaft, and its follower."""
+
+    follower: Literal["translating", "oscillating"] = Field(
+        "translating", description="Whether the follower moves along a line or about a pivot."
+    )
+    contact: Literal["roller", "point", "flat"] = Field(
+        "roller", description="What touches the cam: a roller, a knife edge, or a flat face."
+    )
+    closure: Literal["spring", "groove", "conjugate", "constant_diameter", "constant_breadth"] = Field(
+        "spring",
+        description="What keeps the follower on the cam: a force, a groove, a second cam for a second "
+        "follower, or the same cam between two followers (points or rollers; flat faces).",
+    )
+    sections: tuple[MotionSection, ...] = Field(description="How the follower moves over a turn.")
+    phase: Angle = Field(0.0, description="Crank angle at which the first section begins.")
+    rotation: Literal["same", "opposite"] = Field(
+        "same", description="Whether the cam turns with the crankshaft, or against it as fast."
+    )
+    pivot: str | None = Field(
+        None, description="Fixed point that the cam turns about. Without it, the origin."
+    )
+    base_radius: PositiveLength | None = Field(
+        None, description="Of the cam where the lift is least. Without it, from the breadth."
+    )
+    breadth: PositiveLength | None = Field(
+        None,
+        description="Between two followers on opposite sides of one cam: edges, roller centres or faces.",
+    )
+    roller_radius: PositiveLength | None = Field(None, description="Of the roller.")
+    direction: Angle = Field(0.0, description="Of the follower's line, outwards, from x.")
+    offset: Length = Field(
+        0.0,
+        description="Of the follower's line to the left of the cam's centre; of an oscillating face, from "
+        "its pivot to the cam.",
+    )
+    face_tilt: Annotated[float, Quantity(ANGLE, _ACUTE)] = Field(
+        0.0, description="Of a translating face: of its normal from the direction of travel."
+    )
+    arm_pivot: str | None = Field(None, description="Fixed point that an oscillating follower turns about.")
+    arm_length: PositiveLength | None = Field(None, description="From that pivot to the roller or edge.")
+    side: Literal["left", "right"] = Field(
+        "left", description="Side of the arm, seen from the cam's centre to its pivot."
+    )
+    second: SecondFollower | None = Field(None, description="Second follower of a conjugate pair.")
+    cutter_radius: PositiveLength | None = Field(None, description="Of the cutter or grinding wheel.")
+    pressure_angle_limit: Annotated[float, Quantity(ANGLE, _LIMIT)] | None = Field(
+        None,
+        description="Largest pressure angle allowed. Without it, 30 deg for a translating and 35 deg for an "
+        "oscillating follower.",
+    )
+    curvature_limit: PositiveLength | None = Field(
+        None, description="Least convex radius of curvature allowed on the profile."
+    )
+    width: PositiveLength | None = Field(None, description="Of the cam's face, for the contact pressure.")
+    elastic_modulus: Annotated[float, positive(PRESSURE)] = Field(
+        210e9, description="Young's modulus of cam and roller."
+    )
+    poisson_ratio: float = Field(0.3, ge=0, lt=0.5, description="Poisson's ratio of both.")
+
+    @property
+    def is_roller(self) -> bool:
+        """Whether it is touched by a roller, or by a knife edge, which is one of radius zero."""
+        return self.contact != "flat"
+
+    @property
+    def is_oscillating(self) -> bool:
+        """Whether its follower turns about a pivot."""
+        return self.follower == "oscillating"
+
+    @property
+    def has_opposite(self) -> bool:
+        """Whether one cam stands between two followers."""
+        return self.closure in ("constant_diameter", "constant_breadth")
+
+    @property
+    def radius_of_roller(self) -> float:
+        """Radius of the roller, zero for a knife edge or a flat face [m]."""
+        return self.roller_radius if self.contact == "roller" and self.roller_radius is not None else 0.0
+
+    @property
+    def limit(self) -> float:
+        """Largest pressure angle allowed [rad]."""
+        given = self.pressure_angle_limit
+        return _USUAL_LIMIT[self.follower] if given is None else given
+
+    @property
+    def motion(self) -> FollowerMotion:
+        """How the follower moves over the cam angle from the start of the first section."""
+        return follower_motion(self.sections, "swing" if self.is_oscillating else "lift")
+
+    @property
+    def programme(self) -> Programme:
+        """Its programme, as the sections say."""
+        return self.motion.programme
+
+    @property
+    def lift(self) -> MotionLaw:
+        """The lift from the base circle: its least value is zero."""
+        return self.motion.lift
+
+    @property
+    def stroke(self) -> float:
+        """Greatest lift [m or rad]."""
+        return self.motion.stroke
+
+    @property
+    def base(self) -> Any:
+        """Radius of the base circle, given or from the breadth [m]."""
+        if self.base_radius is not None:
+            return self.base_radius
+        assert self.breadth is not None
+        return 0.5 * (self.breadth - self.stroke) - self.radius_of_roller
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from section_faults(self.sections, "swing" if self.is_oscillating else "lift")
+        yield from self._closure_faults()
+        if (self.contact == "roller") != (self.roller_radius is not None):
+            yield fault(
+                "roller_radius", found=self.roller_radius, expected="a radius if the contact is a roller"
+            )
+        if self.is_oscillating:
+            yield from self._arm_faults()
+        else:
+            yield from self._line_faults()
+
+    def _closure_faults(self) -> Iterator[InitErrorDetails]:
+        """What a closure needs, and what it cannot do with."""
+        wanted = {"constant_diameter": True, "constant_breadth": False, "groove": True, "conjugate": True}
+        if self.closure in wanted and wanted[self.closure] != self.is_roller:
+            kinds = "rollers or points" if wanted[self.closure] else 'contact = "flat"'
+            yield fault("contact", found=self.contact, expected=f"{kinds} for the closure {self.closure}")
+        if self.has_opposite and (self.is_oscillating or np.any(self.offset != 0)):
+            key = "follower" if self.is_oscillating else "offset"
+            expected = "followers in one line through the cam's centre, on both sides of it"
+            yield fault(key, found=getattr(self, key), expected=expected)
+        given = [self.base_radius is not None, self.breadth is not None]
+        if given[1] and not self.has_opposite:
+            remedy = "the breadth is that of one cam between two followers"
+            yield fault("breadth", found=self.breadth, expected="nothing", remedy=remedy)
+        elif sum(given) != 1:
+            found = "both" if all(given) else "neither"
+            yield fault("base_radius", found=found, expected="either base_radius or breadth")
+        yield from self._breadth_faults()
+        if (self.closure == "conjugate") != (self.second is not None):
+            yield fault(
+                "second", found=self.second and "a table", expected='a table if the closure is "conjugate"'
+            )
+
+    def _breadth_faults(self) -> Iterator[InitErrorDetails]:
+        """A breadth that leaves no cam between the followers."""
+        if self.breadth is None or not self.has_opposite or np.ndim(self.breadth):
+            return
+        if any(True for _ in section_faults(self.sections, "lift")) or self.is_oscillating:
+            return
+        least = self.stroke + 2 * self.radius_of_roller
+        if self.breadth <= least:
+            remedy = "half of what is left over is the base radius"
+            yield fault("breadth", found=self.breadth, expected=f"more than {least:.6g} m", remedy=remedy)
+
+    def _arm_faults(self) -> Iterator[InitErrorDetails]:
+        """An oscillating follower needs its pivot and arm, and no line."""
+        if self.arm_pivot is None:
+            yield fault("arm_pivot", expected="the fixed point that the follower turns about")
+        if self.arm_length is None and self.is_roller:
+            yield fault("arm_length", expected="a length: from the follower's pivot to roller or edge")
+        for key in ("direction", "face_tilt"):
+            if key in self.model_fields_set:
+                yield fault(key, found=getattr(self, key), expected="nothing for an oscillating follower")
+        if self.is_roller and "offset" in self.model_fields_set:
+            yield fault("offset", found=self.offset, expected="nothing for an arm with a roller or edge")
+
+    def _line_faults(self) -> Iterator[InitErrorDetails]:
+        """A translating follower needs no arm, and a line that meets the prime circle."""
+        for key in ("arm_pivot", "arm_length"):
+            if getattr(self, key) is not None:
+                yield fault(key, found=getattr(self, key), expected="nothing for a translating follower")
+        if self.face_tilt and self.is_roller:
+            yield fault("face_tilt", found=self.face_tilt, expected="nothing without a flat face")
+        if not self.is_roller and np.any(self.offset != 0):
+            remedy = "a flat face touches the cam alike wherever its stem is"
+            yield fault("offset", found=self.offset, expected="nothing for a flat face", remedy=remedy)
+
+
+class Sizes(NamedTuple):
+    """Dimensions of a cam as the core has them; each a number or an array over many cams.
+
+    Attributes
+    ----------
+    base_radius, roller_radius, offset, distance, arm : float
+        [m]
+    tilt : float
+        [rad]
+    """
+
+    base_radius: Any
+    roller_radius: Any
+    offset: Any
+    distance: Any
+    arm: Any
+    tilt: Any
+
+
+class TranslatingFollower(LinearDriver):
+    """A driver that follows a cam along a line."""
+
+    cam: Cam
+
+
+class OscillatingFollower(Crank):
+    """A driver that follows a cam about a pivot."""
+
+    cam: Cam
+    # Sense in which the angle grows with the lift: −1 for an arm to the left.
+    turn: float
+
+
+def sizes(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> Sizes:
+    """Dimensions of a cam with its follower.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    points : Mapping of str to FixedPoint
+        The fixed points.
+    origin : str
+        Name of the point of a cam without a pivot.
+
+    Returns
+    -------
+    Sizes
+        In SI.
+    """
+    distance: Any = 0.0
+    if cam.is_oscillating:
+        dx, dy = to_arm_pivot(cam, points, origin)
+        distance = np.hypot(dx, dy)
+    arm = 0.0 if cam.arm_length is None else cam.arm_length
+    return Sizes(cam.base, cam.radius_of_roller, cam.offset, distance, arm, cam.face_tilt)
+
+
+def to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> tuple[Any, Any]:
+    """From the cam's centre to the follower's pivot.
+
+    Parameters
+    ----------
+    cam : Cam
+        A cam with an oscillating follower.
+    points : Mapping of str to FixedPoint
+        The fixed points.
+    origin : str
+        Name of the point of a cam without a pivot.
+
+    Returns
+    -------
+    x, y : float or ndarray
+        [m].
+    """
+    centre, pivot = points.get(cam.pivot or origin), points[cam.arm_pivot or ""]
+    x, y = (0.0, 0.0) if centre is None else (centre.x, centre.y)
+    return pivot.x - x, pivot.y - y
+
+
+def start_of(cam: Cam, size: Sizes) -> Any:
+    """Place of the follower at zero lift; NaN where there is none.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    size : Sizes
+        Its dimensions.
+
+    Returns
+    -------
+    float or ndarray
+        From the cam's centre along the follower's line [m], or angle of the arm from the line between the
+        pivots [rad].
+    """
+    prime = size.base_radius + size.roller_radius
+    with np.errstate(invalid="ignore", divide="ignore"):
+        if cam.is_oscillating:
+            a, arm = size.distance, size.arm
+            if cam.is_roller:
+                return np.arccos((a**2 + arm**2 - prime**2) / (2 * a * arm))
+            return np.arcsin((size.base_radius + size.offset) / a)
+        if cam.is_roller:
+            return np.sqrt(prime**2 - size.offset**2)
+        return size.base_radius / np.cos(size.tilt)
+
+
+def follower_of(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> LinearDriver | Crank:
+    """The driver that a cam is in the mechanism, unchecked: its numbers may be arrays.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    points : Mapping of str to FixedPoint
+        The fixed points.
+    origin : str
+        Name of the point of a cam without a pivot.
+    """
+    size = sizes(cam, points, origin)
+    start = start_of(cam, size)
+    if not cam.is_oscillating:
+        guide = Guide.model_construct(through=cam.pivot, on=None, angle=cam.direction, offset=cam.offset)
+        return TranslatingFollower.model_construct(
+            guide=guide, start=start, per_turn=None, law=None, constants={}, cam=cam
+        )
+    dx, dy = to_arm_pivot(cam, points, origin)
+    turn = -1.0 if cam.side == "left" else 1.0
+    phase = np.arctan2(dy, dx) + np.pi + turn * start
+    radius = size.distance if cam.arm_length is None else cam.arm_length
+    return OscillatingFollower.model_construct(
+        radius=radius, phase=phase, pivot=cam.arm_pivot, law=None, constants={}, cam=cam, turn=turn
+    )
+
+
+def cam_place_faults(mechanism: object) -> Iterator[InitErrorDetails]:
+    """Cams whose follower does not reach them.
+
+    Parameters
+    ----------
+    mechanism : object
+        A mechanism without other faults.
+
+    Yields
+    ------
+    InitErrorDetails
+        An offset beyond the prime circle; an arm too short or too long for the base circle.
+    """
+    points = look(mechanism, "points")
+    for name, cam in dict(look(mechanism, "cams") or {}).items():
+        size = sizes(cam, points)
+        if not np.isnan(start_of(cam, size)).any():
+            continue
+        if not cam.is_oscillating:
+            prime = size.base_radius + size.roller_radius
+            least = abs(size.offset) - size.roller_radius
+            remedy = f"make base_radius larger than {least:.6g} m or the offset smaller"
+            expected = f"less than base_radius + roller_radius, {prime:.6g} m"
+            yield fault("cams", name, "offset", found=size.offset, expected=expected, remedy=remedy)
+        elif cam.is_roller:
+            low = abs(size.distance - size.arm) - size.roller_radius
+            high = size.distance + size.arm - size.roller_radius
+            expected = f"between {low:.6g} and {high:.6g} m"
+            remedy = f"the arm of {size.arm:.6g} m has its pivot {size.distance:.6g} m from the cam"
+            yield fault("cams", name, "base_radius", found=size.base_radius, expected=expected, remedy=remedy)
+        else:
+            expected = f"at most {size.distance - size.offset:.6g} m, or the pivot farther away"
+            yield fault("cams", name, "base_radius", found=size.base_radius, expected=expected)

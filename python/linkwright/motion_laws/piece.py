@@ -1,0 +1,109 @@
+"""A piece of a motion law: a polynomial and harmonics over its own u from 0 to 1.
+
+.. math:: s(u) = \\sum_i c_i u^i + \\sum_j (a_j \\cos k_j u + b_j \\sin k_j u)
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+
+class Harmonic(NamedTuple):
+    """a cos ku + b sin ku.
+
+    Attributes
+    ----------
+    frequency : float
+        k [rad over the piece].
+    cosine, sine : float
+        a, b.
+    """
+
+    frequency: float
+    cosine: float
+    sine: float
+
+
+class Piece(NamedTuple):
+    """A stretch of a law, over u from 0 to 1.
+
+    Attributes
+    ----------
+    polynomial : tuple of float
+        Coefficients from the constant on; none is zero.
+    harmonics : tuple of Harmonic
+        What is added to the polynomial.
+    """
+
+    polynomial: tuple[float, ...]
+    harmonics: tuple[Harmonic, ...] = ()
+
+    def at(self, u: ArrayLike) -> Floats:
+        """Value over u, of the same shape."""
+        u = np.asarray(u, dtype=float)
+        value = np.zeros_like(u)
+        for coefficient in reversed(self.polynomial):
+            value = value * u + coefficient
+        for k, a, b in self.harmonics:
+            value = value + a * np.cos(k * u) + b * np.sin(k * u)
+        return value
+
+    def derivative(self, length: float) -> Piece:
+        """Derivative by x = length·u."""
+        polynomial = tuple(i * c / length for i, c in enumerate(self.polynomial))[1:]
+        harmonics = tuple(Harmonic(k, k * b / length, -k * a / length) for k, a, b in self.harmonics)
+        return Piece(polynomial, harmonics)
+
+    def integral(self, length: float, start: float = 0.0) -> Piece:
+        """Integral over x = length·u that begins with a value."""
+        harmonics = tuple(Harmonic(k, -b * length / k, a * length / k) for k, a, b in self.harmonics)
+        constant = start - math.fsum(each.cosine for each in harmonics)
+        return Piece((constant, *(c * length / (i + 1) for i, c in enumerate(self.polynomial))), harmonics)
+
+    def scaled(self, factor: float, shift: float = 0.0) -> Piece:
+        """Factor times the piece, plus a constant."""
+        polynomial = [factor * c for c in self.polynomial] or [0.0]
+        polynomial[0] += shift
+        return Piece(
+            tuple(polynomial), tuple(Harmonic(k, factor * a, factor * b) for k, a, b in self.harmonics)
+        )
+
+    def part(self, low: float, high: float) -> Piece:
+        """The stretch from u = low to high, counted from 0 to 1 anew; low above high turns it round."""
+        width = high - low
+        n = len(self.polynomial)
+        shifted = tuple(
+            math.fsum(self.polynomial[j] * math.comb(j, i) * low ** (j - i) for j in range(i, n)) * width**i
+            for i in range(n)
+        )
+        return Piece(shifted, tuple(_shifted(each, low, width) for each in self.harmonics))
+
+    def plus(self, other: Piece) -> Piece:
+        """The sum of two pieces over the same stretch."""
+        n = max(len(self.polynomial), len(other.polynomial))
+        first, second = (each.polynomial + (0.0,) * (n - len(each.polynomial)) for each in (self, other))
+        polynomial = tuple(a + b for a, b in zip(first, second, strict=True))
+        return Piece(polynomial, self.harmonics + other.harmonics)
+
+    @property
+    def waves(self) -> float:
+        """The highest frequency [rad over the piece]."""
+        return max((abs(each.frequency) for each in self.harmonics), default=0.0)
+
+    def vanishes(self, scale: float) -> bool:
+        """Whether all coefficients are zero within rounding of a scale."""
+        sizes = [*self.polynomial, *(x for each in self.harmonics for x in each[1:])]
+        return all(abs(each) <= 64 * np.finfo(float).eps * scale for each in sizes)
+
+
+def _shifted(harmonic: Harmonic, low: float, width: float) -> Harmonic:
+    """A harmonic over low + width·u."""
+    k, a, b = harmonic
+    cos, sin = math.cos(k * low), math.sin(k * low)
+    return Harmonic(k * width, a * cos + b * sin, b * cos - a * sin)
