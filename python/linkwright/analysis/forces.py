@@ -22,7 +22,7 @@ from linkwright.analysis.kinetostatics.equilibrium import Equilibrium
 from linkwright.analysis.kinetostatics.friction import Friction, checked
 from linkwright.analysis.kinetostatics.inertia import inertia_forces
 from linkwright.analysis.kinetostatics.motion import Motion, motion_at
-from linkwright.analysis.kinetostatics.pairs import PairModel, pair_models
+from linkwright.analysis.kinetostatics.pairs import PairModel, pair_models, with_pulls
 from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.kinetostatics.scene import Scene
 from linkwright.analysis.kinetostatics.wrench import Wrenches
@@ -100,6 +100,8 @@ def forces(
     sources = _sources(scene, models)
     loads = np.stack([each.wrenches.values for each in sources.values()], axis=-1)
     solution = Equilibrium(scene, models, loads).solve()
+    if with_pulls(models, solution.x.sum(axis=-1)):
+        solution = Equilibrium(scene, models, loads).solve()
     return Collector(scene, models, sources, solution).forces()
 
 

@@ -15,8 +15,7 @@ In the mechanism a cam stands for a driver that follows the programme (`follower
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -24,7 +23,8 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, Description, fault
 from linkwright.machine.element import Crank, FixedPoint, Guide, LinearDriver, PositiveLength
-from linkwright.machine.motion_section import MotionSection, programme
+from linkwright.machine.follower_motion import FollowerMotion, follower_motion
+from linkwright.machine.motion_section import MotionSection
 from linkwright.machine.plain import look
 from linkwright.machine.section_faults import section_faults
 from linkwright.units import ANGLE, PRESSURE, Angle, Bound, Length, Quantity, positive
@@ -152,21 +152,25 @@ class Cam(Checked):
         given = self.pressure_angle_limit
         return _USUAL_LIMIT[self.follower] if given is None else given
 
-    @cached_property
+    @property
+    def motion(self) -> FollowerMotion:
+        """How the follower moves over the cam angle from the start of the first section."""
+        return follower_motion(self.sections, "swing" if self.is_oscillating else "lift")
+
+    @property
     def programme(self) -> Programme:
-        """How the follower moves, as the sections say: over the cam angle from the start of the first."""
-        return programme(self.sections, "swing" if self.is_oscillating else "lift")
+        """Its programme, as the sections say."""
+        return self.motion.programme
 
-    @cached_property
+    @property
     def lift(self) -> MotionLaw:
-        """The same, counted from the base circle: its least value is zero."""
-        law = self.programme.law
-        return law.scaled(1.0, -law.extremes()[0].value)
+        """The lift from the base circle: its least value is zero."""
+        return self.motion.lift
 
-    @cached_property
+    @property
     def stroke(self) -> float:
         """Greatest lift [m or rad]."""
-        return self.lift.extremes()[1].value
+        return self.motion.stroke
 
     @property
     def base(self) -> Any:
@@ -175,14 +179,6 @@ class Cam(Checked):
             return self.base_radius
         assert self.breadth is not None
         return 0.5 * (self.breadth - self.stroke) - self.radius_of_roller
-
-    def with_entries(self, entries: Mapping[str, Any]) -> Self:
-        """Copy with some entries exchanged; what follows from the sections is found anew if they are."""
-        copy = super().with_entries(entries)
-        if "sections" in entries:
-            for name in ("programme", "lift", "stroke"):
-                copy.__dict__.pop(name, None)
-        return copy
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from section_faults(self.sections, "swing" if self.is_oscillating else "lift")
@@ -306,14 +302,29 @@ def sizes(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> Size
     """
     distance: Any = 0.0
     if cam.is_oscillating:
-        dx, dy = _to_arm_pivot(cam, points, origin)
+        dx, dy = to_arm_pivot(cam, points, origin)
         distance = np.hypot(dx, dy)
     arm = 0.0 if cam.arm_length is None else cam.arm_length
     return Sizes(cam.base, cam.radius_of_roller, cam.offset, distance, arm, cam.face_tilt)
 
 
-def _to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str) -> tuple[Any, Any]:
-    """From the cam's centre to the follower's pivot."""
+def to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> tuple[Any, Any]:
+    """From the cam's centre to the follower's pivot.
+
+    Parameters
+    ----------
+    cam : Cam
+        A cam with an oscillating follower.
+    points : Mapping of str to FixedPoint
+        The fixed points.
+    origin : str
+        Name of the point of a cam without a pivot.
+
+    Returns
+    -------
+    x, y : float or ndarray
+        [m].
+    """
     centre, pivot = points.get(cam.pivot or origin), points[cam.arm_pivot or ""]
     x, y = (0.0, 0.0) if centre is None else (centre.x, centre.y)
     return pivot.x - x, pivot.y - y
@@ -366,7 +377,7 @@ def follower_of(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -
         return TranslatingFollower.model_construct(
             guide=guide, start=start, per_turn=None, law=None, constants={}, cam=cam
         )
-    dx, dy = _to_arm_pivot(cam, points, origin)
+    dx, dy = to_arm_pivot(cam, points, origin)
     turn = -1.0 if cam.side == "left" else 1.0
     phase = np.arctan2(dy, dx) + np.pi + turn * start
     radius = size.distance if cam.arm_length is None else cam.arm_length

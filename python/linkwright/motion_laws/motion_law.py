@@ -175,9 +175,9 @@ class MotionLaw:
     def shifted(self, by: float) -> MotionLaw:
         """A periodic law over its whole stretch, starting ``by`` later and going on at its start."""
         by = by % self.length
-        if by == 0:
-            return self
         cut = self.end - by
+        if not self.start < cut < self.end:
+            return self
         tail, head = self.stretch(cut, self.end), self.stretch(self.start, cut)
         return joined([tail.placed(self.start, by), head.placed(self.start + by, self.length - by)])
 

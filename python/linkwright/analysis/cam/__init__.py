@@ -8,5 +8,11 @@
 | `faults` | is it undercut, pointed, crossed, too hollow for its cutter, too steep? |
 | `least_base` | how small may the base circle be, how large the roller? |
 | `hertz` | how hard do cam and roller press on each other, and how deep does it reach? |
+| `one_mass` | what is the follower train, as one mass on one stiffness? |
+| `follower_vibration` | how does the follower really move over a turn, and does it stay on the cam? |
+| `residual_vibration` | what vibration does a rise leave, and at which speeds none? |
+| `polydyne` | which lift moves an elastic follower by a wanted law? |
+| `lift_steps` | which derivatives of a lift jump, and where? |
+| `oscillator` | the answer of an oscillator to a law in pieces, exactly |
 | `checks` | inputs that make no sense, told by name |
 """

@@ -14,6 +14,7 @@ begins.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +22,8 @@ from numpy.typing import NDArray
 from linkwright.engine.cam import CamKernel, cam_kernel
 from linkwright.errors import AssemblyError
 from linkwright.machine import Cam, FixedPoint
-from linkwright.machine.cam import Sizes, sizes, start_of
+from linkwright.machine.cam import Sizes, sizes, start_of, to_arm_pivot
+from linkwright.machine.outline import ORIGIN
 from linkwright.motion_laws.motion_law import MotionLaw, Side
 
 Floats = NDArray[np.float64]
@@ -129,6 +131,80 @@ class CamCurve:
     def _of(self, order: int, phi: Floats, side: Side) -> Floats:
         found: Floats = self.contact.kernel.curve(phi, self.away, before=side == "before")[order].T
         return found
+
+
+class Touch(NamedTuple):
+    """Where a follower touches its cam, in the ground's frame.
+
+    Attributes
+    ----------
+    pitch : ndarray, shape (n, 2)
+        Centre of the roller, the edge, or the point of contact under a flat face [m].
+    normal : ndarray, shape (n, 2)
+        Unit normal away from the cam: the way the cam pushes.
+    """
+
+    pitch: Floats
+    normal: Floats
+
+
+def touch(cam: Cam, contact: Contact, points: dict[str, FixedPoint], crank_angle: Floats) -> Touch:
+    """Where a follower touches its cam.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    contact : Contact
+        One of its contacts.
+    points : dict of str to FixedPoint
+        The fixed points of its mechanism.
+    crank_angle : ndarray, shape (n,)
+        Crank angles [rad].
+
+    Returns
+    -------
+    Touch
+        Places and normals.
+    """
+    angle = np.asarray(crank_angle, dtype=float) - cam.phase
+    rows = contact.kernel.rows(np.mod(angle, 2 * np.pi))
+    turned = frame_angle(cam, points) + contact.turned + turned_by(cam, angle)
+    centre = points[cam.pivot or ORIGIN] if (cam.pivot or ORIGIN) in points else FixedPoint(x=0.0, y=0.0)
+    place = np.array([centre.x, centre.y])
+    pitch = place + _turned(rows["pitch_x"], rows["pitch_y"], turned)
+    return Touch(pitch, _turned(rows["normal_x"], rows["normal_y"], turned))
+
+
+def frame_angle(cam: Cam, points: dict[str, FixedPoint]) -> float:
+    """Direction of the first contact's x axis on the ground.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    points : dict of str to FixedPoint
+        The fixed points of its mechanism.
+
+    Returns
+    -------
+    float
+        Of a translating follower's line, or of the line from the cam's centre to the follower's pivot [rad].
+    """
+    if not cam.is_oscillating:
+        return float(cam.direction)
+    return float(np.arctan2(*to_arm_pivot(cam, points)[::-1]))
+
+
+def turned_by(cam: Cam, angle: Floats) -> Floats:
+    """Angle by which a cam has turned when the crankshaft has, (n,) [rad]."""
+    return -angle if cam.rotation == "opposite" else angle
+
+
+def _turned(x: Floats, y: Floats, angle: Floats) -> Floats:
+    """Vectors turned by angles, (n, 2)."""
+    sin, cos = np.sin(angle), np.cos(angle)
+    return np.stack((cos * x - sin * y, sin * x + cos * y), axis=-1)
 
 
 def contacts(cam: Cam, points: dict[str, FixedPoint], name: str = "cam") -> tuple[Contact, ...]:

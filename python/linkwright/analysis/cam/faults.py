@@ -166,7 +166,7 @@ def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
     # Joints stand twice among the angles: a side of no length crosses nothing.
     angle = flank.shape.angle
     keep = np.append(np.diff(angle) > 0, False)
-    points = flank.curve().points(angle[keep])
+    points = flank.profile[keep]
     for first, second, x, y in crossings(points)[:1]:
         at = [
             _degrees(float(np.interp(side, np.arange(keep.sum()), angle[keep]))) for side in (first, second)

@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 _SLACK = 1e-9
 
 # Kinds of models that are no pairs.
-_DRIVES = ("torque", "force")
+_DRIVES = ("torque", "force", "contact")
 
 
 class Collector:

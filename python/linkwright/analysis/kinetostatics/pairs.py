@@ -7,7 +7,7 @@
 | slot | normal force N | −μ \\|N\\| sgn v − c v along the slot |
 | mesh, rack | force F along the teeth's path | \\|F\\| tan α apart, the pressure angle's share |
 | cable | tension | – |
-| drive | torque on a crank, force on a block | – |
+| drive | torque on a crank, force on a block, normal force of a cam | – |
 
 Teeth press at the pitch point, along the line of action (DIN 3960; Norton, *Design of Machinery*, chapter
 9). A belt, and teeth whose pitch point is not where centres and ratio put it, pass on torques in the
@@ -21,6 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.kinetostatics.cam import follower_at, pushes, taken_over
 from linkwright.analysis.kinetostatics.friction import Friction
 from linkwright.analysis.kinetostatics.scene import Scene, dot, left
 from linkwright.analysis.kinetostatics.wrench import Wrenches
@@ -43,7 +44,7 @@ class PairModel:
     Attributes
     ----------
     name, kind : str
-        Those of the pair; a drive is a ``"torque"`` or a ``"force"``.
+        Those of the pair; a drive is a ``"torque"``, a ``"force"``, or the ``"contact"`` with a cam.
     second : str
         The member that forces are reported on.
     unknowns : list of Wrenches
@@ -60,6 +61,8 @@ class PairModel:
         As given.
     spread : float
         Tangent of the pressure angle.
+    pull : Wrenches or None
+        What a second contact of a cam does where the first would have to pull.
     """
 
     name: str
@@ -72,6 +75,7 @@ class PairModel:
     sense: Floats
     friction: Friction
     spread: float = 0.0
+    pull: Wrenches | None = None
 
     def slopes(self, x: Floats) -> Floats:
         """Derivatives of the extra force by the unknowns at their values x, (n, unknowns)."""
@@ -193,6 +197,12 @@ def _cable(scene: Scene, pair: Pair) -> PairModel:
 
 
 def _drive(scene: Scene, drive: Drive) -> PairModel:
+    follower = follower_at(scene, drive.name)
+    if follower is not None:
+        push, pull = pushes(scene, follower, drive.name)
+        found = _without_friction(scene, drive.name, "contact", drive.member, push)
+        found.pull = pull
+        return found
     if drive.guide is None:
         one = np.ones(scene.n)
         torque = Wrenches(scene).couple(drive.member, one).couple(FRAME, -one)
@@ -202,6 +212,17 @@ def _drive(scene: Scene, drive: Drive) -> PairModel:
     pair = scene.structure.pairs[f"{drive.member}.guide"]
     push = Wrenches(scene).on_guide(pair, scene.direction(drive.guide), np.zeros(scene.n))
     return _without_friction(scene, drive.name, "force", drive.member, push)
+
+
+def with_pulls(models: list[PairModel], x: Floats) -> bool:
+    """Lets second contacts of cams take over where forces (n, unknowns) say so; whether anything changed."""
+    at, changed = 0, False
+    for model in models:
+        if model.pull is not None and (x[:, at] < 0).any():
+            model.unknowns[0] = taken_over(model.unknowns[0], model.pull, x[:, at])
+            changed = True
+        at += len(model.unknowns)
+    return changed
 
 
 def _without_friction(scene: Scene, name: str, kind: str, second: str, unknown: Wrenches) -> PairModel:
