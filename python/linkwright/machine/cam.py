@@ -31,7 +31,7 @@ from linkwright.units import ANGLE, PRESSURE, Angle, Bound, Length, Quantity, po
 
 if TYPE_CHECKING:
     from linkwright.motion_laws.motion_law import MotionLaw
-    from linkwright.motion_laws.programme import Programme
+    from linkwright.motion_laws.programme import Joint, Programme
 
 _ACUTE = Bound(
     " between -90 and 90 deg,",
@@ -168,19 +168,28 @@ class Cam(Checked):
         """Greatest lift [m or rad]."""
         return self.lift.extremes()[1].value
 
+    @cached_property
+    def joints(self) -> tuple[Joint, ...]:
+        """How smooth the motion is where sections meet, and where a law inside a section has a break."""
+        from linkwright.motion_laws.programme import joints
+
+        law = self.programme.law
+        return joints(law, law.breaks[:-1])
+
     @property
     def base(self) -> Any:
         """Radius of the base circle, given or from the breadth [m]."""
         if self.base_radius is not None:
             return self.base_radius
         assert self.breadth is not None
-        return 0.5 * (self.breadth - self.stroke) - self.radius_of_roller
+        start = 0.5 * (self.breadth - self.stroke)
+        return start * np.cos(self.face_tilt) - self.radius_of_roller
 
     def with_entries(self, entries: Mapping[str, Any]) -> Self:
         """Copy with some entries exchanged; what follows from the sections is found anew if they are."""
         copy = super().with_entries(entries)
         if "sections" in entries:
-            for name in ("programme", "lift", "stroke"):
+            for name in ("programme", "lift", "stroke", "joints"):
                 copy.__dict__.pop(name, None)
         return copy
 
@@ -276,15 +285,14 @@ class Sizes(NamedTuple):
 class TranslatingFollower(LinearDriver):
     """A driver that follows a cam along a line."""
 
-    cam: Cam
+    cam: Cam = Field(description="The cam.")
 
 
 class OscillatingFollower(Crank):
     """A driver that follows a cam about a pivot."""
 
-    cam: Cam
-    # Sense in which the angle grows with the lift: −1 for an arm to the left.
-    turn: float
+    cam: Cam = Field(description="The cam.")
+    turn: float = Field(description="Sense of the angle as the lift grows: -1 for an arm to the left.")
 
 
 def sizes(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> Sizes:
@@ -326,7 +334,7 @@ def to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") 
 
     Returns
     -------
-    x, y : float or ndarray
+    x, y : float or ndarray, shape (rows,)
         [m].
     """
     centre, pivot = points.get(cam.pivot or origin), points[cam.arm_pivot or ""]

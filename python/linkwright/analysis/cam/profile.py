@@ -277,7 +277,7 @@ def _least(found: list[Extreme | None]) -> Extreme | None:
 
 def _in_time(cam: Cam, order: int, speed: float | None) -> float | None:
     """Largest derivative in time; None where it is infinite, or without a speed."""
-    if speed is None or any(joint.order < order - 1 for joint in cam.programme.joints):
+    if speed is None or any(joint.order < order - 1 for joint in cam.joints):
         return None
     return abs(cam.lift.peak(order).value) * abs(speed) ** order
 
@@ -293,11 +293,20 @@ def _speed_constant(cam: Cam, speed: float | None) -> float | None:
     return largest * abs(speed) if largest > 0 and speed is not None else None
 
 
+def _steepest(shape: Shape) -> list[Extreme]:
+    """Greatest and least pressure angle; of the samples alone where the tangent has passed 90°."""
+    gamma = shape.rows["pressure_angle"]
+    if np.abs(gamma).max() < np.pi / 2:
+        both = (shape.greatest["lead"], shape.least["lead"])
+        return [Extreme(each.angle, math.atan(each.value)) for each in both]
+    return [Extreme(float(shape.angle[i]), float(gamma[i])) for i in (np.argmax(gamma), np.argmin(gamma))]
+
+
 def _flank(contact: Contact, n: int) -> Flank:
     """One contact with its extremes."""
     shape = contact.kernel.shape(n, (("soundness", 0.0), ("bend", 0.0)))
     high, low = shape.greatest, shape.least
-    steep = [Extreme(each.angle, math.atan(each.value)) for each in (high["lead"], low["lead"])]
+    steep = _steepest(shape)
     if not contact.kernel.is_roller:
         # Under a flat face the cam must be convex everywhere.
         return Flank(contact, shape, steep[0], steep[1], low["bend"], None)
