@@ -13,6 +13,7 @@
 | `ConvergenceError` | finding | a method did not reach the accuracy asked for |
 | `CamError` | finding | a cam cannot be made or followed |
 | `SynthesisError` | finding | no linkage does what was asked for |
+| `ExchangeError` | finding | a curve cannot be manufactured, or a written file does not keep its tolerance |
 
 An input error means exit code 2 of the command line, a finding exit code 1. Nothing here needs the
 compiled core.
@@ -181,3 +182,7 @@ class CamError(FindingError):
 
 class SynthesisError(FindingError):
     """No linkage of the kind does what was asked for; the message has the numbers and what to change."""
+
+
+class ExchangeError(FindingError):
+    """A curve has no outline that can be manufactured, or what was read back is not what was written."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
@@ -12,7 +13,7 @@ from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_va
 from pydantic_core import InitErrorDetails
 
 from linkwright.errors import MachineError, MachineFileError, Problem
-from linkwright.files.read import loads_as
+from linkwright.files.read import loads_as, read_as
 from linkwright.machine.base import Checked, Description
 from linkwright.machine.motion_section import Family, MotionSection, programme
 from linkwright.machine.problems import problems
@@ -231,3 +232,82 @@ def test_ends_of_constant_velocity_are_its_slope() -> None:
     keys = {each.key.rsplit(".", 1)[1]: each.expected for each in told(text)}
     assert keys.keys() == {"velocity_end", "acceleration_start"}
     assert "the slope 0.0229183" in keys["velocity_end"]
+
+
+SPLINE = """
+{ angle = "120 deg", law = { kind = "spline", angle = "0, 30, 80, 120 deg", lift = "0, 4, 17, 20 mm" } },
+{ angle = "60 deg" },
+{ angle = "180 deg", lift = "-20 mm", law = { kind = "limited", acceleration_max = "10 mm/rad^2" } },"""
+
+
+def test_a_spline_says_its_lift_itself() -> None:
+    found = moved(SPLINE)
+    np.testing.assert_allclose(
+        found.law.at(np.radians([0, 30, 80, 120, 360])), [0, 4e-3, 17e-3, 20e-3, 0], atol=1e-17
+    )
+    assert [each.order for each in found.joints] == [1, 2, 1]
+    # Limited: the acceleration jumps to its limit.
+    assert found.joints[2].jumps[2] == pytest.approx(-0.01, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "key", "words"),
+    [
+        ('lift = "0, 4, 17, 20 mm"', 'swing = "0, 1, 2, 3 deg"', "0.lift", "how far"),
+        ('"0, 30, 80, 120 deg"', '"0, 30, 80, 110 deg"', "0.law.angle", "that of the section"),
+        ('"0, 30, 80, 120 deg"', '"0, 30, 20, 120 deg"', "0.law.angle.2", "more than"),
+        ('"0, 30, 80, 120 deg"', '"0, 30, 120 deg"', "0.law.lift", "3 values"),
+        ('120 deg", law', '120 deg", lift = "20.1 mm", law', "", "lifts that add to 0"),
+        ('"10 mm/rad^2"', '"8 mm/rad^2"', "2.law", "is done in 180 deg"),
+        ('"10 mm/rad^2"', '"8 mm/s^2"', "2.law.acceleration_max", "a length per cam angle squared"),
+        ("acceleration_max", "velocity_max", "2.law.velocity_max", "a length per cam angle"),
+        ("acceleration_max", "swing_acceleration_max", "2.law.swing_acceleration_max", "per angle"),
+    ],
+)
+def test_points_and_limits_that_do_not_fit(old: str, new: str, key: str, words: str) -> None:
+    assert old in SPLINE
+    found = told(SPLINE.replace(old, new, 1))
+    place = f"cams.K.sections.{key}".removesuffix(".")
+    assert words in next(each for each in found if each.key == place).expected
+
+
+def test_a_section_that_is_too_short_is_told_the_shortest() -> None:
+    (problem,) = told(SPLINE.replace('"10 mm/rad^2"', '"8 mm/rad^2"'))
+    shortest = np.degrees(2 * np.sqrt(0.02 / 0.008))
+    assert problem.found == f"limits that ask for at least {shortest:.10g} deg"
+    longer = SPLINE.replace('"10 mm/rad^2"', '"8 mm/rad^2"').replace('"180 deg"', f'"{shortest} deg"')
+    left = f'{{ angle = "{360 - 120 - shortest} deg" }}'
+    assert moved(longer.replace('{ angle = "60 deg" }', left)).law.end == 2 * math.pi
+
+
+def test_points_from_a_file(tmp_path: Path) -> None:
+    (tmp_path / "rise.csv").write_text("angle [deg], lift [mm]\n0, 0\n30, 4\n80, 17\n120, 20\n")
+    points = 'angle = "0, 30, 80, 120 deg", lift = "0, 4, 17, 20 mm"'
+    by_file = SPLINE.replace(points, 'file = "rise.csv"')
+    text = f"[cams.K]\nsections = [{by_file}]\n"
+    (tmp_path / "cam.toml").write_text(text)
+    found = read_as(SomeFile, tmp_path / "cam.toml").cams["K"]
+    assert found.sections == cam(SPLINE).sections
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        (None, "a file of comma-separated values"),
+        ("", "a head such as"),
+        ("angle [deg, lift\n0, 0\n", "a head such as"),
+        ("angle, lift\n0, 0, 0\n", "2 values"),
+        ("angle [deg], lift [mm]\n0, 0\nx, 4\n", "an angle"),
+        ("angle [deg], height [mm]\n0, 0\n120, 4\n", "one of file, angle"),
+    ],
+)
+def test_files_that_hold_no_points(tmp_path: Path, content: str | None, expected: str) -> None:
+    if content is not None:
+        (tmp_path / "rise.csv").write_text(content)
+    law = '{ kind = "table", file = "rise.csv" }'
+    (tmp_path / "cam.toml").write_text(
+        f"[cams.K]\nsections = [{{ angle = 6.283185307179586, law = {law} }}]\n"
+    )
+    with pytest.raises(MachineFileError) as caught:
+        read_as(SomeFile, tmp_path / "cam.toml")
+    assert expected in str(caught.value)

@@ -112,7 +112,7 @@ class CamKernel:
         return dict(zip(ROWS, self.core.rows(self.size, _floats(angle), before), strict=True))
 
     def curve(self, angle: ArrayLike, away: float, *, before: bool = False) -> Floats:
-        """Place and derivatives [m, m/rad, m/rad²] of the curve ``away`` from the pitch curve, (3, 2, n)."""
+        """Place and two derivatives [m, m/rad, m/rad²] of a curve ``away`` from the pitch one, (3, 2, n)."""
         return self.core.curve(self.size, _floats(angle), before, away).reshape(3, 2, -1)
 
     def search(self, columns: Sequence[ArrayLike], per_turn: int) -> Floats:

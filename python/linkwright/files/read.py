@@ -15,6 +15,7 @@ from pydantic import BaseModel
 from linkwright.errors import MachineError, MachineFileError, Problem
 from linkwright.files.lines import key_lines, line_of
 from linkwright.files.overrides import Override, apply, parse_all
+from linkwright.files.points import with_points
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.text import split
 from linkwright.units import show
@@ -144,6 +145,7 @@ def loads_as(model: type[Model], text: str, overrides: Overrides = (), *, path: 
     tables = _tables(text, path)
     _check_format(tables, path, text)
     places = [(apply(tables, change), change) for change in parse_all(overrides)]
+    with_points(tables, Path(path).parent)
     try:
         return model.model_validate(tables)
     except MachineError as error:

@@ -15,8 +15,7 @@ In the mechanism a cam stands for a driver that follows the programme (`follower
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -24,14 +23,16 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, Description, fault
 from linkwright.machine.element import Crank, FixedPoint, Guide, LinearDriver, PositiveLength
-from linkwright.machine.motion_section import MotionSection, programme
+from linkwright.machine.follower_motion import FollowerMotion, follower_motion
+from linkwright.machine.follower_train import FollowerTrain
+from linkwright.machine.motion_section import MotionSection
 from linkwright.machine.plain import look
 from linkwright.machine.section_faults import section_faults
 from linkwright.units import ANGLE, PRESSURE, Angle, Bound, Length, Quantity, positive
 
 if TYPE_CHECKING:
     from linkwright.motion_laws.motion_law import MotionLaw
-    from linkwright.motion_laws.programme import Joint, Programme
+    from linkwright.motion_laws.programme import Programme
 
 _ACUTE = Bound(
     " between -90 and 90 deg,",
@@ -111,6 +112,9 @@ class Cam(Checked):
         "left", description="Side of the arm, seen from the cam's centre to its pivot."
     )
     second: SecondFollower | None = Field(None, description="Second follower of a conjugate pair.")
+    train: FollowerTrain | None = Field(
+        None, description="What vibrates between a translating follower and its load."
+    )
     cutter_radius: PositiveLength | None = Field(None, description="Of the cutter or grinding wheel.")
     pressure_angle_limit: Annotated[float, Quantity(ANGLE, _LIMIT)] | None = Field(
         None,
@@ -152,29 +156,25 @@ class Cam(Checked):
         given = self.pressure_angle_limit
         return _USUAL_LIMIT[self.follower] if given is None else given
 
-    @cached_property
+    @property
+    def motion(self) -> FollowerMotion:
+        """How the follower moves over the cam angle from the start of the first section."""
+        return follower_motion(self.sections, "swing" if self.is_oscillating else "lift", self.train)
+
+    @property
     def programme(self) -> Programme:
-        """How the follower moves, as the sections say: over the cam angle from the start of the first."""
-        return programme(self.sections, "swing" if self.is_oscillating else "lift")
+        """Its programme, as the sections say."""
+        return self.motion.programme
 
-    @cached_property
+    @property
     def lift(self) -> MotionLaw:
-        """The same, counted from the base circle: its least value is zero."""
-        law = self.programme.law
-        return law.scaled(1.0, -law.extremes()[0].value)
+        """The lift from the base circle: its least value is zero."""
+        return self.motion.lift
 
-    @cached_property
+    @property
     def stroke(self) -> float:
         """Greatest lift [m or rad]."""
-        return self.lift.extremes()[1].value
-
-    @cached_property
-    def joints(self) -> tuple[Joint, ...]:
-        """How smooth the motion is where sections meet, and where a law inside a section has a break."""
-        from linkwright.motion_laws.programme import joints
-
-        law = self.programme.law
-        return joints(law, law.breaks[:-1])
+        return self.motion.stroke
 
     @property
     def base(self) -> Any:
@@ -184,14 +184,6 @@ class Cam(Checked):
         assert self.breadth is not None
         start = 0.5 * (self.breadth - self.stroke)
         return start * np.cos(self.face_tilt) - self.radius_of_roller
-
-    def with_entries(self, entries: Mapping[str, Any]) -> Self:
-        """Copy with some entries exchanged; what follows from the sections is found anew if they are."""
-        copy = super().with_entries(entries)
-        if "sections" in entries:
-            for name in ("programme", "lift", "stroke", "joints"):
-                copy.__dict__.pop(name, None)
-        return copy
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from section_faults(self.sections, "swing" if self.is_oscillating else "lift")
@@ -245,9 +237,10 @@ class Cam(Checked):
             yield fault("arm_pivot", expected="the fixed point that the follower turns about")
         if self.arm_length is None and self.is_roller:
             yield fault("arm_length", expected="a length: from the follower's pivot to roller or edge")
-        for key in ("direction", "face_tilt"):
+        for key in ("direction", "face_tilt", "train"):
             if key in self.model_fields_set:
-                yield fault(key, found=getattr(self, key), expected="nothing for an oscillating follower")
+                found = "a table" if key == "train" else getattr(self, key)
+                yield fault(key, found=found, expected="nothing for an oscillating follower")
         if self.is_roller and "offset" in self.model_fields_set:
             yield fault("offset", found=self.offset, expected="nothing for an arm with a roller or edge")
 

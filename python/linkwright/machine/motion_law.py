@@ -5,6 +5,11 @@
 | `cycloidal`, `polynomial_3_4_5`, … | a law of the catalogue that has no parameters |
 | `modified_trapezoid`, `modified_sine` | with a share of their ramps |
 | `polynomial` | by its boundary conditions, of any degree |
+| `optimal` | least integral of the square of a derivative |
+| `combined`, `trapezoidal_velocity`, `s_curve` | ramp, constant velocity, ramp, by shares |
+| `limited` | the same by limits of velocity, acceleration and jerk |
+
+`point_law` has those that go through points.
 
 The laws themselves are in `linkwright.motion_laws`.
 """
@@ -14,11 +19,23 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.errors import LawError, Problem
 from linkwright.machine.base import Checked, fault
-from linkwright.units import RATIO, Bound, Quantity
+from linkwright.units import (
+    LIFT_D1,
+    LIFT_D2,
+    LIFT_D3,
+    RATIO,
+    SWING_D2,
+    SWING_D3,
+    Bound,
+    Quantity,
+    not_negative,
+    positive,
+)
 
 if TYPE_CHECKING:
     from linkwright.motion_laws.boundary import Boundary
@@ -27,20 +44,18 @@ if TYPE_CHECKING:
 _TO_QUARTER = Bound(
     " above 0 and up to 0.25,", {"exclusiveMinimum": 0, "maximum": 0.25}, lambda x: 0 < x <= 0.25
 )
+_UP_TO_HALF = Bound(" of 0 to 0.5,", {"minimum": 0, "maximum": 0.5}, lambda x: 0 <= x <= 0.5)
 _TO_HALF = Bound(
     " between 0 and 0.5,", {"exclusiveMinimum": 0, "exclusiveMaximum": 0.5}, lambda x: 0 < x < 0.5
 )
 # Polynomials of higher degree than these give are lost in rounding.
+Share = Annotated[float, not_negative(RATIO)]
+Order = Literal[1, 2, 3, 4]
 Continuity = Literal[0, 1, 2, 3, 4, 5, 6, 7]
 
 
 class Law(Checked):
     """What all laws have in common."""
-
-    @property
-    def carries_lift(self) -> bool:
-        """Whether the law itself says how far the section goes."""
-        return False
 
     def own_lift(self, angle: float, *, swing: bool) -> float | None:
         """The lift that the law says itself [m or rad].
@@ -78,7 +93,8 @@ class Law(Checked):
         """
         from linkwright.motion_laws.catalogue import LAWS
 
-        return LAWS[getattr(self, "kind")].over(task, **self._parameters())  # noqa: B009
+        name: str = getattr(self, "kind")  # noqa: B009
+        return LAWS[name].section(task, **self._parameters())
 
     def _parameters(self) -> dict[str, Any]:
         """The parameters of the law by name."""
@@ -99,6 +115,8 @@ class PlainLaw(Law):
         "freudenstein_1_3_5",
         "polynomial_3_4_5",
         "polynomial_4_5_6_7",
+        "minimum_acceleration",
+        "minimum_jerk",
     ]
 
 
@@ -145,12 +163,96 @@ class PolynomialLaw(Law):
             yield fault("powers", wrong, found=powers[wrong], expected=expected)
 
 
-def _as_table(value: object) -> object:
-    """The table that a bare name stands for."""
-    return {"kind": value} if isinstance(value, str) else value
+class OptimalLaw(Law):
+    """The law of least integral of the square of a derivative."""
+
+    kind: Literal["optimal"]
+    order: Literal[1, 2, 3, 4, 5] = Field(
+        3, description="Order of that derivative: 2 the acceleration, 3 the jerk."
+    )
+    free_start: tuple[Order, ...] = Field(
+        (), description="Orders of the derivatives that are free at the start; the others are set."
+    )
+    free_end: tuple[Order, ...] = Field((), description="The same at the end.")
 
 
-AnyLaw = Annotated[
-    Annotated[PlainLaw | ModifiedTrapezoidLaw | ModifiedSineLaw | PolynomialLaw, Field(discriminator="kind")],
-    BeforeValidator(_as_table, json_schema_input_type=str | dict[str, Any]),
-]
+class CombinedLaw(Law):
+    """Start, constant velocity, braking, from rest to rest."""
+
+    kind: Literal["combined"]
+    start: Share = Field(1 / 6, description="Share of the start in the section.")
+    stop: Share = Field(1 / 6, description="Share of the braking.")
+    ramp: Literal[
+        "optimal_jerk",
+        "optimal_jerk_free",
+        "parabolic",
+        "harmonic",
+        "cycloidal",
+        "modified_trapezoid",
+        "modified_sine",
+        "gutman_1_3",
+        "freudenstein_1_3",
+        "freudenstein_1_3_5",
+        "polynomial_3_4_5",
+        "polynomial_4_5_6_7",
+    ] = Field(
+        "optimal_jerk",
+        description="Course of the velocity over a ramp: of least ∫ jerk² over 3/5 of the travel at full "
+        "velocity, the same over free travel, or the first half of a law.",
+    )
+
+
+class TrapezoidalVelocityLaw(Law):
+    """Constant acceleration, constant velocity, constant deceleration."""
+
+    kind: Literal["trapezoidal_velocity"]
+    start: Share = Field(1 / 3, description="Share of the acceleration in the section.")
+    stop: Share = Field(1 / 3, description="Share of the deceleration.")
+
+
+class SCurveLaw(Law):
+    """Trapezoidal velocity with rounded corners."""
+
+    kind: Literal["s_curve"]
+    start: Share = Field(1 / 3, description="Share of the acceleration in the section.")
+    stop: Share = Field(1 / 3, description="Share of the deceleration.")
+    rounding: Annotated[float, Quantity(RATIO, _UP_TO_HALF)] = Field(
+        0.25, description="Share of each of the two corners in its ramp."
+    )
+
+
+class LimitedLaw(Law):
+    """Trapezoidal velocity, or with a limit of the jerk an S-curve, that keeps limits by the cam angle."""
+
+    kind: Literal["limited"]
+    velocity_max: Annotated[float, positive(LIFT_D1)] | None = Field(
+        None, description="Greatest lift per cam angle. Without it, no limit."
+    )
+    acceleration_max: Annotated[float, positive(LIFT_D2)] | None = Field(
+        None, description="Greatest second derivative."
+    )
+    jerk_max: Annotated[float, positive(LIFT_D3)] | None = Field(
+        None, description="Greatest third derivative. Without it, the acceleration jumps."
+    )
+    swing_velocity_max: Annotated[float, positive(RATIO)] | None = Field(
+        None, description="For an oscillating follower: greatest angle per cam angle."
+    )
+    swing_acceleration_max: Annotated[float, positive(SWING_D2)] | None = Field(
+        None, description="Greatest second derivative of its angle."
+    )
+    swing_jerk_max: Annotated[float, positive(SWING_D3)] | None = Field(
+        None, description="Greatest third derivative of its angle."
+    )
+
+    def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
+        from linkwright.motion_laws.limited import limited_section
+
+        names = [f"swing_{name}" if swing else name for name in _LIMITS]
+        velocity, acceleration, jerk = (getattr(self, name) for name in names)
+        if acceleration is None:
+            expected = "the greatest second derivative by the cam angle"
+            raise LawError(Problem(names[1], "nothing", expected))
+        return limited_section(task, angle, velocity, acceleration, jerk)
+
+
+_LIMITS = ("velocity_max", "acceleration_max", "jerk_max")

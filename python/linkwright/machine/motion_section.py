@@ -17,10 +17,21 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from linkwright.machine.base import Description
-from linkwright.machine.motion_law import AnyLaw, PlainLaw
+from linkwright.machine.motion_law import (
+    CombinedLaw,
+    LimitedLaw,
+    ModifiedSineLaw,
+    ModifiedTrapezoidLaw,
+    OptimalLaw,
+    PlainLaw,
+    PolynomialLaw,
+    SCurveLaw,
+    TrapezoidalVelocityLaw,
+)
+from linkwright.machine.point_law import SplineLaw, TableLaw
 from linkwright.units import ANGLE, LIFT_D1, LIFT_D2, RATIO, SWING_D2, Angle, Length, Quantity, positive
 
 if TYPE_CHECKING:
@@ -35,6 +46,30 @@ LiftVelocity = Annotated[float, Quantity(LIFT_D1)]
 LiftAcceleration = Annotated[float, Quantity(LIFT_D2)]
 SwingVelocity = Annotated[float, Quantity(RATIO)]
 SwingAcceleration = Annotated[float, Quantity(SWING_D2)]
+
+
+def _as_table(value: object) -> object:
+    """The table that a bare name stands for."""
+    return {"kind": value} if isinstance(value, str) else value
+
+
+AnyLaw = Annotated[
+    Annotated[
+        PlainLaw
+        | ModifiedTrapezoidLaw
+        | ModifiedSineLaw
+        | PolynomialLaw
+        | OptimalLaw
+        | CombinedLaw
+        | TrapezoidalVelocityLaw
+        | SCurveLaw
+        | LimitedLaw
+        | SplineLaw
+        | TableLaw,
+        Field(discriminator="kind"),
+    ],
+    BeforeValidator(_as_table),
+]
 
 
 class MotionSection(Description):

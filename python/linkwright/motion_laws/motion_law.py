@@ -70,9 +70,10 @@ class MotionLaw:
         start : float
             Where the first begins.
         *stretches : tuple of float and Piece
-            Length and piece; those without length are left out.
+            Length and piece; those without length, but for rounding, are left out.
         """
-        kept = [(length, piece) for length, piece in stretches if length > 0]
+        least = _SAME * math.fsum(length for length, _ in stretches)
+        kept = [(length, piece) for length, piece in stretches if length > least]
         ends = [math.fsum([start, *(length for length, _ in kept[:i])]) for i in range(len(kept) + 1)]
         return cls(tuple(ends), tuple(piece for _, piece in kept))
 
@@ -175,9 +176,9 @@ class MotionLaw:
     def shifted(self, by: float) -> MotionLaw:
         """A periodic law over its whole stretch, starting ``by`` later and going on at its start."""
         by = by % self.length
-        if by == 0:
-            return self
         cut = self.end - by
+        if not self.start < cut < self.end:
+            return self
         tail, head = self.stretch(cut, self.end), self.stretch(self.start, cut)
         return joined([tail.placed(self.start, by), head.placed(self.start + by, self.length - by)])
 

@@ -4,19 +4,51 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from linkwright.errors import LawError, Problem
 from linkwright.motion_laws.boundary import Boundary
+from linkwright.motion_laws.half_law import with_boundary
 from linkwright.motion_laws.motion_law import MotionLaw
 from linkwright.motion_laws.parabolic import constant_velocity
 from linkwright.motion_laws.polynomial import polynomial
 
-# Accelerations nearer than this share of a law's own are the law's own.
+# What differs by less than this share is the same.
 _SAME = 1e-9
 
 
 def straight(task: Boundary) -> MotionLaw:
     """Constant velocity: the lift alone counts."""
     return constant_velocity().scaled(task.lift)
+
+
+def suited(law: MotionLaw, task: Boundary) -> MotionLaw:
+    """A law of rest to rest for any boundary values if it is symmetric, else for rest alone.
+
+    Parameters
+    ----------
+    law : MotionLaw
+        From 0 to 1.
+    task : Boundary
+        The boundary values.
+
+    Returns
+    -------
+    MotionLaw
+        From 0 to 1.
+
+    Raises
+    ------
+    LawError
+        The law is not symmetric, and other boundary values than its own are asked for.
+    """
+    return with_boundary(law, task) if is_symmetric(law) else at_rest_only(law, task)
+
+
+def is_symmetric(law: MotionLaw) -> bool:
+    """Whether the second half of a law of rest to rest is the mirror image of the first."""
+    z = np.linspace(0.0, 0.5, 17)
+    return bool(np.abs(law.at(z) + law.at(1 - z) - 1).max() < _SAME)
 
 
 def at_rest_only(law: MotionLaw, task: Boundary) -> MotionLaw:

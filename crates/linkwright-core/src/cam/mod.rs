@@ -243,11 +243,11 @@ impl<R: Real> Cam<R> {
         }
     }
 
-    /// A vector of the ground's frame seen from the cam, which has turned by σφ.
+    /// Vectors of the ground's frame seen from the cam, which has turned by σφ.
     #[inline(always)]
-    pub fn from_cam(&self, v: Vec2<R>, phi: R) -> Vec2<R> {
+    pub fn from_cam<const N: usize>(&self, vectors: [Vec2<R>; N], phi: R) -> [Vec2<R>; N] {
         let (sin, cos) = phi.sin_cos();
         let sin = sin * self.sense;
-        Vec2::new(v.x * cos + v.y * sin, v.y * cos - v.x * sin)
+        vectors.map(|v| Vec2::new(v.x * cos + v.y * sin, v.y * cos - v.x * sin))
     }
 }

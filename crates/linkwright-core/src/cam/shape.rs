@@ -74,7 +74,7 @@ impl Cam<f64> {
     pub fn row(&self, piece: &Piece, phi: f64) -> [f64; ROWS] {
         let [s, s1, s2, s3] = piece.at(phi);
         let contact = self.contact([s, s1, s2]);
-        let (pitch, normal) = (self.from_cam(contact.pitch, phi), self.from_cam(contact.normal, phi));
+        let [pitch, normal] = self.from_cam([contact.pitch, contact.normal], phi);
         let gamma = contact.lead.y.atan2(contact.lead.x);
         let sound = self.soundness(&contact);
         [s, s1, s2, s3, pitch.x, pitch.y, normal.x, normal.y, gamma, contact.bend, sound, contact.along]
@@ -99,7 +99,7 @@ impl Cam<f64> {
         let cam = self.lifted::<Jet<f64, 3>>();
         let at = Jet::variable(phi);
         let contact = cam.contact(piece.at(at));
-        let p = cam.from_cam(contact.pitch.plus(contact.normal, Jet::constant(away)), at);
+        let [p] = cam.from_cam([contact.pitch.plus(contact.normal, Jet::constant(away))], at);
         [[p.x.c[0], p.y.c[0]], [p.x.c[1], p.y.c[1]], [2.0 * p.x.c[2], 2.0 * p.y.c[2]]]
     }
 

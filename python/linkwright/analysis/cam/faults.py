@@ -197,7 +197,7 @@ def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
     # Joints stand twice among the angles: a side of no length crosses nothing.
     angle = flank.shape.angle
     keep = np.append(np.diff(angle) > 0, False)
-    points = flank.curve().points(angle[keep])
+    points = flank.profile[keep]
     for first, second, x, y in crossings(points)[:1]:
         at = [
             _degrees(float(np.interp(side, np.arange(keep.sum()), angle[keep]))) for side in (first, second)
@@ -283,7 +283,7 @@ def _jumps(profile: CamProfile) -> Iterator[str]:
         3: ("jerk", "by a finite step; acceleration is continuous"),
     }
     for order, (what, effect) in effects.items():
-        angles = [joint.angle for joint in profile.cam.joints if joint.order == order - 1]
+        angles = [joint.angle for joint in profile.cam.motion.joints if joint.order == order - 1]
         if angles:
             colon = " " if order == 3 else ": "
             yield f"the {what} of cam {profile.name} jumps at {_places(angles)}{colon}{effect}"

@@ -70,6 +70,13 @@ class Flank:
             radius: Floats = 1.0 / bend - self.contact.sizes.roller_radius
         return radius
 
+    @property
+    def profile(self) -> Floats:
+        """The profile at the angles of the shape, in the contact's frame, (n, 2) [m]."""
+        rows, roller = self.shape.rows, self.contact.sizes.roller_radius
+        x, y = (rows[f"pitch_{axis}"] - roller * rows[f"normal_{axis}"] for axis in "xy")
+        return np.column_stack((x, y))
+
     def curve(self, away: float | None = None) -> CamCurve:
         """A curve beside the pitch curve, by its distance outwards; without it, the profile."""
         return CamCurve(self.contact, -self.contact.sizes.roller_radius if away is None else away)
@@ -247,10 +254,10 @@ def profile_of(name: str, cam: Cam, touching: tuple[Contact, ...], speed: float 
         first.curvature_radius,
         name,
         cam.stroke,
-        _in_time(cam, 1, speed),
-        _in_time(cam, 2, speed),
-        _in_time(cam, 3, speed),
-        _speed_constant(cam, speed),
+        _in_time(cam.motion.peaks[0], 1, speed),
+        _in_time(cam.motion.peaks[1], 2, speed),
+        _in_time(cam.motion.peaks[2], 3, speed),
+        _in_time(cam.motion.steady_velocity, 1, speed),
         float(size.base_radius),
         float(size.base_radius + size.roller_radius),
         abs(steepest.value),
@@ -275,22 +282,9 @@ def _least(found: list[Extreme | None]) -> Extreme | None:
     return min((each for each in found if each is not None), key=lambda each: each.value, default=None)
 
 
-def _in_time(cam: Cam, order: int, speed: float | None) -> float | None:
-    """Largest derivative in time; None where it is infinite, or without a speed."""
-    if speed is None or any(joint.order < order - 1 for joint in cam.joints):
-        return None
-    return abs(cam.lift.peak(order).value) * abs(speed) ** order
-
-
-def _speed_constant(cam: Cam, speed: float | None) -> float | None:
-    """Largest velocity of the pieces that are straight lines."""
-    slopes = [
-        abs(float(piece.derivative(length).at(0.5)))
-        for piece, length in zip(cam.lift.pieces, np.diff(cam.lift.breaks), strict=True)
-        if not piece.harmonics and not any(piece.polynomial[2:])
-    ]
-    largest = max(slopes, default=0.0)
-    return largest * abs(speed) if largest > 0 and speed is not None else None
+def _in_time(peak: float | None, order: int, speed: float | None) -> float | None:
+    """A derivative by the cam angle as one by time; None without either."""
+    return None if peak is None or speed is None else peak * abs(speed) ** order
 
 
 def _steepest(shape: Shape) -> list[Extreme]:
