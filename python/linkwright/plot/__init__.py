@@ -9,6 +9,7 @@
 | `pumping_unit` | polished rod, torque of the gearbox, lever of a rotator |
 | `linkage` | transmission angles, coupler curves with the links |
 | `forces` | driving torque, reactions, hodographs, load cases |
+| `cam_dynamics` | contact force, pressure and vibration of cams and followers |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -16,6 +17,12 @@
 matplotlib is imported when the first figure is drawn.
 """
 
+from linkwright.plot.cam_dynamics import (
+    contact_force_figure,
+    pressure_figure,
+    residual_figure,
+    vibration_figure,
+)
 from linkwright.plot.compare import compare_figure
 from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
 from linkwright.plot.linkage import coupler_figure, transmission_figure
@@ -30,6 +37,7 @@ __all__ = [
     "attempt_figure",
     "cases_figure",
     "compare_figure",
+    "contact_force_figure",
     "coupler_figure",
     "forces_figure",
     "gear_torque_figure",
@@ -37,7 +45,9 @@ __all__ = [
     "motor_figure",
     "polar_figure",
     "polished_rod_figure",
+    "pressure_figure",
     "reduction_figure",
+    "residual_figure",
     "rotator_figure",
     "run_up_figure",
     "speed_figure",
@@ -45,4 +55,5 @@ __all__ = [
     "time_figure",
     "torque_figure",
     "transmission_figure",
+    "vibration_figure",
 ]
