@@ -63,6 +63,9 @@ _HOME = {
     "pose_guide": "synthesis.pose",
     "straight_line": "synthesis.straight_line",
     "straight_lines": "synthesis.straight_line",
+    "cam_profile": "analysis.cam.profile",
+    "cam_drawings": "exchange.cam",
+    "write_drawing": "exchange.write",
     "write_report": "report",
 }
 
@@ -85,6 +88,7 @@ def __dir__() -> list[str]:
 
 if TYPE_CHECKING:
     from linkwright.analysis.balancing import balance as balance
+    from linkwright.analysis.cam.profile import cam_profile as cam_profile
     from linkwright.analysis.circuits import circuits as circuits
     from linkwright.analysis.closure import closure as closure
     from linkwright.analysis.constant_energy import constant_energy as constant_energy
@@ -110,6 +114,8 @@ if TYPE_CHECKING:
     from linkwright.analysis.step_method import step_method as step_method
     from linkwright.analysis.study import study as study
     from linkwright.analysis.transient import transient as transient
+    from linkwright.exchange.cam import cam_drawings as cam_drawings
+    from linkwright.exchange.write import write_drawing as write_drawing
     from linkwright.files import loads as loads
     from linkwright.files import read as read
     from linkwright.files import write as write
