@@ -24,6 +24,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.machine.base import Checked, Description, fault
 from linkwright.machine.element import Crank, FixedPoint, Guide, LinearDriver, PositiveLength
 from linkwright.machine.follower_motion import FollowerMotion, follower_motion
+from linkwright.machine.follower_train import FollowerTrain
 from linkwright.machine.motion_section import MotionSection
 from linkwright.machine.plain import look
 from linkwright.machine.section_faults import section_faults
@@ -111,6 +112,9 @@ class Cam(Checked):
         "left", description="Side of the arm, seen from the cam's centre to its pivot."
     )
     second: SecondFollower | None = Field(None, description="Second follower of a conjugate pair.")
+    train: FollowerTrain | None = Field(
+        None, description="What vibrates between a translating follower and its load."
+    )
     cutter_radius: PositiveLength | None = Field(None, description="Of the cutter or grinding wheel.")
     pressure_angle_limit: Annotated[float, Quantity(ANGLE, _LIMIT)] | None = Field(
         None,
@@ -155,7 +159,7 @@ class Cam(Checked):
     @property
     def motion(self) -> FollowerMotion:
         """How the follower moves over the cam angle from the start of the first section."""
-        return follower_motion(self.sections, "swing" if self.is_oscillating else "lift")
+        return follower_motion(self.sections, "swing" if self.is_oscillating else "lift", self.train)
 
     @property
     def programme(self) -> Programme:
@@ -232,9 +236,10 @@ class Cam(Checked):
             yield fault("arm_pivot", expected="the fixed point that the follower turns about")
         if self.arm_length is None and self.is_roller:
             yield fault("arm_length", expected="a length: from the follower's pivot to roller or edge")
-        for key in ("direction", "face_tilt"):
+        for key in ("direction", "face_tilt", "train"):
             if key in self.model_fields_set:
-                yield fault(key, found=getattr(self, key), expected="nothing for an oscillating follower")
+                found = "a table" if key == "train" else getattr(self, key)
+                yield fault(key, found=found, expected="nothing for an oscillating follower")
         if self.is_roller and "offset" in self.model_fields_set:
             yield fault("offset", found=self.offset, expected="nothing for an arm with a roller or edge")
 

@@ -238,14 +238,14 @@ def _jumps(profile: CamProfile) -> Iterator[str]:
     """Joints where velocity or acceleration jumps, or jerk."""
     words = {0: "lift", 1: "velocity", 2: "acceleration"}
     for order, what in words.items():
-        angles = [j.angle for j in profile.cam.programme.joints if j.order == order - 1]
+        angles = [j.angle for j in profile.cam.motion.joints if j.order == order - 1]
         if angles:
             effect = (
                 "the follower cannot follow" if order == 0 else "a blow" if order == 1 else "a sudden force"
             )
             places = ", ".join(_degrees(angle) for angle in angles)
             yield f"the {what} of cam {profile.name} jumps at {places}: {effect}"
-    jerks = [j for j in profile.cam.programme.joints if j.order == 2]
+    jerks = [j for j in profile.cam.motion.joints if j.order == 2]
     if jerks:
         places = ", ".join(_degrees(joint.angle) for joint in jerks)
         yield f"the jerk of cam {profile.name} jumps at {places} by a finite step; acceleration is continuous"
