@@ -10,6 +10,7 @@
 | `linkage` | transmission angles, coupler curves with the links |
 | `forces` | driving torque, reactions, hodographs, load cases |
 | `motion_laws` | motion laws and their derivatives, several in one picture |
+| `cam_dynamics` | contact force, pressure and vibration of cams and followers |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -17,6 +18,12 @@
 matplotlib is imported when the first figure is drawn.
 """
 
+from linkwright.plot.cam_dynamics import (
+    contact_force_figure,
+    pressure_figure,
+    residual_figure,
+    vibration_figure,
+)
 from linkwright.plot.compare import compare_figure
 from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
 from linkwright.plot.linkage import coupler_figure, transmission_figure
@@ -32,6 +39,7 @@ __all__ = [
     "attempt_figure",
     "cases_figure",
     "compare_figure",
+    "contact_force_figure",
     "coupler_figure",
     "forces_figure",
     "gear_torque_figure",
@@ -40,7 +48,9 @@ __all__ = [
     "motor_figure",
     "polar_figure",
     "polished_rod_figure",
+    "pressure_figure",
     "reduction_figure",
+    "residual_figure",
     "rotator_figure",
     "run_up_figure",
     "speed_figure",
@@ -48,4 +58,5 @@ __all__ = [
     "time_figure",
     "torque_figure",
     "transmission_figure",
+    "vibration_figure",
 ]

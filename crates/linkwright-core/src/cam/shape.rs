@@ -101,18 +101,19 @@ impl Cam<f64> {
     }
 
     /// Angles where a sampled row passes a level, with the sign of what comes after: +1 where it is above.
-    /// A joint where it jumps over the level counts as such.
+    /// A joint where it jumps over the level counts as such, also that of the last piece with the first.
     pub fn passes(&self, row: usize, level: f64, law: &MotionLaw, shape: &Shape) -> Vec<(f64, f64)> {
-        let values = &shape.rows[row];
+        let (values, n) = (&shape.rows[row], shape.phi.len());
         let mut found = Vec::new();
-        for i in 1..values.len() {
-            let (a, b) = (values[i - 1] - level, values[i] - level);
+        for i in 0..n {
+            let before = (i + n - 1) % n;
+            let (a, b) = (values[before] - level, values[i] - level);
             if (a < 0.0) == (b < 0.0) || a.is_nan() || b.is_nan() {
                 continue;
             }
             let piece = &law.pieces()[shape.piece[i] as usize];
-            let phi = if shape.piece[i] == shape.piece[i - 1] {
-                zero(|phi| self.row(piece, phi)[row] - level, shape.phi[i - 1], shape.phi[i])
+            let phi = if i > 0 && shape.piece[i] == shape.piece[before] {
+                zero(|phi| self.row(piece, phi)[row] - level, shape.phi[before], shape.phi[i])
             } else {
                 shape.phi[i]
             };
