@@ -150,7 +150,7 @@ def test_outer_flank_of_a_groove() -> None:
     sections = SHARP.replace('"60 deg"', '"30 deg"').replace('"200 deg"', '"260 deg"')
     pitch = profile(lines, sections).flanks[0].shape.least["bend"]
     hollow = -1 / pitch.value
-    assert 0 < hollow
+    assert hollow > 0
     r = hollow + 0.002
     lines = f"base_radius = {0.072 - r}\nroller_radius = {r}\n"
     spring = cam_faults(profile(lines, sections))
@@ -172,7 +172,7 @@ def test_outer_flank_of_a_groove() -> None:
 
 
 def test_profile_that_crosses_itself() -> None:
-    """A lobe whose neck is narrower than the roller: nowhere undercut, and yet cut away from the other side."""
+    """A lobe whose neck is narrower than the roller: nowhere undercut, yet cut from the other side."""
     sections = """
 sections = [
   { angle = "45 deg", lift = "100 mm", law = "modified_trapezoid" },
@@ -188,7 +188,8 @@ sections = [
     assert found.shape.rows["soundness"].min() > 0
     place = np.array(numbers(text.split("(")[1].split(")")[0])) * 1e-3
     away = np.linalg.norm(found.curve().points(DENSE) - place, axis=1)
-    # The place lies on two branches that are far apart along the curve; it is that of a polygon of half degrees.
+    # The place lies on two branches that are far apart along the curve; it is that of a polygon of half
+    # degrees.
     angles = [float(each) for each in re.findall(r"([\d.]+)°", text)]
     for angle in angles:
         assert away[np.abs(np.degrees(DENSE) - angle) < 0.5].min() < 1e-4
@@ -272,7 +273,7 @@ def test_arm_that_the_cam_cannot_move() -> None:
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize("rotation", ["same", "opposite"])
 def test_face_that_turns_over_the_cam(side: str, rotation: str) -> None:
-    """The face turns back against the cam where ψ′ = −1 for an arm to the left of a cam turning to the left."""
+    """The face turns back where ψ′ = −1 for an arm to the left of a cam that turns to the left."""
     lines = ARM + f'contact = "flat"\nbase_radius = 0.02\nside = "{side}"\nrotation = "{rotation}"\n'
     # A slow rise and a quick return: s′ from about 0.6 down to −1.2.
     sections = """
@@ -307,8 +308,11 @@ def test_second_follower_that_does_not_touch_is_told() -> None:
     assert found.diameter_min == pytest.approx(0.06 + both.min(), abs=1e-7)
 
 
+PAIR = 'closure = "conjugate"\nbase_radius = "40 mm"\nroller_radius = "15 mm"\n'
+
+
 def test_all_shapes_of_second_cams_are_told_with_the_key_that_mends_them() -> None:
-    lines = 'closure = "conjugate"\nbase_radius = "40 mm"\nroller_radius = "15 mm"\nsecond = { distance = "%g mm" }\n'
+    lines = PAIR + 'second = { distance = "%g mm" }\n'
     found = cam_faults(profile(lines % 96))
     (text,) = [each for each in found if "second cam" in each]
     distance = numbers(text.split("a distance of more than")[1])[0]
@@ -317,7 +321,7 @@ def test_all_shapes_of_second_cams_are_told_with_the_key_that_mends_them() -> No
 
 
 def test_no_room_for_a_second_cam() -> None:
-    lines = 'closure = "conjugate"\nbase_radius = "40 mm"\nroller_radius = "15 mm"\nsecond = { distance = "80 mm" }\n'
+    lines = PAIR + 'second = { distance = "80 mm" }\n'
     with pytest.raises(FindingError, match=r"second\.distance must be more than 0\.09 m"):
         profile(lines)
     assert cam_profile(machine(SHARP + lines.replace("80 mm", "90.1 mm")))
@@ -336,7 +340,7 @@ def scan(size: Sizes, margin, low: float, high: float) -> float:
 
 @pytest.mark.parametrize("kind", ["roller", "offset", "arm", "flat arm"])
 def test_least_base_against_a_scan(kind: str) -> None:
-    """Scans with dense samples, finding the same radius to the scan's step, and exact limits by the kernel."""
+    """Scans with dense samples find the same radius to the scan's step; the limit is met exactly."""
     more = {
         "roller": "roller_radius = 0.01\n",
         "offset": "roller_radius = 0.01\noffset = 0.012\n",
