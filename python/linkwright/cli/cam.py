@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from linkwright.cli.cam_search import search
 from linkwright.cli.common import Json
 from linkwright.errors import InputError
 
@@ -56,7 +57,7 @@ def laws(law: Names = None, json: Json = False, out: Folder = None) -> None:
 
 
 # In the order of the help.
-CAM = (laws,)
+CAM = (laws, search)
 
 
 def _known(wanted: list[str], everything: dict[str, Any]) -> list[str]:

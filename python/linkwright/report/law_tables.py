@@ -8,7 +8,7 @@ from linkwright.analysis.law_factors import LawFactors
 from linkwright.motion_laws.bounds import BOUNDS
 from linkwright.motion_laws.catalogue import LAWS
 from linkwright.report.quantities import number
-from linkwright.report.table import Row, Table
+from linkwright.report.table import Table
 
 _COLUMNS = {
     "C_v": "C_v",
@@ -49,7 +49,7 @@ def bound_table() -> Table:
     Table
         A bound a row.
     """
-    rows = [
+    rows: list[Row] = [
         (each.holds_for, _COLUMNS[each.name], number(each.value), _named(each.reached_by)) for each in BOUNDS
     ]
     return Table(

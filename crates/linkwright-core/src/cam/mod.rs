@@ -119,6 +119,25 @@ pub struct Contact<R> {
     pub lead: Vec2<R>,
 }
 
+impl<R> Cam<R> {
+    /// The same in another number.
+    #[inline(always)]
+    pub fn map<T>(&self, f: impl Fn(R) -> T) -> Cam<T>
+    where
+        R: Copy,
+    {
+        Cam {
+            kind: self.kind,
+            sense: self.sense,
+            side: self.side,
+            size: self.size.map(&f),
+            start: f(self.start),
+            cos: f(self.cos),
+            sin: f(self.sin),
+        }
+    }
+}
+
 impl<R: Real> Cam<R> {
     /// A cam. Dimensions that do not go together give NaN.
     #[inline(always)]

@@ -55,9 +55,8 @@ def base_for_pressure_angle(cam: Cam, contact: Contact, limit: float) -> float |
 
     def spare(contact: Contact) -> float:
         shape = contact.kernel.shape(_FINE)
-        if np.abs(shape.rows["pressure_angle"]).max() >= np.pi / 2:
-            return -1.0
-        return tangent - max(abs(e["lead"].value) for e in (shape.greatest, shape.least))
+        both = (shape.greatest["pressure_angle"], shape.least["pressure_angle"])
+        return limit - max(abs(each.value) for each in both)
 
     return _first(cam, contact, lambda found: tangent - found[:, 0], spare)
 
