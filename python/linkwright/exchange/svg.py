@@ -1,7 +1,7 @@
 """Drawings as SVG at true scale: one unit is a millimetre, on paper too.
 
-An outline is one closed path of arcs and lines. y points down in SVG, so places are mirrored; an arc that turns to the
-left has sweep 0.
+An outline is one closed path of arcs and lines. y points down in SVG, so places are mirrored; an arc that
+turns to the left has sweep 0.
 
 Source: W3C, *Scalable Vector Graphics 1.1*, 8.3 (path data), F.6.5 (arcs from end points).
 """
@@ -138,7 +138,9 @@ def _refuse_scale(file: File, root: ElementTree.Element) -> None:
     except (ValueError, IndexError):
         is_true = False
     if not is_true:
-        raise ExchangeError(f'{file}: width "{width}" over viewBox "{" ".join(box)}" is not one millimetre a unit')
+        raise ExchangeError(
+            f'{file}: width "{width}" over viewBox "{" ".join(box)}" is not one millimetre a unit'
+        )
 
 
 def _outline(file: File, layer: str, data: str) -> Outline:

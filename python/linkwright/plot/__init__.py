@@ -9,6 +9,8 @@
 | `pumping_unit` | polished rod, torque of the gearbox, lever of a rotator |
 | `linkage` | transmission angles, coupler curves with the links |
 | `forces` | driving torque, reactions, hodographs, load cases |
+| `motion_laws` | motion laws and their derivatives, several in one picture |
+| `cam_dynamics` | contact force, pressure and vibration of cams and followers |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -16,9 +18,16 @@
 matplotlib is imported when the first figure is drawn.
 """
 
+from linkwright.plot.cam_dynamics import (
+    contact_force_figure,
+    pressure_figure,
+    residual_figure,
+    vibration_figure,
+)
 from linkwright.plot.compare import compare_figure
 from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
 from linkwright.plot.linkage import coupler_figure, transmission_figure
+from linkwright.plot.motion_laws import motion_laws_figure
 from linkwright.plot.motor import motor_figure
 from linkwright.plot.pumping_unit import gear_torque_figure, polished_rod_figure, rotator_figure
 from linkwright.plot.reduction import reduction_figure
@@ -30,14 +39,18 @@ __all__ = [
     "attempt_figure",
     "cases_figure",
     "compare_figure",
+    "contact_force_figure",
     "coupler_figure",
     "forces_figure",
     "gear_torque_figure",
     "hodograph_figure",
+    "motion_laws_figure",
     "motor_figure",
     "polar_figure",
     "polished_rod_figure",
+    "pressure_figure",
     "reduction_figure",
+    "residual_figure",
     "rotator_figure",
     "run_up_figure",
     "speed_figure",
@@ -45,4 +58,5 @@ __all__ = [
     "time_figure",
     "torque_figure",
     "transmission_figure",
+    "vibration_figure",
 ]

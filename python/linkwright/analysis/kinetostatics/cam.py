@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.analysis.cam.contact import contacts, touch
 from linkwright.analysis.kinetostatics.scene import Floats, Scene
 from linkwright.analysis.kinetostatics.wrench import Wrenches
-from linkwright.machine import OscillatingFollower, TranslatingFollower
+from linkwright.machine.cam import OscillatingFollower, TranslatingFollower
 from linkwright.machine.structure import FRAME
 
 Follower = TranslatingFollower | OscillatingFollower

@@ -1,0 +1,211 @@
+r"""A cam under the loads of its machine: what presses where, how hard the surfaces are loaded, when contact
+is lost.
+
+The normal force N comes from the equilibrium of the whole machine (`linkwright.analysis.forces`), with all
+bodies, loads and guides. Where it is negative the first contact would have to pull: a second follower, a
+second cam or the outer flank of a groove takes over; a follower that only a spring closes leaves the cam.
+
+With forces that do not depend on the speed, and inertia that goes with its square, :math:`N = N_0 + \omega^2
+N_2`, the follower leaves the cam at
+
+.. math:: \omega_\mathrm{off} = \min_{N_2 < 0}\sqrt{N_0/(-N_2)}
+
+References
+----------
+.. [1] Norton, Cam Design and Manufacturing Handbook, 2nd ed., chapters 8 and 12.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.analysis.cam.hertz import LineContact, Material, line_contact
+from linkwright.analysis.cam.profile import CamProfile, Flank
+from linkwright.analysis.forces import forces
+from linkwright.analysis.kinetostatics.result import Forces
+from linkwright.analysis.result import Result
+from linkwright.errors import FindingError
+from linkwright.machine import Machine
+
+Floats = NDArray[np.float64]
+
+# A force below this share of the largest is none: rounding must not decide which side carries.
+_NOTHING = 1e-9
+
+# Angles a turn at which the speed of losing contact is looked for.
+_ANGLES = 720
+
+
+@dataclass(frozen=True)
+class LoadedCam(Result):
+    """A cam under load over the crank angle.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n,)
+        [rad].
+    force : ndarray, shape (n,)
+        Normal force; negative where the second contact, or the outer flank, carries [N].
+    pressure_angle : ndarray, shape (n,)
+        Of the first contact [rad].
+    name : str
+        The cam's.
+    force_max, force_max_angle : float
+        Largest in size [N], and the crank angle there [rad].
+    force_min : float
+        Least, with its sign [N].
+    side_changes : int
+        How often in these angles the force goes from one side to the other.
+    speed_lost : float
+        Crank speed at which a follower closed by a spring leaves the cam [rad/s]; None if it never does, or
+        if something else closes it.
+    speed_lost_angle : float
+        Crank angle there [rad].
+    pressure_max, pressure_max_angle : float
+        Largest pressure by Hertz [Pa], and the crank angle there [rad]; None without width, or for an edge.
+    shear_max, shear_depth : float
+        Largest shear stress below the surface [Pa], and its depth there [m].
+    pressure : ndarray, shape (n,), or None
+        Pressure over the crank angle [Pa].
+    findings : tuple of str
+        Contact that is lost, a roller that does not fit, in sentences.
+    """
+
+    crank_angle: Floats
+    force: Floats
+    pressure_angle: Floats
+    name: str
+    force_max: float
+    force_max_angle: float
+    force_min: float
+    side_changes: int
+    speed_lost: float | None
+    speed_lost_angle: float | None
+    pressure_max: float | None
+    pressure_max_angle: float | None
+    shear_max: float | None
+    shear_depth: float | None
+    pressure: Floats | None
+    findings: tuple[str, ...] = ()
+
+
+def loaded_cam(machine: Machine, profile: CamProfile, found: Forces | None = None) -> LoadedCam:
+    """A cam under the loads of its machine.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine, with bodies and loads.
+    profile : CamProfile
+        One of its cams.
+    found : Forces, optional
+        Forces along a motion; without them, those of the steady motion or at the design speed.
+
+    Returns
+    -------
+    LoadedCam
+        Over the crank angles of the forces.
+
+    Raises
+    ------
+    InputError
+        Nothing says at which speed the machine runs.
+    FindingError
+        The machine has no motion.
+    """
+    found = forces(machine) if found is None else found
+    force = found.drives[profile.name]
+    angle = np.mod(found.crank_angle - profile.cam.phase, 2 * np.pi)
+    rows = [flank.contact.kernel.rows(angle) for flank in profile.flanks]
+    worst = int(np.nanargmax(np.abs(force)))
+    lost = _speed_lost(machine, profile) if profile.cam.closure == "spring" else None
+    hertz, misfit = _hertz(profile, rows, force)
+    hardest = int(np.argmax(hertz.pressure)) if hertz else 0
+    carrying = force[np.abs(force) > _NOTHING * abs(force[worst])]
+    return LoadedCam(
+        found.crank_angle,
+        force,
+        rows[0]["pressure_angle"],
+        profile.name,
+        float(abs(force[worst])),
+        float(found.crank_angle[worst]),
+        float(np.nanmin(force)),
+        int(np.count_nonzero(np.diff(np.sign(carrying)))),
+        lost[0] if lost else None,
+        lost[1] if lost else None,
+        float(hertz.pressure[hardest]) if hertz else None,
+        float(found.crank_angle[hardest]) if hertz else None,
+        float(hertz.shear[hardest]) if hertz else None,
+        float(hertz.shear_depth[hardest]) if hertz else None,
+        hertz.pressure if hertz else None,
+        (*misfit, *_left(profile, found, force)),
+    )
+
+
+def _left(profile: CamProfile, found: Forces, force: Floats) -> tuple[str, ...]:
+    """A follower that nothing keeps on its cam."""
+    lacking = float(np.nanmin(force))
+    if profile.cam.closure != "spring" or lacking >= -_NOTHING * float(np.nanmax(np.abs(force))):
+        return ()
+    at = np.degrees(found.crank_angle[int(np.nanargmin(force))])
+    return (
+        f"the follower leaves cam {profile.name}: at a crank angle of {at:.4g}° and "
+        f"{abs(float(np.nanmax(found.speed))):.4g} rad/s it would have to be pulled with {-lacking:.4g} N; "
+        "a spring that "
+        "presses with so much more there, a lower speed, or a groove keeps it on the cam",
+    )
+
+
+def _speed_lost(machine: Machine, profile: CamProfile) -> tuple[float, float] | None:
+    """Speed at which contact is lost, and the crank angle, from forces at two speeds."""
+    samples = np.linspace(0, 2 * np.pi, _ANGLES)
+    angles = profile.cam.phase + np.unique(np.concatenate((profile.cam.lift.breaks, samples)))
+    slow, fast = (forces(machine, speed=speed, angles=angles).drives[profile.name] for speed in (1.0, 2.0))
+    by_square = (fast - slow) / 3.0
+    still = slow - by_square
+    losing = by_square < -_NOTHING * max(float(np.abs(by_square).max()), 1e-300)
+    if not losing.any():
+        return None
+    squares = np.where(losing, still / np.where(losing, -by_square, 1.0), np.inf)
+    at = int(np.argmin(squares))
+    return math.sqrt(max(float(squares[at]), 0.0)), float(angles[at])
+
+
+def _hertz(
+    profile: CamProfile, rows: list[dict[str, Floats]], force: Floats
+) -> tuple[LineContact | None, tuple[str, ...]]:
+    """Pressure at the contact that carries, and what does not fit; None without a width or for an edge."""
+    cam = profile.cam
+    if cam.width is None or cam.contact == "point":
+        return None, ()
+    material = Material(cam.elastic_modulus, cam.poisson_ratio)
+    first = profile.flanks[0]
+    pulled = _outer(first, rows[0]) if len(rows) == 1 else _inner(profile.flanks[1], rows[1])
+    pushed = _inner(first, rows[0])
+    radius, roller = (np.where(force >= 0, a, b) for a, b in zip(pushed, pulled, strict=True))
+    carried = np.abs(force) if cam.closure != "spring" else np.maximum(force, 0.0)
+    try:
+        return line_contact(carried, radius, roller, cam.width, material, material), ()
+    except FindingError as error:
+        return None, (f"cam {profile.name}: {error}",)
+
+
+def _inner(flank: Flank, rows: dict[str, Floats]) -> tuple[Floats, Floats]:
+    """Radii of curvature of profile and follower."""
+    bend = rows["bend"]
+    if not flank.contact.kernel.is_roller:
+        return bend, np.full_like(bend, np.inf)
+    roller = flank.contact.sizes.roller_radius
+    with np.errstate(divide="ignore"):
+        return 1.0 / bend - roller, np.full_like(bend, roller)
+
+
+def _outer(flank: Flank, rows: dict[str, Floats]) -> tuple[Floats, Floats]:
+    """The same at the outer flank of a groove, which is hollow where the pitch curve is convex."""
+    roller = flank.contact.sizes.roller_radius
+    with np.errstate(divide="ignore"):
+        return -(1.0 / rows["bend"] + roller), np.full_like(rows["bend"], roller)
