@@ -185,4 +185,4 @@ class SynthesisError(FindingError):
 
 
 class ExchangeError(FindingError):
-    """A curve has no outline that can be manufactured, or what was read back is not what was to be written."""
+    """A curve has no outline that can be manufactured, or what was read back is not what was written."""

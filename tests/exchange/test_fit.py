@@ -27,7 +27,8 @@ from linkwright.exchange.fit import Form, fit
 from linkwright.exchange.mesh import equal_errors
 from linkwright.exchange.outline import Outline
 from linkwright.exchange.track import Track
-from linkwright.motion_laws.motion_law import MotionLaw, Piece
+from linkwright.motion_laws.motion_law import MotionLaw
+from linkwright.motion_laws.piece import Piece
 
 TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 

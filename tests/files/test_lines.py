@@ -93,6 +93,17 @@ def test_lines_of_a_text_with_everything() -> None:
     assert found == expected
 
 
+def test_entries_of_a_list_of_tables_are_counted() -> None:
+    text = "[a]\n[[a.b]]\nc = 1\n[[a.b]]\nc = 2\n[a.b.d]\ne = 3\n[[a.b.f]]\ng = 4\n[[a.b.f]]\ng = 5\n"
+    found = key_lines(text)
+    assert found[("a", "b", "0", "c")] == 3
+    assert found[("a", "b", "1")] == 4
+    assert found[("a", "b", "1", "c")] == 5
+    assert found[("a", "b", "1", "d", "e")] == 7
+    assert found[("a", "b", "1", "f", "0", "g")] == 9
+    assert found[("a", "b", "1", "f", "1", "g")] == 11
+
+
 def test_a_missing_key_has_the_line_of_its_table() -> None:
     lines = key_lines("a = 1\n\n[b]\nc = 2\n")
     assert line_of(lines, ("b", "d", "e")) == 3

@@ -53,3 +53,9 @@ def test_a_machine_made_in_python_is_written() -> None:
         {"format": 1, "name": "x", "mechanism": {"cranks": {"A": {"radius": "5 cm"}}}}
     )
     assert loads(dumps(machine)) == machine
+
+
+def test_sections_of_a_cam_are_written() -> None:
+    machine = read(TWO_CARTS.with_name("roller_cam.toml"))
+    assert loads(dumps(machine)) == machine
+    assert "[[mechanism.cams.cart.sections]]" in dumps(machine)

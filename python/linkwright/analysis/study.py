@@ -15,12 +15,14 @@ What fails becomes a finding, and the study goes on with what does not depend on
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 from linkwright.analysis.cam.faults import cam_cautions, cam_faults
+from linkwright.analysis.cam.follower_vibration import FollowerVibration, follower_vibration
 from linkwright.analysis.cam.loaded import LoadedCam, loaded_cam
+from linkwright.analysis.cam.one_mass import one_mass
 from linkwright.analysis.cam.profile import CamProfile, cam_profile
 from linkwright.analysis.cautions import cautions, has_inertia
 from linkwright.analysis.closure import require_full_turn
@@ -76,6 +78,8 @@ class Study:
         Its cams; ``"cam"`` among the results, or ``"cam.NAME"`` if there are several.
     loaded_cams : tuple of LoadedCam
         The same under load, ``"cam_force"``.
+    cam_vibrations : tuple of str and FollowerVibration
+        Names of the cams whose follower vibrates, and how at the design speed, ``"cam_vibration"``.
     attempt : Transient or None
         The motion from the start to the stall, where the run-up fails on the way.
     findings : tuple of str
@@ -98,6 +102,7 @@ class Study:
     linkage: Linkage | None = None
     cams: tuple[CamProfile, ...] = ()
     loaded_cams: tuple[LoadedCam, ...] = ()
+    cam_vibrations: tuple[tuple[str, FollowerVibration], ...] = ()
     findings: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
 
@@ -114,6 +119,9 @@ class Study:
         single = len(self.cams) == 1
         cams: dict[str, Result] = {"cam" if single else f"cam.{each.name}": each for each in self.cams}
         cams |= {"cam_force" if single else f"cam_force.{each.name}": each for each in self.loaded_cams}
+        cams |= {
+            "cam_vibration" if single else f"cam_vibration.{name}": each for name, each in self.cam_vibrations
+        }
         return {**cams, **{name: result for name, result in found.items() if result is not None}}
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
@@ -169,6 +177,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     cams = _cams(machine, found)
     driven = _moved(machine, found) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
     loaded = _loaded(machine, cams, driven.forces, found)
+    shaken = tuple(each for cam in cams for each in _vibration(cam, found))
     return replace(
         driven,
         pumping_unit=unit,
@@ -176,6 +185,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         linkage=moved if moved is not None and moved.elements else None,
         cams=cams,
         loaded_cams=loaded,
+        cam_vibrations=shaken,
         findings=found.sentences(),
         warnings=(*unit_cautions(machine, unit, rotator), *_cam_warnings(cams), *driven.warnings),
     )
@@ -203,6 +213,17 @@ def _loaded(
     loaded = tuple(each for each in looked if each is not None)
     found.errors += [CamError(text) for each in loaded for text in each.findings]
     return loaded
+
+
+def _vibration(profile: CamProfile, found: _Findings) -> Iterator[tuple[str, FollowerVibration]]:
+    """Vibration of a follower at the design speed; strikes and loss of contact are findings."""
+    train, speed = profile.cam.train, profile.speed
+    if train is None or not speed:
+        return
+    shaken = found.of(follower_vibration, profile.cam.lift, one_mass(train), abs(speed))
+    if shaken is not None:
+        found.errors += [CamError(f"cam {profile.name}: {text}") for text in shaken.findings]
+        yield profile.name, shaken
 
 
 def _cam_warnings(cams: tuple[CamProfile, ...]) -> tuple[str, ...]:

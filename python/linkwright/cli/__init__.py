@@ -15,8 +15,10 @@ from typing import Annotated, Any
 import typer
 
 from linkwright.cli.balance import balance
+from linkwright.cli.cam import CAM, cam
 from linkwright.cli.check import check
 from linkwright.cli.common import reports_errors
+from linkwright.cli.default_command import group_with_default
 from linkwright.cli.forces import forces
 from linkwright.cli.motion import motion
 from linkwright.cli.new import new
@@ -30,7 +32,13 @@ from linkwright.cli.synthesise import SYNTHESISE, synthesise
 COMMANDS: tuple[Callable[..., Any], ...] = (run, check, motion, forces, balance, size, papers, new, schema)
 
 # Commands that have commands of their own: what the group does, and its commands.
-GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = ((synthesise, SYNTHESISE),)
+GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = (
+    (synthesise, SYNTHESISE),
+    (cam, CAM),
+)
+
+# Group → its command for a first word that names none of its commands, such as a file.
+_DEFAULTS: dict[str, Callable[..., Any]] = {}
 
 
 def _version(wanted: bool) -> None:
@@ -64,11 +72,28 @@ def application() -> typer.Typer:
     for command in COMMANDS:
         app.command()(reports_errors(command))
     for group, commands in GROUPS:
-        below = typer.Typer(no_args_is_help=True, rich_markup_mode=None)
-        for command in commands:
-            below.command()(reports_errors(command))
-        app.add_typer(below, name=group.__name__, help=group.__doc__)
+        app.add_typer(
+            _group(commands, _DEFAULTS.get(group.__name__)), name=group.__name__, help=group.__doc__
+        )
     return app
+
+
+def _group(commands: tuple[Callable[..., Any], ...], default: Callable[..., Any] | None) -> typer.Typer:
+    """A group of commands, with a command for what is none of them."""
+    # Never a word that somebody writes: a blank is in it.
+    hidden = "a file"
+    kind = None if default is None else group_with_default(hidden)
+    group = typer.Typer(cls=kind, no_args_is_help=True, rich_markup_mode=None)
+    group.callback()(_nothing)
+    for command in commands:
+        group.command()(reports_errors(command))
+    if default is not None:
+        group.command(hidden, hidden=True)(reports_errors(default))
+    return group
+
+
+def _nothing() -> None:
+    """A group with a single command is a group all the same."""
 
 
 def main() -> None:

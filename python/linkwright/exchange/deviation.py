@@ -114,7 +114,8 @@ def deviation(path: Path, track: Track) -> Deviation:
 
     forth, at_forth = _largest(from_path, len(low))
     back, at_back = _largest(from_curve, len(low))
-    return Deviation(forth, back, track.angle(at_forth if forth >= back else at_back), len(low))
+    at = track.angles(np.array([at_forth if forth >= back else at_back]) % track.period)
+    return Deviation(forth, back, float(at[0]), len(low))
 
 
 def _intervals(vertices: Floats, track: Track) -> tuple[Floats, Floats]:

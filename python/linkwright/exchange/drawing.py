@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import InputError
-from linkwright.exchange.deviation import Deviation
 from linkwright.exchange.curve import ClosedCurve
+from linkwright.exchange.deviation import Deviation
 from linkwright.exchange.track import Track
 
 # Usual layers of outlines, and those of what is drawn beside them.
@@ -51,7 +51,8 @@ class Drawing:
         for layer in self.curves:
             if not layer or set(layer) & _FORBIDDEN or layer in (CENTRE, ZERO_ANGLE, TEXT, "0"):
                 raise InputError(
-                    f'layer "{layer}": expected a name of its own without any of {"".join(sorted(_FORBIDDEN))}, '
+                    f'layer "{layer}": expected a name of its own without '
+                    f"any of {''.join(sorted(_FORBIDDEN))}, "
                     f"such as {PROFILE}"
                 )
 
@@ -63,7 +64,7 @@ class Drawing:
     @cached_property
     def radius(self) -> float:
         """The largest distance from the centre, as far as samples show it [m]."""
-        return max(float(np.linalg.norm(track.samples, axis=1).max()) for track in self.tracks.values())
+        return max(float(np.linalg.norm(track.sampled[1], axis=1).max()) for track in self.tracks.values())
 
     @property
     def cross(self) -> float:

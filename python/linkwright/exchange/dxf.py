@@ -1,7 +1,7 @@
 """Drawings as DXF (AutoCAD 2010), in millimetres.
 
-An outline of arcs or chords is one closed LWPOLYLINE with bulges, a spline one closed SPLINE. Numbers are written so
-that they read back exactly.
+An outline of arcs or chords is one closed LWPOLYLINE with bulges, a spline one closed SPLINE. Numbers are
+written so that they read back exactly.
 
 Source: Autodesk, *DXF Reference* (2012): LWPOLYLINE, SPLINE, $INSUNITS.
 """
@@ -23,7 +23,7 @@ from linkwright.exchange.spline import EvaluatedSpline, Spline
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
-    from ezdxf.layouts import Modelspace
+    from ezdxf.layouts.layout import Modelspace
     from ezdxf.math import BSpline
 
 Floats = NDArray[np.float64]
@@ -61,9 +61,9 @@ def write_dxf(
     notes : tuple of str
         Lines of text under the outline, on a layer of their own.
     """
-    import ezdxf
+    from ezdxf.filemanagement import new
 
-    document = ezdxf.new(_VERSION, units=_MILLIMETRE)
+    document = new(_VERSION, units=_MILLIMETRE)
     document.header["$MEASUREMENT"] = 1
     space = document.modelspace()
     for layer, path in paths.items():
@@ -137,11 +137,12 @@ def read_dxf(file: File, layers: tuple[str, ...]) -> dict[str, Found]:
     ExchangeError
         The file is no sound DXF in millimetres, or a layer does not hold one closed entity.
     """
-    import ezdxf
+    from ezdxf.filemanagement import readfile
+    from ezdxf.lldxf.const import DXFError
 
     try:
-        document = ezdxf.readfile(file)
-    except (OSError, ezdxf.DXFError) as error:
+        document = readfile(file)
+    except (OSError, DXFError) as error:
         raise ExchangeError(f"{file}: is not a DXF file that can be read ({error})") from None
     faults = document.audit().errors
     if faults:

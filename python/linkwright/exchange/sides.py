@@ -1,7 +1,7 @@
 """Arcs and lines by start, chord and bulge.
 
-The bulge is b = tan(θ/4), where θ is the angle that the arc turns, positive to the left; a line has none. With the
-chord c, the arc has the length c θ/(2 sin(θ/2)) and the curvature 2 sin(θ/2)/c.
+The bulge is b = tan(θ/4), where θ is the angle that the arc turns, positive to the left; a line
+has none. With the chord c, the arc has the length c θ/(2 sin(θ/2)) and the curvature 2 sin(θ/2)/c.
 
 Source: Autodesk, *DXF Reference*, LWPOLYLINE, group code 42.
 """

@@ -1,7 +1,7 @@
 """Drawings as SVG at true scale: one unit is a millimetre, on paper too.
 
-An outline is one closed path of arcs and lines. y points down in SVG, so places are mirrored; an arc that turns to the
-left has sweep 0.
+An outline is one closed path of arcs and lines. y points down in SVG, so places are mirrored; an arc that
+turns to the left has sweep 0.
 
 Source: W3C, *Scalable Vector Graphics 1.1*, 8.3 (path data), F.6.5 (arcs from end points).
 """

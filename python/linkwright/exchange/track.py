@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.exchange.curve import ClosedCurve, Stretch, stretches
+from linkwright.exchange.curve import TURN, ClosedCurve, Stretch, stretches
 
 Floats = NDArray[np.float64]
 
@@ -59,12 +59,22 @@ class Track:
         """First derivatives, (…, 2) [m/rad]; from ``end`` on, those before it."""
         return self._at("tangents", tau, end)
 
-    def angle(self, tau: float) -> float:
-        """The cam angle of a τ [rad]."""
-        index = int(
-            np.clip(np.searchsorted(self.ends, tau % self.period, "right") - 1, 0, len(self.parts) - 1)
-        )
-        return self.parts[index].low + tau % self.period - float(self.ends[index])
+    def at_cam_angles(self, phi: Floats) -> Floats:
+        """τ of cam angles (n,); within a standstill that of its end."""
+        low, high = np.array([[part.low, part.high] for part in self.parts]).T
+        turns = np.floor(phi / TURN)
+        inside = phi - TURN * turns
+        index = np.clip(np.searchsorted(low, inside, "right") - 1, 0, len(low) - 1)
+        tau = self.ends[index] + np.clip(inside, low[index], high[index]) - low[index]
+        return np.asarray(tau + turns * self.period)
+
+    def angles(self, tau: Floats) -> Floats:
+        """Cam angles of τ (n,), each turn on [rad]."""
+        turns = np.floor(tau / self.period)
+        inside = tau - self.period * turns
+        low = np.array([part.low for part in self.parts])
+        index = np.clip(np.searchsorted(self.ends, inside, "right") - 1, 0, len(low) - 1)
+        return np.asarray(low[index] + inside - self.ends[index] + TURN * turns)
 
     def _at(self, what: str, tau: Floats, end: Floats | float) -> Floats:
         """Values of the stretch in which each τ lies."""
@@ -80,14 +90,20 @@ class Track:
             values[here] = getattr(part, what)(part.low + (wrapped[here] - self.ends[i]))
         return values
 
-    @property
-    def samples(self) -> Floats:
-        """Places along the whole curve, with both ends of each stretch, (n, 2) [m]."""
-        return self._samples[1]
+    def seconds(self, tau: Floats, end: Floats | float = np.inf) -> Floats:
+        """Second derivatives, (…, 2) [m/rad²]; from ``end`` on, those before it."""
+        return self._at("seconds", tau, end)
 
     @cached_property
-    def _samples(self) -> tuple[Floats, Floats]:
-        """τ and places along the whole curve, with both ends of each stretch."""
+    def sense(self) -> int:
+        """1 if the curve runs counter-clockwise, else −1."""
+        _, place = self.sampled
+        x, y = place.T
+        return 1 if (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() > 0 else -1
+
+    @cached_property
+    def sampled(self) -> tuple[Floats, Floats]:
+        """τ (n,) and places (n, 2) along the whole curve, with both ends of each stretch."""
         shares = np.diff(self.ends) / self.period
         counts = np.maximum(_PER_STRETCH, (_IN_ALL * shares).astype(int))
         phi = [np.linspace(part.low, part.high, n) for part, n in zip(self.parts, counts, strict=True)]
@@ -108,7 +124,7 @@ class Track:
         tuple of ndarray, shape (n,)
             τ [rad], and distances [m].
         """
-        tau, samples = self._samples
+        tau, samples = self.sampled
         blocks = np.array_split(places, max(1, len(places) // _BLOCK))
         closest = [((block[:, None] - samples) ** 2).sum(axis=-1).argmin(axis=1) for block in blocks]
         start = tau[np.concatenate(closest)]

@@ -77,6 +77,8 @@ class _Scanner:
     text: str
     at: int = 0
     lines: dict[Place, int] = field(default_factory=dict)
+    # List of tables → how many of its entries have been met.
+    _entries: dict[Place, int] = field(default_factory=dict)
     _counted: tuple[int, int] = (0, 1)
 
     def document(self) -> None:
@@ -91,10 +93,21 @@ class _Scanner:
         """``[a.b]`` or ``[[a.b]]``; returns the place of the table, or of an entry of a list."""
         many = self._sees("[[")
         self.at += 2 if many else 1
-        place = self._key() + (("0",) if many else ())
+        place = self._within(self._key(), many=many)
         for n in range(1, len(place) + 1):
             self._note(place[:n])
         self.at = self.text.index("]", self.at) + (2 if many else 1)
+        return place
+
+    def _within(self, key: Place, *, many: bool) -> Place:
+        """The place that a header means: below the last entry of each list on the way, or a new entry."""
+        place: Place = ()
+        for n, part in enumerate(key, start=1):
+            place = (*place, part)
+            if many and n == len(key):
+                self._entries[place] = self._entries.get(place, 0) + 1
+            if place in self._entries:
+                place = (*place, str(self._entries[place] - 1))
         return place
 
     def _entry(self, table: Place) -> Place:

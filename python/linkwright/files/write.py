@@ -106,7 +106,10 @@ def _plain(value: Any, place: tuple[str, ...], machine: Machine) -> Any:
     if isinstance(value, dict):
         return {key: _plain(each, (*place, key), machine) for key, each in value.items()}
     if isinstance(value, tuple):
-        return list(value)
+        is_tables = any(isinstance(each, BaseModel) for each in value)
+        return [
+            _plain(each, (*place, str(n)), machine) if is_tables else each for n, each in enumerate(value)
+        ]
     if not isinstance(value, str | int | float):
         raise InputError(f"{'.'.join(place)}: {show(value)} is not one value; write one machine at a time")
     mark = mark_of(annotation_at(Machine, place, machine))

@@ -24,6 +24,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.machine.base import Checked, Description, fault
 from linkwright.machine.element import Crank, FixedPoint, Guide, LinearDriver, PositiveLength
 from linkwright.machine.follower_motion import FollowerMotion, follower_motion
+from linkwright.machine.follower_train import FollowerTrain
 from linkwright.machine.motion_section import MotionSection
 from linkwright.machine.plain import look
 from linkwright.machine.section_faults import section_faults
@@ -111,6 +112,9 @@ class Cam(Checked):
         "left", description="Side of the arm, seen from the cam's centre to its pivot."
     )
     second: SecondFollower | None = Field(None, description="Second follower of a conjugate pair.")
+    train: FollowerTrain | None = Field(
+        None, description="What vibrates between a translating follower and its load."
+    )
     cutter_radius: PositiveLength | None = Field(None, description="Of the cutter or grinding wheel.")
     pressure_angle_limit: Annotated[float, Quantity(ANGLE, _LIMIT)] | None = Field(
         None,
@@ -155,7 +159,7 @@ class Cam(Checked):
     @property
     def motion(self) -> FollowerMotion:
         """How the follower moves over the cam angle from the start of the first section."""
-        return follower_motion(self.sections, "swing" if self.is_oscillating else "lift")
+        return follower_motion(self.sections, "swing" if self.is_oscillating else "lift", self.train)
 
     @property
     def programme(self) -> Programme:
@@ -178,7 +182,8 @@ class Cam(Checked):
         if self.base_radius is not None:
             return self.base_radius
         assert self.breadth is not None
-        return 0.5 * (self.breadth - self.stroke) - self.radius_of_roller
+        start = 0.5 * (self.breadth - self.stroke)
+        return start * np.cos(self.face_tilt) - self.radius_of_roller
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from section_faults(self.sections, "swing" if self.is_oscillating else "lift")
@@ -232,9 +237,10 @@ class Cam(Checked):
             yield fault("arm_pivot", expected="the fixed point that the follower turns about")
         if self.arm_length is None and self.is_roller:
             yield fault("arm_length", expected="a length: from the follower's pivot to roller or edge")
-        for key in ("direction", "face_tilt"):
+        for key in ("direction", "face_tilt", "train"):
             if key in self.model_fields_set:
-                yield fault(key, found=getattr(self, key), expected="nothing for an oscillating follower")
+                found = "a table" if key == "train" else getattr(self, key)
+                yield fault(key, found=found, expected="nothing for an oscillating follower")
         if self.is_roller and "offset" in self.model_fields_set:
             yield fault("offset", found=self.offset, expected="nothing for an arm with a roller or edge")
 
@@ -272,15 +278,14 @@ class Sizes(NamedTuple):
 class TranslatingFollower(LinearDriver):
     """A driver that follows a cam along a line."""
 
-    cam: Cam
+    cam: Cam = Field(description="The cam.")
 
 
 class OscillatingFollower(Crank):
     """A driver that follows a cam about a pivot."""
 
-    cam: Cam
-    # Sense in which the angle grows with the lift: −1 for an arm to the left.
-    turn: float
+    cam: Cam = Field(description="The cam.")
+    turn: float = Field(description="Sense of the angle as the lift grows: -1 for an arm to the left.")
 
 
 def sizes(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> Sizes:
@@ -322,7 +327,7 @@ def to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") 
 
     Returns
     -------
-    x, y : float or ndarray
+    x, y : float or ndarray, shape (rows,)
         [m].
     """
     centre, pivot = points.get(cam.pivot or origin), points[cam.arm_pivot or ""]

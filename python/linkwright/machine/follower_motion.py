@@ -9,11 +9,12 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from linkwright.machine.follower_train import FollowerTrain
 from linkwright.machine.motion_section import Family, MotionSection, programme
 
 if TYPE_CHECKING:
     from linkwright.motion_laws.motion_law import MotionLaw
-    from linkwright.motion_laws.programme import Programme
+    from linkwright.motion_laws.programme import Joint, Programme
 
 
 class FollowerMotion:
@@ -25,6 +26,8 @@ class FollowerMotion:
         Without faults.
     family : {"lift", "swing"}
         What the follower does.
+    train : FollowerTrain or None
+        What vibrates behind the cam, which may ask for a lift of its own.
 
     Attributes
     ----------
@@ -36,17 +39,26 @@ class FollowerMotion:
         Greatest lift [m or rad].
     """
 
-    def __init__(self, sections: tuple[MotionSection, ...], family: Family) -> None:
+    def __init__(
+        self, sections: tuple[MotionSection, ...], family: Family, train: FollowerTrain | None
+    ) -> None:
         self.programme: Programme = programme(sections, family)
-        law = self.programme.law
+        law = self.programme.law if train is None else train.lift_for(self.programme.law)
         least, greatest = law.extremes()
         self.lift: MotionLaw = law.scaled(1.0, -least.value)
         self.stroke = greatest.value - least.value
 
     @cached_property
+    def joints(self) -> tuple[Joint, ...]:
+        """How smooth the lift is where sections meet, and where a law inside a section has a break."""
+        from linkwright.motion_laws.programme import joints
+
+        return joints(self.lift, self.lift.breaks[:-1])
+
+    @cached_property
     def peaks(self) -> tuple[float | None, ...]:
         """Largest first, second and third derivative by the cam angle, in size; None where it is infinite."""
-        smooth = min(joint.order for joint in self.programme.joints)
+        smooth = min(joint.order for joint in self.joints)
         orders = range(1, 4)
         return tuple(abs(self.lift.peak(n).value) if n <= smooth + 1 else None for n in orders)
 
@@ -61,7 +73,9 @@ class FollowerMotion:
         return max(slopes, default=0.0) or None
 
 
-def follower_motion(sections: tuple[MotionSection, ...], family: Family) -> FollowerMotion:
+def follower_motion(
+    sections: tuple[MotionSection, ...], family: Family, train: FollowerTrain | None = None
+) -> FollowerMotion:
     """The motion of some sections; the same as before for the same tuple.
 
     Parameters
@@ -70,20 +84,22 @@ def follower_motion(sections: tuple[MotionSection, ...], family: Family) -> Foll
         Without faults.
     family : {"lift", "swing"}
         What the follower does.
+    train : FollowerTrain or None
+        What vibrates behind the cam.
 
     Returns
     -------
     FollowerMotion
         Programme, lift and peaks.
     """
-    key = (id(sections), family)
+    key = (id(sections), family, id(train))
     if key not in _known:
         if len(_known) >= _KNOWN_MAX:
             _known.pop(next(iter(_known)), None)
-        # The sections are kept with their motion, so that no other tuple can take their identity.
-        _known[key] = (sections, FollowerMotion(sections, family))
+        # The parts are kept with their motion, so that nothing else can take their identity.
+        _known[key] = ((sections, train), FollowerMotion(sections, family, train))
     return _known[key][1]
 
 
-_known: dict[tuple[int, Family], tuple[tuple[MotionSection, ...], FollowerMotion]] = {}
+_known: dict[tuple[int, Family, int], tuple[object, FollowerMotion]] = {}
 _KNOWN_MAX = 64

@@ -70,9 +70,10 @@ class MotionLaw:
         start : float
             Where the first begins.
         *stretches : tuple of float and Piece
-            Length and piece; those without length are left out.
+            Length and piece; those without length, but for rounding, are left out.
         """
-        kept = [(length, piece) for length, piece in stretches if length > 0]
+        least = _SAME * math.fsum(length for length, _ in stretches)
+        kept = [(length, piece) for length, piece in stretches if length > least]
         ends = [math.fsum([start, *(length for length, _ in kept[:i])]) for i in range(len(kept) + 1)]
         return cls(tuple(ends), tuple(piece for _, piece in kept))
 

@@ -10,6 +10,7 @@
 | `linkage` | transmission angles, coupler curves with the links |
 | `forces` | driving torque, reactions, hodographs, load cases |
 | `cam_dynamics` | contact force, pressure and vibration of cams and followers |
+| `motion_laws` | motion laws and their derivatives, several in one picture |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -26,6 +27,7 @@ from linkwright.plot.cam_dynamics import (
 from linkwright.plot.compare import compare_figure
 from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
 from linkwright.plot.linkage import coupler_figure, transmission_figure
+from linkwright.plot.motion_laws import motion_laws_figure
 from linkwright.plot.motor import motor_figure
 from linkwright.plot.pumping_unit import gear_torque_figure, polished_rod_figure, rotator_figure
 from linkwright.plot.reduction import reduction_figure
@@ -42,6 +44,7 @@ __all__ = [
     "forces_figure",
     "gear_torque_figure",
     "hodograph_figure",
+    "motion_laws_figure",
     "motor_figure",
     "polar_figure",
     "polished_rod_figure",

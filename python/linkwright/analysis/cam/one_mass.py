@@ -19,6 +19,7 @@ from dataclasses import dataclass
 
 from linkwright.analysis.cam.checks import finite, not_negative, positive
 from linkwright.errors import InputError
+from linkwright.machine.follower_train import FollowerTrain
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,3 +83,26 @@ class OneMass:
     def damping(self) -> float:
         """c, of the damper in the train [N s/m]."""
         return 2 * self.damping_ratio * self.natural_frequency * self.mass
+
+
+def one_mass(train: FollowerTrain) -> OneMass:
+    """The model of a follower train of a machine.
+
+    Parameters
+    ----------
+    train : FollowerTrain
+        As the machine file describes it.
+
+    Returns
+    -------
+    OneMass
+        The model.
+    """
+    return OneMass(
+        mass=train.mass,
+        stiffness=train.stiffness,
+        damping_ratio=train.damping_ratio,
+        damping_ratio_frame=train.damping_ratio_frame,
+        spring_rate=train.spring_rate,
+        preload=train.preload,
+    )

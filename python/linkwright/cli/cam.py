@@ -1,0 +1,113 @@
+"""``linkwright cam …``: the motion laws of cams, compared."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.cli.cam_search import search
+from linkwright.cli.common import Json
+from linkwright.errors import InputError
+
+if TYPE_CHECKING:
+    from linkwright.analysis.law_factors import LawFactors
+
+Names = Annotated[
+    list[str] | None,
+    typer.Option("--law", metavar="NAME", help="This law alone. May be given again.", show_default=False),
+]
+Folder = Annotated[
+    Path | None,
+    typer.Option(
+        "--out",
+        metavar="DIR",
+        help="Write cam_laws.json and the laws in one figure, as SVG and PNG, there.",
+        show_default=False,
+    ),
+]
+
+# Lines that can still be told apart in one figure; without --law, these.
+_DRAWN = ("parabolic", "cycloidal", "modified_trapezoid", "modified_sine", "polynomial_3_4_5", "minimum_jerk")
+
+
+def cam() -> None:
+    """Motion laws of cams: their factors, compared."""
+
+
+def laws(law: Names = None, json: Json = False, out: Folder = None) -> None:
+    """Factors of the motion laws, for a rise between two dwells.
+
+    Greatest velocity, acceleration, jerk, and velocity times acceleration, and the integrals of the squares,
+    with what no law can go below.
+    """
+    from linkwright.analysis.law_factors import cam_laws
+    from linkwright.cli.tables import print_tables
+    from linkwright.report.law_tables import bound_table, law_table
+
+    everything = cam_laws()
+    chosen = {name: everything[name] for name in _known(law or [], everything)}
+    if json:
+        _print(chosen)
+    else:
+        print_tables("", [law_table(chosen), bound_table()], [])
+    if out is not None:
+        _write(chosen, [name for name in chosen if law or name in _DRAWN], out, quiet=json)
+
+
+# In the order of the help.
+CAM = (laws, search)
+
+
+def _known(wanted: list[str], everything: dict[str, Any]) -> list[str]:
+    """The laws that are asked for; all of them without a wish."""
+    from linkwright.machine.base import suggestion
+
+    for name in wanted:
+        if name not in everything:
+            remedy = suggestion(name, everything) or "there is " + ", ".join(everything)
+            raise InputError(f'--law: found "{name}", expected the name of a law; {remedy}')
+    return wanted or list(everything)
+
+
+def _object(chosen: dict[str, LawFactors]) -> dict[str, Any]:
+    """What is printed and written as JSON."""
+    from linkwright.motion_laws.bounds import BOUNDS
+    from linkwright.motion_laws.catalogue import LAWS
+
+    laws = {
+        name: {**factors.to_dict(), "parameters": LAWS[name].parameters, "source": LAWS[name].source}
+        for name, factors in chosen.items()
+    }
+    bounds = {bound.name: bound._asdict() for bound in BOUNDS}
+    results = {"cam_laws": laws, "cam_law_bounds": bounds}
+    return {"machine": None, "results": results, "findings": [], "warnings": []}
+
+
+def _text(chosen: dict[str, LawFactors]) -> str:
+    from json import dumps
+
+    return dumps(_object(chosen), allow_nan=False, ensure_ascii=False)
+
+
+def _print(chosen: dict[str, LawFactors]) -> None:
+    typer.echo(_text(chosen))
+
+
+def _write(chosen: dict[str, LawFactors], drawn: list[str], folder: Path, *, quiet: bool) -> None:
+    """JSON and figures; says where they are."""
+    from linkwright.motion_laws.catalogue import LAWS
+    from linkwright.plot import motion_laws_figure, svg
+
+    figure = motion_laws_figure({name: LAWS[name].normalised() for name in drawn})
+    texts = {"cam_laws.json": _text(chosen) + "\n", "cam_laws.svg": svg(figure)}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in texts.items():
+            (folder / name).write_text(text, encoding="utf-8")
+        figure.savefig(folder / "cam_laws.png", dpi=150)
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
+    listed = "\n".join(f"  {folder / name}" for name in (*texts, "cam_laws.png"))
+    typer.echo(f"Written:\n{listed}", err=quiet)

@@ -1,0 +1,202 @@
+"""``linkwright cam search``: many variants of a cam, and the smallest that keep their limits."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.cli.common import File, Json, Sets
+from linkwright.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from linkwright.analysis.cam.profile import CamProfile
+    from linkwright.machine import Machine
+    from linkwright.sweep.cams import Cams
+
+Vary = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--vary",
+        metavar="NAME=LOW:HIGH:N",
+        help='What varies, such as base_radius="20 mm":"60 mm":200 or lift_factor=1:1.2:5: base_radius, '
+        "roller_radius, offset, arm_length, face_tilt, lift_factor. May be given again: all combinations.",
+        show_default=False,
+    ),
+]
+Laws = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--law",
+        metavar="NAME",
+        help="A law of `linkwright cam laws` for all moving sections. May be given again. Without it, those "
+        "of the file.",
+        show_default=False,
+    ),
+]
+CamName = Annotated[
+    str | None, typer.Option("--cam", metavar="NAME", help="Which cam, if there are several.")
+]
+Steep = Annotated[
+    str | None,
+    typer.Option("--pressure-angle", metavar="ANGLE", help="Largest one allowed. Without it, the cam's."),
+]
+Tight = Annotated[
+    str | None,
+    typer.Option("--curvature-radius", metavar="LENGTH", help="Least convex one allowed on the profile."),
+]
+Count = Annotated[
+    int, typer.Option("--count", metavar="N", help="How many of the smallest are shown.", min=1)
+]
+
+# Cams that a search may have: a table of them still fits into the memory.
+_MOST = 50_000_000
+
+
+def search(
+    file: File,
+    vary: Vary = None,
+    law: Laws = None,
+    set: Sets = None,
+    cam: CamName = None,
+    pressure_angle: Steep = None,
+    curvature_radius: Tight = None,
+    count: Count = 10,
+    json: Json = False,
+) -> None:
+    """The smallest cams that keep their limits, among many.
+
+    Each is looked at at the same angles; those that are shown are looked at exactly. Exit code 1 if none
+    keeps the limits.
+    """
+    from linkwright.analysis.cam.profile import the_cam
+    from linkwright.files import read
+    from linkwright.sweep.cams import search_cams
+    from linkwright.units import ANGLE, LENGTH, parse
+
+    machine = read(file, set or [])
+    name, chosen = the_cam(machine, cam)
+    steep = chosen.limit if pressure_angle is None else parse(pressure_angle, ANGLE)
+    tight = (chosen.curvature_limit or 0.0) if curvature_radius is None else parse(curvature_radius, LENGTH)
+    columns = _columns(vary or [])
+    found = search_cams(machine, name, entries=columns, laws=law or [])
+    keeps = found.keeps(steep, tight)
+    best = [(int(i), _exact(machine, name, found, int(i))) for i in found.smallest(keeps, count)]
+    if json:
+        _print_json(machine, found, keeps, best)
+    else:
+        _print(found, keeps, best)
+    if not best:
+        raise typer.Exit(1)
+
+
+def _columns(wanted: list[str]) -> dict[str, NDArray[np.float64]]:
+    """All combinations of what varies, as columns."""
+    import numpy as np
+
+    axes = dict(_axis(each) for each in wanted)
+    if not axes:
+        raise InputError(
+            "--vary: found nothing that varies, expected such as --vary base_radius=0.02:0.06:200"
+        )
+    total = int(np.prod([len(axis) for axis in axes.values()], dtype=float))
+    if total > _MOST:
+        raise InputError(f"--vary: found {total} combinations, expected {_MOST} at most")
+    grid = np.meshgrid(*axes.values(), indexing="ij")
+    return {name: values.ravel() for name, values in zip(axes, grid, strict=True)}
+
+
+def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
+    """Name and values of one ``NAME=LOW:HIGH:N``."""
+    import numpy as np
+
+    from linkwright.machine.base import suggestion
+    from linkwright.sweep.cams import ENTRIES
+    from linkwright.units import ANGLE, LENGTH, RATIO, parse
+
+    name, _, values = text.partition("=")
+    kinds = {"face_tilt": ANGLE, "lift_factor": RATIO}
+    parts = [part.strip().strip('"') for part in values.split(":")]
+    if name not in ENTRIES or name == "distance":
+        raise InputError(f'--vary {text}: found "{name}", expected {suggestion(name, ENTRIES)}')
+    if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
+        remedy = "such as base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
+        raise InputError(f'--vary {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
+    low, high = (
+        parse(part if not _is_number(part) else float(part), kinds.get(name, LENGTH)) for part in parts[:2]
+    )
+    return name, np.linspace(low, high, int(parts[2]))
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _exact(machine: Machine, name: str, found: Cams, i: int) -> CamProfile:
+    """One of the cams, looked at exactly."""
+    from linkwright.analysis.cam.profile import cam_profile
+    from linkwright.sweep.cams import variant
+
+    return cam_profile(variant(machine, name, found, i), name)
+
+
+def _row(found: Cams, i: int, profile: CamProfile) -> dict[str, Any]:
+    """What is said of one cam."""
+    law = found.laws[int(found.law[i])] if found.laws else None
+    entries = {key: float(column[i]) for key, column in found.entries.items()}
+    return {
+        "law": law,
+        **entries,
+        "pressure_angle_max": profile.pressure_angle_max,
+        "curvature_radius_convex_min": profile.curvature_radius_convex_min,
+        "acceleration_max": profile.acceleration_max,
+    }
+
+
+def _print_json(machine: Machine, found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
+    from json import dumps
+
+    rows = [_row(found, i, profile) for i, profile in best]
+    counts = {"n_cams": len(keeps), "n_sound": int(found.is_sound.sum()), "n_kept": int(keeps.sum())}
+    results = {"cam_search": {**counts, "smallest": rows}}
+    typer.echo(dumps({"machine": machine.name, "results": results, "findings": [], "warnings": []}))
+
+
+def _print(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
+    """The smallest cams as a table."""
+    import numpy as np
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console()
+    console.print(
+        f"{len(keeps)} cams looked at, {int(found.is_sound.sum())} sound, {int(keeps.sum())} keep the limits",
+        highlight=False,
+    )
+    if not best:
+        console.print("FINDING  None keeps the limits: vary more, or allow more.", highlight=False)
+        return
+    units = {"face_tilt": ("deg", 180 / np.pi), "lift_factor": ("", 1.0)}
+    table = Table(box=None, header_style="", pad_edge=False)
+    heads = [*(["law"] if found.laws else []), *found.entries, "pressure angle", "radius of curvature"]
+    for head in heads:
+        table.add_column(head, justify="left" if head == "law" else "right")
+    for i, profile in best:
+        cells = [found.laws[int(found.law[i])]] if found.laws else []
+        for key, column in found.entries.items():
+            unit, factor = units.get(key, ("mm", 1e3))
+            cells.append(f"{factor * column[i]:.5g} {unit}".strip())
+        convex = profile.curvature_radius_convex_min
+        cells += [
+            f"{np.degrees(profile.pressure_angle_max):.4g}°",
+            "–" if convex is None else f"{1e3 * convex:.5g} mm",
+        ]
+        table.add_row(*cells)
+    console.print(table)

@@ -1,0 +1,145 @@
+"""Write a drawing for manufacture: each file is read back before it gets its name."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path as File
+
+from linkwright.errors import InputError
+from linkwright.exchange.drawing import PROFILE, Drawing, Measured, Written
+from linkwright.exchange.dxf import write_dxf
+from linkwright.exchange.fit import TOLERANCE, Form, fit
+from linkwright.exchange.outline import Outline
+from linkwright.exchange.read_back import read_back
+from linkwright.exchange.spline import Spline
+from linkwright.exchange.svg import write_svg
+from linkwright.exchange.table import By, table, write_csv
+
+# Step of tables [rad].
+STEP = math.radians(1)
+
+FORMATS = ("dxf", "csv", "svg")
+
+
+def write_drawing(
+    directory: str | os.PathLike[str],
+    drawing: Drawing,
+    *,
+    formats: Iterable[str] = FORMATS,
+    form: Form = "arcs",
+    tolerance: float = TOLERANCE,
+    step: float = STEP,
+    by: By = "cam",
+) -> tuple[Written, ...]:
+    """Write a drawing in several formats, each read back and compared with the curves.
+
+    Parameters
+    ----------
+    directory : path
+        Where; made if it is not there. Files of the same names are replaced.
+    drawing : Drawing
+        What is drawn.
+    formats : iterable of str
+        ``"dxf"``: all layers. ``"svg"``: all layers, as arcs or chords. ``"csv"``: one file a layer.
+    form : {"arcs", "spline", "cubic", "polyline"}
+        What the DXF holds: arcs and lines without kinks, a B-spline of degree 5 or 3, or chords.
+    tolerance : float
+        Largest distance of an outline from its curve [m].
+    step : float
+        Step of tables [rad].
+    by : {"cam", "polar"}
+        Whether it is one of the cam angle or of the polar angle.
+
+    Returns
+    -------
+    tuple of Written
+        The files, with the deviations that were measured in them.
+
+    Raises
+    ------
+    ExchangeError
+        A curve has no outline, or a file that was read back does not keep the tolerance; it is not kept then.
+    InputError
+        A format, form, tolerance or step that does not exist, or a directory that cannot be written.
+    """
+    folder, formats = File(directory), tuple(formats)
+    if unknown := [each for each in formats if each not in FORMATS]:
+        raise InputError(f'format "{unknown[0]}": expected {", ".join(FORMATS)}')
+    written: list[Written] = []
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if "dxf" in formats:
+            written.append(_dxf(folder, drawing, form, tolerance))
+        if "svg" in formats:
+            written.append(_svg(folder, drawing, form, tolerance))
+        if "csv" in formats:
+            written += [_csv(folder, drawing, layer, step, by) for layer in drawing.curves]
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be written ({error.strerror or error})") from None
+    return tuple(written)
+
+
+def _checked(
+    file: File, write: Callable[[File], None], check: Callable[[File], tuple[Measured, ...]]
+) -> Written:
+    """Write under another name, check, and only then take the name."""
+    trial = file.with_name(f"{file.stem}.unchecked{file.suffix}")
+    try:
+        write(trial)
+        measured = check(trial)
+        trial.replace(file)
+    finally:
+        trial.unlink(missing_ok=True)
+    return Written(file, measured)
+
+
+def _dxf(folder: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
+    """The drawing as DXF, with name, tolerance and what was measured as text."""
+    fits = {layer: fit(track, form, tolerance) for layer, track in drawing.tracks.items()}
+    paths: dict[str, Outline | Spline] = {layer: path for layer, (path, _) in fits.items()}
+    notes = (
+        drawing.name,
+        f"tolerance {1e3 * tolerance:g} mm",
+        *(
+            f"{layer}: {found.sides} sides, within {1e3 * found.largest:.3g} mm"
+            for layer, (_, found) in fits.items()
+        ),
+    )
+    return _checked(
+        folder / f"{stem(drawing)}.dxf",
+        lambda file: write_dxf(file, drawing, paths, notes),
+        lambda file: read_back(file, drawing, tolerance),
+    )
+
+
+def _svg(folder: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
+    """The drawing as SVG; splines, which it has not, as arcs."""
+    paths = {}
+    for layer, track in drawing.tracks.items():
+        path, _ = fit(track, "polyline" if form == "polyline" else "arcs", tolerance)
+        assert isinstance(path, Outline)
+        paths[layer] = path
+    return _checked(
+        folder / f"{stem(drawing)}.svg",
+        lambda file: write_svg(file, drawing, paths),
+        lambda file: read_back(file, drawing, tolerance),
+    )
+
+
+def _csv(folder: File, drawing: Drawing, layer: str, step: float, by: By) -> Written:
+    """One outline as a table."""
+    rows = table(drawing.tracks[layer], step, by)
+    tail = "" if layer == PROFILE else f"_{layer.lower()}"
+    return _checked(
+        folder / f"{stem(drawing)}{tail}.csv",
+        lambda file: write_csv(file, rows),
+        lambda file: read_back(file, drawing, layers=(layer,)),
+    )
+
+
+def stem(drawing: Drawing) -> str:
+    """Name of a drawing's files: its own, with what file systems do not take replaced by underscores."""
+    kept = "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in drawing.name.strip())
+    return kept.strip("_") or "cam"
