@@ -60,3 +60,16 @@ def slider_crank() -> lw.Machine:
 def four_bar() -> lw.Machine:
     """A crank-rocker with a point of the coupler."""
     return lw.loads(_FOUR_BAR)
+
+
+def roller_cam() -> lw.Machine:
+    """A cam with a translating roller: rise, dwell, return, dwell."""
+    rise = {"angle": "120 deg", "lift": "20 mm", "law": "cycloidal"}
+    rest = {"angle": "60 deg"}
+    cam = {
+        "base_radius": "40 mm",
+        "roller_radius": "10 mm",
+        "offset": "5 mm",
+        "sections": [rise, rest, {**rise, "lift": "-20 mm"}, rest],
+    }
+    return lw.Machine.model_validate({"format": 1, "name": "cam", "mechanism": {"cams": {"cam": cam}}})

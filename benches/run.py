@@ -24,6 +24,8 @@ CASES = (
     "motions_many",
     "positions_one",
     "general_many",
+    "cam_one",
+    "cams_many",
     "start_up",
 )
 

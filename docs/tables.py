@@ -63,12 +63,18 @@ def _what(field: FieldInfo, mark: Quantity | QuantityList | None) -> str:
         return "table"
     if _literals(field):
         return _choices(field)
+    if (
+        get_origin(field.annotation) is tuple
+        and get_origin(entry := get_args(field.annotation)[0]) is Literal
+    ):
+        return "list of " + " or ".join(f"`{word}`" for word in get_args(entry))
     return words_of(field.annotation).removeprefix("a ").replace("another value", "a number")
 
 
 def _literals(field: FieldInfo) -> list[Any]:
     """The alternatives that are given words."""
-    parts = (field.annotation, *get_args(field.annotation))
+    is_list = get_origin(field.annotation) is tuple
+    parts = () if is_list else (field.annotation, *get_args(field.annotation))
     return [part for part in parts if get_origin(part) is Literal]
 
 
@@ -86,9 +92,10 @@ def _default(field: FieldInfo) -> str:
         return "**required**"
     if field.default_factory is not None:
         return "its defaults" if model_of(field.annotation) else "none"
-    if field.default in (None, "", PydanticUndefined):
+    if field.default in (None, "", (), PydanticUndefined):
         return "–"
-    return f"`{field.default:.6g}`" if isinstance(field.default, float) else f'`"{field.default}"`'
+    is_number = isinstance(field.default, int | float) and not isinstance(field.default, bool)
+    return f"`{field.default:.6g}`" if is_number else f'`"{field.default}"`'
 
 
 def _kind(field: FieldInfo) -> str:

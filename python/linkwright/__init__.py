@@ -49,6 +49,8 @@ _HOME = {
     "partial_balance": "analysis.counterweight_formulas",
     "harmonics": "analysis.harmonics",
     "mobility": "machine.mobility",
+    "cam_laws": "analysis.law_factors",
+    "law_factors": "analysis.law_factors",
     "pumping_unit": "analysis.pumping_unit",
     "rod_rotator": "analysis.rod_rotator",
     "study": "analysis.study",
@@ -101,6 +103,8 @@ if TYPE_CHECKING:
     from linkwright.analysis.kinematics import kinematics as kinematics
     from linkwright.analysis.kinematics import motions as motions
     from linkwright.analysis.kinetostatics.friction import Friction as Friction
+    from linkwright.analysis.law_factors import cam_laws as cam_laws
+    from linkwright.analysis.law_factors import law_factors as law_factors
     from linkwright.analysis.linkage import linkage as linkage
     from linkwright.analysis.motion import motion as motion
     from linkwright.analysis.period import period_turns as period_turns

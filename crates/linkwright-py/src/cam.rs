@@ -56,7 +56,7 @@ impl Cam {
         n: usize,
         levels: Vec<(usize, f64)>,
     ) -> PyResult<Shaped<'py>> {
-        let cam = CoreCam::new(self.kind, self.sense, self.side, dimensions(&size)?);
+        let cam = CoreCam::<f64>::new(self.kind, self.sense, self.side, dimensions(&size)?);
         if levels.iter().any(|&(row, _)| row >= ROWS) {
             return Err(PyValueError::new_err("no such row"));
         }

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
-import typer
 from typer.core import TyperGroup
 
 # Words that belong to the group itself.
@@ -30,7 +29,7 @@ def group_with_default(name: str) -> type[TyperGroup]:
 
         default: ClassVar[str] = name
 
-        def parse_args(self, context: typer.Context, args: list[str]) -> list[str]:
+        def parse_args(self, context: Any, args: list[str]) -> list[str]:
             """Put the default command in front where none is named."""
             if args and args[0] not in self.commands and args[0] not in _HELP:
                 args = [self.default, *args]

@@ -28,7 +28,7 @@ ROWS = (
 )
 
 # What extremes are given of, greatest and least of each; the last only under a flat face.
-_EXTREMES = ("lead", "bend", "along")
+_EXTREMES = ("pressure_angle", "bend", "along")
 
 
 class Extreme(NamedTuple):
@@ -59,7 +59,7 @@ class Shape:
     rows : dict of str to ndarray, shape (n,)
         By the names of `ROWS`.
     greatest, least : dict of str to Extreme
-        Of the tangent of the pressure angle (``lead``), of the bend, and of the place along a flat face.
+        Of the pressure angle, of the bend, and of the place along a flat face (``along``).
     passes : tuple of ndarray, shape (k, 2)
         For each level asked for: angles, and +1 where the row is above the level from there on, −1 where
         below.

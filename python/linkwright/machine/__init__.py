@@ -64,6 +64,18 @@ from linkwright.machine.loads import (
 )
 from linkwright.machine.machine import FORMAT, Machine, RunUp
 from linkwright.machine.mechanism import Link, Mechanism
+from linkwright.machine.motion_law import (
+    CombinedLaw,
+    LimitedLaw,
+    ModifiedSineLaw,
+    ModifiedTrapezoidLaw,
+    OptimalLaw,
+    PlainLaw,
+    PolynomialLaw,
+    SCurveLaw,
+    TrapezoidalVelocityLaw,
+)
+from linkwright.machine.motion_section import MotionSection
 from linkwright.machine.motor import (
     AnyMotor,
     ConstantSpeedMotor,
@@ -73,6 +85,7 @@ from linkwright.machine.motor import (
     Motor,
     TableMotor,
 )
+from linkwright.machine.point_law import SplineLaw, TableLaw
 from linkwright.machine.polished_rod_load import PolishedRodLoad
 from linkwright.machine.pumping_unit import PumpingUnit
 from linkwright.machine.rod_rotator import RodRotator
@@ -89,6 +102,7 @@ __all__ = [
     "Cam",
     "CatalogueMotor",
     "CatalogueUnit",
+    "CombinedLaw",
     "ConstantForce",
     "ConstantSpeedMotor",
     "ConstantTorque",
@@ -111,29 +125,40 @@ __all__ = [
     "Guide",
     "InductionMotor",
     "Joint",
+    "LimitedLaw",
     "LinearDriver",
     "Link",
     "Load",
     "Machine",
     "Mechanism",
+    "ModifiedSineLaw",
+    "ModifiedTrapezoidLaw",
+    "MotionSection",
     "Motor",
+    "OptimalLaw",
     "OscillatingFollower",
+    "PlainLaw",
     "PolishedRodLoad",
+    "PolynomialLaw",
     "PumpingUnit",
     "Rack",
     "RigidPoint",
     "Rocker",
     "RodRotator",
     "RunUp",
+    "SCurveLaw",
     "Slider",
     "SlottedLever",
+    "SplineLaw",
     "Spring",
+    "TableLaw",
     "TableMotor",
     "TorqueAngle",
     "TorqueSpeed",
     "TorsionalDamper",
     "TorsionalSpring",
     "TranslatingFollower",
+    "TrapezoidalVelocityLaw",
     "ViscousFriction",
     "Yoke",
     "addresses",

@@ -182,7 +182,8 @@ class Cam(Checked):
         if self.base_radius is not None:
             return self.base_radius
         assert self.breadth is not None
-        return 0.5 * (self.breadth - self.stroke) - self.radius_of_roller
+        start = 0.5 * (self.breadth - self.stroke)
+        return start * np.cos(self.face_tilt) - self.radius_of_roller
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from section_faults(self.sections, "swing" if self.is_oscillating else "lift")
@@ -277,15 +278,14 @@ class Sizes(NamedTuple):
 class TranslatingFollower(LinearDriver):
     """A driver that follows a cam along a line."""
 
-    cam: Cam
+    cam: Cam = Field(description="The cam.")
 
 
 class OscillatingFollower(Crank):
     """A driver that follows a cam about a pivot."""
 
-    cam: Cam
-    # Sense in which the angle grows with the lift: −1 for an arm to the left.
-    turn: float
+    cam: Cam = Field(description="The cam.")
+    turn: float = Field(description="Sense of the angle as the lift grows: -1 for an arm to the left.")
 
 
 def sizes(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> Sizes:
@@ -327,7 +327,7 @@ def to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") 
 
     Returns
     -------
-    x, y : float or ndarray
+    x, y : float or ndarray, shape (rows,)
         [m].
     """
     centre, pivot = points.get(cam.pivot or origin), points[cam.arm_pivot or ""]

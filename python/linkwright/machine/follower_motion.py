@@ -50,10 +50,10 @@ class FollowerMotion:
 
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
-        """How smooth the lift is where sections meet."""
+        """How smooth the lift is where sections meet, and where a law inside a section has a break."""
         from linkwright.motion_laws.programme import joints
 
-        return joints(self.lift, [joint.angle for joint in self.programme.joints])
+        return joints(self.lift, self.lift.breaks[:-1])
 
     @cached_property
     def peaks(self) -> tuple[float | None, ...]:

@@ -149,8 +149,9 @@ class MotionSection(Description):
             return given
         if self.law is None:
             return 0.0
-        slope = self.end("velocity_start", family)
-        if self.is_steady and slope is not None:
+        slopes = [self.end(name, family) for name in ENDS[:2]] if self.is_steady else []
+        slope = next((each for each in slopes if each is not None), None)
+        if slope is not None:
             return slope * self.angle
         return self.law.own_lift(self.angle, swing=family == "swing")
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,49 +45,66 @@ def spline(places: Sequence[float], values: Sequence[float], task: Boundary, deg
     """
     x = np.asarray(places, dtype=float)
     knots = np.concatenate([np.zeros(degree), x, np.ones(degree)])
-    orders = range(1, (degree - 1) // 2 + 1)
     start = (task.velocity_start, task.acceleration_start or 0.0, 0.0)
     end = (task.velocity_end, task.acceleration_end or 0.0, 0.0)
-    rows = [_row(knots, degree, at, 0) for at in x]
-    rows += [_row(knots, degree, at, order) for order in orders for at in (0.0, 1.0)]
-    right = [*values, *(side[order - 1] for order in orders for side in (start, end))]
-    weights = np.linalg.solve(np.array(rows), np.array(right, dtype=float))
-    pieces = [_piece(knots, degree, weights, low, high - low) for low, high in pairwise(x.tolist())]
-    return MotionLaw(tuple(x.tolist()), tuple(pieces))
+    orders = (degree - 1) // 2
+    rows = [_collocation(knots, degree, x), *_end_rows(knots, degree, orders)]
+    right = [*values, *start[:orders], *end[:orders]]
+    weights = np.linalg.solve(np.vstack(rows), np.array(right, dtype=float))
+    return MotionLaw(tuple(x.tolist()), _pieces(knots, degree, weights, x))
 
 
-def _piece(knots: Floats, degree: int, weights: Floats, low: float, length: float) -> Piece:
-    """The polynomial that begins at a knot, from the derivatives there."""
-    derivatives = [float(_row(knots, degree, low, order) @ weights) for order in range(degree + 1)]
-    return Piece(tuple(d * length**i / math.factorial(i) for i, d in enumerate(derivatives)))
+def _pieces(knots: Floats, degree: int, weights: Floats, x: Floats) -> tuple[Piece, ...]:
+    """The polynomial from each knot on, from the derivatives there."""
+    lengths, columns = np.diff(x), []
+    for order in range(degree + 1):
+        span, basis = _basis(knots, degree - order, x[:-1])
+        places = span[:, None] + np.arange(order - degree, 1)
+        columns.append((basis * weights[places]).sum(axis=1) * lengths**order / math.factorial(order))
+        knots, weights = knots[1:-1], _derived(knots, degree - order, weights)
+    return tuple(Piece(tuple(row)) for row in np.array(columns).T.tolist())
 
 
-def _row(knots: Floats, degree: int, x: float, order: int) -> Floats:
-    """A derivative of each B-spline at a place."""
-    if order > 0:
-        return degree * _differences(knots, degree, _row(knots, degree - 1, x, order - 1))
+def _collocation(knots: Floats, degree: int, x: Floats) -> Floats:
+    """Values of all B-splines at some places, (places, splines)."""
+    span, basis = _basis(knots, degree, x)
+    matrix = np.zeros((len(x), len(knots) - degree - 1))
+    np.put_along_axis(matrix, span[:, None] + np.arange(-degree, 1), basis, axis=1)
+    return matrix
+
+
+def _end_rows(knots: Floats, degree: int, orders: int) -> list[Floats]:
+    """Derivatives at the start, by increasing order, then at the end, of each B-spline.
+
+    At its ends a spline has the value of its first and its last weight.
+    """
+    each, first, last = np.eye(len(knots) - degree - 1), [], []
+    for order in range(orders):
+        each = _derived(knots[order : len(knots) - order], degree - order, each)
+        first.append(each[0])
+        last.append(each[-1])
+    return [*first, *last]
+
+
+def _basis(knots: Floats, degree: int, x: Floats) -> tuple[NDArray[np.intp], Floats]:
+    """Number of the last B-spline that is not zero at each place; values of it and those before it."""
+    span = np.clip(np.searchsorted(knots, x, side="right") - 1, degree, len(knots) - degree - 2)
+    basis = np.ones((len(x), 1))
+    for d in range(1, degree + 1):
+        wider = np.zeros((len(x), d + 1))
+        for i in range(d):
+            low, high = knots[span - d + 1 + i], knots[span + 1 + i]
+            share = basis[:, i] / (high - low)
+            wider[:, i] += (high - x) * share
+            wider[:, i + 1] += (x - low) * share
+        basis = wider
+    return span, basis
+
+
+def _derived(knots: Floats, degree: int, weights: Floats) -> Floats:
+    """Weights of the derivative, on the knots without the first and the last; along the first axis."""
     if degree == 0:
-        last = x >= knots[-1]
-        inside = (knots[:-1] < x) & (x <= knots[1:]) if last else (knots[:-1] <= x) & (x < knots[1:])
-        return inside.astype(float)
-    below = _row(knots, degree - 1, x, 0)
-    n = len(knots) - degree - 1
-    up, down = x - knots[:n], knots[degree + 1 :] - x
-    rise = _over(below[:n], knots[degree : degree + n] - knots[:n])
-    fall = _over(below[1:], knots[degree + 1 :] - knots[1 : n + 1])
-    row: Floats = up * rise + down * fall
-    return row
-
-
-def _differences(knots: Floats, degree: int, below: Floats) -> Floats:
-    """B-splines of the degree below over their widths, each less the one after it."""
-    n = len(knots) - degree - 1
-    first = _over(below[:n], knots[degree : degree + n] - knots[:n])
-    second = _over(below[1:], knots[degree + 1 :] - knots[1 : n + 1])
-    return first - second
-
-
-def _over(values: Floats, widths: Floats) -> Floats:
-    """A quotient that is zero where both are, as at knots that coincide."""
-    quotient: Floats = np.divide(values, widths, out=np.zeros_like(values), where=widths > 0)
-    return quotient
+        return weights[:0]
+    widths = knots[degree + 1 : -1] - knots[1 : -degree - 1]
+    derived: Floats = degree * np.diff(weights, axis=0) / widths.reshape(-1, *[1] * (weights.ndim - 1))
+    return derived

@@ -49,7 +49,7 @@ def bound_table() -> Table:
     Table
         A bound a row.
     """
-    rows = [
+    rows: list[Row] = [
         (each.holds_for, _COLUMNS[each.name], number(each.value), _named(each.reached_by)) for each in BOUNDS
     ]
     return Table(

@@ -112,10 +112,30 @@ pub struct Contact<R> {
     pub normal: Vec2<R>,
     /// Curvature of the pitch curve for a roller, radius of curvature of the profile for a flat face.
     pub bend: R,
-    /// Place of the contact on a flat face, to the left of its normal; zero for a roller.
+    /// Place of the contact on a flat face: from the stem of a translating follower to the left, from the pivot
+    /// of an oscillating one along its arm; zero for a roller.
     pub along: R,
     /// d·n and d×n.
     pub lead: Vec2<R>,
+}
+
+impl<R> Cam<R> {
+    /// The same in another number.
+    #[inline(always)]
+    pub fn map<T>(&self, f: impl Fn(R) -> T) -> Cam<T>
+    where
+        R: Copy,
+    {
+        Cam {
+            kind: self.kind,
+            sense: self.sense,
+            side: self.side,
+            size: self.size.map(&f),
+            start: f(self.start),
+            cos: f(self.cos),
+            sin: f(self.sin),
+        }
+    }
 }
 
 impl<R: Real> Cam<R> {
@@ -201,6 +221,8 @@ impl<R: Real> Cam<R> {
         let mut contact = self.face(Vec2::new(self.cos, self.sin), h, turning);
         let d = Vec2::new(one, zero);
         contact.lead = Vec2::new(d.dot(contact.normal), d.cross(contact.normal));
+        // The stem meets a tilted face beside the foot of the perpendicular from the cam's centre.
+        contact.along = contact.along + h[0] * (self.sin / self.cos);
         contact
     }
 
@@ -216,6 +238,7 @@ impl<R: Real> Cam<R> {
         let arm = contact.pitch - Vec2::new(a, R::splat(0.0));
         let d = arm.left() * (arm.dot(arm).sqrt().recip() * -self.side);
         contact.lead = Vec2::new(d.dot(normal), d.cross(normal));
+        contact.along = normal.cross(arm) * self.side;
         contact
     }
 

@@ -7,8 +7,9 @@
 use super::{Cam, Contact, Kind};
 use crate::dual::Dual;
 use crate::jet::Jet;
+use crate::lanes::{Job, in_lanes};
 use crate::motion_law::{MotionLaw, Piece};
-use crate::real::Lift;
+use crate::real::Real;
 use std::f64::consts::TAU;
 
 /// What is known at each angle.
@@ -29,8 +30,8 @@ pub const ROWS: usize = 12;
 /// Quantities whose extremes and zeros are located.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// tan γ, whose extremes are those of γ.
-    Lead,
+    /// γ.
+    PressureAngle,
     /// Curvature of the pitch curve, or radius of curvature under a flat face.
     Bend,
     /// Place of the contact on a flat face.
@@ -55,48 +56,15 @@ pub(super) fn angles(piece: &Piece, n: usize) -> impl Iterator<Item = f64> + use
 const LEAST: usize = 16;
 
 impl Cam<f64> {
-    /// Contacts at about n angles a turn, piece by piece.
+    /// Contacts at about n angles a turn, piece by piece, in lanes.
     pub fn shape(&self, law: &MotionLaw, n: usize) -> Shape {
-        let mut shape = Shape { rows: vec![Vec::with_capacity(n + n / 4); ROWS], ..Shape::default() };
-        for (number, piece) in law.pieces().iter().enumerate() {
-            for phi in angles(piece, n) {
-                shape.phi.push(phi);
-                shape.piece.push(number as u32);
-                for (row, x) in shape.rows.iter_mut().zip(self.row(piece, phi)) {
-                    row.push(x);
-                }
-            }
-        }
-        shape
-    }
-
-    /// All rows at one angle of a piece.
-    pub fn row(&self, piece: &Piece, phi: f64) -> [f64; ROWS] {
-        let [s, s1, s2, s3] = piece.at(phi);
-        let contact = self.contact([s, s1, s2]);
-        let [pitch, normal] = self.from_cam([contact.pitch, contact.normal], phi);
-        let gamma = contact.lead.y.atan2(contact.lead.x);
-        let sound = self.soundness(&contact);
-        [s, s1, s2, s3, pitch.x, pitch.y, normal.x, normal.y, gamma, contact.bend, sound, contact.along]
-    }
-
-    /// The same cam in a number that carries derivatives.
-    fn lifted<R: Lift<f64>>(&self) -> Cam<R> {
-        Cam {
-            kind: self.kind,
-            sense: self.sense,
-            side: self.side,
-            size: self.size.map(R::lift),
-            start: R::lift(self.start),
-            cos: R::lift(self.cos),
-            sin: R::lift(self.sin),
-        }
+        in_lanes(Sampling { cam: self, law, n })
     }
 
     /// A curve seen from the cam, `away` from the pitch curve along its normal: place, and first and second
     /// derivative by the cam angle.
     pub fn curve(&self, piece: &Piece, phi: f64, away: f64) -> [[f64; 2]; 3] {
-        let cam = self.lifted::<Jet<f64, 3>>();
+        let cam = self.map(Jet::<f64, 3>::constant);
         let at = Jet::variable(phi);
         let contact = cam.contact(piece.at(at));
         let [p] = cam.from_cam([contact.pitch.plus(contact.normal, Jet::constant(away))], at);
@@ -105,7 +73,7 @@ impl Cam<f64> {
 
     /// A quantity and its derivative by the cam angle.
     fn quantity(&self, what: Quantity, piece: &Piece, phi: f64) -> (f64, f64) {
-        let cam = self.lifted::<Dual<f64>>();
+        let cam = self.map(Dual::constant);
         let contact = cam.contact(piece.at(Dual { value: phi, d: 1.0 }));
         let found = what.of(&contact);
         (found.value, found.d)
@@ -133,18 +101,19 @@ impl Cam<f64> {
     }
 
     /// Angles where a sampled row passes a level, with the sign of what comes after: +1 where it is above.
-    /// A joint where it jumps over the level counts as such.
+    /// A joint where it jumps over the level counts as such, also that of the last piece with the first.
     pub fn passes(&self, row: usize, level: f64, law: &MotionLaw, shape: &Shape) -> Vec<(f64, f64)> {
-        let values = &shape.rows[row];
+        let (values, n) = (&shape.rows[row], shape.phi.len());
         let mut found = Vec::new();
-        for i in 1..values.len() {
-            let (a, b) = (values[i - 1] - level, values[i] - level);
+        for i in 0..n {
+            let before = (i + n - 1) % n;
+            let (a, b) = (values[before] - level, values[i] - level);
             if (a < 0.0) == (b < 0.0) || a.is_nan() || b.is_nan() {
                 continue;
             }
             let piece = &law.pieces()[shape.piece[i] as usize];
-            let phi = if shape.piece[i] == shape.piece[i - 1] {
-                zero(|phi| self.row(piece, phi)[row] - level, shape.phi[i - 1], shape.phi[i])
+            let phi = if i > 0 && shape.piece[i] == shape.piece[before] {
+                zero(|phi| self.row(piece, phi)[row] - level, shape.phi[before], shape.phi[i])
             } else {
                 shape.phi[i]
             };
@@ -154,10 +123,69 @@ impl Cam<f64> {
     }
 }
 
+impl<R: Real> Cam<R> {
+    /// All rows at angles of a piece.
+    #[inline(always)]
+    pub fn row(&self, piece: &Piece, phi: R) -> [R; ROWS] {
+        let [s, s1, s2, s3] = piece.at(phi);
+        let contact = self.contact([s, s1, s2]);
+        let [pitch, normal] = self.from_cam([contact.pitch, contact.normal], phi);
+        let gamma = contact.lead.y.atan2(contact.lead.x);
+        let sound = self.soundness(&contact);
+        [s, s1, s2, s3, pitch.x, pitch.y, normal.x, normal.y, gamma, contact.bend, sound, contact.along]
+    }
+}
+
+/// All angles of a shape; a lane is an angle.
+struct Sampling<'a> {
+    cam: &'a Cam<f64>,
+    law: &'a MotionLaw,
+    n: usize,
+}
+
+impl Job for Sampling<'_> {
+    type Output = Shape;
+
+    #[inline(always)]
+    fn run<R: Real>(self) -> Shape {
+        let cam = self.cam.map(
+            #[inline(always)]
+            |x| R::splat(x),
+        );
+        let mut shape = Shape::default();
+        for (number, piece) in self.law.pieces().iter().enumerate() {
+            shape.phi.extend(angles(piece, self.n));
+            shape.piece.resize(shape.phi.len(), number as u32);
+        }
+        let n = shape.phi.len();
+        // Lanes may reach beyond the last angle.
+        shape.rows = vec![vec![0.0; n + R::LANES]; ROWS];
+        shape.phi.resize(n + R::LANES, 0.0);
+        let mut at = 0;
+        for (number, piece) in self.law.pieces().iter().enumerate() {
+            let end = at + shape.piece[at..].partition_point(|&each| each == number as u32);
+            // What a bundle writes beyond its piece, the next piece writes over.
+            for first in (at..end).step_by(R::LANES) {
+                let rows = R::outline(
+                    #[inline(always)]
+                    || cam.row(piece, R::load(&shape.phi[first..])),
+                );
+                for (to, x) in shape.rows.iter_mut().zip(rows) {
+                    x.store(&mut to[first..]);
+                }
+            }
+            at = end;
+        }
+        shape.phi.truncate(n);
+        shape.rows.iter_mut().for_each(|row| row.truncate(n));
+        shape
+    }
+}
+
 impl Quantity {
-    fn of<R: crate::real::Real>(self, contact: &Contact<R>) -> R {
+    fn of<R: Real>(self, contact: &Contact<R>) -> R {
         match self {
-            Quantity::Lead => contact.lead.y / contact.lead.x,
+            Quantity::PressureAngle => contact.lead.y.atan2(contact.lead.x),
             Quantity::Bend => contact.bend,
             Quantity::Along => contact.along,
         }
@@ -166,7 +194,7 @@ impl Quantity {
     /// The same from a shape.
     fn read(self, shape: &Shape, i: usize) -> f64 {
         match self {
-            Quantity::Lead => shape.rows[8][i].tan(),
+            Quantity::PressureAngle => shape.rows[8][i],
             Quantity::Bend => shape.rows[9][i],
             Quantity::Along => shape.rows[11][i],
         }
@@ -175,9 +203,9 @@ impl Quantity {
     /// All that a kind of follower has.
     pub fn of_kind(kind: Kind) -> &'static [Quantity] {
         if kind.is_roller() {
-            &[Quantity::Lead, Quantity::Bend]
+            &[Quantity::PressureAngle, Quantity::Bend]
         } else {
-            &[Quantity::Lead, Quantity::Bend, Quantity::Along]
+            &[Quantity::PressureAngle, Quantity::Bend, Quantity::Along]
         }
     }
 }

@@ -26,9 +26,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.analysis.cam.least_base import base_for_pressure_angle, least_sound_base
+from linkwright.analysis.cam.least_base import (
+    base_for_curvature,
+    base_for_pressure_angle,
+    base_without_crossing,
+    least_sound_base,
+)
 from linkwright.analysis.cam.profile import CamProfile, Flank
 from linkwright.engine.cam import crossings
+from linkwright.machine import Cam
+from linkwright.machine.cam import start_of
+
+# Angles that are named of many.
+_NAMED = 6
 
 # A soundness below this is a sharp point, but for rounding.
 _SHARP = 1e-9
@@ -84,11 +94,13 @@ def _subject(profile: CamProfile, flank: Flank) -> str:
     return f"cam {profile.name}, {flank.contact.name}" if several else f"cam {profile.name}"
 
 
-def _range(flank: Flank, passes: np.ndarray) -> str:
-    """Angles between which something is wrong; passes downwards begin it."""
+def _undercut_range(flank: Flank, worst: float) -> str:
+    """Angles between which the soundness is negative; passes downwards begin it."""
+    passes = flank.shape.passes[0]
     down, up = passes[passes[:, 1] < 0, 0], passes[passes[:, 1] > 0, 0]
     if not len(down) or not len(up):
-        return "all round"
+        # None of the sampled angles shows it, or all do.
+        return "all round" if (flank.shape.rows["soundness"] < 0).all() else f"at {_degrees(worst)}"
     ends = [up[np.argmax(up > a)] if (up > a).any() else up[0] for a in down]
     spans = [f"{_degrees(a)} to {_degrees(b)}" for a, b in zip(down, ends, strict=True)]
     return "from cam angle " + ", ".join(spans[:4]) + (", …" if len(spans) > 4 else "")
@@ -97,26 +109,26 @@ def _range(flank: Flank, passes: np.ndarray) -> str:
 def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
     """A profile that the follower cuts away again."""
     shape, size = flank.shape, flank.contact.sizes
-    if shape.rows["soundness"].min() < _SHARP:
+    is_roller = flank.contact.kernel.is_roller
+    worst = shape.greatest["bend"] if is_roller else shape.least["bend"]
+    soundness = 1.0 - size.roller_radius * worst.value if is_roller else worst.value
+    if soundness < _SHARP:
         base = least_sound_base(profile.cam, flank.contact)
-        change = f"a base radius of more than {_mm(base)}" if base else "another law or a smaller lift"
-        if flank.contact.kernel.is_roller:
-            bend = shape.greatest["bend"]
-            roller = f"a roller of less than {_mm(1 / bend.value)} radius"
+        change = _size_for(profile, flank, base, "more than ") or "another law or a smaller lift"
+        if is_roller:
+            change = f"a roller of less than {_mm(1 / worst.value)} radius, or {change}"
             what = (
-                f"the pitch curve's radius of curvature is {_mm(1 / bend.value)} at {_degrees(bend.angle)}, "
-                "and the "
-                f"roller's radius {_mm(size.roller_radius)}"
+                f"the pitch curve's radius of curvature is {_mm(1 / worst.value)} at "
+                f"{_degrees(worst.angle)}, and the roller's radius {_mm(size.roller_radius)}"
             )
-            change = f"{roller}, or {change}"
         else:
-            bend = shape.least["bend"]
             what = (
-                f"under the flat face its radius of curvature is {_mm(bend.value)} at {_degrees(bend.angle)}"
+                "under the flat face its radius of curvature is "
+                f"{_mm(worst.value)} at {_degrees(worst.angle)}"
             )
-        where = _range(flank, shape.passes[0])
+        where = _undercut_range(flank, worst.angle)
         yield f"{_subject(profile, flank)} is undercut {where}: {what}; it takes {change}"
-    elif not flank.contact.kernel.is_roller and _turns_over(flank):
+    elif not flank.contact.kernel.is_roller and _turns_over(profile.cam, flank):
         yield (
             f"{_subject(profile, flank)}: the follower turns as fast as the cam, so that its face rolls "
             "over it; "
@@ -136,13 +148,30 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
             )
 
 
-def _turns_over(flank: Flank) -> bool:
+def _turns_over(cam: Cam, flank: Flank) -> bool:
     """Whether the normal of an oscillating face turns back against the cam."""
-    contact = flank.contact
-    if contact.sizes.distance == 0:
+    if not cam.is_oscillating:
         return False
-    fastest = contact.law.extremes(1)
-    return max(abs(each.value) for each in fastest) >= 1.0
+    # Seen from the cam the normal turns by −σ − s′ for an arm to the left, by −σ + s′ for one to the right.
+    least, greatest = flank.contact.law.extremes(1)
+    with_lift = (cam.rotation == "same") == (cam.side == "left")
+    return least.value <= -1.0 if with_lift else greatest.value >= 1.0
+
+
+def _size_for(profile: CamProfile, flank: Flank, base: float | None, more: str = "") -> str:
+    """What the base radius of a contact asks of the keys of the file; nothing if there is no such radius."""
+    cam, contact = profile.cam, flank.contact
+    if base is None:
+        return ""
+    start = float(start_of(cam, contact.sizes._replace(base_radius=base)))
+    if cam.breadth is not None:
+        return f"a breadth of {more}{_mm(2 * start + profile.stroke)}"
+    if cam.second is None or contact is profile.flanks[0].contact:
+        return f"a base radius of {more}{_mm(base)}"
+    if cam.is_oscillating:
+        angle = (cam.second.angle or 0.0) + start - contact.start
+        return f"an angle of {more}{_degrees(angle)} between the arms"
+    return f"a distance of {more}{_mm((cam.second.distance or 0.0) + start - contact.start)} of the rollers"
 
 
 def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
@@ -153,11 +182,13 @@ def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
         where = _degrees(float(flank.shape.angle[int(np.argmin(np.isfinite(gamma)))]))
         yield f"{_subject(profile, flank)}: at {where} the follower has no place, beyond its reach"
     elif abs(gamma[worst]) >= np.pi / 2:
+        base = base_for_pressure_angle(profile.cam, flank.contact, profile.cam.limit)
+        limit = f" for {np.degrees(profile.cam.limit):.4g}°" if base else ""
+        change = _size_for(profile, flank, base) or "longer sections or a smaller lift"
         yield (
             f"{_subject(profile, flank)} cannot move its follower at "
             f"{_degrees(float(flank.shape.angle[worst]))}: the "
-            f"pressure angle is {np.degrees(abs(gamma[worst])):.4g}°; it takes a larger base radius or "
-            "longer sections"
+            f"pressure angle is {np.degrees(abs(gamma[worst])):.4g}°; it takes {change}{limit}"
         )
 
 
@@ -171,10 +202,11 @@ def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
         at = [
             _degrees(float(np.interp(side, np.arange(keep.sum()), angle[keep]))) for side in (first, second)
         ]
+        base = base_without_crossing(flank.contact)
+        change = _size_for(profile, flank, base) or "longer sections or a smaller lift"
         yield (
             f"the profile of {_subject(profile, flank)} crosses itself: at {at[0]} and {at[1]} it passes "
-            "the same "
-            f"point, ({1e3 * x:.4g}, {1e3 * y:.4g}) mm; it takes a larger base radius"
+            f"the same point, ({1e3 * x:.4g}, {1e3 * y:.4g}) mm; it takes {change}"
         )
 
 
@@ -211,41 +243,47 @@ def _steep(profile: CamProfile) -> Iterator[str]:
     limit = profile.cam.limit
     if profile.pressure_angle_max <= limit:
         return
-    base = base_for_pressure_angle(profile.cam, profile.flanks[0].contact, limit)
-    remedy = (
-        f"a base radius of {_mm(base)} brings it down to that"
-        if base
-        else "no base radius brings it down to that"
-    )
+    flank = max(profile.flanks, key=lambda each: abs(each.steepest.value))
+    base = base_for_pressure_angle(profile.cam, flank.contact, limit)
+    size = _size_for(profile, flank, base) or "no base radius"
     yield (
-        f"the pressure angle of cam {profile.name} reaches {np.degrees(profile.pressure_angle_max):.4g}° at "
-        f"{_degrees(profile.pressure_angle_max_angle)}, above {np.degrees(limit):.4g}°: {remedy}"
+        f"the pressure angle of {_subject(profile, flank)} reaches "
+        f"{np.degrees(profile.pressure_angle_max):.4g}° at {_degrees(profile.pressure_angle_max_angle)}, "
+        f"above {np.degrees(limit):.4g}°: {size} brings it down to that"
     )
 
 
 def _tight(profile: CamProfile) -> Iterator[str]:
     """A radius of curvature below what is allowed."""
-    limit, found = profile.cam.curvature_limit, profile.curvature_radius_convex_min
-    if limit is not None and found is not None and 0 <= found < limit:
+    limit = profile.cam.curvature_limit
+    for flank in profile.flanks:
+        found = flank.convex
+        if limit is None or found is None or not 0 <= found.value < limit:
+            continue
+        base = base_for_curvature(profile.cam, flank.contact, limit)
         yield (
-            f"the profile of cam {profile.name} has a radius of curvature of {_mm(found)} at "
-            f"{_degrees(profile.curvature_radius_min_angle or 0.0)}, below {_mm(limit)}: make the base "
-            "radius larger"
+            f"the profile of {_subject(profile, flank)} has a radius of curvature of {_mm(found.value)} at "
+            f"{_degrees(found.angle)}, below {_mm(limit)}: it takes "
+            f"{_size_for(profile, flank, base) or 'another law or a smaller lift'}"
         )
 
 
+def _places(angles: list[float]) -> str:
+    """Some angles, the first of many."""
+    more = f" and {len(angles) - _NAMED} more" if len(angles) > _NAMED else ""
+    return ", ".join(_degrees(angle) for angle in angles[:_NAMED]) + more
+
+
 def _jumps(profile: CamProfile) -> Iterator[str]:
-    """Joints where velocity or acceleration jumps, or jerk."""
-    words = {0: "lift", 1: "velocity", 2: "acceleration"}
-    for order, what in words.items():
-        angles = [j.angle for j in profile.cam.motion.joints if j.order == order - 1]
+    """Places where velocity or acceleration jumps, or jerk: between sections, or inside a law."""
+    effects = {
+        0: ("lift", "the follower cannot follow"),
+        1: ("velocity", "a blow"),
+        2: ("acceleration", "a sudden force"),
+        3: ("jerk", "by a finite step; acceleration is continuous"),
+    }
+    for order, (what, effect) in effects.items():
+        angles = [joint.angle for joint in profile.cam.motion.joints if joint.order == order - 1]
         if angles:
-            effect = (
-                "the follower cannot follow" if order == 0 else "a blow" if order == 1 else "a sudden force"
-            )
-            places = ", ".join(_degrees(angle) for angle in angles)
-            yield f"the {what} of cam {profile.name} jumps at {places}: {effect}"
-    jerks = [j for j in profile.cam.motion.joints if j.order == 2]
-    if jerks:
-        places = ", ".join(_degrees(joint.angle) for joint in jerks)
-        yield f"the jerk of cam {profile.name} jumps at {places} by a finite step; acceleration is continuous"
+            colon = " " if order == 3 else ": "
+            yield f"the {what} of cam {profile.name} jumps at {_places(angles)}{colon}{effect}"

@@ -8,11 +8,13 @@ large, all at once, and the first that will do is located between its neighbours
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.cam.contact import Contact
+from linkwright.analysis.cam.contact import CamCurve, Contact
+from linkwright.engine.cam import crossings
 from linkwright.machine import Cam
 from linkwright.machine.cam import Sizes
 
@@ -25,6 +27,8 @@ _FROM, _TO = 0.02, 20.0
 
 # Cam angles a turn of the scan, and of the exact search.
 _COARSE, _FINE = 360, 720
+
+_TURN: Floats = 2 * np.pi / _FINE * np.arange(float(_FINE))
 
 # Halvings that take 3 % to rounding.
 _HALVINGS = 46
@@ -51,9 +55,8 @@ def base_for_pressure_angle(cam: Cam, contact: Contact, limit: float) -> float |
 
     def spare(contact: Contact) -> float:
         shape = contact.kernel.shape(_FINE)
-        if np.abs(shape.rows["pressure_angle"]).max() >= np.pi / 2:
-            return -1.0
-        return tangent - max(abs(e["lead"].value) for e in (shape.greatest, shape.least))
+        both = (shape.greatest["pressure_angle"], shape.least["pressure_angle"])
+        return limit - max(abs(each.value) for each in both)
 
     return _first(cam, contact, lambda found: tangent - found[:, 0], spare)
 
@@ -107,6 +110,37 @@ def least_sound_base(cam: Cam, contact: Contact) -> float | None:
         [m]; None if no base radius will do.
     """
     return base_for_curvature(cam, contact, 0.0)
+
+
+def base_without_crossing(contact: Contact) -> float | None:
+    """The smallest base radius from the present one on whose profile does not cross itself.
+
+    Parameters
+    ----------
+    contact : Contact
+        A contact whose profile does.
+
+    Returns
+    -------
+    float or None
+        [m], to a thousandth, as the crossing is that of a polygon; None if no base radius will do.
+    """
+    low = high = contact.sizes.base_radius
+    while _crosses(contact, high):
+        low, high = high, 1.05 * high
+        if high > _TO * contact.sizes.base_radius:
+            return None
+    while high - low > 1e-3 * low:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _crosses(contact, middle) else (low, middle)
+    return float(high)
+
+
+def _crosses(contact: Contact, base: float) -> bool:
+    """Whether the profile with another base radius crosses itself, or has no place."""
+    kernel = contact.kernel.with_sizes(contact.sizes._replace(base_radius=base))
+    points = CamCurve(replace(contact, kernel=kernel), -contact.sizes.roller_radius).points(_TURN)
+    return bool(np.isnan(points).any()) or len(crossings(points)) > 0
 
 
 def largest_roller(contact: Contact) -> float | None:

@@ -9,7 +9,6 @@ The extremes are zeros of exact derivatives, not values at samples, and count bo
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -291,11 +290,11 @@ def _flank(contact: Contact, n: int) -> Flank:
     """One contact with its extremes."""
     shape = contact.kernel.shape(n, (("soundness", 0.0), ("bend", 0.0)))
     high, low = shape.greatest, shape.least
-    steep = [Extreme(each.angle, math.atan(each.value)) for each in (high["lead"], low["lead"])]
+    steep = high["pressure_angle"], low["pressure_angle"]
     if not contact.kernel.is_roller:
         # Under a flat face the cam must be convex everywhere.
-        return Flank(contact, shape, steep[0], steep[1], low["bend"], None)
+        return Flank(contact, shape, *steep, low["bend"], None)
     roller, bends = contact.sizes.roller_radius, (high["bend"], low["bend"])
     convex = Extreme(bends[0].angle, 1.0 / bends[0].value - roller) if bends[0].value > 0 else None
     concave = Extreme(bends[1].angle, -1.0 / bends[1].value + roller) if bends[1].value < 0 else None
-    return Flank(contact, shape, steep[0], steep[1], convex, concave)
+    return Flank(contact, shape, *steep, convex, concave)
