@@ -11,6 +11,7 @@
 | `linkage` | transmission angles, coupler curves with the links |
 | `forces` | driving torque, reactions, hodographs, load cases |
 | `motion_laws` | motion laws and their derivatives, several in one picture |
+| `cam_dynamics` | contact force, pressure and vibration of cams and followers |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -24,6 +25,12 @@ from linkwright.plot.cam import (
     curvature_figure,
     lift_figure,
     pressure_angle_figure,
+)
+from linkwright.plot.cam_dynamics import (
+    contact_force_figure,
+    pressure_figure,
+    residual_figure,
+    vibration_figure,
 )
 from linkwright.plot.compare import compare_figure
 from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
@@ -42,6 +49,7 @@ __all__ = [
     "cam_force_figure",
     "cases_figure",
     "compare_figure",
+    "contact_force_figure",
     "coupler_figure",
     "curvature_figure",
     "forces_figure",
@@ -53,7 +61,9 @@ __all__ = [
     "polar_figure",
     "polished_rod_figure",
     "pressure_angle_figure",
+    "pressure_figure",
     "reduction_figure",
+    "residual_figure",
     "rotator_figure",
     "run_up_figure",
     "speed_figure",
@@ -61,4 +71,5 @@ __all__ = [
     "time_figure",
     "torque_figure",
     "transmission_figure",
+    "vibration_figure",
 ]
