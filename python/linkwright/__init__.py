@@ -51,6 +51,26 @@ _HOME = {
     "mobility": "machine.mobility",
     "cam_laws": "analysis.law_factors",
     "law_factors": "analysis.law_factors",
+    "cam_profile": "analysis.cam.profile",
+    "cam_faults": "analysis.cam.faults",
+    "cam_cautions": "analysis.cam.faults",
+    "loaded_cam": "analysis.cam.loaded",
+    "search_cams": "sweep.cams",
+    "OneMass": "analysis.cam.one_mass",
+    "follower_vibration": "analysis.cam.follower_vibration",
+    "vibration_over_speed": "analysis.cam.follower_vibration",
+    "residual_spectrum": "analysis.cam.residual_vibration",
+    "residual_over_speed": "analysis.cam.residual_vibration",
+    "polydyne": "analysis.cam.polydyne",
+    "cam_course": "analysis.cam.follower_load",
+    "FollowerLoad": "analysis.cam.follower_load",
+    "StemGuide": "analysis.cam.bearing",
+    "ArmPivot": "analysis.cam.bearing",
+    "contact_force": "analysis.cam.contact_force",
+    "lift_off": "analysis.cam.lift_off",
+    "least_preload": "analysis.cam.lift_off",
+    "Material": "analysis.cam.hertz",
+    "line_contact": "analysis.cam.hertz",
     "pumping_unit": "analysis.pumping_unit",
     "rod_rotator": "analysis.rod_rotator",
     "study": "analysis.study",
@@ -65,6 +85,8 @@ _HOME = {
     "pose_guide": "synthesis.pose",
     "straight_line": "synthesis.straight_line",
     "straight_lines": "synthesis.straight_line",
+    "cam_drawings": "exchange.cam",
+    "write_drawing": "exchange.write",
     "write_report": "report",
 }
 
@@ -87,6 +109,25 @@ def __dir__() -> list[str]:
 
 if TYPE_CHECKING:
     from linkwright.analysis.balancing import balance as balance
+    from linkwright.analysis.cam.bearing import ArmPivot as ArmPivot
+    from linkwright.analysis.cam.bearing import StemGuide as StemGuide
+    from linkwright.analysis.cam.contact_force import contact_force as contact_force
+    from linkwright.analysis.cam.faults import cam_cautions as cam_cautions
+    from linkwright.analysis.cam.faults import cam_faults as cam_faults
+    from linkwright.analysis.cam.follower_load import FollowerLoad as FollowerLoad
+    from linkwright.analysis.cam.follower_load import cam_course as cam_course
+    from linkwright.analysis.cam.follower_vibration import follower_vibration as follower_vibration
+    from linkwright.analysis.cam.follower_vibration import vibration_over_speed as vibration_over_speed
+    from linkwright.analysis.cam.hertz import Material as Material
+    from linkwright.analysis.cam.hertz import line_contact as line_contact
+    from linkwright.analysis.cam.lift_off import least_preload as least_preload
+    from linkwright.analysis.cam.lift_off import lift_off as lift_off
+    from linkwright.analysis.cam.loaded import loaded_cam as loaded_cam
+    from linkwright.analysis.cam.one_mass import OneMass as OneMass
+    from linkwright.analysis.cam.polydyne import polydyne as polydyne
+    from linkwright.analysis.cam.profile import cam_profile as cam_profile
+    from linkwright.analysis.cam.residual_vibration import residual_over_speed as residual_over_speed
+    from linkwright.analysis.cam.residual_vibration import residual_spectrum as residual_spectrum
     from linkwright.analysis.circuits import circuits as circuits
     from linkwright.analysis.closure import closure as closure
     from linkwright.analysis.constant_energy import constant_energy as constant_energy
@@ -114,6 +155,8 @@ if TYPE_CHECKING:
     from linkwright.analysis.step_method import step_method as step_method
     from linkwright.analysis.study import study as study
     from linkwright.analysis.transient import transient as transient
+    from linkwright.exchange.cam import cam_drawings as cam_drawings
+    from linkwright.exchange.write import write_drawing as write_drawing
     from linkwright.files import loads as loads
     from linkwright.files import read as read
     from linkwright.files import write as write
@@ -129,6 +172,7 @@ if TYPE_CHECKING:
     from linkwright.sizing.motor import choose_motor as choose_motor
     from linkwright.sizing.power import required_power as required_power
     from linkwright.sweep.batch import steady_states as steady_states
+    from linkwright.sweep.cams import search_cams as search_cams
     from linkwright.synthesis.dead_centre import crank_rocker as crank_rocker
     from linkwright.synthesis.function_generator import function_generator as function_generator
     from linkwright.synthesis.path import path_generator as path_generator

@@ -9,7 +9,7 @@ import pytest
 from cam_laws import CYCLOIDAL, PARABOLIC, POLYNOMIAL_345, POLYNOMIAL_4567, SKEW, UNIFORM, turn
 from scipy.optimize import brentq, minimize_scalar
 
-from linkwright.analysis.cam.bearing import Guide, Pivot
+from linkwright.analysis.cam.bearing import ArmPivot, StemGuide
 from linkwright.analysis.cam.contact_force import ContactForce, contact_force
 from linkwright.analysis.cam.follower_load import CamCourse, FollowerLoad, cam_course, force_along
 from linkwright.analysis.cam.lift_off import least_preload, lift_off
@@ -19,7 +19,7 @@ from linkwright.motion_laws.motion_law import MotionLaw
 BASE, ROLLER = 0.04, 0.012
 LIFT = turn(POLYNOMIAL_345, 0.015)
 FOLLOWER = FollowerLoad(0.9, 8e3, 120.0)
-GUIDE = Guide(0.05, 0.045, 0.12, 0.016)
+GUIDE = StemGuide(0.05, 0.045, 0.12, 0.016)
 MU = 0.08
 
 
@@ -36,7 +36,7 @@ def course(lift: MotionLaw = LIFT, n: int = 720, speed: float = 30.0, accelerati
 
 
 def free_body(
-    at: CamCourse, follower: FollowerLoad, guide: Guide, k: int, mu: float, side: float
+    at: CamCourse, follower: FollowerLoad, guide: StemGuide, k: int, mu: float, side: float
 ) -> np.ndarray:
     """N, R₁, R₂ of one row by three equations of a stem, all forces at their points, directions by iteration.
 
@@ -86,7 +86,7 @@ def test_a_follower_in_its_guide_is_in_equilibrium(closure: str, offset: float) 
 def test_formula_of_the_handbooks() -> None:
     """N = F/(cos γ − μ(2A/B + 1) sin γ), rising, without diameter and friction of the contact."""
     at = course()
-    guide = Guide(0.05, 0.045, 0.12)
+    guide = StemGuide(0.05, 0.045, 0.12)
     found = contact_force(at, FOLLOWER, guide)
     up = at.lift_d1 > 1e-9
     a = (0.045 - at.lift[up]) / 0.05
@@ -99,7 +99,7 @@ def test_jam_begins_at_the_angle_of_the_handbooks() -> None:
     """tan γ = B/(μ(2A + B)); the finding names it and where the follower is beyond it."""
     gamma = np.linspace(0.0, 1.2, 121)
     at = cam_course(np.linspace(0, 1, 121), (0.0, np.ones(121), 0.0), 1.0, pressure_angle=gamma)
-    found = contact_force(at, FOLLOWER, Guide(0.05, 0.06, 0.2))
+    found = contact_force(at, FOLLOWER, StemGuide(0.05, 0.06, 0.2))
     limit = np.arctan(0.05 / (0.2 * 0.17))
     # A thousand times the force counts as jammed already.
     np.testing.assert_array_equal(found.jammed, gamma > limit - 1e-3)
@@ -154,9 +154,9 @@ def test_a_cam_without_friction_gives_back_what_it_takes() -> None:
 def test_oscillating_follower() -> None:
     """Arm and inertia: N l cos γ = J ψ̈ + …; friction of the journal against the motion."""
     at = course()
-    pivot = Pivot(0.08, 0.1, 0.01)
+    pivot = ArmPivot(0.08, 0.1, 0.01)
     follower = FollowerLoad(2e-3, 30.0, 4.0)
-    easy = contact_force(at, follower, Pivot(0.08))
+    easy = contact_force(at, follower, ArmPivot(0.08))
     np.testing.assert_allclose(
         easy.normal * 0.08 * np.cos(at.pressure_angle), force_along(at, follower), rtol=1e-13
     )
@@ -166,7 +166,7 @@ def test_oscillating_follower() -> None:
     assert (found.normal[down] < easy.normal[down]).all()
     lost = 0.1 * 0.01 * np.abs(found.near) * np.abs(at.velocity)
     np.testing.assert_allclose(-found.power_friction, lost, atol=1e-12)
-    same = contact_force(at, follower, Pivot(np.full(721, 0.08), 0.1, 0.01))
+    same = contact_force(at, follower, ArmPivot(np.full(721, 0.08), 0.1, 0.01))
     np.testing.assert_array_equal(same.normal, found.normal)
 
 
@@ -286,7 +286,7 @@ def test_inputs_without_sense_are_told() -> None:
     with pytest.raises(ShapeError, match="one length"):
         contact_force(at, FollowerLoad(1.0, load=np.zeros(7)))
     with pytest.raises(FindingError, match=r"into its guide, 0\.01 m away"):
-        contact_force(at, FOLLOWER, Guide(0.05, 0.01))
+        contact_force(at, FOLLOWER, StemGuide(0.05, 0.01))
     with pytest.raises(InputError, match=r"cam_angle: found 1 rad after 2 rad"):
         cam_course([0.0, 2.0, 1.0], (0.0, 0.0, 0.0), 1.0)
     with pytest.raises(InputError, match=r"less than 90°"):

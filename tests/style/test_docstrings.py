@@ -17,7 +17,17 @@ import linkwright as lw
 from linkwright.machine.base import Description
 
 # Modules whose functions and classes are documented in full: what a user calls.
-PUBLIC_PACKAGES = ("analysis", "files", "machine", "sweep", "sizing", "synthesis", "units", "errors")
+PUBLIC_PACKAGES = (
+    "analysis",
+    "exchange",
+    "files",
+    "machine",
+    "sweep",
+    "sizing",
+    "synthesis",
+    "units",
+    "errors",
+)
 
 _SECTION = re.compile(r"^(\w[\w ]*)\n-{3,}$", re.MULTILINE)
 _ENTRY = re.compile(r"^(\*{0,2}\w[\w, *]*?)\s*(?::\s*(.+))?$")

@@ -10,4 +10,8 @@
 | `spline`, `hermite` | a B-spline; the curve approximated by one |
 | `deviation` | the largest distance between a path and the curve, both ways |
 | `fit` | any of these forms within a tolerance |
+| `drawing`, `cam` | outlines on layers; those of a cam |
+| `dxf`, `svg`, `table`, `step` | write a format, and read it |
+| `read_back` | is in a file what is to be in it? |
+| `write` | write files that are read back first |
 """

@@ -38,11 +38,14 @@ class Drawing:
         Layer → curve, such as ``PROFILE``, ``PITCH_CURVE``, ``CUTTER_PATH``.
     zero_angle : float
         Direction of the mark by which the cam is set up [rad].
+    width : float, optional
+        Thickness of the part, for a solid [m].
     """
 
     name: str
     curves: Mapping[str, ClosedCurve]
     zero_angle: float = 0.0
+    width: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse what no drawing can hold."""

@@ -9,11 +9,12 @@ import numpy as np
 from linkwright.errors import ExchangeError, InputError
 from linkwright.exchange.curve import size
 from linkwright.exchange.deviation import deviation
-from linkwright.exchange.drawing import Drawing, Measured
+from linkwright.exchange.drawing import PROFILE, Drawing, Measured
 from linkwright.exchange.dxf import read_dxf
 from linkwright.exchange.fit import TOLERANCE
 from linkwright.exchange.found import Found
 from linkwright.exchange.outline import Outline
+from linkwright.exchange.step import read_step
 from linkwright.exchange.svg import read_svg
 from linkwright.exchange.table import Table, curvature, read_csv
 from linkwright.exchange.track import Track
@@ -41,7 +42,7 @@ def read_back(
     tolerance : float
         Largest distance of an outline from its curve [m]. The rows of a CSV lie on the curve whatever it is.
     layers : tuple of str, optional
-        Which of the drawing's layers; without it all. A CSV file has one.
+        Which of the drawing's layers; without it all. A CSV file has one, a STEP file ``PROFILE`` alone.
 
     Returns
     -------
@@ -58,11 +59,14 @@ def read_back(
     layers = tuple(drawing.curves) if layers is None else layers
     if unknown := [layer for layer in layers if layer not in drawing.curves]:
         raise InputError(f'layer "{unknown[0]}": the drawing has {", ".join(drawing.curves)}')
+    if file.suffix == ".step":
+        track = drawing.tracks[PROFILE]
+        return (_compare(file, PROFILE, read_step(file, track.sense), track, tolerance),)
     if file.suffix == ".csv":
         return (_compare_rows(file, drawing.tracks[layers[0]], layers[0]),)
     if file.suffix not in _READERS:
         raise InputError(
-            f'{file}: files named "{file.suffix}" cannot be read; expected .csv, {", ".join(_READERS)}'
+            f'{file}: files named "{file.suffix}" cannot be read; expected .csv, .step, {", ".join(_READERS)}'
         )
     found = _READERS[file.suffix](file, layers)
     return tuple(_compare(file, layer, found[layer], drawing.tracks[layer], tolerance) for layer in layers)

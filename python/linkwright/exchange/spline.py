@@ -52,8 +52,8 @@ class Spline:
 
         Parameters
         ----------
-        x : ndarray
-            Values of the parameter, of any shape [rad].
+        x : ndarray, shape (…)
+            Values of the parameter [rad].
 
         Returns
         -------

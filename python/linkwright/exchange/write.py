@@ -14,6 +14,7 @@ from linkwright.exchange.fit import TOLERANCE, Form, fit
 from linkwright.exchange.outline import Outline
 from linkwright.exchange.read_back import read_back
 from linkwright.exchange.spline import Spline
+from linkwright.exchange.step import write_step
 from linkwright.exchange.svg import write_svg
 from linkwright.exchange.table import By, table, write_csv
 
@@ -21,6 +22,9 @@ from linkwright.exchange.table import By, table, write_csv
 STEP = math.radians(1)
 
 FORMATS = ("dxf", "csv", "svg")
+
+# Those and the one that needs an extra.
+ALL_FORMATS = (*FORMATS, "step")
 
 
 def write_drawing(
@@ -43,6 +47,7 @@ def write_drawing(
         What is drawn.
     formats : iterable of str
         ``"dxf"``: all layers. ``"svg"``: all layers, as arcs or chords. ``"csv"``: one file a layer.
+        ``"step"``: the profile, as a spline, as a solid of the drawing's width; needs the extra ``step``.
     form : {"arcs", "spline", "cubic", "polyline"}
         What the DXF holds: arcs and lines without kinks, a B-spline of degree 5 or 3, or chords.
     tolerance : float
@@ -65,8 +70,8 @@ def write_drawing(
         A format, form, tolerance or step that does not exist, or a directory that cannot be written.
     """
     folder, formats = File(directory), tuple(formats)
-    if unknown := [each for each in formats if each not in FORMATS]:
-        raise InputError(f'format "{unknown[0]}": expected {", ".join(FORMATS)}')
+    if unknown := [each for each in formats if each not in ALL_FORMATS]:
+        raise InputError(f'format "{unknown[0]}": expected {", ".join(ALL_FORMATS)}')
     written: list[Written] = []
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -74,6 +79,8 @@ def write_drawing(
             written.append(_dxf(folder, drawing, form, tolerance))
         if "svg" in formats:
             written.append(_svg(folder, drawing, form, tolerance))
+        if "step" in formats:
+            written.append(_step(folder, drawing, form, tolerance))
         if "csv" in formats:
             written += [_csv(folder, drawing, layer, step, by) for layer in drawing.curves]
     except OSError as error:
@@ -126,6 +133,26 @@ def _svg(folder: File, drawing: Drawing, form: Form, tolerance: float) -> Writte
         lambda file: write_svg(file, drawing, paths),
         lambda file: read_back(file, drawing, tolerance),
     )
+
+
+def _step(folder: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
+    """The profile as a solid."""
+    if drawing.width is None or PROFILE not in drawing.tracks:
+        raise InputError(
+            f"{drawing.name}: a STEP file is a solid: give the cam a width, and the layer {PROFILE}"
+        )
+    width, (path, _) = drawing.width, fit(drawing.tracks[PROFILE], _spline(form), tolerance)
+    assert isinstance(path, Spline)
+    return _checked(
+        folder / f"{stem(drawing)}.step",
+        lambda file: write_step(file, drawing.name, path, width),
+        lambda file: read_back(file, drawing, tolerance),
+    )
+
+
+def _spline(form: Form) -> Form:
+    """The spline nearest to a form."""
+    return "cubic" if form == "cubic" else "spline"
 
 
 def _csv(folder: File, drawing: Drawing, layer: str, step: float, by: By) -> Written:

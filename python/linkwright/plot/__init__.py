@@ -7,9 +7,11 @@
 | `motor` | the motor's characteristic, and the part of it that steady motion uses |
 | `run_up` | speed from the start to steady motion |
 | `pumping_unit` | polished rod, torque of the gearbox, lever of a rotator |
+| `cam` | lift diagrams, profile, pressure angle, curvature, contact force |
 | `linkage` | transmission angles, coupler curves with the links |
 | `forces` | driving torque, reactions, hodographs, load cases |
 | `motion_laws` | motion laws and their derivatives, several in one picture |
+| `cam_dynamics` | contact force, pressure and vibration of cams and followers |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -17,6 +19,19 @@
 matplotlib is imported when the first figure is drawn.
 """
 
+from linkwright.plot.cam import (
+    cam_figure,
+    cam_force_figure,
+    curvature_figure,
+    lift_figure,
+    pressure_angle_figure,
+)
+from linkwright.plot.cam_dynamics import (
+    contact_force_figure,
+    pressure_figure,
+    residual_figure,
+    vibration_figure,
+)
 from linkwright.plot.compare import compare_figure
 from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
 from linkwright.plot.linkage import coupler_figure, transmission_figure
@@ -30,17 +45,25 @@ from linkwright.plot.svg import svg
 
 __all__ = [
     "attempt_figure",
+    "cam_figure",
+    "cam_force_figure",
     "cases_figure",
     "compare_figure",
+    "contact_force_figure",
     "coupler_figure",
+    "curvature_figure",
     "forces_figure",
     "gear_torque_figure",
     "hodograph_figure",
+    "lift_figure",
     "motion_laws_figure",
     "motor_figure",
     "polar_figure",
     "polished_rod_figure",
+    "pressure_angle_figure",
+    "pressure_figure",
     "reduction_figure",
+    "residual_figure",
     "rotator_figure",
     "run_up_figure",
     "speed_figure",
@@ -48,4 +71,5 @@ __all__ = [
     "time_figure",
     "torque_figure",
     "transmission_figure",
+    "vibration_figure",
 ]

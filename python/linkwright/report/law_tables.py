@@ -8,7 +8,7 @@ from linkwright.analysis.law_factors import LawFactors
 from linkwright.motion_laws.bounds import BOUNDS
 from linkwright.motion_laws.catalogue import LAWS
 from linkwright.report.quantities import number
-from linkwright.report.table import Table
+from linkwright.report.table import Row, Table
 
 _COLUMNS = {
     "C_v": "C_v",

@@ -102,7 +102,7 @@ def pushes(course: CamCourse, friction: float, side: Floats, moving: Floats) -> 
 
 
 @dataclass(frozen=True)
-class Guide:
+class StemGuide:
     """A straight guide of the stem.
 
     Attributes
@@ -163,7 +163,7 @@ class Guide:
 
 
 @dataclass(frozen=True)
-class Pivot:
+class ArmPivot:
     """The pivot of an oscillating follower.
 
     Attributes
@@ -229,4 +229,4 @@ class NoFriction:
         return Held(push.along, -push.across, none, none)
 
 
-Bearing = Guide | Pivot | NoFriction
+Bearing = StemGuide | ArmPivot | NoFriction

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.cam.backlash import SideChange, side_changes
-from linkwright.analysis.cam.bearing import Bearing, Held, NoFriction, Pivot, Push, pushes
+from linkwright.analysis.cam.bearing import ArmPivot, Bearing, Held, NoFriction, Push, pushes
 from linkwright.analysis.cam.checks import not_negative
 from linkwright.analysis.cam.follower_load import CamCourse, FollowerLoad, force_along
 from linkwright.analysis.result import Result
@@ -125,7 +125,7 @@ def contact_force(
         Geometry and motion, n angles.
     follower : FollowerLoad
         Inertia, spring, damper, load.
-    bearing : Guide, Pivot or NoFriction, optional
+    bearing : StemGuide, ArmPivot or NoFriction, optional
         How it is held; without it, as a translating follower without friction.
     friction : float
         μ of the contact; of a roller on a journal, μ of the journal times its radius over the roller's [–].
@@ -249,7 +249,7 @@ def _limit(course: CamCourse, bearing: Bearing, friction: float, side: Floats, r
     """The pressure angle, of the same sign, from which on the follower jams at one row."""
     low, high = 0.0, 0.5 * math.pi * (1 - 1e-12)
     sign = math.copysign(1.0, course.pressure_angle[row])
-    if isinstance(bearing, Pivot) and np.ndim(bearing.arm):
+    if isinstance(bearing, ArmPivot) and np.ndim(bearing.arm):
         bearing = replace(bearing, arm=np.asarray(bearing.arm)[row])
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
