@@ -250,6 +250,14 @@ def test_rollers_with_the_printed_curve_as_centres(paper: Paper2) -> None:
     assert paper.rollers.play > 1e-3
 
 
+def test_pressure_angle_by_the_printed_formulas(paper: Paper2) -> None:
+    """tan γ = ẋ/(ω ρ) of (1) to (3) and (17), at points every 3e-5 s."""
+    time = np.linspace(0.0, TIME, 100_001)
+    rho = paper.formulas.radius(np.pi * time / TIME, 1.0)
+    lead = paper.formulas.stroke_motion(time, 1) * TIME / np.pi / rho
+    assert paper.profile.pressure_angle_max == pytest.approx(np.arctan(lead.max()), rel=1e-8)
+
+
 def test_breadth_that_reaches_the_limit(paper: Paper2) -> None:
     entries = {"mechanism.cams.cart.breadth": paper.rollers.breadth_for_limit}
     found = cam_profile(read(library_path("roller_cam"), entries))
