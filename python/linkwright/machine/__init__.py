@@ -8,7 +8,7 @@
 | `catalogue` | published motors |
 | `element` | cranks, dyads, gears, cables, joints and bars |
 | `mechanism` | all elements by name |
-| `cam`, `motion_section`, `motion_law` | cams, and how their followers move |
+| `cam`, `cam_follower`, `motion_section`, `motion_law` | cams, and how their followers move |
 | `assembly` | in which order a mechanism is built; what is missing or too much |
 | `pumping_unit`, `polished_rod_load`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
 | `unit_catalogue` | published pumping units |
