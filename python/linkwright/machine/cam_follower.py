@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
+from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import fault
