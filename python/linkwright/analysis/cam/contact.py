@@ -250,7 +250,9 @@ def contacts(cam: Cam, points: dict[str, FixedPoint], name: str = "cam") -> tupl
     """
     size = sizes(cam, points)
     if any(np.ndim(each) for each in size):
-        raise ShapeError(f"the profile of cam {name} is that of one machine, and the entries describe several")
+        raise ShapeError(
+            f"the profile of cam {name} is that of one machine, and the entries describe several"
+        )
     first = _contact("cam", cam, cam.lift, size, left=cam.side == "left")
     if cam.has_opposite:
         return first, _contact("second follower", cam, falling(cam), size, turned=np.pi)
