@@ -14,6 +14,7 @@ from linkwright.papers.paper2_alternatives import Alternative, alternatives
 from linkwright.papers.paper2_conclusions import conclusions
 from linkwright.papers.paper2_course import Course, course
 from linkwright.papers.paper2_formulas import Formulas
+from linkwright.papers.paper2_pair import Pair, pair
 from linkwright.papers.paper2_roller import Rollers, rollers
 from linkwright.papers.paper2_rows import rows_of
 from linkwright.papers.paper2_start import Starts, starts
@@ -40,6 +41,8 @@ class Paper2:
         The start section, and those of least ∫ jerk².
     rollers : Rollers
         Rollers on the printed profile.
+    pair : Pair
+        One cam against two.
     alternatives : tuple of Alternative
         The printed law, the crank drive, other laws.
     course : Course
@@ -53,6 +56,7 @@ class Paper2:
     profile: CamProfile
     starts: Starts
     rollers: Rollers
+    pair: Pair
     alternatives: tuple[Alternative, ...]
     course: Course
     rows: tuple[Row, ...]
@@ -74,6 +78,7 @@ class Paper2:
             "cam": self.profile.to_dict(),
             "start_section": self.starts.to_dict(),
             "rollers": rolled | {"cam": self.rollers.offset.to_dict()},
+            "two_cams": vars(self.pair),
             "alternatives": [each.to_dict() for each in self.alternatives],
             "steady_motion": self.course.to_dict(),
             "rows": [vars(row) for row in self.rows],
@@ -104,6 +109,7 @@ def paper2() -> Paper2:
         profile=profile,
         starts=sections,
         rollers=rollers(profile, data["given"]["machine"], data["chosen"]["roller_radius"]),
+        pair=pair(data["given"]["machine"], profile.name),
         alternatives=drives,
         course=course(drives[0], formulas),
         rows=rows_of(formulas, profile, sections),

@@ -10,17 +10,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.cam.profile import cam_profile
-from linkwright.analysis.kinematics import kinematics
+from linkwright.analysis.kinematics import SlideMotion, kinematics
 from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.files.library import library_path
 from linkwright.files.read import read
 from linkwright.machine import DryFriction, Machine
+from linkwright.motion_laws.motion_law import MotionLaw
 from linkwright.papers.paper2_formulas import Formulas
 
 Floats = NDArray[np.float64]
@@ -50,8 +52,8 @@ class Alternative:
         Of the cart at the design speed [m/s, m/s²].
     force, torque : ndarray, shape (n,)
         On the cart, and from there on the shaft, in steady motion [N, N m].
-    jerk_max : float
-        Largest in size at the design speed [m/s³].
+    velocity_max, acceleration_max, jerk_max : float
+        Largest in size at the design speed [m/s, m/s², m/s³]; exact for a cam.
     jerk_step : float
         Largest step of the jerk [m/s³].
     pressure_angle_max : float or None
@@ -71,21 +73,13 @@ class Alternative:
     acceleration: Floats
     force: Floats
     torque: Floats
+    velocity_max: float
+    acceleration_max: float
     jerk_max: float
     jerk_step: float
     pressure_angle_max: float | None
     concave_radius: float | None
     steady_share: float
-
-    @property
-    def velocity_max(self) -> float:
-        """Largest in size at the design speed [m/s]."""
-        return float(np.abs(self.velocity).max())
-
-    @property
-    def acceleration_max(self) -> float:
-        """Largest in size at the design speed [m/s²]."""
-        return float(np.abs(self.acceleration).max())
 
     @property
     def force_max(self) -> float:
@@ -143,10 +137,9 @@ def _programmes(stroke: float) -> Iterator[tuple[str, str, list[dict[str, Any]]]
     yield "combined, least ∫ jerk² over free travel", "free travel", _there_and_back(stroke, law)
     smooth: dict[str, Any] = {"kind": "polynomial", "continuity_start": 3, "continuity_end": 3}
     yield "combined, continuous jerk", "continuous jerk", _ramped(stroke, 1 / 2, smooth, smooth)
-    free: list[dict[str, Any]] = [
-        {"kind": "optimal", "order": 3, f"free_{end}": [2]} for end in ("start", "end")
-    ]
-    yield "combined, acceleration free at the turn", "free at the turn", _ramped(stroke, 5 / 8, *free)
+    free: dict[str, Any] = {"kind": "optimal", "order": 3}
+    ends = free | {"free_start": [2]}, free | {"free_end": [2]}
+    yield "combined, acceleration free at the turn", "free at the turn", _ramped(stroke, 5 / 8, *ends)
     for kind in ("polynomial_4_5_6_7", "cycloidal", "modified_sine", "harmonic"):
         words = kind.replace("_4_5_6_7", " 4-5-6-7").replace("_", " ")
         yield words, words, _there_and_back(stroke, kind)
@@ -185,10 +178,8 @@ def _with(machine: str, name: str, short: str, entries: dict[str, Any]) -> Alter
     middle = slice(1, None, 2)
     phi, speed, bend = (each[middle] for each in (steady.crank_angle, steady.speed, steady.acceleration))
     slide = kinematics(changed, phi, third=True).slides[CART]
-    assert slide.d3 is not None
     force = resistance(changed) * np.sign(slide.d1)
     force += (changed.bodies[CART].mass or 0.0) * (slide.d2 * speed**2 + slide.d1 * bend)
-    jerk, step, angle, hollow, share = _of_cam(changed, omega)
     return Alternative(
         name=name,
         short=short,
@@ -199,11 +190,7 @@ def _with(machine: str, name: str, short: str, entries: dict[str, Any]) -> Alter
         acceleration=slide.d2 * omega**2,
         force=force,
         torque=force * slide.d1,
-        jerk_max=float(np.abs(slide.d3).max()) * omega**3 if jerk is None else jerk,
-        jerk_step=step,
-        pressure_angle_max=angle,
-        concave_radius=hollow,
-        steady_share=share,
+        **(_of_cam(changed, omega) if changed.mechanism.cams else _of_slide(slide, omega)),
     )
 
 
@@ -221,20 +208,34 @@ def resistance(machine: Machine) -> float:
     return float(load.force or 0.0)
 
 
-def _of_cam(machine: Machine, omega: float) -> tuple[float | None, float, float | None, float | None, float]:
-    """Jerk and its largest step, pressure angle, hollow, and share at constant speed; a crank has none."""
-    if not machine.mechanism.cams:
-        return None, 0.0, None, None, 0.0
-    cam = cam_profile(machine)
-    law = cam.cam.lift
-    # The joints inside a section, and that where the turn closes.
+def _of_slide(slide: SlideMotion, omega: float) -> dict[str, Any]:
+    """Peaks of a crank drive, at its angles; it has nothing of a cam."""
+    assert slide.d3 is not None
+    peaks = [float(np.abs(row).max()) * omega**n for n, row in enumerate((slide.d1, slide.d2, slide.d3), 1)]
+    names = ("velocity_max", "acceleration_max", "jerk_max")
+    none = {"jerk_step": 0.0, "pressure_angle_max": None, "concave_radius": None, "steady_share": 0.0}
+    return dict(zip(names, peaks, strict=True)) | none
+
+
+def _of_cam(machine: Machine, omega: float) -> dict[str, Any]:
+    """Peaks of a cam drive, the largest step of its jerk, its shape, and its share at constant speed."""
+    profile = cam_profile(machine)
+    law = profile.cam.lift
+    # The joints inside the turn, and that where it closes.
     steps = np.append(law.jumps(3), law.at(law.start, 3) - law.at(law.end, 3, "before"))
-    step = float(np.abs(steps).max()) * omega**3
-    slope = law.derivative(1)
-    even = [
-        abs(float(slope.at(0.5 * (low + high)))) * (high - low)
-        for low, high, piece in zip(law.breaks, law.breaks[1:], slope.pieces, strict=False)
-        if piece.derivative(1.0).vanishes(cam.stroke)
-    ]
-    hollow = cam.curvature_radius_concave_min
-    return cam.jerk_max, step, cam.pressure_angle_max, hollow, sum(even) / (2 * cam.stroke)
+    return {
+        "velocity_max": profile.velocity_max,
+        "acceleration_max": profile.acceleration_max,
+        "jerk_max": profile.jerk_max,
+        "jerk_step": float(np.abs(steps).max()) * omega**3,
+        "pressure_angle_max": profile.pressure_angle_max,
+        "concave_radius": profile.curvature_radius_concave_min,
+        "steady_share": _even(law) / (2 * profile.stroke),
+    }
+
+
+def _even(law: MotionLaw) -> float:
+    """Travel at constant speed over a turn [m]."""
+    stretches = zip(pairwise(law.breaks), law.derivative(2).pieces, strict=True)
+    ends = [law.at(np.array(pair)) for pair, bend in stretches if bend.vanishes(law.peak(2).value)]
+    return float(sum(abs(high - low) for low, high in ends))

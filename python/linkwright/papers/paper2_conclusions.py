@@ -31,6 +31,7 @@ def conclusions(paper: Paper2) -> list[str]:
         _about_formulas(paper),
         _about_profile(paper),
         _about_rollers(paper),
+        _about_pair(paper),
         _about_minimum(paper),
         _about_jerk(paper),
         _about_turn(paper),
@@ -93,6 +94,16 @@ def _about_rollers(paper: Paper2) -> str:
         f"inside: then the diameter is constant again, the least convex radius of the profile is "
         f"{1e3 * (found.offset.curvature_radius_convex_min or 0):.0f} mm, and rollers up to "
         f"{1e3 * found.largest_inside:.0f} mm do not undercut it."
+    )
+
+
+def _about_pair(paper: Paper2) -> str:
+    found = paper.pair
+    left = "nothing" if found.left_over < 1e-9 * found.side_force else f"{found.left_over:.3g} N"
+    return (
+        f"One cam alone would push the cart across its travel with up to {1e-3 * found.side_force:.2f} kN, "
+        f"the contact itself carrying {1e-3 * found.contact_force:.2f} kN at most. Of two cams that turn in "
+        f"opposite directions and share the work {left} of it is left for the guide, as is said."
     )
 
 

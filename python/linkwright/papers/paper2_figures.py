@@ -146,9 +146,8 @@ def _cam(paper: Paper2) -> Figure:
         axes.fill(place + side * np.array([0, 0.07, 0.07]), [0, 0.028, -0.028], color=INK)
     for place in (right, right - b):
         axes.plot([place, place], [0.0, low - 0.12], color=SOFT, linewidth=0.7)
-    axes.annotate(
-        "", (right - b, low - 0.1), (right, low - 0.1), arrowprops={"arrowstyle": "<->", "color": SOFT}
-    )
+    arrow = {"arrowstyle": "<->", "color": SOFT}
+    axes.annotate("", (right - b, low - 0.1), (right, low - 0.1), arrowprops=arrow)
     axes.text(right - 0.5 * b, low - 0.09, f"b = {b:g} m, chosen", ha="center", va="bottom")
     axes.annotate(
         "",
@@ -183,7 +182,7 @@ def _shape(paper: Paper2) -> Figure:
     hollow = profile.curvature_radius_concave_min
     assert hollow is not None
     level(bent, -1 / hollow, f"largest roller in the hollow, {1e3 * hollow:.0f} mm", RED)
-    bent.set_ylabel("curvature 1/ρ_c [1/m]")
+    bent.set_ylabel("curvature [1/m]")
     roomy(bent, bend)
     zero_line(bent)
     turn_axis(steep, label=False)
@@ -191,7 +190,7 @@ def _shape(paper: Paper2) -> Figure:
     bent.set_xlabel("cam angle φ [°]")
     for axes in (steep, bent):
         zero_line(axes)
-        axes.legend(loc="upper right")
+        legend_above(axes)
     return figure
 
 
@@ -202,16 +201,16 @@ def _start(paper: Paper2) -> Figure:
     u = np.linspace(0, 1, 201)
     for start, colour, name in (
         (paper.starts.printed, BLUE, "(1), as printed"),
-        (paper.starts.free_travel, ORANGE, "least, travel free"),
-        (paper.starts.free_acceleration, GREEN, "least, acceleration at rest free too"),
+        (paper.starts.free_travel, ORANGE, "travel free"),
+        (paper.starts.free_acceleration, GREEN, "travel and ẍ at rest free"),
     ):
         for order, axes in enumerate(every, start=1):
             label = f"{name}: ∫ jerk² = {start.cost:.3g}"
             axes.plot(u, start.law.at(u, order), color=colour, label=label)
-    for axes, title in zip(every, ("ẋ/v", "ẍ/(v/t_p)", "jerk/(v/t_p²)"), strict=True):
+    for axes, title in zip(every, ("ẋ over $v$", "ẍ over $v/t_p$", "jerk over $v/t_p^2$"), strict=True):
         axes.set_title(title, loc="left")
         axes.set_xlim(0, 1)
-        axes.set_xlabel("u = t/t_p")
+        axes.set_xlabel("$u = t/t_p$")
         zero_line(axes)
     handles, labels = every[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=3)
@@ -267,7 +266,7 @@ def _course(paper: Paper2) -> Figure:
     level(shaft, found.speed_mean, "mean over time")
     shaft.axhline(found.speed_design, color=RED, linestyle=":", linewidth=1.2, label="as designed")
     shaft.set_ylabel("shaft ω [rad/s]")
-    cart.plot(found.time, found.intended, color=SOFT, linestyle=(0, (5, 3)), label="intended")
+    cart.plot(found.time, found.intended, color=SOFT, linestyle=(0, (5, 3)), linewidth=1.3, label="intended")
     cart.plot(found.time, found.velocity, color=BLUE, label="in steady motion")
     cart.set_ylabel("cart ẋ [m/s]")
     off.plot(found.time, 100 * found.deviation, color=RED)

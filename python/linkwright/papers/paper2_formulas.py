@@ -74,7 +74,7 @@ class Formulas:
             n, of the derivative.
         """
         row = self.printed[section]["motion"][order]
-        return row["factor"] * np.polynomial.Polynomial(row["terms"])
+        return np.polynomial.Polynomial([row["factor"] * term for term in row["terms"]])
 
     def over(self, section: str, order: int, u: Floats) -> Floats:
         """Position in the section, or a derivative of it.

@@ -117,4 +117,4 @@ def centre_distance(profile: CamProfile, radius: float) -> Floats:
 
 def _angles() -> Floats:
     """Equal angles of a turn [rad]."""
-    return np.arange(_POINTS) * (2 * np.pi / _POINTS)
+    return np.linspace(0.0, 2 * np.pi, _POINTS, endpoint=False)
