@@ -43,6 +43,11 @@ _LIMIT = Bound(
     {"exclusiveMinimum": 0, "exclusiveMaximum": np.pi / 2},
     lambda value: 0 < value < np.pi / 2,
 )
+_TO_HALF = Bound(
+    " of 0 or more and below 0.5,",
+    {"minimum": 0, "exclusiveMaximum": 0.5},
+    lambda value: 0 <= value < 0.5,
+)
 
 # Largest pressure angle by rule of thumb: a translating follower jams in its guide beyond 30°, an arm bears
 # more. Norton, Cam Design and Manufacturing Handbook, 2nd ed., section 7.3.
@@ -130,7 +135,9 @@ class Cam(Checked):
     elastic_modulus: Annotated[float, positive(PRESSURE)] = Field(
         210e9, description="Young's modulus of cam and roller."
     )
-    poisson_ratio: float = Field(0.3, ge=0, lt=0.5, description="Poisson's ratio of both.")
+    poisson_ratio: Annotated[float, Quantity(RATIO, _TO_HALF)] = Field(
+        0.3, description="Poisson's ratio of both."
+    )
 
     @property
     def is_roller(self) -> bool:
@@ -195,10 +202,12 @@ class Cam(Checked):
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from section_faults(self.sections, "swing" if self.is_oscillating else "lift")
         yield from self._closure_faults()
-        if (self.contact == "roller") != (self.roller_radius is not None):
-            yield fault(
-                "roller_radius", found=self.roller_radius, expected="a radius if the contact is a roller"
-            )
+        if self.contact == "roller" and self.roller_radius is None:
+            remedy = 'or say contact = "point" or "flat"'
+            yield fault("roller_radius", expected="the radius of the roller", remedy=remedy)
+        if self.contact != "roller" and self.roller_radius is not None:
+            expected = f'nothing for contact = "{self.contact}"'
+            yield fault("roller_radius", found=self.roller_radius, expected=expected)
         if self.is_oscillating:
             yield from self._arm_faults()
         else:
@@ -226,6 +235,21 @@ class Cam(Checked):
             yield fault(
                 "second", found=self.second and "a table", expected='a table if the closure is "conjugate"'
             )
+        if self.second is not None:
+            yield from self._second_faults(self.second)
+
+    def _second_faults(self, second: SecondFollower) -> Iterator[InitErrorDetails]:
+        """A second follower that is of another kind than the first."""
+        swings = self.is_oscillating
+        wanted, what = ("angle", "the two arms") if swings else ("distance", "the two rollers")
+        if getattr(second, wanted) is None:
+            yield fault("second", wanted, expected=f"how far {what} are from each other")
+        for key in ("distance",) if swings else ("angle", "arm_length"):
+            if getattr(second, key) is not None:
+                expected = f"nothing for {'an oscillating' if swings else 'a translating'} follower"
+                yield fault("second", key, found=getattr(second, key), expected=expected)
+        if self.contact == "point" and second.roller_radius is not None:
+            yield fault("second", "roller_radius", found=second.roller_radius, expected="nothing for an edge")
 
     def _breadth_faults(self) -> Iterator[InitErrorDetails]:
         """A breadth that leaves no cam between the followers."""
@@ -253,8 +277,8 @@ class Cam(Checked):
 
     def _line_faults(self) -> Iterator[InitErrorDetails]:
         """A translating follower needs no arm, and a line that meets the prime circle."""
-        for key in ("arm_pivot", "arm_length"):
-            if getattr(self, key) is not None:
+        for key in ("arm_pivot", "arm_length", "side"):
+            if key in self.model_fields_set and getattr(self, key) is not None:
                 yield fault(key, found=getattr(self, key), expected="nothing for a translating follower")
         if self.face_tilt and self.is_roller:
             yield fault("face_tilt", found=self.face_tilt, expected="nothing without a flat face")

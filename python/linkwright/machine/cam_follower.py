@@ -174,6 +174,9 @@ def cam_place_faults(mechanism: object) -> Iterator[InitErrorDetails]:
             remedy = f"make base_radius larger than {least:.6g} m or the offset smaller"
             expected = f"less than base_radius + roller_radius, {prime:.6g} m"
             yield fault("cams", name, "offset", found=size.offset, expected=expected, remedy=remedy)
+        elif size.distance == 0:
+            expected = "another place than the cam's centre"
+            yield fault("cams", name, "arm_pivot", found=cam.arm_pivot, expected=expected)
         elif cam.is_roller:
             low = abs(size.distance - size.arm) - size.roller_radius
             high = size.distance + size.arm - size.roller_radius
