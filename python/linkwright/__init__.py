@@ -85,7 +85,6 @@ _HOME = {
     "pose_guide": "synthesis.pose",
     "straight_line": "synthesis.straight_line",
     "straight_lines": "synthesis.straight_line",
-    "cam_profile": "analysis.cam.profile",
     "cam_drawings": "exchange.cam",
     "write_drawing": "exchange.write",
     "write_report": "report",
