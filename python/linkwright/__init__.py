@@ -112,6 +112,8 @@ if TYPE_CHECKING:
     from linkwright.analysis.cam.bearing import ArmPivot as ArmPivot
     from linkwright.analysis.cam.bearing import StemGuide as StemGuide
     from linkwright.analysis.cam.contact_force import contact_force as contact_force
+    from linkwright.analysis.cam.faults import cam_cautions as cam_cautions
+    from linkwright.analysis.cam.faults import cam_faults as cam_faults
     from linkwright.analysis.cam.follower_load import FollowerLoad as FollowerLoad
     from linkwright.analysis.cam.follower_load import cam_course as cam_course
     from linkwright.analysis.cam.follower_vibration import follower_vibration as follower_vibration
@@ -120,6 +122,7 @@ if TYPE_CHECKING:
     from linkwright.analysis.cam.hertz import line_contact as line_contact
     from linkwright.analysis.cam.lift_off import least_preload as least_preload
     from linkwright.analysis.cam.lift_off import lift_off as lift_off
+    from linkwright.analysis.cam.loaded import loaded_cam as loaded_cam
     from linkwright.analysis.cam.one_mass import OneMass as OneMass
     from linkwright.analysis.cam.polydyne import polydyne as polydyne
     from linkwright.analysis.cam.profile import cam_profile as cam_profile
@@ -169,6 +172,7 @@ if TYPE_CHECKING:
     from linkwright.sizing.motor import choose_motor as choose_motor
     from linkwright.sizing.power import required_power as required_power
     from linkwright.sweep.batch import steady_states as steady_states
+    from linkwright.sweep.cams import search_cams as search_cams
     from linkwright.synthesis.dead_centre import crank_rocker as crank_rocker
     from linkwright.synthesis.function_generator import function_generator as function_generator
     from linkwright.synthesis.path import path_generator as path_generator

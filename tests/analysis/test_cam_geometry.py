@@ -120,7 +120,7 @@ def test_extremes_are_those_of_dense_samples_closed_in_on(case) -> None:
     """γ and the place on the face: golden section between dense samples."""
     circle, found = case
     shape = found.kernel.shape(720)
-    rows = {"lead": lambda phi: np.tan(found.kernel.rows(phi)["pressure_angle"])}
+    rows = {"pressure_angle": lambda phi: found.kernel.rows(phi)["pressure_angle"]}
     if circle.roller is None:
         rows["along"] = lambda phi: found.kernel.rows(phi)["along"]
     for name, row in rows.items():

@@ -84,3 +84,17 @@ def test_papers(tmp_path: Path) -> None:
     assert "src=" not in page
     assert "@import" not in page
     assert page.count("<svg") == 5
+
+
+def test_papers_of_the_cam_drive(tmp_path: Path) -> None:
+    done = run("papers", "2", "--json", "--out", tmp_path)
+    assert done.exit_code == 0
+    found = json.loads(done.stdout)["results"]["paper2"]
+    assert found["cam"]["diameter_min"] == pytest.approx(found["cam"]["diameter_max"], abs=1e-12)
+    figures = ("figure1", "figure3", "shape", "start", "alternatives", "course")
+    names = {f"{name}.{end}" for name in figures for end in ("svg", "png")}
+    assert {path.name for path in tmp_path.iterdir()} == names | {"papers2.html"}
+    shown = run("papers", "2").stdout
+    assert "reproduced to rounding" in shown
+    assert "not reproduced" not in shown
+    assert "continuous jerk" in shown

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from linkwright.papers.paper1 import Drive, Paper1
+    from linkwright.papers.paper2 import Paper2
     from linkwright.papers.paper4 import Paper4
     from linkwright.papers.published import PublishedDrive
 
@@ -49,7 +50,7 @@ def papers(number: Number = None, json: Json = False, out: Folder = None) -> Non
     if number is None:
         typer.echo("\n".join(f"  {n}  {title}" for n, title in PAPERS.items()))
         return
-    paper = _first() if known_paper(number) == 1 else _fourth()
+    paper = {1: _first, 2: _second, 4: _fourth}[known_paper(number)]()
     if out:
         _write(paper, out)
     if json:
@@ -73,9 +74,9 @@ class _Shown(NamedTuple):
 
 def _first() -> _Shown:
     """Paper 1."""
-    from linkwright.papers.page import page
     from linkwright.papers.paper1 import paper1
     from linkwright.papers.paper1_figures import drive_figure, evenness_figure
+    from linkwright.papers.paper1_page import page
 
     paper = paper1(track=_tracked)
 
@@ -93,14 +94,33 @@ def _first() -> _Shown:
     )
 
 
+def _second() -> _Shown:
+    """Paper 2."""
+    from linkwright.papers.paper2 import paper2
+    from linkwright.papers.paper2_conclusions import conclusions
+    from linkwright.papers.paper2_figures import figures
+    from linkwright.papers.paper2_page import page
+    from linkwright.papers.paper2_table import COLUMNS, cells
+
+    paper = paper2()
+    heads = [f"{head} \\[{unit}]" if unit else head for head, unit, _ in COLUMNS]
+    show = partial(
+        _print_rows, paper, conclusions(paper), [_grid(heads, cells(paper.alternatives), numbers=True)]
+    )
+    return _Shown(
+        paper.number, paper.title, paper.to_dict(), partial(figures, paper), partial(page, paper), show
+    )
+
+
 def _fourth() -> _Shown:
     """Paper 4."""
     from linkwright.papers.paper4 import paper4
+    from linkwright.papers.paper4_conclusions import conclusions
     from linkwright.papers.paper4_figures import figures
     from linkwright.papers.paper4_page import page
 
     paper = paper4()
-    show = partial(_print4, paper)
+    show = partial(_print_rows, paper, conclusions(paper))
     return _Shown(
         paper.number, paper.title, paper.to_dict(), partial(figures, paper), partial(page, paper), show
     )
@@ -143,33 +163,44 @@ def _write(paper: _Shown, folder: Path) -> None:
         raise InputError(f"{folder}: cannot be written ({error.strerror or error})") from None
 
 
-def _print4(paper: Paper4) -> None:
-    """A row for each printed number, and what follows."""
+def _print_rows(paper: Paper2 | Paper4, conclusions: Sequence[str], tables: Sequence[Table] = ()) -> None:
+    """A row for each printed number, further tables, and what follows."""
     from rich.console import Console
-    from rich.table import Table
-
-    from linkwright.papers.paper4_conclusions import conclusions
 
     console = Console(highlight=False, width=None if sys.stdout.isatty() else _WIDTH)
     console.print(f"[bold]Paper {paper.number}: {paper.title}[/bold]\n")
-    table = Table(box=None, padding=(0, 2, 0, 0))
-    for head in ("printed", "", "computed", "verdict"):
-        table.add_column(head)
-    colours = {"reproduced": "green", "near": "yellow", "far": "red", "none": "dim"}
-    for row in paper.rows:
-        table.add_row(row.name, row.printed, row.computed, f"[{colours[row.kind]}]{row.verdict}[/]")
-    console.print(table)
-    console.print()
-    for number, text in enumerate(conclusions(paper), start=1):
+    rows = [(row.name, row.printed, row.computed, _coloured(row.verdict, row.kind)) for row in paper.rows]
+    for table in (_grid(("printed", "", "computed", "verdict"), rows), *tables):
+        console.print(table)
+        console.print()
+    for number, text in enumerate(conclusions, start=1):
         console.print(f"{number}. {text}\n")
+
+
+def _coloured(text: str, kind: str) -> str:
+    """A text in the colour of its verdict."""
+    colours = {"reproduced": "green", "near": "yellow", "far": "red", "none": "dim"}
+    return f"[{colours[kind]}]{text}[/]"
+
+
+def _grid(heads: Sequence[str], rows: Sequence[Sequence[str]], *, numbers: bool = False) -> Table:
+    """A table without lines; with numbers all columns but the first stand to the right."""
+    from rich.table import Table
+
+    table = Table(box=None, padding=(0, 2, 0, 0) if not numbers else (0, 1, 0, 0))
+    for i, head in enumerate(heads):
+        table.add_column(head, justify="right" if numbers and i else "left")
+    for row in rows:
+        table.add_row(*row)
+    return table
 
 
 def _print(paper: Paper1) -> None:
     """A table for each drive, and what follows."""
     from rich.console import Console
 
-    from linkwright.papers.page import reasons
     from linkwright.papers.paper1_conclusions import conclusions
+    from linkwright.papers.paper1_page import reasons
 
     console = Console(highlight=False, width=None if sys.stdout.isatty() else _WIDTH)
     console.print(f"[bold]Paper {paper.published.number}: {paper.published.title}[/bold]")
@@ -196,8 +227,8 @@ def _table(drive: Drive) -> Table:
     """A line for each quantity: published, and each way with its deviation."""
     from rich.table import Table
 
-    from linkwright.papers.page import number, percent
     from linkwright.papers.paper1 import WAYS
+    from linkwright.papers.paper1_page import number, percent
     from linkwright.papers.published import QUANTITIES
 
     title = f"\n[bold]{drive.published.name}[/bold]"
@@ -207,11 +238,10 @@ def _table(drive: Drive) -> Table:
     for words in WAYS.values():
         table.add_column(words, justify="right", max_width=9)
         table.add_column("", justify="right", no_wrap=True)
-    colours = {"reproduced": "green", "near": "yellow", "far": "red", "none": "dim"}
     for name, (symbol, unit) in QUANTITIES.items():
         texts = []
         for cell in (drive.cells[way][name] for way in WAYS):
-            texts += [number(cell.computed), f"[{colours[cell.kind]}]{percent(cell)}[/]"]
+            texts += [number(cell.computed), _coloured(percent(cell), cell.kind)]
         label = f"{symbol} \\[{unit}]" if unit else symbol
         table.add_row(label, f"{drive.published.values[name]}", *texts)
     return table

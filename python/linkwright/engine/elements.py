@@ -23,16 +23,15 @@ from linkwright.machine import (
     Guide,
     LinearDriver,
     Mechanism,
-    OscillatingFollower,
     Rack,
     Rocker,
     Slider,
     SlottedLever,
-    TranslatingFollower,
     Yoke,
     formula,
 )
 from linkwright.machine.assembly import Step
+from linkwright.machine.cam import OscillatingFollower, TranslatingFollower
 
 _RADIAN = 2 * np.pi
 

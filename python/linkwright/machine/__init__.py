@@ -24,7 +24,7 @@
 
 from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.body import Body
-from linkwright.machine.cam import Cam, OscillatingFollower, TranslatingFollower
+from linkwright.machine.cam import Cam
 from linkwright.machine.catalogue import CatalogueMotor, motor, motors
 from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
 from linkwright.machine.element import (
@@ -136,7 +136,6 @@ __all__ = [
     "MotionSection",
     "Motor",
     "OptimalLaw",
-    "OscillatingFollower",
     "PlainLaw",
     "PolishedRodLoad",
     "PolynomialLaw",
@@ -157,7 +156,6 @@ __all__ = [
     "TorqueSpeed",
     "TorsionalDamper",
     "TorsionalSpring",
-    "TranslatingFollower",
     "TrapezoidalVelocityLaw",
     "ViscousFriction",
     "Yoke",

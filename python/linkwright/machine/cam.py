@@ -28,7 +28,7 @@ from linkwright.machine.follower_train import FollowerTrain
 from linkwright.machine.motion_section import MotionSection
 from linkwright.machine.plain import look
 from linkwright.machine.section_faults import section_faults
-from linkwright.units import ANGLE, PRESSURE, Angle, Bound, Length, Quantity, positive
+from linkwright.units import ANGLE, PRESSURE, RATIO, Angle, Bound, Length, Quantity, not_negative, positive
 
 if TYPE_CHECKING:
     from linkwright.motion_laws.motion_law import MotionLaw
@@ -124,6 +124,9 @@ class Cam(Checked):
     curvature_limit: PositiveLength | None = Field(
         None, description="Least convex radius of curvature allowed on the profile."
     )
+    friction: Annotated[float, not_negative(RATIO)] = Field(
+        0.0, description="Coefficient of friction of an edge or a face on the cam; a roller rolls."
+    )
     width: PositiveLength | None = Field(None, description="Of the cam's face, for the contact pressure.")
     elastic_modulus: Annotated[float, positive(PRESSURE)] = Field(
         210e9, description="Young's modulus of cam and roller."
@@ -149,6 +152,11 @@ class Cam(Checked):
     def radius_of_roller(self) -> float:
         """Radius of the roller, zero for a knife edge or a flat face [m]."""
         return self.roller_radius if self.contact == "roller" and self.roller_radius is not None else 0.0
+
+    @property
+    def sliding_friction(self) -> float:
+        """Coefficient of friction at the contact: none for a roller."""
+        return 0.0 if self.contact == "roller" else self.friction
 
     @property
     def limit(self) -> float:

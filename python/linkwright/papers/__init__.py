@@ -2,13 +2,23 @@
 
 | module | holds |
 | --- | --- |
-| `published` | the published values, read from ``paper1.toml``; the papers that there are |
+| `published` | the published values, read from ``paper1.toml`` and the like; the papers that there are |
 | `cell` | one published value beside a computed one, and the verdict |
+| `row` | one printed statement beside what comes out, in words |
+| `page` | what the pages of all papers share |
 | `paper1` | paper 1 computed anew: the four drives in three ways, and what follows |
 | `paper1_scheme` | the published scheme of paper 1, with its factor 1/i |
 | `paper1_limit` | the constant-energy limit of a drive, and the inertia that would fit a published row |
 | `paper1_figures` | the figures of paper 1, computed anew |
-| `page` | paper 1 as one HTML page |
+| `paper1_conclusions`, `paper1_page` | what its numbers say; its page |
+| `paper2` | paper 2 computed anew: the cam drive of a cart |
+| `paper2_formulas`, `paper2_checks` | its closed forms, a second way; these against the general synthesis |
+| `paper2_start` | which start section has the least ∫ jerk² |
+| `paper2_roller`, `paper2_pair` | rollers on the printed profile; two cams that turn in opposite directions |
+| `paper2_alternatives`, `paper2_table` | other laws and the crank drive; these as a table |
+| `paper2_course` | the cart in steady motion |
+| `paper2_rows` | every printed number and formula of paper 2 with its verdict |
+| `paper2_conclusions`, `paper2_figures`, `paper2_page` | what its numbers say; its figures; its page |
 | `paper4` | paper 4 computed anew: the rotator in both regimes |
 | `paper4_unit` | the pumping unit of paper 4, as far as its numbers leave it open |
 | `paper4_rows` | every printed number of paper 4 with its verdict |

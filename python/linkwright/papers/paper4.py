@@ -7,10 +7,7 @@ continuous regime determines them: `paper4_unit` shows how.
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass
-from functools import cache
-from importlib.resources import files
 from typing import Any
 
 import numpy as np
@@ -22,8 +19,10 @@ from linkwright.files.library import library_path
 from linkwright.files.read import read
 from linkwright.papers.paper4_conclusions import conclusions
 from linkwright.papers.paper4_formulas import LeverFormula, Unit
-from linkwright.papers.paper4_rows import Row, rows_of
+from linkwright.papers.paper4_rows import rows_of
 from linkwright.papers.paper4_unit import Place, recomputed_places, rounded_lengths
+from linkwright.papers.published import printed_values
+from linkwright.papers.row import Row
 
 Floats = NDArray[np.float64]
 
@@ -107,12 +106,6 @@ class Paper4:
         }
 
 
-@cache
-def published4() -> dict[str, Any]:
-    """The printed values of paper 4."""
-    return tomllib.loads(files("linkwright.papers").joinpath("paper4.toml").read_text(encoding="utf-8"))
-
-
 def paper4() -> Paper4:
     """Compute paper 4 anew.
 
@@ -125,7 +118,7 @@ def paper4() -> Paper4:
     ----------
     .. [1] Paper 4, whole.
     """
-    data = published4()
+    data = printed_values(4)
     places = recomputed_places(data)
     continuous, intermittent = (
         read(library_path(f"rod_rotator_{name}")) for name in ("continuous", "intermittent")

@@ -1,14 +1,12 @@
-"""Paper 4 as one HTML page that needs nothing but itself."""
+"""Paper 4 as one HTML page."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from linkwright.papers.page import own_names
+from linkwright.papers.page import drawn, heading, rendered
 from linkwright.papers.paper4_conclusions import conclusions
-from linkwright.plot.svg import svg
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,14 +36,10 @@ def page(paper: Paper4, figures: Mapping[str, Figure]) -> str:
     str
         The page, with its figures in it.
     """
-    from jinja2 import Environment
-    from markupsafe import Markup
-
-    template = files("linkwright.papers").joinpath("paper4.html").read_text(encoding="utf-8")
-    drawn = [(_CAPTIONS[name], Markup(own_names(svg(figure), name))) for name, figure in figures.items()]
-    rendered: str = (
-        Environment(autoescape=True)
-        .from_string(template)
-        .render(paper=paper, conclusions=conclusions(paper), figures=drawn)
+    return rendered(
+        "rows.html",
+        **heading(paper.published, conclusions(paper)),
+        paper=paper,
+        figures=drawn(figures, _CAPTIONS),
+        about_figures="Crank angle from 12 o'clock, counter-clockwise, the well to the right.",
     )
-    return rendered

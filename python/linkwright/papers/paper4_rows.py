@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,28 +10,10 @@ from linkwright.analysis.rod_rotator import RodRotatorMotion
 from linkwright.papers.cell import Cell
 from linkwright.papers.paper4_formulas import LeverFormula
 from linkwright.papers.paper4_unit import Place
+from linkwright.papers.row import Row
 
 # Angles of the turn at which statements are looked at, a quarter of a degree.
 _ANGLES = 1440
-
-
-@dataclass(frozen=True)
-class Row:
-    """One printed number or statement, and what comes out.
-
-    Attributes
-    ----------
-    name, printed, computed, verdict : str
-        In words, with units.
-    kind : str
-        ``"reproduced"``, ``"near"``, ``"far"`` or ``"none"``.
-    """
-
-    name: str
-    printed: str
-    computed: str
-    verdict: str
-    kind: str
 
 
 def rows_of(
@@ -81,12 +62,11 @@ def rows_of(
 
 
 def _taken(name: str, value: float) -> Row:
-    return Row(name, f"{value} m", f"{value} m", "taken from the paper", "none")
+    return Row.taken(name, f"{value} m")
 
 
 def _number(name: str, printed: float, computed: float, how: str) -> Row:
-    cell = Cell(printed, computed, how)
-    return Row(name, f"{printed} m", f"{computed:.4f} m ({how})", cell.verdict, cell.kind)
+    return Row.number(name, "m", Cell(printed, computed, how), f"{computed:.4f} m ({how})")
 
 
 def _statements(turning: RodRotatorMotion, printed: LeverFormula, straightness: float) -> list[Row]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from dataclasses import dataclass
+from functools import cache
 from importlib.resources import files
 from typing import Any
 
@@ -24,6 +25,7 @@ QUANTITIES = {
 
 PAPERS = {
     1: "Unevenness of motion of the drives of roller-forming machines, one to four carts",
+    2: "Cam drive of a roller-forming machine with a combined mode of motion",
     4: "Lever mechanism of a worm-type rotator of a sucker-rod string",
 }
 
@@ -103,6 +105,29 @@ def known_paper(number: int) -> int:
     return number
 
 
+@cache
+def printed_values(number: int) -> dict[str, Any]:
+    """The printed values of a paper, as its file of data has them.
+
+    Parameters
+    ----------
+    number : int
+        Of the paper.
+
+    Returns
+    -------
+    dict
+        In SI.
+
+    Raises
+    ------
+    InputError
+        There is no such paper.
+    """
+    name = f"paper{known_paper(number)}.toml"
+    return tomllib.loads(files("linkwright.papers").joinpath(name).read_text(encoding="utf-8"))
+
+
 def published(number: int) -> Published:
     """Read the published table of a paper that has one.
 
@@ -121,9 +146,7 @@ def published(number: int) -> Published:
     InputError
         There is no such paper.
     """
-    known_paper(number)
-    text = files("linkwright.papers").joinpath(f"paper{number}.toml").read_text(encoding="utf-8")
-    data = tomllib.loads(text)
+    data = printed_values(number)
     return Published(
         number=data["number"],
         title=data["title"],

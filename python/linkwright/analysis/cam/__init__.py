@@ -7,6 +7,7 @@
 | `opposite` | do two followers touch one cam at every angle? |
 | `faults` | is it undercut, pointed, crossed, too hollow for its cutter, too steep? |
 | `loaded` | what presses on the cam in its machine, how hard, and when contact is lost |
+| `least_sizes` | the smallest base circle for its limits, and the largest roller |
 | `least_base` | how small may the base circle be, how large the roller? |
 | `hertz` | how hard do cam and roller press on each other, and how deep does it reach? |
 | `contact_force` | what do cam and follower press on each other, which flank carries, what torque? |
