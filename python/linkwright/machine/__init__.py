@@ -24,7 +24,7 @@
 
 from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.body import Body
-from linkwright.machine.cam import Cam
+from linkwright.machine.cam import Cam, SecondFollower
 from linkwright.machine.catalogue import CatalogueMotor, motor, motors
 from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
 from linkwright.machine.element import (
@@ -44,6 +44,7 @@ from linkwright.machine.element import (
     SlottedLever,
     Yoke,
 )
+from linkwright.machine.follower_train import FollowerTrain
 from linkwright.machine.loads import (
     AnyLoad,
     ConstantForce,
@@ -116,6 +117,7 @@ __all__ = [
     "DryFriction",
     "FixedPoint",
     "Flywheel",
+    "FollowerTrain",
     "ForcePosition",
     "FormulaLoad",
     "GasSpring",
@@ -146,6 +148,7 @@ __all__ = [
     "RodRotator",
     "RunUp",
     "SCurveLaw",
+    "SecondFollower",
     "Slider",
     "SlottedLever",
     "SplineLaw",

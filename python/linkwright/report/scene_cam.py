@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.cam.contact import CamCurve, Contact, contacts
 from linkwright.errors import LinkwrightError
 from linkwright.machine import Cam, Machine
-from linkwright.machine.cam import to_arm_pivot
+from linkwright.machine.cam_follower import to_arm_pivot
 from linkwright.machine.outline import ORIGIN
 
 Floats = NDArray[np.float64]
