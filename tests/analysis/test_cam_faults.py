@@ -20,7 +20,7 @@ from linkwright.analysis.cam.least_base import (
 from linkwright.analysis.cam.profile import CamProfile, cam_profile
 from linkwright.engine.cam import crossings
 from linkwright.errors import FindingError
-from linkwright.machine.cam import Sizes
+from linkwright.machine.cam_follower import Sizes
 
 DENSE = np.linspace(0.0, TURN, 20001)
 

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from linkwright.engine.cam import CamKernel, cam_kernel
 from linkwright.errors import AssemblyError, ShapeError
 from linkwright.machine import Cam, FixedPoint
-from linkwright.machine.cam import Sizes, sizes, start_of, to_arm_pivot
+from linkwright.machine.cam_follower import Sizes, sizes, start_of, to_arm_pivot
 from linkwright.machine.outline import ORIGIN
 from linkwright.motion_laws.motion_law import MotionLaw, Side
 

@@ -35,7 +35,7 @@ from linkwright.analysis.cam.least_base import (
 from linkwright.analysis.cam.profile import CamProfile, Flank
 from linkwright.engine.cam import crossings
 from linkwright.machine import Cam
-from linkwright.machine.cam import start_of
+from linkwright.machine.cam_follower import start_of
 
 # Angles that are named of many.
 _NAMED = 6

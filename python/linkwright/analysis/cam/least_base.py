@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.cam.contact import CamCurve, Contact
 from linkwright.engine.cam import crossings
 from linkwright.machine import Cam
-from linkwright.machine.cam import Sizes
+from linkwright.machine.cam_follower import Sizes
 
 Floats = NDArray[np.float64]
 

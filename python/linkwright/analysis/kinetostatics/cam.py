@@ -14,7 +14,7 @@ import numpy as np
 from linkwright.analysis.cam.contact import centre_of, contacts, touch
 from linkwright.analysis.kinetostatics.scene import Floats, Scene, dot, left
 from linkwright.analysis.kinetostatics.wrench import Wrenches
-from linkwright.machine.cam import OscillatingFollower, TranslatingFollower
+from linkwright.machine.cam_follower import OscillatingFollower, TranslatingFollower
 from linkwright.machine.structure import FRAME
 
 Follower = TranslatingFollower | OscillatingFollower
