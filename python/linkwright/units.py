@@ -110,7 +110,7 @@ _W = Dimension(m=2, kg=1, s=-3)
 _ONE = Dimension()
 
 LENGTH = Kind("a length", "m", "metres", "0.2 m", _M)
-ANGLE = Kind("an angle", "rad", "radians", "90 deg", _RAD)
+ANGLE = Kind("an angle", "rad", "radians", "30 deg", _RAD)
 MASS = Kind("a mass", "kg", "kilograms", "1000 kg", _KG)
 TIME = Kind("a time", "s", "seconds", "0.5 s", _S)
 SPEED = Kind("an angular speed", "rad/s", "radians per second", "1000 rpm", _RAD_S)

@@ -12,7 +12,7 @@ from numpy.polynomial import Chebyshev, Polynomial
 import linkwright as lw
 from linkwright.analysis.cam.contact import CamCurve, Contact
 from linkwright.engine.cam import cam_kernel
-from linkwright.machine.cam import Sizes
+from linkwright.machine.cam_follower import Sizes
 from linkwright.motion_laws.motion_law import MotionLaw, Piece
 
 Floats = np.ndarray

@@ -10,7 +10,7 @@ import linkwright as lw
 from linkwright.analysis.cam.contact import CamCurve
 from linkwright.analysis.cam.profile import cam_profile
 from linkwright.engine.cam import cam_kernel
-from linkwright.machine.cam import Sizes
+from linkwright.machine.cam_follower import Sizes
 from linkwright.motion_laws.motion_law import Harmonic, MotionLaw, Piece
 
 PHI = np.linspace(0.0, TURN, 181)

@@ -149,13 +149,15 @@ def test_damped_residual_and_primary_against_integration() -> None:
     assert found.primary_acceleration[0] == pytest.approx(np.abs(rates).max(), rel=1e-7)
 
 
+@pytest.mark.parametrize("law", [POLYNOMIAL_345, UNIFORM], ids=["smooth", "striking"])
 @pytest.mark.parametrize("speed", [8.0, 60.0, 400.0, 3000.0])
-def test_periodic_motion_against_integration_over_many_turns(speed: float) -> None:
+def test_periodic_motion_against_integration_over_many_turns(speed: float, law: MotionLaw) -> None:
     """From rest, what is not periodic fades like exp(−ζΩt); 1e-10 is left after that many turns."""
     fade = FULL.damping_ratio_all * FULL.natural_frequency
     turns = int(np.ceil(23 / (fade * 2 * np.pi / speed)))
-    x, v = integrated(LIFT, FULL, speed, turns)
-    found = follower_vibration(LIFT, FULL, speed)
+    lift = turn(law, 0.012)
+    x, v = integrated(lift, FULL, speed, turns)
+    found = follower_vibration(lift, FULL, speed)
     scale = np.abs(found.position).max()
     assert found.position[0] == pytest.approx(x, abs=1e-8 * scale)
     assert found.velocity[0] == pytest.approx(v, abs=1e-8 * np.abs(found.velocity).max())

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from zoo import ZOO, animal
 
 import linkwright as lw
+from linkwright.analysis.cam.contact import contacts, touch
 from linkwright.analysis.forces import forces
+from linkwright.analysis.kinetostatics.cam import follower_at
 from linkwright.analysis.kinetostatics.friction import Friction
 from linkwright.analysis.kinetostatics.inertia import masses
 from linkwright.analysis.kinetostatics.motion import motion_at
@@ -126,10 +130,24 @@ def _external(machine: lw.Machine, scene: Scene) -> dict[str, np.ndarray]:
             found[name] += acts.on_member(name)[:, :2]
     result = forces(machine, speed=SPEED, acceleration=ACCELERATION)
     for drive in scene.structure.drives:
-        if drive.guide is not None:
+        follower = follower_at(scene, drive.name)
+        if follower is not None:
+            found[drive.member] += _pressed(scene, follower, drive.name, result.drives[drive.name])
+        elif drive.guide is not None:
             push = result.drives[drive.name][:, None] * scene.direction(drive.guide)
             found[drive.member] += push
     return found
+
+
+def _pressed(scene: Scene, follower: Any, name: str, force: np.ndarray) -> np.ndarray:
+    """Force of a cam on its follower, along the normal of the contact that carries."""
+    points = scene.mechanism.fixed_points()
+    at = [
+        touch(follower.cam, contact, points, scene.motion.crank_angle).normal
+        for contact in contacts(follower.cam, points, name)
+    ]
+    second = -at[1] if len(at) > 1 else at[0]
+    return force[:, None] * np.where((force >= 0)[:, None], at[0], second)
 
 
 def test_force_on_the_frame_is_the_change_of_momentum(found: tuple[lw.Machine, Forces]) -> None:
@@ -521,4 +539,13 @@ def test_every_kind_of_load_and_element_is_among_the_machines() -> None:
     machines = [animal(name) for name in ZOO]
     there = {type(load).model_fields["kind"].annotation for m in machines for load in m.loads.values()}
     assert there == kinds
-    assert all(any(getattr(m.linkage, kind.table) for m in machines) for kind in KINDS)
+    # Cams have become drivers in the whole mechanism.
+    tables = {kind.table for kind in KINDS}
+    there = {
+        table
+        for m in machines
+        for part in (m.mechanism, m.linkage)
+        for table in tables
+        if getattr(part, table)
+    }
+    assert there == tables

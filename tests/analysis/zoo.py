@@ -332,6 +332,70 @@ M = { mass = 2 }
 gravity = { kind = "gravity" }
 pull = { kind = "force", on = "M", force = 40, direction = "75 deg" }
 """,
+    "cam in a groove that moves a rod": """
+[mechanism.cams.C]
+closure = "groove"
+roller_radius = 0.02
+base_radius = 0.15
+offset = 0.03
+direction = "70 deg"
+phase = "25 deg"
+rotation = "opposite"
+sections = [
+  { angle = "140 deg", lift = 0.06, law = "modified_sine" },
+  { angle = "40 deg" },
+  { angle = "180 deg", lift = -0.06, law = { kind = "combined", start = 0.3, stop = 0.2 } },
+]
+[mechanism.sliders.S]
+crank = "C"
+rod = 0.3
+through = "C"
+[bodies]
+C = { mass = 2 }
+"S.rod" = { mass_per_length = 3 }
+S = { mass = 1 }
+[loads]
+gravity = { kind = "gravity" }
+dry = { kind = "dry", on = "C", force = 30 }
+spring = { kind = "spring", between = ["O", "S"], stiffness = 300, free_length = 0.2 }
+""",
+    "cams with an arm under a flat face and a second roller": """
+[mechanism.points]
+P = { x = 0.3, y = 0.05 }
+Q = { x = -0.28, y = -0.02 }
+[mechanism.cams.F]
+follower = "oscillating"
+contact = "flat"
+arm_pivot = "P"
+base_radius = 0.12
+offset = 0.01
+sections = [
+  { angle = "140 deg", swing = "25 deg", law = "modified_sine" },
+  { angle = "40 deg" },
+  { angle = "180 deg", swing = "-25 deg", law = { kind = "combined", start = 0.3, stop = 0.2 } },
+]
+[mechanism.cams.R]
+follower = "oscillating"
+closure = "conjugate"
+arm_pivot = "Q"
+arm_length = 0.2
+side = "right"
+roller_radius = 0.02
+base_radius = 0.12
+second = { angle = "110 deg", roller_radius = 0.025 }
+sections = [
+  { angle = "140 deg", swing = "25 deg", law = "modified_sine" },
+  { angle = "40 deg" },
+  { angle = "180 deg", swing = "-25 deg", law = { kind = "combined", start = 0.3, stop = 0.2 } },
+]
+[bodies]
+F = { mass = 2, inertia = 0.03, along = 0.1 }
+R = { mass = 1, inertia = 0.01, along = 0.12, across = 0.02 }
+[loads]
+gravity = { kind = "gravity" }
+torque = { kind = "torque", on = "F", torque = 5 }
+oil = { kind = "viscous", on = "R", damping_torsional = 0.3 }
+""",
     "every other load": _CRANK
     + """
 "R.coupler" = { mass = 1, inertia = 0.01, along = 0.1, across = 0.05 }

@@ -37,7 +37,7 @@ def test_what_rounding_leaves_of_the_turn_is_shared() -> None:
 
 
 def test_what_does_not_close_is_refused() -> None:
-    with pytest.raises(InputError, match="lifts of a programme add to 0.01"):
+    with pytest.raises(InputError, match=r"lifts of a programme add to 0\.01"):
         sections((0.1, 0.2, -0.29), (THIRD, THIRD, THIRD))
     with pytest.raises(InputError, match="add to 240°"):
         sections((0.1, -0.1), (THIRD, THIRD))

@@ -100,7 +100,7 @@ def forces(
     sources = _sources(scene, models)
     loads = np.stack([each.wrenches.values for each in sources.values()], axis=-1)
     solution = Equilibrium(scene, models, loads).solve()
-    if with_pulls(models, solution.x.sum(axis=-1)):
+    if with_pulls(scene, models, solution.x.sum(axis=-1)):
         solution = Equilibrium(scene, models, loads).solve()
     return Collector(scene, models, sources, solution).forces()
 

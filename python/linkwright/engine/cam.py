@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
 from linkwright.engine.numbers import encoded
-from linkwright.machine.cam import Sizes
+from linkwright.machine.cam_follower import Sizes
 from linkwright.motion_laws.motion_law import MotionLaw
 
 Floats = NDArray[np.float64]
@@ -82,7 +82,7 @@ class CamKernel:
     core : _core.Cam
         Law and kind.
     size : ndarray, shape (6,)
-        Dimensions in the order of `linkwright.machine.cam.Sizes`.
+        Dimensions in the order of `linkwright.machine.cam_follower.Sizes`.
     is_roller : bool
         Whether it is a roller or an edge; else a flat face.
     """

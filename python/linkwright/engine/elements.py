@@ -31,7 +31,7 @@ from linkwright.machine import (
     formula,
 )
 from linkwright.machine.assembly import Step
-from linkwright.machine.cam import OscillatingFollower, TranslatingFollower
+from linkwright.machine.cam_follower import OscillatingFollower, TranslatingFollower
 
 _RADIAN = 2 * np.pi
 

@@ -8,7 +8,7 @@
 | `catalogue` | published motors |
 | `element` | cranks, dyads, gears, cables, joints and bars |
 | `mechanism` | all elements by name |
-| `cam`, `motion_section`, `motion_law` | cams, and how their followers move |
+| `cam`, `cam_follower`, `motion_section`, `motion_law` | cams, and how their followers move |
 | `assembly` | in which order a mechanism is built; what is missing or too much |
 | `pumping_unit`, `polished_rod_load`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
 | `unit_catalogue` | published pumping units |
@@ -24,7 +24,7 @@
 
 from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.body import Body
-from linkwright.machine.cam import Cam
+from linkwright.machine.cam import Cam, SecondFollower
 from linkwright.machine.catalogue import CatalogueMotor, motor, motors
 from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
 from linkwright.machine.element import (
@@ -44,6 +44,7 @@ from linkwright.machine.element import (
     SlottedLever,
     Yoke,
 )
+from linkwright.machine.follower_train import FollowerTrain
 from linkwright.machine.loads import (
     AnyLoad,
     ConstantForce,
@@ -116,6 +117,7 @@ __all__ = [
     "DryFriction",
     "FixedPoint",
     "Flywheel",
+    "FollowerTrain",
     "ForcePosition",
     "FormulaLoad",
     "GasSpring",
@@ -146,6 +148,7 @@ __all__ = [
     "RodRotator",
     "RunUp",
     "SCurveLaw",
+    "SecondFollower",
     "Slider",
     "SlottedLever",
     "SplineLaw",

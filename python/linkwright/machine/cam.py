@@ -9,26 +9,25 @@ Its sections say how it moves over a turn. Where the lift is least, the contact 
 from the cam's centre; a roller's centre then lies on the prime circle, r_0 + r_r. Two followers that touch
 one cam on opposite sides have their distance, the breadth, instead: b = 2 (r_0 + r_r) + lift.
 
-In the mechanism a cam stands for a driver that follows the programme (`follower_of`).
+In the mechanism a cam stands for a driver that follows the programme (`cam_follower`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, Description, fault
-from linkwright.machine.element import Crank, FixedPoint, Guide, LinearDriver, PositiveLength
+from linkwright.machine.element import PositiveLength
 from linkwright.machine.follower_motion import FollowerMotion, follower_motion
 from linkwright.machine.follower_train import FollowerTrain
 from linkwright.machine.motion_section import MotionSection
-from linkwright.machine.plain import look
 from linkwright.machine.section_faults import section_faults
-from linkwright.units import ANGLE, PRESSURE, Angle, Bound, Length, Quantity, positive
+from linkwright.units import ANGLE, PRESSURE, RATIO, Angle, Bound, Length, Quantity, not_negative, positive
 
 if TYPE_CHECKING:
     from linkwright.motion_laws.motion_law import MotionLaw
@@ -43,6 +42,11 @@ _LIMIT = Bound(
     " between 0 and 90 deg,",
     {"exclusiveMinimum": 0, "exclusiveMaximum": np.pi / 2},
     lambda value: 0 < value < np.pi / 2,
+)
+_TO_HALF = Bound(
+    " of 0 or more and below 0.5,",
+    {"minimum": 0, "exclusiveMaximum": 0.5},
+    lambda value: 0 <= value < 0.5,
 )
 
 # Largest pressure angle by rule of thumb: a translating follower jams in its guide beyond 30°, an arm bears
@@ -124,11 +128,16 @@ class Cam(Checked):
     curvature_limit: PositiveLength | None = Field(
         None, description="Least convex radius of curvature allowed on the profile."
     )
+    friction: Annotated[float, not_negative(RATIO)] = Field(
+        0.0, description="Coefficient of friction of an edge or a face on the cam; a roller rolls."
+    )
     width: PositiveLength | None = Field(None, description="Of the cam's face, for the contact pressure.")
     elastic_modulus: Annotated[float, positive(PRESSURE)] = Field(
         210e9, description="Young's modulus of cam and roller."
     )
-    poisson_ratio: float = Field(0.3, ge=0, lt=0.5, description="Poisson's ratio of both.")
+    poisson_ratio: Annotated[float, Quantity(RATIO, _TO_HALF)] = Field(
+        0.3, description="Poisson's ratio of both."
+    )
 
     @property
     def is_roller(self) -> bool:
@@ -149,6 +158,11 @@ class Cam(Checked):
     def radius_of_roller(self) -> float:
         """Radius of the roller, zero for a knife edge or a flat face [m]."""
         return self.roller_radius if self.contact == "roller" and self.roller_radius is not None else 0.0
+
+    @property
+    def sliding_friction(self) -> float:
+        """Coefficient of friction at the contact: none for a roller."""
+        return 0.0 if self.contact == "roller" else self.friction
 
     @property
     def limit(self) -> float:
@@ -188,10 +202,12 @@ class Cam(Checked):
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from section_faults(self.sections, "swing" if self.is_oscillating else "lift")
         yield from self._closure_faults()
-        if (self.contact == "roller") != (self.roller_radius is not None):
-            yield fault(
-                "roller_radius", found=self.roller_radius, expected="a radius if the contact is a roller"
-            )
+        if self.contact == "roller" and self.roller_radius is None:
+            remedy = 'or say contact = "point" or "flat"'
+            yield fault("roller_radius", expected="the radius of the roller", remedy=remedy)
+        if self.contact != "roller" and self.roller_radius is not None:
+            expected = f'nothing for contact = "{self.contact}"'
+            yield fault("roller_radius", found=self.roller_radius, expected=expected)
         if self.is_oscillating:
             yield from self._arm_faults()
         else:
@@ -219,6 +235,21 @@ class Cam(Checked):
             yield fault(
                 "second", found=self.second and "a table", expected='a table if the closure is "conjugate"'
             )
+        if self.second is not None:
+            yield from self._second_faults(self.second)
+
+    def _second_faults(self, second: SecondFollower) -> Iterator[InitErrorDetails]:
+        """A second follower that is of another kind than the first."""
+        swings = self.is_oscillating
+        wanted, what = ("angle", "the two arms") if swings else ("distance", "the two rollers")
+        if getattr(second, wanted) is None:
+            yield fault("second", wanted, expected=f"how far {what} are from each other")
+        for key in ("distance",) if swings else ("angle", "arm_length"):
+            if getattr(second, key) is not None:
+                expected = f"nothing for {'an oscillating' if swings else 'a translating'} follower"
+                yield fault("second", key, found=getattr(second, key), expected=expected)
+        if self.contact == "point" and second.roller_radius is not None:
+            yield fault("second", "roller_radius", found=second.roller_radius, expected="nothing for an edge")
 
     def _breadth_faults(self) -> Iterator[InitErrorDetails]:
         """A breadth that leaves no cam between the followers."""
@@ -246,181 +277,11 @@ class Cam(Checked):
 
     def _line_faults(self) -> Iterator[InitErrorDetails]:
         """A translating follower needs no arm, and a line that meets the prime circle."""
-        for key in ("arm_pivot", "arm_length"):
-            if getattr(self, key) is not None:
+        for key in ("arm_pivot", "arm_length", "side"):
+            if key in self.model_fields_set and getattr(self, key) is not None:
                 yield fault(key, found=getattr(self, key), expected="nothing for a translating follower")
         if self.face_tilt and self.is_roller:
             yield fault("face_tilt", found=self.face_tilt, expected="nothing without a flat face")
         if not self.is_roller and np.any(self.offset != 0):
             remedy = "a flat face touches the cam alike wherever its stem is"
             yield fault("offset", found=self.offset, expected="nothing for a flat face", remedy=remedy)
-
-
-class Sizes(NamedTuple):
-    """Dimensions of a cam as the core has them; each a number or an array over many cams.
-
-    Attributes
-    ----------
-    base_radius, roller_radius, offset, distance, arm : float
-        [m]
-    tilt : float
-        [rad]
-    """
-
-    base_radius: Any
-    roller_radius: Any
-    offset: Any
-    distance: Any
-    arm: Any
-    tilt: Any
-
-
-class TranslatingFollower(LinearDriver):
-    """A driver that follows a cam along a line."""
-
-    cam: Cam = Field(description="The cam.")
-
-
-class OscillatingFollower(Crank):
-    """A driver that follows a cam about a pivot."""
-
-    cam: Cam = Field(description="The cam.")
-    turn: float = Field(description="Sense of the angle as the lift grows: -1 for an arm to the left.")
-
-
-def sizes(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> Sizes:
-    """Dimensions of a cam with its follower.
-
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    points : Mapping of str to FixedPoint
-        The fixed points.
-    origin : str
-        Name of the point of a cam without a pivot.
-
-    Returns
-    -------
-    Sizes
-        In SI.
-    """
-    distance: Any = 0.0
-    if cam.is_oscillating:
-        dx, dy = to_arm_pivot(cam, points, origin)
-        distance = np.hypot(dx, dy)
-    arm = 0.0 if cam.arm_length is None else cam.arm_length
-    return Sizes(cam.base, cam.radius_of_roller, cam.offset, distance, arm, cam.face_tilt)
-
-
-def to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> tuple[Any, Any]:
-    """From the cam's centre to the follower's pivot.
-
-    Parameters
-    ----------
-    cam : Cam
-        A cam with an oscillating follower.
-    points : Mapping of str to FixedPoint
-        The fixed points.
-    origin : str
-        Name of the point of a cam without a pivot.
-
-    Returns
-    -------
-    x, y : float or ndarray, shape (rows,)
-        [m].
-    """
-    centre, pivot = points.get(cam.pivot or origin), points[cam.arm_pivot or ""]
-    x, y = (0.0, 0.0) if centre is None else (centre.x, centre.y)
-    return pivot.x - x, pivot.y - y
-
-
-def start_of(cam: Cam, size: Sizes) -> Any:
-    """Place of the follower at zero lift; NaN where there is none.
-
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    size : Sizes
-        Its dimensions.
-
-    Returns
-    -------
-    float or ndarray
-        From the cam's centre along the follower's line [m], or angle of the arm from the line between the
-        pivots [rad].
-    """
-    prime = size.base_radius + size.roller_radius
-    with np.errstate(invalid="ignore", divide="ignore"):
-        if cam.is_oscillating:
-            a, arm = size.distance, size.arm
-            if cam.is_roller:
-                return np.arccos((a**2 + arm**2 - prime**2) / (2 * a * arm))
-            return np.arcsin((size.base_radius + size.offset) / a)
-        if cam.is_roller:
-            return np.sqrt(prime**2 - size.offset**2)
-        return size.base_radius / np.cos(size.tilt)
-
-
-def follower_of(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> LinearDriver | Crank:
-    """The driver that a cam is in the mechanism, unchecked: its numbers may be arrays.
-
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    points : Mapping of str to FixedPoint
-        The fixed points.
-    origin : str
-        Name of the point of a cam without a pivot.
-    """
-    size = sizes(cam, points, origin)
-    start = start_of(cam, size)
-    if not cam.is_oscillating:
-        guide = Guide.model_construct(through=cam.pivot, on=None, angle=cam.direction, offset=cam.offset)
-        return TranslatingFollower.model_construct(
-            guide=guide, start=start, per_turn=None, law=None, constants={}, cam=cam
-        )
-    dx, dy = to_arm_pivot(cam, points, origin)
-    turn = -1.0 if cam.side == "left" else 1.0
-    phase = np.arctan2(dy, dx) + np.pi + turn * start
-    radius = size.distance if cam.arm_length is None else cam.arm_length
-    return OscillatingFollower.model_construct(
-        radius=radius, phase=phase, pivot=cam.arm_pivot, law=None, constants={}, cam=cam, turn=turn
-    )
-
-
-def cam_place_faults(mechanism: object) -> Iterator[InitErrorDetails]:
-    """Cams whose follower does not reach them.
-
-    Parameters
-    ----------
-    mechanism : object
-        A mechanism without other faults.
-
-    Yields
-    ------
-    InitErrorDetails
-        An offset beyond the prime circle; an arm too short or too long for the base circle.
-    """
-    points = look(mechanism, "points")
-    for name, cam in dict(look(mechanism, "cams") or {}).items():
-        size = sizes(cam, points)
-        if not np.isnan(start_of(cam, size)).any():
-            continue
-        if not cam.is_oscillating:
-            prime = size.base_radius + size.roller_radius
-            least = abs(size.offset) - size.roller_radius
-            remedy = f"make base_radius larger than {least:.6g} m or the offset smaller"
-            expected = f"less than base_radius + roller_radius, {prime:.6g} m"
-            yield fault("cams", name, "offset", found=size.offset, expected=expected, remedy=remedy)
-        elif cam.is_roller:
-            low = abs(size.distance - size.arm) - size.roller_radius
-            high = size.distance + size.arm - size.roller_radius
-            expected = f"between {low:.6g} and {high:.6g} m"
-            remedy = f"the arm of {size.arm:.6g} m has its pivot {size.distance:.6g} m from the cam"
-            yield fault("cams", name, "base_radius", found=size.base_radius, expected=expected, remedy=remedy)
-        else:
-            expected = f"at most {size.distance - size.offset:.6g} m, or the pivot farther away"
-            yield fault("cams", name, "base_radius", found=size.base_radius, expected=expected)

@@ -9,6 +9,9 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from linkwright.errors import ShapeError
 from linkwright.machine.follower_train import FollowerTrain
 from linkwright.machine.motion_section import Family, MotionSection, programme
 
@@ -37,11 +40,21 @@ class FollowerMotion:
         Counted from the base circle: its least value is zero [m or rad].
     stroke : float
         Greatest lift [m or rad].
+
+    Raises
+    ------
+    ShapeError
+        An entry of a section is an array over many machines.
     """
 
     def __init__(
         self, sections: tuple[MotionSection, ...], family: Family, train: FollowerTrain | None
     ) -> None:
+        if any(isinstance(value, np.ndarray) for section in sections for _, value in section):
+            raise ShapeError(
+                "the sections of a cam cannot vary from machine to machine in a batch: "
+                "compute machines with other sections one by one"
+            )
         self.programme: Programme = programme(sections, family)
         law = self.programme.law if train is None else train.lift_for(self.programme.law)
         least, greatest = law.extremes()

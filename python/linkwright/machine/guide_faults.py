@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 # Which references of an element are points of each of its links, by the link's ending.
 _ENDS: dict[str, dict[str, tuple[str, ...]]] = {
     "cranks": {"": ("pivot",)},
+    "cams": {"": ("arm_pivot",)},
     "sliders": {".rod": ("crank",)},
     "rockers": {".coupler": ("crank",), ".rocker": ("pivot",)},
     "slotted_levers": {"": ("pivot",)},
@@ -25,7 +26,7 @@ _ENDS: dict[str, dict[str, tuple[str, ...]]] = {
 
 
 # Tables of what moves on a guide without turning against it, and so can carry another guide.
-_SLIDING = ("linear_drivers", "racks", "sliders", "yokes")
+_SLIDING = ("linear_drivers", "cams", "racks", "sliders", "yokes")
 
 
 def guide_faults(outline: Outline) -> Iterator[InitErrorDetails]:
@@ -75,7 +76,9 @@ def _sliding(outline: Outline) -> list[str]:
     return [
         each.name
         for each in outline.elements
-        if each.kind.table in _SLIDING and not any(key.split(".")[-1] == "on" for key in each.references)
+        if each.kind.table in _SLIDING
+        and each.kind.slides
+        and not any(key.split(".")[-1] == "on" for key in each.references)
     ]
 
 

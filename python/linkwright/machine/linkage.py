@@ -18,7 +18,8 @@ from pydantic import BaseModel
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import fault
-from linkwright.machine.cam import Cam, follower_of
+from linkwright.machine.cam import Cam
+from linkwright.machine.cam_follower import follower_of
 from linkwright.machine.element import Cable, Crank, FixedPoint, LinearDriver, RigidPoint, Rocker
 from linkwright.machine.mechanism import Mechanism
 from linkwright.machine.outline import KINDS, Outline

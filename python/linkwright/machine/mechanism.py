@@ -12,7 +12,8 @@ from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_va
 
 from linkwright.machine.assembly import Step
 from linkwright.machine.base import Description, Name, faults_of, raise_faults
-from linkwright.machine.cam import Cam, cam_place_faults
+from linkwright.machine.cam import Cam
+from linkwright.machine.cam_follower import cam_place_faults
 from linkwright.machine.element import (
     Bar,
     Cable,

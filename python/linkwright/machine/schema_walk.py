@@ -69,7 +69,10 @@ def words_of(annotation: Any) -> str:
         return "a table"
     lists = [each for each in bare if get_origin(each) is tuple]
     if lists:
-        return "a list of whole numbers" if get_args(lists[0])[0] is int else "a list of two names"
+        inner = get_args(lists[0])[0]
+        if _is_model(_bare(inner)):
+            return "a list of tables"
+        return "a list of whole numbers" if inner is int else "a list of two names"
     if int in bare:
         return "a whole number"
     return "a text" if str in bare else "another value"

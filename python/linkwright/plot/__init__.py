@@ -7,6 +7,7 @@
 | `motor` | the motor's characteristic, and the part of it that steady motion uses |
 | `run_up` | speed from the start to steady motion |
 | `pumping_unit` | polished rod, torque of the gearbox, lever of a rotator |
+| `cam` | lift diagrams, profile, pressure angle, curvature, contact force |
 | `linkage` | transmission angles, coupler curves with the links |
 | `forces` | driving torque, reactions, hodographs, load cases |
 | `motion_laws` | motion laws and their derivatives, several in one picture |
@@ -18,6 +19,13 @@
 matplotlib is imported when the first figure is drawn.
 """
 
+from linkwright.plot.cam import (
+    cam_figure,
+    cam_force_figure,
+    curvature_figure,
+    lift_figure,
+    pressure_angle_figure,
+)
 from linkwright.plot.cam_dynamics import (
     contact_force_figure,
     pressure_figure,
@@ -37,17 +45,22 @@ from linkwright.plot.svg import svg
 
 __all__ = [
     "attempt_figure",
+    "cam_figure",
+    "cam_force_figure",
     "cases_figure",
     "compare_figure",
     "contact_force_figure",
     "coupler_figure",
+    "curvature_figure",
     "forces_figure",
     "gear_torque_figure",
     "hodograph_figure",
+    "lift_figure",
     "motion_laws_figure",
     "motor_figure",
     "polar_figure",
     "polished_rod_figure",
+    "pressure_angle_figure",
     "pressure_figure",
     "reduction_figure",
     "residual_figure",

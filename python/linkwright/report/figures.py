@@ -22,6 +22,7 @@ from linkwright.plot import (
     time_figure,
     torque_figure,
 )
+from linkwright.report.cam_figures import cam_figures
 from linkwright.report.captioned import Captioned
 from linkwright.report.linkage_figures import linkage_figures
 from linkwright.report.quantities import degrees, number
@@ -44,6 +45,7 @@ def figures(study: Study) -> Iterator[Captioned]:
     Captioned
         In the order of the page.
     """
+    yield from cam_figures(study)
     yield from _unit(study)
     yield from _rotator(study)
     yield from _steady(study)

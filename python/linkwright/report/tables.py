@@ -8,6 +8,7 @@ from typing import Any
 from linkwright.analysis.result import Result
 from linkwright.analysis.steady_state import SteadyState
 from linkwright.analysis.study import Study
+from linkwright.report.cam_tables import cam_tables
 from linkwright.report.force_tables import envelope_table
 from linkwright.report.linkage_tables import linkage_tables
 from linkwright.report.quantities import SHOWN, degrees, number
@@ -30,7 +31,7 @@ def tables(study: Study) -> list[Table]:
     """
     made = (_reduction(study), _steady(study), _measures(study), _drive(study), _run_up(study))
     last = (_run_down(study), _step_method(study), envelope_table(study.forces) if study.forces else None)
-    found = (*unit_tables(study), *made, *last, *linkage_tables(study))
+    found = (*cam_tables(study), *unit_tables(study), *made, *last, *linkage_tables(study))
     return [table for table in found if table is not None]
 
 

@@ -18,7 +18,7 @@ from linkwright.analysis.result import Result
 from linkwright.errors import InputError, ShapeError
 from linkwright.machine import Cam, Machine
 from linkwright.machine.base import suggestion
-from linkwright.machine.cam import Sizes
+from linkwright.machine.cam_follower import Sizes
 from linkwright.machine.motion_law import PlainLaw
 from linkwright.machine.motion_section import ENDS, MotionSection
 

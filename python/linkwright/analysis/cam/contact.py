@@ -20,9 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.engine.cam import CamKernel, cam_kernel
-from linkwright.errors import AssemblyError
+from linkwright.errors import AssemblyError, ShapeError
 from linkwright.machine import Cam, FixedPoint
-from linkwright.machine.cam import Sizes, sizes, start_of, to_arm_pivot
+from linkwright.machine.cam_follower import Sizes, sizes, start_of, to_arm_pivot
 from linkwright.machine.outline import ORIGIN
 from linkwright.motion_laws.motion_law import MotionLaw, Side
 
@@ -170,10 +170,27 @@ def touch(cam: Cam, contact: Contact, points: dict[str, FixedPoint], crank_angle
     angle = np.asarray(crank_angle, dtype=float) - cam.phase
     rows = contact.kernel.rows(np.mod(angle, 2 * np.pi))
     turned = frame_angle(cam, points) + contact.turned + turned_by(cam, angle)
-    centre = points[cam.pivot or ORIGIN] if (cam.pivot or ORIGIN) in points else FixedPoint(x=0.0, y=0.0)
-    place = np.array([centre.x, centre.y])
-    pitch = place + _turned(rows["pitch_x"], rows["pitch_y"], turned)
+    pitch = np.array(centre_of(cam, points)) + _turned(rows["pitch_x"], rows["pitch_y"], turned)
     return Touch(pitch, _turned(rows["normal_x"], rows["normal_y"], turned))
+
+
+def centre_of(cam: Cam, points: dict[str, FixedPoint]) -> tuple[float, float]:
+    """Place of the cam's centre.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    points : dict of str to FixedPoint
+        The fixed points of its mechanism.
+
+    Returns
+    -------
+    x, y : float
+        [m].
+    """
+    centre = points.get(cam.pivot or ORIGIN)
+    return (0.0, 0.0) if centre is None else (float(centre.x), float(centre.y))
 
 
 def frame_angle(cam: Cam, points: dict[str, FixedPoint]) -> float:
@@ -228,8 +245,14 @@ def contacts(cam: Cam, points: dict[str, FixedPoint], name: str = "cam") -> tupl
     ------
     AssemblyError
         The second follower does not reach its cam.
+    ShapeError
+        Dimensions vary from machine to machine.
     """
     size = sizes(cam, points)
+    if any(np.ndim(each) for each in size):
+        raise ShapeError(
+            f"the profile of cam {name} is that of one machine, and the entries describe several"
+        )
     first = _contact("cam", cam, cam.lift, size, left=cam.side == "left")
     if cam.has_opposite:
         return first, _contact("second follower", cam, falling(cam), size, turned=np.pi)

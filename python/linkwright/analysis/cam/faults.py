@@ -35,7 +35,7 @@ from linkwright.analysis.cam.least_base import (
 from linkwright.analysis.cam.profile import CamProfile, Flank
 from linkwright.engine.cam import crossings
 from linkwright.machine import Cam
-from linkwright.machine.cam import start_of
+from linkwright.machine.cam_follower import start_of
 
 # Angles that are named of many.
 _NAMED = 6
@@ -184,7 +184,7 @@ def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
     elif abs(gamma[worst]) >= np.pi / 2:
         base = base_for_pressure_angle(profile.cam, flank.contact, profile.cam.limit)
         limit = f" for {np.degrees(profile.cam.limit):.4g}°" if base else ""
-        change = _size_for(profile, flank, base) or "longer sections or a smaller lift"
+        change = _size_for(profile, flank, base) or "a smaller swing"
         yield (
             f"{_subject(profile, flank)} cannot move its follower at "
             f"{_degrees(float(flank.shape.angle[worst]))}: the "

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.cam.contact import CamCurve, Contact
 from linkwright.engine.cam import crossings
 from linkwright.machine import Cam
-from linkwright.machine.cam import Sizes
+from linkwright.machine.cam_follower import Sizes
 
 Floats = NDArray[np.float64]
 
@@ -194,4 +194,5 @@ def _first(
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (low, middle) if is_sound(middle) else (middle, high)
-    return high
+    # Halving from nothing ends at rounding.
+    return high if high > np.finfo(float).eps * scale else 0.0

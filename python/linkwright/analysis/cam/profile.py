@@ -10,6 +10,7 @@ The extremes are zeros of exact derivatives, not values at samples, and count bo
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,6 +80,10 @@ class Flank:
     def curve(self, away: float | None = None) -> CamCurve:
         """A curve beside the pitch curve, by its distance outwards; without it, the profile."""
         return CamCurve(self.contact, -self.contact.sizes.roller_radius if away is None else away)
+
+
+# Attributes of a profile that are no results to be written out.
+_PARTS = ("cam", "flanks", "opposite")
 
 
 @dataclass(frozen=True)
@@ -152,6 +157,10 @@ class CamProfile(Result):
     cam: Cam
     flanks: tuple[Flank, ...]
     opposite: Opposite | None
+
+    def _entries(self) -> dict[str, Any]:
+        """What is written out: numbers and curves, not the parts that they are from."""
+        return {key: value for key, value in super()._entries().items() if key not in _PARTS}
 
 
 def the_cam(machine: Machine, name: str | None = None) -> tuple[str, Cam]:

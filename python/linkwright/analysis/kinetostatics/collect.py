@@ -126,6 +126,8 @@ class Collector:
             if model.kind in _DRIVES:
                 # The work of the drive on this member in a radian of the crank.
                 torque = torque + x[:, span.start] * self.works[model.name]
+                if model.push is not None:
+                    torque = torque + self._dry(span, x) * model.push.lever
                 continue
             at = self._passed(model, span, x, model.second)
             at += self._viscous(model) if name == "friction" else 0.0

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.kinetostatics.cam import follower_at, pushes, taken_over
+from linkwright.analysis.kinetostatics.cam import Follower, Push, follower_at, pushes
 from linkwright.analysis.kinetostatics.friction import Friction
 from linkwright.analysis.kinetostatics.scene import Scene, dot, left
 from linkwright.analysis.kinetostatics.wrench import Wrenches
@@ -61,8 +61,8 @@ class PairModel:
         As given.
     spread : float
         Tangent of the pressure angle.
-    pull : Wrenches or None
-        What a second contact of a cam does where the first would have to pull.
+    push, pull : Push or None
+        What the contacts of a cam do to its follower.
     """
 
     name: str
@@ -75,7 +75,8 @@ class PairModel:
     sense: Floats
     friction: Friction
     spread: float = 0.0
-    pull: Wrenches | None = None
+    push: Push | None = None
+    pull: Push | None = None
 
     def slopes(self, x: Floats) -> Floats:
         """Derivatives of the extra force by the unknowns at their values x, (n, unknowns)."""
@@ -91,7 +92,7 @@ class PairModel:
             ends = np.sign(0.5 * x[:, 0] + share), np.sign(0.5 * x[:, 0] - share)
             found[:, 0] = 0.5 * drag * (ends[0] + ends[1])
             found[:, 1] = drag * (ends[0] - ends[1]) / self.friction.length
-        elif self.kind in ("guide", "slot"):
+        elif self.kind in ("guide", "slot", "contact"):
             found[:, 0] = drag * np.sign(x[:, 0])
         return found
 
@@ -144,7 +145,7 @@ def _model(scene: Scene, pair: Pair, friction: Friction, spread: float) -> PairM
     return _cable(scene, pair)
 
 
-def _moving(scene: Scene, pair: Pair, rate: Floats, size: float, friction: Friction) -> tuple[Floats, Floats]:
+def _moving(scene: Scene, rate: Floats, size: float) -> tuple[Floats, Floats]:
     """Rate in time, and its sign."""
     sense = np.where(np.abs(rate) > _STANDS * size, np.sign(rate), 0.0) * np.sign(scene.motion.speed)
     return rate * scene.motion.speed, sense
@@ -159,7 +160,7 @@ def _pin(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
         unknowns.append(Wrenches(scene).between(pair.first, pair.second, force, place))
     one = np.ones(scene.n)
     extra = Wrenches(scene).couple(pair.second, one).couple(pair.first, -one)
-    rate, sense = _moving(scene, pair, scene.turning(pair.second) - scene.turning(pair.first), 1.0, friction)
+    rate, sense = _moving(scene, scene.turning(pair.second) - scene.turning(pair.first), 1.0)
     return PairModel(pair.name, "pin", pair.second, unknowns, (False, False), extra, rate, sense, friction)
 
 
@@ -170,7 +171,7 @@ def _guide(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
     normal = Wrenches(scene).on_guide(pair, left(t), none)
     extra = Wrenches(scene).on_guide(pair, t, none)
     # The speed along the guide is the power of a unit of force between block and guide.
-    rate, sense = _moving(scene, pair, extra.power(), scene.size, friction)
+    rate, sense = _moving(scene, extra.power(), scene.size)
     unknowns = [normal]
     if scene.structure.members[pair.second].turns:
         unknowns.append(Wrenches(scene).on_guide(pair, 0 * t, np.ones(scene.n)))
@@ -183,7 +184,7 @@ def _slot(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
     t, place = scene.direction(pair.guide), scene.point(pair.point)
     normal = Wrenches(scene).between(pair.first, pair.second, left(t), place)
     extra = Wrenches(scene).between(pair.first, pair.second, t, place)
-    rate, sense = _moving(scene, pair, extra.power(), scene.size, friction)
+    rate, sense = _moving(scene, extra.power(), scene.size)
     return PairModel(pair.name, "slot", pair.second, [normal], (False,), extra, rate, sense, friction)
 
 
@@ -199,10 +200,7 @@ def _cable(scene: Scene, pair: Pair) -> PairModel:
 def _drive(scene: Scene, drive: Drive) -> PairModel:
     follower = follower_at(scene, drive.name)
     if follower is not None:
-        push, pull = pushes(scene, follower, drive.name)
-        found = _without_friction(scene, drive.name, "contact", drive.member, push)
-        found.pull = pull
-        return found
+        return _cam_contact(scene, drive, follower)
     if drive.guide is None:
         one = np.ones(scene.n)
         torque = Wrenches(scene).couple(drive.member, one).couple(FRAME, -one)
@@ -214,12 +212,43 @@ def _drive(scene: Scene, drive: Drive) -> PairModel:
     return _without_friction(scene, drive.name, "force", drive.member, push)
 
 
-def with_pulls(models: list[PairModel], x: Floats) -> bool:
-    """Lets second contacts of cams take over where forces (n, unknowns) say so; whether anything changed."""
+def _cam_contact(scene: Scene, drive: Drive, follower: Follower) -> PairModel:
+    push, pull = pushes(scene, follower, drive.name)
+    found = _without_friction(scene, drive.name, "contact", drive.member, push.normal)
+    found.friction = Friction(coefficient=follower.cam.sliding_friction)
+    found.push, found.pull = push, pull
+    return _sliding(scene, found, push)
+
+
+def _sliding(scene: Scene, model: PairModel, push: Push) -> PairModel:
+    """The model of a cam's contact with the friction of a push."""
+    model.extra = push.along
+    model.rate, model.sense = _moving(scene, push.slip, scene.size)
+    return model
+
+
+def with_pulls(scene: Scene, models: list[PairModel], x: Floats) -> bool:
+    """Let second contacts of cams take over where the first would have to pull.
+
+    Parameters
+    ----------
+    scene : Scene
+        The machine and its motion.
+    models : list of PairModel
+        Its pairs and drives, which are changed.
+    x : ndarray, shape (n, unknowns)
+        Values of all unknowns.
+
+    Returns
+    -------
+    bool
+        Whether anything changed.
+    """
     at, changed = 0, False
     for model in models:
-        if model.pull is not None and (x[:, at] < 0).any():
-            model.unknowns[0] = taken_over(model.unknowns[0], model.pull, x[:, at])
+        force = x[:, at]
+        if model.push is not None and model.pull is not None and (force < 0).any():
+            _sliding(scene, model, model.push.taken_over(model.pull, force))
             changed = True
         at += len(model.unknowns)
     return changed
