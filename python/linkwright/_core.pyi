@@ -21,6 +21,7 @@ __all__ = [
     "steady_rows",
     "steady_state",
     "third",
+    "torsion_modes",
     "transient",
 ]
 
@@ -121,3 +122,6 @@ class Cam:
 
 def cam_crossings(x: _Floats, y: _Floats) -> _Floats:
     """Crossings of the sides of a closed polygon: side and share of both, place (n, 4)."""
+
+def torsion_modes(parent: _Ints, inertia: _Floats, stiffness: _Floats) -> tuple[_Floats, _Floats]:
+    """Natural frequencies [rad/s], increasing, and mode shapes with Σ J q² = 1, one row a mode (n, n)."""

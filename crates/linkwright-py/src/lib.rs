@@ -6,6 +6,7 @@
 mod arrays;
 mod cam;
 mod errors;
+mod torsion;
 
 use arrays::{as_indices, below, channels, column};
 use errors::plan_error;
@@ -312,6 +313,8 @@ fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Curve<'py
 mod _core {
     #[pymodule_export]
     use super::cam::{Cam, cam_crossings};
+    #[pymodule_export]
+    use super::torsion::torsion_modes;
     #[pymodule_export]
     use super::{
         Plan, change_point, follow_group, gaps, kinks, law_torques, motions, motor_torques, reductions,
