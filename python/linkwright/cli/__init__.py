@@ -16,6 +16,7 @@ import typer
 
 from linkwright.cli.balance import balance
 from linkwright.cli.cam import CAM, cam
+from linkwright.cli.cam_file import cam_file
 from linkwright.cli.check import check
 from linkwright.cli.common import reports_errors
 from linkwright.cli.default_command import group_with_default
@@ -38,7 +39,7 @@ GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = 
 )
 
 # Group → its command for a first word that names none of its commands, such as a file.
-_DEFAULTS: dict[str, Callable[..., Any]] = {}
+_DEFAULTS: dict[str, Callable[..., Any]] = {"cam": cam_file}
 
 
 def _version(wanted: bool) -> None:

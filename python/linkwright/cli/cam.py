@@ -1,4 +1,4 @@
-"""``linkwright cam …``: the motion laws of cams, compared."""
+"""``linkwright cam …``: a machine's cams; the motion laws of cams, compared."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _DRAWN = ("parabolic", "cycloidal", "modified_trapezoid", "modified_sine", "poly
 
 
 def cam() -> None:
-    """Motion laws of cams: their factors, compared."""
+    """Cams: `linkwright cam FILE` looks at those of a machine; or one of these commands."""
 
 
 def laws(law: Names = None, json: Json = False, out: Folder = None) -> None:

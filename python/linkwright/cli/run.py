@@ -120,7 +120,7 @@ def _files(study: Study, folder: Path) -> list[str]:
     texts = {"results.json": dumps(study.to_dict(curves=True), allow_nan=False, ensure_ascii=False) + "\n"}
     tables = {f"{name}.csv": curves_csv(result) for name, result in study.results().items()}
     texts |= {name: text for name, text in tables.items() if text}
-    texts["report.html"] = report_html(study, command=_command())
+    texts["report.html"] = report_html(study, command=command_line())
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, text in texts.items():
@@ -132,7 +132,7 @@ def _files(study: Study, folder: Path) -> list[str]:
     return list(texts)
 
 
-def _command() -> str:
+def command_line() -> str:
     """The command line as it was given, to be repeated."""
     import shlex
     import sys

@@ -44,6 +44,7 @@ from linkwright.machine.element import (
     SlottedLever,
     Yoke,
 )
+from linkwright.machine.follower_train import FollowerTrain
 from linkwright.machine.loads import (
     AnyLoad,
     ConstantForce,
@@ -116,6 +117,7 @@ __all__ = [
     "DryFriction",
     "FixedPoint",
     "Flywheel",
+    "FollowerTrain",
     "ForcePosition",
     "FormulaLoad",
     "GasSpring",

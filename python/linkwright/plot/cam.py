@@ -34,6 +34,12 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
+# Value, words and colour of a line that is not to be passed.
+Limit = tuple[float, str, str]
+
+# A limit is drawn within so many times the largest value.
+_FAR = 2.5
+
 _ANGLE = "cam angle from the start of the programme [°]"
 
 # Points of a curve between two joints of its law: chords of an eighth of a degree and finer cannot be seen.
@@ -152,19 +158,20 @@ def curvature_figure(profile: CamProfile) -> Figure:
     Returns
     -------
     Figure
-        One panel: 1/ρ, positive where convex; limits of the file, and of a cutter in hollow parts.
+        One panel: 1/ρ, positive where convex; limits of the file and of a cutter in hollow parts, if they are
+        near.
     """
     figure, (axes,) = panels(1, height=2.9)
-    drawn = []
-    for k, flank in enumerate(profile.flanks if profile.cam.closure == "conjugate" else profile.flanks[:1]):
+    drawn, parts = [], _parts(profile)
+    for k, flank in enumerate(parts):
         with np.errstate(divide="ignore"):
             bend = 1e-3 / flank.curvature_radius
         # A sharp point bends without limit; what is beyond is not drawn.
         kept = np.where(np.abs(bend) < _most(profile), bend, np.nan)
         x, y = _with_gaps(flank.shape.angle, kept)
-        axes.plot(x, y, color=LINES[k], label=flank.contact.name if len(profile.flanks) > 1 else None)
+        axes.plot(x, y, color=LINES[k], label=flank.contact.name if len(parts) > 1 else None)
         drawn.append(kept[np.isfinite(kept)])
-    limits = _curvature_limits(profile)
+    limits = _near(_curvature_limits(profile), np.concatenate(drawn))
     for value, words, colour in limits:
         level(axes, value, words, colour)
     roomy(axes, *drawn, np.array([0.0, *(value for value, _, _ in limits)]))
@@ -216,7 +223,7 @@ def _most(profile: CamProfile) -> float:
     return 100 / (1e3 * profile.base_radius)
 
 
-def _curvature_limits(profile: CamProfile) -> list[tuple[float, str, str]]:
+def _curvature_limits(profile: CamProfile) -> list[Limit]:
     """Values [1/mm], words and colours of what the curvature may be."""
     cam, found = profile.cam, []
     if cam.curvature_limit is not None:
@@ -227,6 +234,12 @@ def _curvature_limits(profile: CamProfile) -> list[tuple[float, str, str]]:
         words = f"cutter of {1e3 * cam.cutter_radius:.4g} mm in hollow parts"
         found.append((-1e-3 / cam.cutter_radius, words, LINES[3]))
     return found
+
+
+def _near(limits: list[Limit], drawn: Floats) -> list[Limit]:
+    """Limits that do not press the curve flat; those far away are kept with ease."""
+    reach = _FAR * float(np.abs(drawn).max(initial=0.0))
+    return [limit for limit in limits if abs(limit[0]) <= reach]
 
 
 def _with_gaps(angle: Floats, values: Floats) -> tuple[Floats, Floats]:

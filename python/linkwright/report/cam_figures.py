@@ -56,7 +56,8 @@ def cam_figures(study: Study) -> Iterator[Captioned]:
 
 def _cam_words(profile: CamProfile) -> str:
     """What is drawn, and its circles."""
-    words = f"As it stands where the programme begins, its follower on the right. Base circle {_mm(profile.base_radius)}"
+    words = "As it stands where the programme begins, seen along the line to its follower's guide or pivot. "
+    words += f"Base circle {_mm(profile.base_radius)}"
     if profile.prime_radius > profile.base_radius:
         words += f", prime circle {_mm(profile.prime_radius)}"
     if profile.diameter_min is not None and profile.diameter_max is not None:
@@ -98,7 +99,12 @@ def _curvature_words(profile: CamProfile) -> str:
         )
         if value is not None and math.isfinite(value)
     ]
-    return f"Least radius of curvature of the profile: {', '.join(parts)}. Positive where convex."
+    words = f"Least radius of curvature of the profile: {', '.join(parts)}. Positive where convex."
+    if profile.cam.curvature_limit is not None:
+        words += f" Allowed are convex radii from {_mm(profile.cam.curvature_limit)} on."
+    if profile.cam.cutter_radius is not None:
+        words += f" The cutter has a radius of {_mm(profile.cam.cutter_radius)}."
+    return words
 
 
 def _mm(value: float) -> str:

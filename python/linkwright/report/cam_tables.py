@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 from linkwright.analysis.cam.loaded import LoadedCam
 from linkwright.analysis.cam.profile import CamProfile
@@ -129,7 +130,8 @@ def joint_table(profile: CamProfile) -> Table:
     """
     unit = "rad" if profile.cam.is_oscillating else "m"
     rows: list[Row] = [
-        (joint.words(unit), "", degrees(joint.angle)) for joint in profile.cam.programme.joints
+        (joint.words(unit).replace("-", "−"), "", degrees(joint.angle))
+        for joint in profile.cam.programme.joints
     ]
     heads = ("where sections meet, the motion is", "", "cam angle")
     return Table(f"cam_{profile.name}_joints", f"Joints of cam {profile.name}", heads, rows)
@@ -202,7 +204,7 @@ def _own(profile: CamProfile) -> Iterator[tuple[str, LawFactors]]:
     """Name and factors of each section from rest to rest; sections alike are told once."""
     law, seen = profile.cam.lift, []
     ends = [joint.angle for joint in profile.cam.programme.joints] + [law.end]
-    for n, (low, high) in enumerate(zip(ends, ends[1:], strict=False), start=1):
+    for n, (low, high) in enumerate(pairwise(ends), start=1):
         stretch = law.stretch(low, high)
         rise = float(stretch.at(high, side="before") - stretch.at(low))
         slopes = abs(float(stretch.at(low, 1))), abs(float(stretch.at(high, 1, "before")))

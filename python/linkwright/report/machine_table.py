@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 from linkwright.machine import Guide, Machine, kind
+from linkwright.machine.cam import SecondFollower
 from linkwright.machine.outline import KINDS
 from linkwright.machine.plain import field_names, keys, look
 from linkwright.machine.text import join
@@ -108,7 +109,10 @@ def _entries(machine: Machine, place: Place, node: object, before: str = "") -> 
     assumed = _not_given(node)
     for key in keys(node):
         value, word = look(node, key), f"{before}{key}".replace("_", " ")
-        if isinstance(value, Guide):
+        if isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
+            for n, each in enumerate(value):
+                yield Entry(f"{word.removesuffix('s')} {n + 1}", _words(machine, (*place, key, str(n)), each))
+        elif isinstance(value, Guide | SecondFollower):
             yield from _entries(machine, (*place, key), value, f"{word} ")
         # A zero that nobody wrote says nothing.
         elif (
@@ -117,6 +121,18 @@ def _entries(machine: Machine, place: Place, node: object, before: str = "") -> 
             and not (key in assumed and value == 0)
         ):
             yield Entry(word, _value(machine, (*place, key), value), key not in assumed)
+
+
+def _words(machine: Machine, place: Place, node: BaseModel) -> str:
+    """A description inside a list in one line: its kind, and what was given."""
+    parts = []
+    for key in keys(node):
+        value = look(node, key)
+        if key not in _not_given(node) and value is not None:
+            nested = isinstance(value, BaseModel)
+            text = _words(machine, (*place, key), value) if nested else _value(machine, (*place, key), value)
+            parts.append(text if key == "kind" else f"{key.replace('_', ' ')} {text}")
+    return ", ".join(parts) or "–"
 
 
 def _not_given(node: object) -> set[str]:

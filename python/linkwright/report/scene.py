@@ -18,6 +18,7 @@ from linkwright.analysis.kinematics import Kinematics, kinematics
 from linkwright.analysis.study import Study
 from linkwright.machine import Machine
 from linkwright.machine.outline import DRIVERS
+from linkwright.report.scene_cam import cam_headings, reach
 from linkwright.report.scene_parts import arc_end, parts
 
 Floats = NDArray[np.float64]
@@ -60,9 +61,12 @@ def scene(study: Study) -> Scene | None:
     motion = kinematics(machine, _angles(found))
     drawn = _points(machine, motion)
     listed = list(parts(machine, motion))
-    box = _box(drawn, listed, motion)
+    box = _box(machine, drawn, listed, motion)
     fineness = _FINENESS * max(box[2] - box[0], box[3] - box[1])
     times, speeds = _times(study, motion.angles)
+    headings = {name: link.angle for name, link in motion.links.items()} | cam_headings(
+        machine, motion.angles
+    )
     turning = {part["link"] for part in listed if part.get("link")}
     return {
         "angles": _rounded(motion.angles, 1e-5),
@@ -71,7 +75,7 @@ def scene(study: Study) -> Scene | None:
         "points": {
             name: [_rounded(xy[:, 0], fineness), _rounded(xy[:, 1], fineness)] for name, xy in drawn.items()
         },
-        "headings": {name: _rounded(motion.links[name].angle, _FINENESS) for name in sorted(turning)},
+        "headings": {name: _rounded(headings[name], _FINENESS) for name in sorted(turning)},
         "parts": listed,
         "box": box,
         "swings": not found.turns_fully,
@@ -104,8 +108,8 @@ def _points(machine: Machine, motion: Kinematics) -> dict[str, Floats]:
     return drawn
 
 
-def _box(drawn: dict[str, Floats], listed: list[Scene], motion: Kinematics) -> list[float]:
-    """Least x, least y, greatest x, greatest y of all points, pitch circles and levers."""
+def _box(machine: Machine, drawn: dict[str, Floats], listed: list[Scene], motion: Kinematics) -> list[float]:
+    """Least x, least y, greatest x, greatest y of all points, pitch circles, levers and cams."""
     every = list(drawn.values())
     for part in listed:
         if part["kind"] == "gear":
@@ -116,6 +120,11 @@ def _box(drawn: dict[str, Floats], listed: list[Scene], motion: Kinematics) -> l
             )
             along = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
             every += [drawn[part["at"]] + end * along for end in part["bar"]]
+        if part["kind"] in ("roller", "face") and part["rod"] and not part["link"]:
+            cos, sin = np.cos(part["angle"]), np.sin(part["angle"])
+            every.append(drawn[part["at"]] + np.array([[cos, -sin], [sin, cos]]) @ part["rod"])
+    for centre, radius in reach(machine):
+        every += [drawn[centre] + radius, drawn[centre] - radius]
     together = np.concatenate(every)
     return [float(value) for value in (*together.min(axis=0), *together.max(axis=0))]
 

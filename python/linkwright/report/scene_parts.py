@@ -18,6 +18,7 @@ from linkwright.machine import Body, Guide, Machine, Mechanism
 from linkwright.machine.loads import BetweenPoints
 from linkwright.machine.mechanism import Link
 from linkwright.machine.outline import ORIGIN, Outline
+from linkwright.report.scene_cam import cam_parts
 from linkwright.report.scene_gears import gear_parts
 
 Floats = NDArray[np.float64]
@@ -45,6 +46,7 @@ def parts(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
     yield from _grounds(machine)
     yield from _traces(mechanism)
     yield from gear_parts(mechanism, motion, series)
+    yield from cam_parts(machine, series)
     yield from _links(mechanism, series)
     yield from _levers(mechanism, motion, series)
     yield from _cables(mechanism, motion, series)
@@ -139,7 +141,8 @@ def _blocks(machine: Machine, series: dict[str, int]) -> Iterator[Scene]:
     mechanism = machine.linkage
     loaded = {body.on or name for name, body in machine.bodies.items()}
     for point, slide, guide in _all_guides(mechanism):
-        if point not in mechanism.racks:
+        # A rack is drawn as a bar, the follower of a cam as a stem.
+        if point not in mechanism.racks and point not in machine.mechanism.cams:
             yield _block(point, guide.on, guide.angle, heavy=slide in loaded, series=series[point])
     for name, lever in mechanism.slotted_levers.items():
         yield _block(lever.pin, name, 0.0, heavy=False, series=series[name])
@@ -233,6 +236,7 @@ def _grounds(machine: Machine) -> Iterator[Scene]:
     """Fixed points that something turns about."""
     mechanism = machine.linkage
     pivots = [crank.pivot or ORIGIN for crank in mechanism.cranks.values()]
+    pivots += [cam.pivot or ORIGIN for cam in machine.mechanism.cams.values()]
     for table in ("rockers", "slotted_levers", "gears"):
         pivots += [element.pivot for element in getattr(mechanism, table).values()]
     pivots += [end for bar in mechanism.bars.values() for end in (bar.start, bar.end)]

@@ -107,6 +107,34 @@
       title(wheel, part.name);
       return carry(wheel, part);
     },
+    cam(part) {
+      const group = add("g", "cam");
+      for (const [n, outline] of part.outlines.entries()) {
+        const d = "M" + outline.map(([x, y]) => `${(x * scale).toFixed(2)} ${(-y * scale).toFixed(2)}`).join("L") + "Z";
+        const look = n ? { fill: "none" } : { fill: colour(part) };
+        group.append(add("path", "outline", { d, stroke: colour(part), ...look }));
+      }
+      const [x, y] = part.outlines[0][0];
+      group.append(add("path", "mark", { d: `M0 0L${x * scale} ${-y * scale}`, stroke: colour(part) }));
+      title(group, part.name);
+      return carry(group, part, part.angle);
+    },
+    roller(part) {
+      const group = add("g", "roller"), [x, y] = [part.place[0] * scale, -part.place[1] * scale];
+      rod(group, part, x, y);
+      group.append(add("circle", "roll", { cx: x, cy: y, r: Math.max(part.radius * scale, 4), stroke: colour(part) }));
+      title(group, part.name);
+      return carry(group, part, part.angle);
+    },
+    face(part) {
+      const group = add("g", "face"), [x, y] = [part.place[0] * scale, -part.place[1] * scale];
+      const [c, s] = [Math.cos(part.along), -Math.sin(part.along)], [a, b] = part.ends.map((end) => end * scale);
+      rod(group, part, x, y);
+      const d = `M${x + a * c} ${y + a * s}L${x + b * c} ${y + b * s}`;
+      group.append(add("path", "link", { d, stroke: colour(part), "stroke-width": 5 }));
+      title(group, part.name);
+      return carry(group, part, part.angle);
+    },
     belt(part) {
       const path = add("path", "belt");
       title(path, part.name);
@@ -169,6 +197,12 @@
     },
   };
 
+  // The rod that holds what touches a cam; an arm is drawn as a link of its own.
+  function rod(group, part, x, y) {
+    if (!part.rod) return;
+    const d = `M${x} ${y}L${part.rod[0] * scale} ${-part.rod[1] * scale}`;
+    group.append(add("path", "link", { d, stroke: colour(part), "stroke-width": 6 }));
+  }
   function ends(line, [x1, y1], [x2, y2]) {
     for (const [key, value] of Object.entries({ x1, y1, x2, y2 })) line.setAttribute(key, value);
   }
