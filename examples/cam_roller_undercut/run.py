@@ -1,7 +1,7 @@
 """How large may the roller of a cam be, and how small the base circle?
 
-The profile lies the roller's radius r inside the pitch curve, the path of the roller's centre. Where the pitch
-curve is bent more than 1/r, the profile turns back on itself: the roller cuts away what it should ride on.
+The profile lies the roller's radius r inside the pitch curve, the path of the roller's centre. Where the
+pitch curve is bent more than 1/r, the profile turns back on itself: the roller cuts away what it should ride on.
 
 Source: Norton, Cam Design and Manufacturing Handbook, 2nd ed., section 7.4.
 """
@@ -38,7 +38,7 @@ def figure(machine: lw.Machine):
         ax.plot(*1e3 * flank.curve(0.0).points(phi).T, "--", lw=1, label="pitch curve")
         ax.plot(*1e3 * flank.curve().points(phi).T, label="profile")
         ax.set(aspect="equal", xlabel="x (mm)", ylabel="y (mm)", title=f"base radius {1e3 * radius:.3g} mm")
-    axes[0].legend()
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
 
 
