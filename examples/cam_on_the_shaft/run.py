@@ -1,9 +1,9 @@
 """How evenly does a cart roll that a cam moves at "constant speed", once a motor drives the cam?
 
 The law of the cart holds over the angle of the cam, and the cam turns unevenly: cart and friction load it,
-the motor gives way along its characteristic. The cart's speed is s′ω: constant over the angle is not over time.
+the motor gives way along its characteristic. The cart's speed is s′ω: not constant over time.
 
-Source: paper 2 (see docs/references.md) for the cam of constant diameter; the machine is made for the question.
+Source: paper 2 (see docs/references.md) for the cam of constant diameter; the machine is made for this.
 """
 
 from pathlib import Path
