@@ -338,7 +338,7 @@ def test_layers_that_do_not_exist_are_told(layer: str) -> None:
 
 
 def test_read_back_tells_other_files_and_layers(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"expected \.csv, \.dxf"):
+    with pytest.raises(InputError, match=r"expected \.csv, \.step, \.dxf"):
         read_back(tmp_path / "cam.dwg", DRAWING)
     with pytest.raises(InputError, match='layer "GROOVE": the drawing has PROFILE, PITCH_CURVE'):
         read_back(tmp_path / "cam.dxf", DRAWING, layers=("GROOVE",))

@@ -21,6 +21,7 @@ from typing import Any, TypeVar
 
 from linkwright.analysis.cam.faults import cam_cautions, cam_faults
 from linkwright.analysis.cam.follower_vibration import FollowerVibration, follower_vibration
+from linkwright.analysis.cam.least_sizes import LeastSizes, least_sizes
 from linkwright.analysis.cam.loaded import LoadedCam, loaded_cam
 from linkwright.analysis.cam.one_mass import one_mass
 from linkwright.analysis.cam.profile import CamProfile, cam_profile
@@ -76,6 +77,8 @@ class Study:
         Extreme positions, transmission angles and Grashof classes.
     cams : tuple of CamProfile
         Its cams; ``"cam"`` among the results, or ``"cam.NAME"`` if there are several.
+    cam_sizes : tuple of LeastSizes
+        How small each might be, ``"cam_sizes"``.
     loaded_cams : tuple of LoadedCam
         The same under load, ``"cam_force"``.
     cam_vibrations : tuple of str and FollowerVibration
@@ -101,6 +104,7 @@ class Study:
     rotator: RodRotatorMotion | None = None
     linkage: Linkage | None = None
     cams: tuple[CamProfile, ...] = ()
+    cam_sizes: tuple[LeastSizes, ...] = ()
     loaded_cams: tuple[LoadedCam, ...] = ()
     cam_vibrations: tuple[tuple[str, FollowerVibration], ...] = ()
     findings: tuple[str, ...] = ()
@@ -118,6 +122,7 @@ class Study:
         found: dict[str, Result | None] = {name: getattr(self, name) for name in names}
         single = len(self.cams) == 1
         cams: dict[str, Result] = {"cam" if single else f"cam.{each.name}": each for each in self.cams}
+        cams |= {"cam_sizes" if single else f"cam_sizes.{each.name}": each for each in self.cam_sizes}
         cams |= {"cam_force" if single else f"cam_force.{each.name}": each for each in self.loaded_cams}
         cams |= {
             "cam_vibration" if single else f"cam_vibration.{name}": each for name, each in self.cam_vibrations
@@ -184,6 +189,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         rotator=rotator,
         linkage=moved if moved is not None and moved.elements else None,
         cams=cams,
+        cam_sizes=tuple(least_sizes(each) for each in cams),
         loaded_cams=loaded,
         cam_vibrations=shaken,
         findings=found.sentences(),
@@ -209,7 +215,9 @@ def _loaded(
     along = borne if borne is not None else _Findings().of(forces, machine, speed=speed)
     if along is None:
         return ()
-    looked = [_Findings().of(loaded_cam, machine, each, along) for each in cams]
+    # What presses on a profile that cannot be made says nothing.
+    sound = [each for each in cams if not cam_faults(each)]
+    looked = [_Findings().of(loaded_cam, machine, each, along) for each in sound]
     loaded = tuple(each for each in looked if each is not None)
     found.errors += [CamError(text) for each in loaded for text in each.findings]
     return loaded

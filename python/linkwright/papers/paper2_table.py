@@ -16,7 +16,7 @@ COLUMNS: tuple[tuple[str, str, Callable[[Alternative], str]], ...] = (
     ("jerk", "m/s³", lambda each: f"{each.jerk_max:.2f}"),
     ("step", "m/s³", lambda each: _step(each)),
     ("F", "N", lambda each: f"{each.force_max:.0f}"),
-    ("M", "N m", lambda each: f"{each.torque_max:.0f}"),
+    ("M", "N\u00a0m", lambda each: f"{each.torque_max:.0f}"),
     ("δ", "", lambda each: f"{each.steady.unevenness:.4f}"),
     ("H", "", lambda each: f"{each.steady.dynamism:.3f}"),
     ("γ", "°", lambda each: _degrees(each.pressure_angle_max)),

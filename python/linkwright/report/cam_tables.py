@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from itertools import pairwise
 
+from linkwright.analysis.cam.least_sizes import LeastSizes
 from linkwright.analysis.cam.loaded import LoadedCam
 from linkwright.analysis.cam.profile import CamProfile
 from linkwright.analysis.law_factors import LawFactors, law_factors
@@ -42,8 +43,11 @@ def cam_tables(study: Study) -> Iterator[Table]:
         Of each cam: what it is, its joints, its forces; then the laws.
     """
     loaded = {each.name: each for each in study.loaded_cams}
+    sizes = {each.name: each for each in study.cam_sizes}
     for profile in study.cams:
         yield profile_table(profile)
+        if profile.name in sizes:
+            yield size_table(sizes[profile.name])
         yield joint_table(profile)
         if profile.name in loaded:
             yield force_table(loaded[profile.name])
@@ -113,6 +117,35 @@ def _size_rows(profile: CamProfile) -> Iterator[Row]:
     if profile.face_min is not None:
         yield "contact on the face, from", "", _mm(profile.face_min), ""
         yield "to", "", _mm(profile.face_max), ""
+
+
+def size_table(sizes: LeastSizes) -> Table:
+    """How small a cam might be.
+
+    Parameters
+    ----------
+    sizes : LeastSizes
+        Its least sizes.
+
+    Returns
+    -------
+    Table
+        Quantity, symbol, value, what it is for.
+    """
+    wanted = [
+        (sizes.base_radius_sound, "without undercut"),
+        (sizes.base_radius_pressure_angle, f"for {degrees(sizes.pressure_angle_limit)} pressure angle"),
+    ]
+    if sizes.curvature_limit is not None:
+        limit = f"for {_mm(sizes.curvature_limit)} radius of curvature"
+        wanted.append((sizes.base_radius_curvature, limit))
+    rows: list[Row] = [
+        ("least base circle", "r_0", "any" if value == 0 else _mm(value), what) for value, what in wanted
+    ]
+    if sizes.roller_radius_max is not None:
+        rows.append(("largest roller", "r_r", _mm(sizes.roller_radius_max), "on this pitch curve"))
+    title = f"How small cam {sizes.name} might be, all else as it is"
+    return Table(f"cam_{sizes.name}_sizes", title, ("quantity", "", "value", "where"), rows)
 
 
 def joint_table(profile: CamProfile) -> Table:

@@ -20,6 +20,8 @@ class LeastSizes(Result):
 
     Attributes
     ----------
+    name : str
+        The cam's.
     base_radius_sound : float
         Smallest base radius without undercut [m].
     base_radius_pressure_angle : float
@@ -38,6 +40,7 @@ class LeastSizes(Result):
         Least convex radius of curvature allowed [m].
     """
 
+    name: str
     base_radius_sound: float | None
     base_radius_pressure_angle: float | None
     base_radius_curvature: float | None
@@ -69,6 +72,7 @@ def least_sizes(profile: CamProfile) -> LeastSizes:
     found = [each for each in wanted if each is not None]
     least = max(found) if len(found) == len(wanted) else None
     return LeastSizes(
+        profile.name,
         sound,
         gentle,
         smooth,

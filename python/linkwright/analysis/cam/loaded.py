@@ -61,7 +61,7 @@ class LoadedCam(Result):
     force_min : float
         Least, with its sign [N].
     side_changes : int
-        How often in these angles the force goes from one side to the other.
+        How often in these angles, gone round, the force changes from one side to the other.
     speed_lost : float
         Crank speed at which a follower closed by a spring leaves the cam [rad/s]; None if it never does, or
         if something else closes it.
@@ -136,7 +136,7 @@ def loaded_cam(machine: Machine, profile: CamProfile, found: Forces | None = Non
         float(abs(force[worst])),
         float(found.crank_angle[worst]),
         float(np.nanmin(force)),
-        int(np.count_nonzero(np.diff(np.sign(carrying)))),
+        int(np.count_nonzero(np.diff(np.sign([*carrying[-1:], *carrying])))),
         lost[0] if lost else None,
         lost[1] if lost else None,
         float(hertz.pressure[hardest]) if hertz else None,
