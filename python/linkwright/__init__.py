@@ -74,6 +74,8 @@ _HOME = {
     "line_contact": "analysis.cam.hertz",
     "pumping_unit": "analysis.pumping_unit",
     "rod_rotator": "analysis.rod_rotator",
+    "free_vibration": "analysis.torsion.free",
+    "holzer_table": "analysis.torsion.holzer",
     "study": "analysis.study",
     "steady_states": "sweep.batch",
     "required_power": "sizing.power",
@@ -156,6 +158,8 @@ if TYPE_CHECKING:
     from linkwright.analysis.steady_state import steady_state as steady_state
     from linkwright.analysis.step_method import step_method as step_method
     from linkwright.analysis.study import study as study
+    from linkwright.analysis.torsion.free import free_vibration as free_vibration
+    from linkwright.analysis.torsion.holzer import holzer_table as holzer_table
     from linkwright.analysis.transient import transient as transient
     from linkwright.exchange.cam import cam_drawings as cam_drawings
     from linkwright.exchange.write import write_drawing as write_drawing

@@ -28,9 +28,21 @@ from linkwright.cli.run import run
 from linkwright.cli.schema import schema
 from linkwright.cli.size import size
 from linkwright.cli.synthesise import SYNTHESISE, synthesise
+from linkwright.cli.torsion import torsion
 
 # In the order of the help.
-COMMANDS: tuple[Callable[..., Any], ...] = (run, check, motion, forces, balance, size, papers, new, schema)
+COMMANDS: tuple[Callable[..., Any], ...] = (
+    run,
+    check,
+    motion,
+    forces,
+    torsion,
+    balance,
+    size,
+    papers,
+    new,
+    schema,
+)
 
 # Commands that have commands of their own: what the group does, and its commands.
 GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = (

@@ -39,7 +39,9 @@ def summary(machine: Machine) -> str:
     from linkwright.machine.mobility import mobility
 
     rows = [("machine", machine.name), ("motor", _motor(machine)), *_mechanism(machine)]
-    rows += [("mobility", str(mobility(machine.linkage)))]
+    if not machine.is_train_alone:
+        rows += [("mobility", str(mobility(machine.linkage)))]
+    rows += _train(machine)
     rows += [("bodies", ", ".join(machine.bodies)), ("loads", _loads(machine))]
     return "\n".join(f"  {word:<14} {text}" for word, text in rows if text)
 
@@ -60,6 +62,18 @@ def _mechanism(machine: Machine) -> list[tuple[str, str]]:
     mechanism = machine.linkage
     tables = [kind.table for kind in KINDS]
     return [(table.replace("_", " "), ", ".join(getattr(mechanism, table))) for table in tables]
+
+
+def _train(machine: Machine) -> list[tuple[str, str]]:
+    """The names of discs, shafts and gear stages."""
+    train = machine.train
+    if train is None:
+        return []
+    return [
+        ("discs", ", ".join(train.discs)),
+        ("shafts", ", ".join(train.shafts)),
+        ("gears", ", ".join(train.gears)),
+    ]
 
 
 def _loads(machine: Machine) -> str:

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright import _core
 from linkwright.engine.elements import Rows
 from linkwright.engine.settle import Settled
-from linkwright.errors import MachineError, Problem, ShapeError
+from linkwright.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.machine import (
     Body,
     ConstantForce,
@@ -211,7 +211,13 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
     ------
     ShapeError
         Arrays of different length, or an array in a table.
+    InputError
+        The machine is a torsional train alone.
     """
+    if machine.is_train_alone:
+        raise InputError(
+            f"{machine.name} is a train without a [mechanism]: its analyses are those of torsion"
+        )
     parts = _parts(machine)
     key = (id(machine), motor, brake)
     known = _known.get(key)

@@ -13,6 +13,7 @@
 | `pumping_unit`, `polished_rod_load`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
 | `unit_catalogue` | published pumping units |
 | `linkage` | the whole mechanism: elements of the file, and what a pumping unit expands into |
+| `train`, `train_speeds`, `train_faults` | torsional trains, speeds of their discs, faults |
 | `body`, `loads` | masses; forces and torques |
 | `formula` | formulas as texts |
 | `curve` | curves given by points |
@@ -90,6 +91,7 @@ from linkwright.machine.point_law import SplineLaw, TableLaw
 from linkwright.machine.polished_rod_load import PolishedRodLoad
 from linkwright.machine.pumping_unit import PumpingUnit
 from linkwright.machine.rod_rotator import RodRotator
+from linkwright.machine.train import Disc, Shaft, ShaftSection, Train, TrainGear
 from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 
 __all__ = [
@@ -113,6 +115,7 @@ __all__ = [
     "Crossing",
     "Damper",
     "DcMotor",
+    "Disc",
     "Drive",
     "DryFriction",
     "FixedPoint",
@@ -149,6 +152,8 @@ __all__ = [
     "RunUp",
     "SCurveLaw",
     "SecondFollower",
+    "Shaft",
+    "ShaftSection",
     "Slider",
     "SlottedLever",
     "SplineLaw",
@@ -159,6 +164,8 @@ __all__ = [
     "TorqueSpeed",
     "TorsionalDamper",
     "TorsionalSpring",
+    "Train",
+    "TrainGear",
     "TrapezoidalVelocityLaw",
     "ViscousFriction",
     "Yoke",

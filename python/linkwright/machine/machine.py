@@ -20,6 +20,8 @@ from linkwright.machine.plain import look
 from linkwright.machine.problems import problems
 from linkwright.machine.pumping_unit import PumpingUnit
 from linkwright.machine.rod_rotator import RodRotator
+from linkwright.machine.train import Train
+from linkwright.machine.train_faults import train_faults
 from linkwright.units import INSIDE_ONE, RATIO, SPEED, Angle, Quantity, not_negative, positive
 
 # The format that this version reads and writes.
@@ -63,6 +65,7 @@ class Machine(Description):
         None, description="Beam pumping unit, which is a mechanism by itself."
     )
     rod_rotator: RodRotator | None = Field(None, description="Rotator of the rod string on the pumping unit.")
+    train: Train | None = Field(None, description="Torsional train: discs, shafts and gears.")
     bodies: dict[str, Body] = Field(default_factory=dict, description="Masses by name.")
     loads: dict[str, AnyLoad] = Field(default_factory=dict, description="Forces and torques by name.")
     run_up: RunUp = Field(default_factory=RunUp, description="How the run-up starts and ends.")
@@ -72,6 +75,11 @@ class Machine(Description):
         """The whole mechanism: elements of the file, and those that cams and a pumping unit expand into."""
         own = with_followers(self.mechanism)
         return own if self.pumping_unit is None else merged(own, self.pumping_unit, self.rod_rotator)
+
+    @property
+    def is_train_alone(self) -> bool:
+        """Whether it is a torsional train and nothing else."""
+        return self.train is not None and self.pumping_unit is None and _is_left_out(self)
 
     @model_validator(mode="wrap")
     @classmethod
@@ -95,12 +103,14 @@ class Machine(Description):
 
 
 def _reference_faults(machine: object) -> list[InitErrorDetails]:
-    """No mechanism, names that clash, bodies and loads that refer to nothing."""
+    """Nothing that moves, names that clash, bodies and loads that refer to nothing."""
     mechanism, unit = look(machine, "mechanism"), look(machine, "pumping_unit")
-    if unit is None and (mechanism is None or _is_left_out(machine)):
+    train = look(machine, "train")
+    faults = list(train_faults(train))
+    if unit is None and train is None and (mechanism is None or _is_left_out(machine)):
         return [fault("mechanism", expected="a table")]
-    faults = list(expansion_faults(machine))
-    if unit is None and not isinstance(mechanism, BaseModel | Mapping):
+    faults += expansion_faults(machine)
+    if unit is None and train is None and not isinstance(mechanism, BaseModel | Mapping):
         # There is nothing to refer to.
         return faults
     outline = outline_of(machine)

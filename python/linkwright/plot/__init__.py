@@ -12,6 +12,7 @@
 | `forces` | driving torque, reactions, hodographs, load cases |
 | `motion_laws` | motion laws and their derivatives, several in one picture |
 | `cam_dynamics` | contact force, pressure and vibration of cams and followers |
+| `torsion` | mode shapes of trains |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -42,6 +43,7 @@ from linkwright.plot.reduction import reduction_figure
 from linkwright.plot.run_up import attempt_figure, run_up_figure
 from linkwright.plot.steady import speed_figure, time_figure, torque_figure
 from linkwright.plot.svg import svg
+from linkwright.plot.torsion import modes_figure
 
 __all__ = [
     "attempt_figure",
@@ -56,6 +58,7 @@ __all__ = [
     "gear_torque_figure",
     "hodograph_figure",
     "lift_figure",
+    "modes_figure",
     "motion_laws_figure",
     "motor_figure",
     "polar_figure",

@@ -1,0 +1,98 @@
+"""``linkwright torsion FILE``: torsional vibration of a train."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.cli.common import File, Json, Sets
+from linkwright.errors import InputError
+
+if TYPE_CHECKING:
+    from linkwright.analysis.torsion.free import FreeVibration
+    from linkwright.analysis.torsion.holzer import HolzerTable
+
+Folder = Annotated[
+    Path | None,
+    typer.Option(
+        "--out",
+        metavar="DIR",
+        help="Write results.json and the mode shapes as SVG and PNG there.",
+        show_default=False,
+    ),
+]
+Holzer = Annotated[
+    list[float] | None,
+    typer.Option(
+        "--holzer",
+        metavar="HZ",
+        help="Holzer's table at this frequency. May be given again.",
+        show_default=False,
+    ),
+]
+
+
+def torsion(
+    file: File, set: Sets = None, json: Json = False, holzer: Holzer = None, out: Folder = None
+) -> None:
+    """Torsional vibration of a train: natural frequencies, mode shapes, nodes, energy."""
+    from linkwright.analysis.torsion.free import free_vibration
+    from linkwright.analysis.torsion.holzer import holzer_table
+    from linkwright.files.read import read
+
+    machine = read(file, set or [])
+    if machine.train is None:
+        raise InputError(
+            f"{file}: the machine has no [train]; describe one as [train.discs] and [train.shafts]"
+        )
+    found = free_vibration(machine)
+    tables = [holzer_table(machine, frequency) for frequency in holzer or ()]
+    shown = _object(machine.name, found, tables)
+    if json:
+        typer.echo(shown, nl=False)
+    else:
+        _print(found, tables)
+    if out is not None:
+        _write(found, shown, out, quiet=json)
+
+
+def _object(name: str, found: FreeVibration, tables: list[HolzerTable]) -> str:
+    """One JSON object."""
+    from json import dumps
+
+    from linkwright.analysis.result import finite
+
+    free = found.to_dict(curves=True)
+    free["nodes"] = [[node._asdict() for node in nodes] for nodes in found.nodes]
+    results: dict[str, Any] = {"free": free}
+    if tables:
+        results["holzer"] = [each.to_dict(curves=True) for each in tables]
+    told: dict[str, Any] = {"machine": name, "results": finite(results), "findings": [], "warnings": []}
+    return dumps(told, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def _print(found: FreeVibration, tables: list[HolzerTable]) -> None:
+    """Tables for people."""
+    from linkwright.cli.tables import print_tables
+    from linkwright.report.torsion_tables import holzer_tables, torsion_tables
+
+    shown = [*torsion_tables(found), *(each for table in tables for each in holzer_tables(table))]
+    print_tables("", shown, ())
+
+
+def _write(found: FreeVibration, shown: str, folder: Path, *, quiet: bool) -> None:
+    """Results and figure; says where they are."""
+    from linkwright.plot import modes_figure, svg
+
+    figure = modes_figure(found)
+    names = ("results.json", "mode_shapes.svg", "mode_shapes.png")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / names[0]).write_text(shown, encoding="utf-8")
+        (folder / names[1]).write_text(svg(figure), encoding="utf-8")
+        figure.savefig(folder / names[2], dpi=150)
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
+    typer.echo("Written:\n" + "\n".join(f"  {folder / name}" for name in names), err=quiet)

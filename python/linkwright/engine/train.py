@@ -1,0 +1,167 @@
+r"""A train in the core's terms: referred to one speed, discs behind rigid gears taken together.
+
+Each disc turns n times as fast as the first, θ = n q. With that, inertias and stiffnesses count by n²,
+
+.. math:: J_q = \sum n^2 J, \qquad k_q = n^2 k
+
+and a shaft carries k_q (q_a − q_b) whatever gears lie elsewhere. Discs behind rigid gears share one q: they
+are one *mass*. Shafts in parallel add up. What is left is a tree, which is the core's, or has loops, as a
+shaft held at both ends has; then the matrices are solved as a whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright import _core
+from linkwright.machine.train import GROUND, Train
+from linkwright.machine.train_speeds import parts_of, speeds
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+
+# The mass that is held, in `ReferredTrain.ends`.
+HELD = -1
+
+
+@dataclass(frozen=True)
+class ReferredTrain:
+    """A train referred to the speed of its first disc.
+
+    Attributes
+    ----------
+    discs : tuple of str
+        In the order of the file.
+    shafts : tuple of str
+        What twists: shafts, then elastic meshes, in the order of the file.
+    speed : ndarray, shape (discs,)
+        n, speed of each disc over that of the first, without its sense.
+    mass : ndarray of int, shape (discs,)
+        Mass that each disc belongs to.
+    ends : ndarray of int, shape (shafts, 2)
+        Masses that each shaft joins; `HELD` for the ground.
+    tip : ndarray of int, shape (shafts, 2)
+        Discs that each shaft joins, likewise.
+    inertia : ndarray, shape (masses,)
+        Referred [kg m²].
+    stiffness : ndarray, shape (shafts,)
+        Referred [N m/rad].
+    """
+
+    discs: tuple[str, ...]
+    shafts: tuple[str, ...]
+    speed: Floats
+    mass: Ints
+    ends: Ints
+    tip: Ints
+    inertia: Floats
+    stiffness: Floats
+
+    @property
+    def is_free(self) -> bool:
+        """Whether it can turn as a whole."""
+        return not bool((self.ends == HELD).any())
+
+    @cached_property
+    def stiffness_matrix(self) -> Floats:
+        """K of the masses, shape (masses, masses) [N m/rad]."""
+        n = len(self.inertia)
+        K = np.zeros((n + 1, n + 1))
+        # The last row and column are those of the ground.
+        a, b = self.ends.T
+        np.add.at(K, (a, a), self.stiffness)
+        np.add.at(K, (b, b), self.stiffness)
+        np.add.at(K, (a, b), -self.stiffness)
+        np.add.at(K, (b, a), -self.stiffness)
+        return K[:n, :n]
+
+    def modes(self) -> tuple[Floats, Floats]:
+        """Natural frequencies [rad/s], increasing, and shapes of the masses, a row each, with Σ J q² = 1."""
+        tree = self._tree()
+        if tree is None:
+            return self._whole()
+        order, parent, stiffness = tree
+        omega, shapes = _core.torsion_modes(parent, self.inertia[order], stiffness)
+        return omega, shapes[:, np.argsort(order)]
+
+    def _tree(self) -> tuple[Ints, Ints, Floats] | None:
+        """Masses in an order in which each hangs on an earlier one, and by how much; None with loops."""
+        joined = self._joined()
+        held = {a: k for (a, b), k in joined.items() if a == HELD or b == HELD for a in (max(a, b),)}
+        about: dict[int, dict[int, float]] = {n: {} for n in range(len(self.inertia))}
+        for (a, b), k in joined.items():
+            if HELD not in (a, b):
+                about[a][b] = about[b][a] = k
+        if len(held) > 1 or len(joined) - len(held) != len(about) - 1:
+            return None
+        root = next(iter(held), 0)
+        rows = [(root, root, held.get(root, 0.0))]
+        place = {root: 0}
+        for at, _, _ in rows:
+            for below, k in about[at].items():
+                if below not in place:
+                    place[below] = len(rows)
+                    rows.append((below, at, k))
+        order, above, stiffness = zip(*rows, strict=True)
+        parent = [place[each] for each in above]
+        return np.array(order, np.int32), np.array(parent, np.int32), np.array(stiffness, float)
+
+    def _joined(self) -> dict[tuple[int, int], float]:
+        """Stiffness between masses, of shafts in parallel together, without what joins a mass with itself."""
+        found: dict[tuple[int, int], float] = {}
+        for (a, b), k in zip(self.ends.tolist(), self.stiffness.tolist(), strict=True):
+            if a != b:
+                pair = (min(a, b), max(a, b))
+                found[pair] = found.get(pair, 0.0) + k
+        return found
+
+    def _whole(self) -> tuple[Floats, Floats]:
+        """Modes from the matrices, for trains with loops."""
+        scale = 1.0 / np.sqrt(self.inertia)
+        square, vectors = np.linalg.eigh(scale[:, None] * self.stiffness_matrix * scale)
+        omega, shapes = np.sqrt(np.maximum(square, 0.0)), (scale[:, None] * vectors).T
+        if self.is_free:
+            omega[0], shapes[0] = 0.0, 1.0 / np.sqrt(self.inertia.sum())
+        return omega, shapes
+
+
+def refer(train: Train) -> ReferredTrain:
+    """A train referred to the speed of its first disc.
+
+    Parameters
+    ----------
+    train : Train
+        Checked: it hangs together, and its loops can turn.
+    """
+    n = {name: abs(speed) for name, speed in speeds(train)[0].items()}
+    rigid = [gear.between for gear in train.gears.values() if gear.stiffness is None]
+    masses = parts_of(train.discs, rigid)
+    place = {name: k for k, part in enumerate(masses) for name in part}
+    twisting = [(name, each.between, each.rate) for name, each in train.shafts.items()]
+    twisting += [
+        (name, each.between, each.stiffness)
+        for name, each in train.gears.items()
+        if each.stiffness is not None
+    ]
+    # What counts is the end of a shaft that turns, and the first disc of a mesh.
+    lead = [a if a != GROUND else b for _, (a, b), _ in twisting]
+    return ReferredTrain(
+        discs=tuple(train.discs),
+        shafts=tuple(name for name, _, _ in twisting),
+        speed=np.array(list(n.values())),
+        mass=np.array([place[name] for name in train.discs], np.int32),
+        ends=_indices([pair for _, pair, _ in twisting], place),
+        tip=_indices([pair for _, pair, _ in twisting], {name: k for k, name in enumerate(train.discs)}),
+        inertia=np.array([sum(n[a] ** 2 * train.discs[a].inertia for a in part) for part in masses]),
+        stiffness=np.array([n[a] ** 2 * k for a, (_, _, k) in zip(lead, twisting, strict=True)]),
+    )
+
+
+def _indices(pairs: list[tuple[str, str]], place: Mapping[str, int]) -> Ints:
+    """Places of both ends of each shaft."""
+    return np.array([[place.get(end, HELD) for end in pair] for pair in pairs], np.int32).reshape(-1, 2)

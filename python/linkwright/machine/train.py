@@ -1,0 +1,143 @@
+r"""A torsional train: discs that turn, elastic shafts between them, gear stages.
+
+A shaft of sections in a row has the compliance of all of them together,
+
+.. math:: \frac1k = \sum \frac{L}{G I_p}, \qquad I_p = \frac{\pi}{32} (d^4 - d_i^4)
+
+Angles of discs are counted in the sense in which each disc turns when the train runs, so that a gear stage
+does not change the sign of an amplitude. Whether a stage reverses the sense counts where stages close a loop.
+
+References
+----------
+.. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 3: stiffness of
+shafts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.machine.base import Checked, Description, Name, fault
+from linkwright.machine.element import PositiveLength, PositiveNumber
+from linkwright.units import INERTIA, LENGTH, PRESSURE, TORSIONAL_STIFFNESS, not_negative, positive
+
+# The end of a shaft that is held.
+GROUND = "ground"
+
+Modulus = Annotated[float, positive(PRESSURE)]
+PositiveStiffness = Annotated[float, positive(TORSIONAL_STIFFNESS)]
+
+
+class Disc(Description):
+    """A disc: all that turns with one place of the train."""
+
+    inertia: Annotated[float, positive(INERTIA)] = Field(description="About the axis, at its own speed.")
+
+
+class ShaftSection(Checked):
+    """A cylindrical length of a shaft, solid or hollow."""
+
+    length: PositiveLength = Field(description="Of the section.")
+    diameter: PositiveLength = Field(description="Outside.")
+    inner_diameter: Annotated[float, not_negative(LENGTH)] = Field(0.0, description="Of the bore.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.inner_diameter >= self.diameter:
+            expected = f"a bore smaller than the diameter, {self.diameter:.6g} m"
+            yield fault("inner_diameter", found=self.inner_diameter, expected=expected)
+
+    @property
+    def second_moment(self) -> float:
+        """Polar second moment of area I_p [m⁴]."""
+        # Written as a product, so that thin tubes lose no digits.
+        d, b = self.diameter, self.inner_diameter
+        return math.pi / 32 * (d - b) * (d + b) * (d**2 + b**2)
+
+
+class Shaft(Checked):
+    """An elastic shaft between two discs, or between a disc and the ground."""
+
+    between: tuple[str, str] = Field(
+        description='The two discs that it joins; one end may be "ground", which is held.'
+    )
+    stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
+    sections: tuple[ShaftSection, ...] | None = Field(
+        None, description="Its cylindrical lengths in a row, from its first end, in place of the stiffness."
+    )
+    shear_modulus: Modulus = Field(79.3e9, description="Of the sections; usually that of steel.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if (self.stiffness is None) == (self.sections is None):
+            found = "neither" if self.stiffness is None else "both"
+            yield fault(found=found, expected="either stiffness or sections")
+        if self.sections is not None and not self.sections:
+            yield fault("sections", found="an empty list", expected="a list of at least one section")
+
+    @property
+    def compliances(self) -> tuple[float, ...]:
+        """Twist per torque of each section; of the whole where a stiffness is given [rad/(N m)]."""
+        if self.sections is None:
+            assert self.stiffness is not None
+            return (1.0 / self.stiffness,)
+        return tuple(each.length / (self.shear_modulus * each.second_moment) for each in self.sections)
+
+    @property
+    def rate(self) -> float:
+        """Torque per twist, given or of the sections [N m/rad]."""
+        return self.stiffness if self.stiffness is not None else 1.0 / math.fsum(self.compliances)
+
+    def distance(self, share: float) -> float | None:
+        """How far from the first end a share of the twist lies [m]; None without sections."""
+        if self.sections is None:
+            return None
+        left, along = share * math.fsum(self.compliances), 0.0
+        for section, compliance in zip(self.sections, self.compliances, strict=True):
+            if left <= compliance:
+                return along + section.length * left / compliance
+            left, along = left - compliance, along + section.length
+        return along
+
+
+class TrainGear(Checked):
+    """A gear stage between two discs, rigid, or elastic in its mesh."""
+
+    between: tuple[str, str] = Field(description="The two discs that it joins.")
+    ratio: PositiveNumber | None = Field(None, description="Speed of the first disc over that of the second.")
+    teeth: tuple[PositiveNumber, PositiveNumber] | None = Field(
+        None, description="Of the first and of the second gear, in place of the ratio."
+    )
+    kind: Literal["external", "internal", "belt", "crossed_belt"] = Field(
+        "external",
+        description="External gears and a crossed belt reverse the sense, which matters where stages close a "
+        "loop.",
+    )
+    stiffness: PositiveStiffness | None = Field(
+        None, description="Of the mesh, as torque at the first disc per its angle. Without it, rigid."
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if (self.ratio is None) == (self.teeth is None):
+            found = "neither" if self.ratio is None else "both"
+            yield fault(found=found, expected="either ratio or teeth")
+
+    @property
+    def speed_ratio(self) -> float:
+        """Speed of the first disc over that of the second, negative where the sense is reversed."""
+        size = self.ratio
+        if size is None:
+            assert self.teeth is not None
+            size = self.teeth[1] / self.teeth[0]
+        return -size if self.kind in ("external", "crossed_belt") else size
+
+
+class Train(Description):
+    """Discs, shafts and gear stages by name."""
+
+    discs: dict[Name, Disc] = Field(default_factory=dict, description="What turns, by name.")
+    shafts: dict[Name, Shaft] = Field(default_factory=dict, description="What twists, by name.")
+    gears: dict[Name, TrainGear] = Field(default_factory=dict, description="Gear stages by name.")

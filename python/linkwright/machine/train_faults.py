@@ -1,0 +1,101 @@
+"""What is wrong with a train as a whole: names that mean nothing, parts that do not hang together, loops."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from pydantic_core import InitErrorDetails
+
+from linkwright.machine.base import close_match, fault, suggestion
+from linkwright.machine.plain import keys, look
+from linkwright.machine.train import GROUND, Train
+from linkwright.machine.train_speeds import Contradiction, parts_of, speeds
+
+_TABLES = ("shafts", "gears")
+
+
+def train_faults(train: object) -> Iterator[InitErrorDetails]:
+    """Faults between the parts of a train.
+
+    Parameters
+    ----------
+    train : object
+        A `Train`, or the raw table of a file; None for a machine without a train.
+
+    Yields
+    ------
+    InitErrorDetails
+        Each with its keys from the machine down.
+    """
+    if train is None:
+        return
+    discs = keys(look(train, "discs")) if isinstance(look(train, "discs"), dict) else ()
+    if not discs:
+        remedy = 'describe what turns as [train.discs], NAME = { inertia = "2 kg m^2" }'
+        yield fault("train", "discs", expected="at least one disc", remedy=remedy)
+        return
+    if GROUND in discs:
+        remedy = "it is the word for what is held"
+        yield fault("train", "discs", GROUND, found=GROUND, expected="another name", remedy=remedy)
+    wrong = list(_name_faults(train, discs))
+    yield from wrong
+    if wrong:
+        return
+    yield from _parts_faults(train, discs)
+    if isinstance(train, Train):
+        yield from map(_loop_fault, speeds(train)[1])
+
+
+def _pairs(train: object, table: str) -> Iterator[tuple[str, Sequence[str]]]:
+    """Name and ends of each connection of a table that has two of them."""
+    node = look(train, table)
+    for name in keys(node):
+        ends = look(look(node, name), "between")
+        if isinstance(ends, list | tuple) and len(ends) == 2 and all(isinstance(end, str) for end in ends):
+            yield name, ends
+
+
+def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
+    """Ends that are no discs, and connections of a disc with itself."""
+    for table in _TABLES:
+        known = (*discs, GROUND) if table == "shafts" else discs
+        for name, ends in _pairs(train, table):
+            place = ("train", table, name, "between")
+            for n, end in enumerate(ends):
+                if end == GROUND and table == "gears":
+                    remedy = "hold a disc by a shaft to the ground"
+                    yield fault(*place, n, found=end, expected="the name of a disc", remedy=remedy)
+                elif end not in known:
+                    remedy = close_match(end, known) or suggestion(end, discs)
+                    yield fault(*place, n, found=end, expected="the name of a disc", remedy=remedy)
+            if ends[0] == ends[1]:
+                yield fault(*place, 1, found=ends[1], expected="another disc than the first")
+
+
+def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
+    """A train that falls apart; what hangs on the ground alone hangs together with nothing."""
+    pairs = [(a, b) for table in _TABLES for _, (a, b) in _pairs(train, table) if GROUND not in (a, b)]
+    parts = parts_of(discs, pairs)
+    if len(parts) > 1:
+        found = "; ".join(_listed(part) for part in parts[:4]) + ("; …" if len(parts) > 4 else "")
+        remedy = "join them by shafts or gears, or describe each as a train of its own file"
+        expected = "one train that hangs together"
+        yield fault("train", found=f"{len(parts)} parts: {found}", expected=expected, remedy=remedy)
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Names in a row, not too many."""
+    return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+
+
+def _loop_fault(wrong: Contradiction) -> InitErrorDetails:
+    """A loop that cannot turn."""
+    remedy = "the other way around the loop must give the same ratio, with its sense"
+    return fault(
+        "train",
+        wrong.table,
+        wrong.name,
+        found=f"ratio {wrong.wanted:.6g}, where the rest of the loop gives {wrong.found:.6g}",
+        expected="a loop that can turn",
+        remedy=remedy,
+    )
