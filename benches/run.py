@@ -26,6 +26,7 @@ CASES = (
     "general_many",
     "cam_one",
     "cams_many",
+    "torsion_modes",
     "start_up",
 )
 

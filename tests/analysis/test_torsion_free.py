@@ -10,7 +10,7 @@ from scipy.linalg import eigh
 from trains import Gear, Shaft, matrices, omega, text, train
 
 import linkwright as lw
-from linkwright.errors import FindingError, InputError
+from linkwright.errors import FindingError, InputError, MachineError
 
 # Rounding of closed forms over a few operations.
 ROUNDING = 1e-13
@@ -231,6 +231,35 @@ def test_one_disc_on_a_shaft_to_the_ground() -> None:
 def test_a_machine_without_train() -> None:
     with pytest.raises(InputError, match=r"no \[train\]"):
         lw.free_vibration(lw.loads('format = 1\nname = "x"\n[mechanism]\n'))
+
+
+@pytest.mark.parametrize("value", [np.array([1.0, 2.0]), float("nan"), -1.0, 0.0])
+@pytest.mark.parametrize("key", ["discs.a.inertia", "shafts.s0.stiffness", "gears.g0.ratio"])
+def test_entries_exchanged_unchecked(key: str, value: object) -> None:
+    machine = lw.loads(text({"a": 2.0, "b": 1.0}, [("ground", "a", 18.0)], [("a", "b", 2.0, None)]))
+    with pytest.raises(MachineError, match=key.rsplit(".", 1)[0]):
+        lw.free_vibration(lw.replace(machine, {f"train.{key}": value}))
+
+
+def test_rigid_train_and_single_disc() -> None:
+    """Nothing twists: the motion as a whole alone."""
+    single = train({"a": 2.0}, [])
+    assert (single.natural_frequencies, single.mode_shapes) == ([0.0], [[1.0]])
+    rigid = train({"a": 2.0, "b": 1.0}, [], [("a", "b", 0.5, None)])
+    assert rigid.natural_frequencies == pytest.approx([0.0])
+    assert rigid.mode_shapes == pytest.approx(np.array([[0.5, 1.0]]))
+    assert rigid.twists.shape == (1, 0)
+
+
+def test_a_loop_of_stages_that_can_turn() -> None:
+    """A pinion between two idlers that drive one wheel: both ways give the same ratio."""
+    discs = {"pinion": 0.1, "left": 0.3, "right": 0.3, "wheel": 5.0, "load": 7.0}
+    gears: list[Gear] = [("pinion", "left", 2.0, 4e5), ("pinion", "right", 2.0, 4e5)]
+    gears += [("left", "wheel", 3.0, 9e5), ("right", "wheel", 3.0, 9e5)]
+    shafts: list[Shaft] = [("wheel", "load", 2e5)]
+    J, K = matrices(discs, shafts, gears)
+    wanted = np.sqrt(np.maximum(eigh(K, J, eigvals_only=True), 0))
+    assert omega(train(discs, shafts, gears)) == pytest.approx(wanted, rel=1e-9, abs=1e-3)
 
 
 def test_a_train_alone_has_no_crank() -> None:

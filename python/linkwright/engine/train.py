@@ -14,11 +14,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Real
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright import _core
+from linkwright.errors import MachineError, Problem
 from linkwright.machine.train import GROUND, Train
 from linkwright.machine.train_speeds import parts_of, speeds
 
@@ -92,10 +94,10 @@ class ReferredTrain:
     def _tree(self) -> tuple[Ints, Ints, Floats] | None:
         """Masses in an order in which each hangs on an earlier one, and by how much; None with loops."""
         joined = self._joined()
-        held = {a: k for (a, b), k in joined.items() if a == HELD or b == HELD for a in (max(a, b),)}
+        held = {b: k for (a, b), k in joined.items() if a == HELD}
         about: dict[int, dict[int, float]] = {n: {} for n in range(len(self.inertia))}
         for (a, b), k in joined.items():
-            if HELD not in (a, b):
+            if a != HELD:
                 about[a][b] = about[b][a] = k
         if len(held) > 1 or len(joined) - len(held) != len(about) - 1:
             return None
@@ -137,7 +139,13 @@ def refer(train: Train) -> ReferredTrain:
     ----------
     train : Train
         Checked: it hangs together, and its loops can turn.
+
+    Raises
+    ------
+    MachineError
+        An entry that was exchanged unchecked is no number above zero.
     """
+    _require_numbers(train)
     n = {name: abs(speed) for name, speed in speeds(train)[0].items()}
     rigid = [gear.between for gear in train.gears.values() if gear.stiffness is None]
     masses = parts_of(train.discs, rigid)
@@ -160,6 +168,22 @@ def refer(train: Train) -> ReferredTrain:
         inertia=np.array([sum(n[a] ** 2 * train.discs[a].inertia for a in part) for part in masses]),
         stiffness=np.array([n[a] ** 2 * k for a, (_, _, k) in zip(lead, twisting, strict=True)]),
     )
+
+
+def _require_numbers(train: Train) -> None:
+    """Refuse arrays over many machines, and numbers that no train has."""
+    entries = {f"train.discs.{name}.inertia": each.inertia for name, each in train.discs.items()}
+    entries |= {f"train.shafts.{name}": each.rate for name, each in train.shafts.items()}
+    for name, gear in train.gears.items():
+        entries |= {f"train.gears.{name}.ratio": abs(gear.speed_ratio)}
+        entries |= {f"train.gears.{name}.stiffness": 1.0 if gear.stiffness is None else gear.stiffness}
+    wrong = [
+        Problem(key, f"{value!r}", "one finite number above zero")
+        for key, value in entries.items()
+        if not isinstance(value, Real) or not 0 < value < np.inf
+    ]
+    if wrong:
+        raise MachineError(wrong)
 
 
 def _indices(pairs: list[tuple[str, str]], place: Mapping[str, int]) -> Ints:

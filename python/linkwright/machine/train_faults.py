@@ -37,13 +37,21 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
     if GROUND in discs:
         remedy = "it is the word for what is held"
         yield fault("train", "discs", GROUND, found=GROUND, expected="another name", remedy=remedy)
-    wrong = list(_name_faults(train, discs))
+        return
+    wrong = [*_same_names(train), *_name_faults(train, discs)]
     yield from wrong
     if wrong:
         return
     yield from _parts_faults(train, discs)
     if isinstance(train, Train):
         yield from map(_loop_fault, speeds(train)[1])
+
+
+def _same_names(train: object) -> Iterator[InitErrorDetails]:
+    """A gear stage with the name of a shaft: results name both alike."""
+    for name in keys(look(train, "gears")):
+        if name in keys(look(train, "shafts")):
+            yield fault("train", "gears", name, found=name, expected="another name than that of a shaft")
 
 
 def _pairs(train: object, table: str) -> Iterator[tuple[str, Sequence[str]]]:

@@ -1,0 +1,116 @@
+"""``linkwright torsion``: JSON, tables, files, errors."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import Result
+from typer.testing import CliRunner
+
+from linkwright.cli import application
+from linkwright.files import dumps, loads
+
+TRAIN = """
+format = 1
+name = "Motor, gear and pump"
+[train.discs]
+motor = { inertia = "2 kg m^2" }
+pinion = { inertia = "0.1 kg m^2" }
+wheel = { inertia = "1.6 kg m^2" }
+pump = { inertia = "8 kg m^2" }
+[train.shafts]
+fast = { between = ["motor", "pinion"], stiffness = "1e5 N m/rad" }
+slow = { between = ["wheel", "pump"], sections = [{ length = "1 m", diameter = "90 mm" }] }
+[train.gears]
+stage = { between = ["pinion", "wheel"], teeth = [20, 80] }
+"""
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> str:
+    path = tmp_path / "train.toml"
+    path.write_text(TRAIN, encoding="utf-8")
+    return str(path)
+
+
+def run(*words: str) -> Result:
+    return CliRunner().invoke(application(), ["torsion", *words])
+
+
+def test_json(file: str) -> None:
+    result = run(file, "--json")
+    assert result.exit_code == 0
+    free = json.loads(result.stdout)["results"]["free"]
+    k = 79.3e9 * np.pi / 32 * 0.09**4 / 16
+    J = np.array([2.0, 0.1 + 1.6 / 16, 8.0 / 16])
+    K = np.array([[1e5, -1e5, 0], [-1e5, 1e5 + k, -k], [0, -k, k]])
+    square = np.linalg.eigvalsh(K / np.sqrt(np.outer(J, J)))
+    assert free["natural_frequencies"][0] == 0
+    assert free["natural_frequencies"][1:] == pytest.approx(np.sqrt(square[1:]) / (2 * np.pi), rel=1e-10)
+    assert free["discs"] == ["motor", "pinion", "wheel", "pump"]
+    assert free["mode_shapes"][0] == pytest.approx([1, 1, 0.25, 0.25])
+    assert [len(shape) for shape in free["mode_shapes"]] == [4, 4, 4]
+    assert [len(nodes) for nodes in free["nodes"]] == [0, 1, 2]
+    assert free["nodes"][1][0].keys() == {"at", "share", "distance"}
+
+
+def test_set(file: str) -> None:
+    plain = json.loads(run(file, "--json").stdout)["results"]["free"]["natural_frequencies"]
+    sets = ["discs.motor.inertia=8", "discs.pinion.inertia=0.4", "discs.wheel.inertia=6.4"]
+    sets += ["discs.pump.inertia=32 kg m^2"]
+    words = [word for each in sets for word in ("--set", f"train.{each}")]
+    heavy = json.loads(run(file, "--json", *words).stdout)["results"]["free"]["natural_frequencies"]
+    assert heavy[1:] == pytest.approx([f / 2 for f in plain[1:]], rel=1e-12)
+
+
+def test_tables(file: str) -> None:
+    result = run(file, "--holzer", "30")
+    assert result.exit_code == 0
+    for words in ("Natural frequencies", "turns as a whole", "Mode shapes", "Holzer's table at 30 Hz"):
+        assert words in result.stdout
+
+
+def test_out(file: str, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    result = run(file, "--json", "--holzer", "30", "--out", str(out))
+    assert result.exit_code == 0
+    assert (out / "results.json").read_text(encoding="utf-8") == result.stdout
+    assert json.loads(result.stdout)["results"]["holzer"][0]["frequency"] == 30
+    assert (out / "mode_shapes.svg").read_text(encoding="utf-8").startswith("<svg")
+    assert (out / "mode_shapes.png").stat().st_size > 5000
+
+
+def test_wrong_train(file: str) -> None:
+    result = run(file, "--set", "train.discs.motor.inertia=0")
+    assert result.exit_code == 2
+    assert "train.discs.motor.inertia" in result.stderr
+
+
+def test_machine_without_train(tmp_path: Path) -> None:
+    path = tmp_path / "crank.toml"
+    path.write_text('format = 1\nname = "x"\n[mechanism.cranks.A]\nradius = 0.1\n', encoding="utf-8")
+    result = run(str(path))
+    assert result.exit_code == 2
+    assert "[train]" in result.stderr
+
+
+@pytest.mark.parametrize("command", ["run", "motion", "forces", "size"])
+def test_a_train_has_no_mechanism(file: str, command: str) -> None:
+    words = ["--speed", "10 rad/s"] if command == "forces" else []
+    result = CliRunner().invoke(application(), [command, file, *words])
+    assert result.exit_code == 2
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+
+
+def test_check_names_the_parts(file: str) -> None:
+    result = CliRunner().invoke(application(), ["check", file])
+    assert result.exit_code == 0
+    assert "motor, pinion, wheel, pump" in result.stdout
+
+
+def test_written_train_reads_back() -> None:
+    machine = loads(TRAIN)
+    assert loads(dumps(machine)) == machine
