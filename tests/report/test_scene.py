@@ -14,7 +14,12 @@ from linkwright.analysis.study import study
 from linkwright.files import loads, read, template, templates
 from linkwright.report.scene import scene
 
-GALLERY = sorted((Path(__file__).parents[2] / "examples").glob("*/machine.toml"))
+# A torsional train has no mechanism to be drawn.
+GALLERY = [
+    path
+    for path in sorted((Path(__file__).parents[2] / "examples").glob("*/machine.toml"))
+    if not read(path).is_train_alone
+]
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 
 

@@ -175,7 +175,8 @@ def _require_numbers(train: Train) -> None:
     entries = {f"train.discs.{name}.inertia": each.inertia for name, each in train.discs.items()}
     entries |= {f"train.shafts.{name}": each.rate for name, each in train.shafts.items()}
     for name, gear in train.gears.items():
-        entries |= {f"train.gears.{name}.ratio": abs(gear.speed_ratio)}
+        ratio = gear.ratio if gear.ratio is not None else abs(gear.speed_ratio)
+        entries |= {f"train.gears.{name}.ratio": ratio}
         entries |= {f"train.gears.{name}.stiffness": 1.0 if gear.stiffness is None else gear.stiffness}
     wrong = [
         Problem(key, f"{value!r}", "one finite number above zero")
