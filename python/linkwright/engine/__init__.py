@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
+from linkwright.engine.core_format import check_format
 from linkwright.engine.elements import Rows
 from linkwright.engine.settle import Settled
 from linkwright.errors import MachineError, Problem, ShapeError
@@ -49,6 +50,8 @@ from linkwright.machine import (
 from linkwright.machine.outline import KINDS
 
 Floats = NDArray[np.float64]
+
+check_format(_core)
 
 # Crank speed from which steady motion is sought when nothing in the machine suggests one [rad/s].
 _SPEED_UNKNOWN = 10.0

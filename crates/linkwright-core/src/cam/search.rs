@@ -95,7 +95,7 @@ impl Chunk<'_> {
             least = least.min(contact.bend);
         }
         // Dimensions that do not go together gave NaN everywhere, which min and max pass over.
-        let nan = cam.start - cam.start;
+        let nan = cam.start * 0.0;
         [lead + nan, sound + nan, most + nan, least + nan]
     }
 }

@@ -71,6 +71,23 @@ impl Cam<f64> {
         [[p.x.c[0], p.y.c[0]], [p.x.c[1], p.y.c[1]], [2.0 * p.x.c[2], 2.0 * p.y.c[2]]]
     }
 
+    /// All rows at cam angles, at a joint from after it, or from `before`: row by row into `to`.
+    pub fn rows(&self, law: &MotionLaw, phi: &[f64], before: bool, to: &mut [f64]) {
+        row_by_row(phi, to, |phi| {
+            let (piece, at) = law.piece(phi, before);
+            self.row(piece, at)
+        });
+    }
+
+    /// The same of a curve `away` from the pitch curve: x, y, and their first and second derivatives.
+    pub fn curves(&self, law: &MotionLaw, phi: &[f64], before: bool, away: f64, to: &mut [f64]) {
+        row_by_row(phi, to, |phi| {
+            let (piece, at) = law.piece(phi, before);
+            let [[x, y], [x1, y1], [x2, y2]] = self.curve(piece, at, away);
+            [x, y, x1, y1, x2, y2]
+        });
+    }
+
     /// A quantity and its derivative by the cam angle.
     fn quantity(&self, what: Quantity, piece: &Piece, phi: f64) -> (f64, f64) {
         let cam = self.map(Dual::constant);
@@ -133,6 +150,15 @@ impl<R: Real> Cam<R> {
         let gamma = contact.lead.y.atan2(contact.lead.x);
         let sound = self.soundness(&contact);
         [s, s1, s2, s3, pitch.x, pitch.y, normal.x, normal.y, gamma, contact.bend, sound, contact.along]
+    }
+}
+
+/// The numbers of each angle as columns of N rows end to end.
+fn row_by_row<const N: usize>(phi: &[f64], to: &mut [f64], numbers: impl Fn(f64) -> [f64; N]) {
+    for (i, &phi) in phi.iter().enumerate() {
+        for (k, x) in numbers(phi).into_iter().enumerate() {
+            to[k * (to.len() / N) + i] = x;
+        }
     }
 }
 
