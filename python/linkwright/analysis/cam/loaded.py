@@ -5,10 +5,13 @@ The normal force N comes from the equilibrium of the whole machine (`linkwright.
 bodies, loads and guides. Where it is negative the first contact would have to pull: a second follower, a
 second cam or the outer flank of a groove takes over; a follower that only a spring closes leaves the cam.
 
-With forces that do not depend on the speed, and inertia that goes with its square, :math:`N = N_0 + \omega^2
-N_2`, the follower leaves the cam at
+With dampers that resist in proportion to the speed, and inertia that goes with its square, the follower leaves
+the cam at
 
-.. math:: \omega_\mathrm{off} = \min_{N_2 < 0}\sqrt{N_0/(-N_2)}
+.. math:: \omega_\mathrm{off} = \min_\varphi\{\omega > 0 : N_0 + N_1\omega + N_2\omega^2 = 0\}, \qquad
+    N_1 = 0: \ \omega_\mathrm{off} = \min_{N_2 < 0}\sqrt{N_0/(-N_2)}
+
+Loads that depend on the speed in another way count as this parabola through their values at 1, 2 and 3 rad/s.
 
 References
 ----------
@@ -17,13 +20,13 @@ References
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.cam.hertz import LineContact, Material, line_contact
+from linkwright.analysis.cam.lift_off import speed_of_loss
 from linkwright.analysis.cam.profile import CamProfile, Flank
 from linkwright.analysis.forces import forces
 from linkwright.analysis.kinetostatics.result import Forces
@@ -35,6 +38,9 @@ Floats = NDArray[np.float64]
 
 # A force below this share of the largest is none: rounding must not decide which side carries.
 _NOTHING = 1e-9
+
+# Rounding of a force that is a difference of forces of this share.
+_ROUNDING = 1e-12
 
 # Angles a turn at which the speed of losing contact is looked for; then so many in the two intervals about
 # the least, each time, until the angle is good to a millionth of a radian, and the speed, flat there, to
@@ -166,26 +172,32 @@ def _speed_lost(machine: Machine, profile: CamProfile) -> tuple[float, float] | 
     """Speed at which contact is lost, and the crank angle, looked at closer and closer."""
     samples = np.linspace(0, 2 * np.pi, _ANGLES)
     angles = profile.cam.phase + np.unique(np.concatenate((profile.cam.lift.breaks, samples)))
-    square, at = _least_square(machine, profile, angles)
-    if not np.isfinite(square):
+    speed, at = _least_speed(machine, profile, angles)
+    if not np.isfinite(speed):
         return None
     width = float(samples[1])
     for _ in range(_ROUNDS):
-        nearer = _least_square(machine, profile, at + width * np.linspace(-1, 1, _CLOSER))
-        square, at = min((square, at), nearer)
+        nearer = _least_speed(machine, profile, at + width * np.linspace(-1, 1, _CLOSER))
+        speed, at = min((speed, at), nearer)
         width *= 4 / _CLOSER
-    return math.sqrt(max(square, 0.0)), at
+    return speed, at
 
 
-def _least_square(machine: Machine, profile: CamProfile, angles: Floats) -> tuple[float, float]:
-    """Least ω² at which contact is lost, and its angle, from forces at two speeds; else infinite."""
-    slow, fast = (forces(machine, speed=speed, angles=angles).drives[profile.name] for speed in (1.0, 2.0))
-    by_square = (fast - slow) / 3.0
-    still = slow - by_square
-    losing = by_square < -_NOTHING * max(float(np.abs(by_square).max()), 1e-300)
-    squares = np.where(losing, still / np.where(losing, -by_square, 1.0), np.inf)
-    at = int(np.argmin(squares))
-    return float(squares[at]), float(angles[at])
+def _least_speed(machine: Machine, profile: CamProfile, angles: Floats) -> tuple[float, float]:
+    """Least ω at which contact is lost, and its angle, from forces at three speeds; else infinite."""
+    one, two, three = (
+        forces(machine, speed=speed, angles=angles).drives[profile.name] for speed in (1.0, 2.0, 3.0)
+    )
+    square = 0.5 * (three - 2 * two + one)
+    linear = two - one - 3 * square
+    still = one - linear - square
+    size = float(np.abs(three).max())
+    least = max(_NOTHING * float(np.abs(square).max()), _ROUNDING * size)
+    losing = (square < -least) | (linear < -_NOTHING * size)
+    speeds = np.where(still > 0, speed_of_loss(still, linear, square), 0.0)
+    speeds = np.where(losing, speeds, np.inf)
+    at = int(np.argmin(speeds))
+    return float(speeds[at]), float(angles[at])
 
 
 def _hertz(
@@ -199,8 +211,10 @@ def _hertz(
     first = profile.flanks[0]
     pulled = _outer(first, rows[0]) if len(rows) == 1 else _inner(profile.flanks[1], rows[1])
     pushed = _inner(first, rows[0])
-    radius, roller = (np.where(force >= 0, a, b) for a, b in zip(pushed, pulled, strict=True))
     carried = np.abs(force) if cam.closure != "spring" else np.maximum(force, 0.0)
+    # A follower that only a spring closes has no other side that could carry.
+    pushes = (force >= 0) | (cam.closure == "spring")
+    radius, roller = (np.where(pushes, a, b) for a, b in zip(pushed, pulled, strict=True))
     try:
         return line_contact(carried, radius, roller, cam.width, material, material), ()
     except FindingError as error:
