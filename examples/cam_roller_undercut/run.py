@@ -1,7 +1,8 @@
 """How large may the roller of a cam be, and how small the base circle?
 
-The profile lies the roller's radius r inside the pitch curve, the path of the roller's centre. Where the pitch
-curve is bent more than 1/r, the profile turns back on itself: the roller cuts away what it should ride on.
+The profile lies the roller's radius r inside the pitch curve, the path of the roller's centre. Where the
+pitch curve is bent more than 1/r, the profile turns back on itself: the roller cuts away what it should ride
+on.
 
 Source: Norton, Cam Design and Manufacturing Handbook, 2nd ed., section 7.4.
 """

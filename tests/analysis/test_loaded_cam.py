@@ -1,4 +1,4 @@
-"""Cams in their machines: speed of losing contact against the laws of the follower alone, pressure by Hertz."""
+"""Cams in their machines: the speed of losing contact against the follower alone, pressure by Hertz."""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@
 | `zeros` | all zeros of a smooth function |
 | `linear_system` | exact linear equations for the unknowns of a law |
 | `rest_to_rest` | a law from the course of its acceleration |
-| `parabolic`, `harmonic`, `sine_series` | constant velocity and parabola; harmonic; cycloidal, Gutman, Freudenstein |
+| `parabolic`, `harmonic`, `sine_series` | laws of one power, of cosines, of a few sines |
 | `modified_sine`, `modified_trapezoid` | accelerations of sines and constants |
 | `polynomial`, `optimal`, `least_peak` | by boundary conditions; of least integral; of least peak |
 | `ramps`, `start_and_stop`, `limited` | ramps; start, constant velocity and braking; by limits |

@@ -1,7 +1,7 @@
 r"""The lift that moves an elastic follower exactly by a wanted law at one speed.
 
-For one mass on a train of stiffness k without damper of its own, with a closing spring k_r and a damper to the
-frame,
+For one mass on a train of stiffness k without damper of its own, with a closing spring k_r and a damper to
+the frame,
 
 .. math:: s = \frac1\kappa\left(x + 2\zeta_f\frac{\omega}{\Omega}\,x' + \frac{\omega^2}{\Omega^2}\,x''\right),
     \qquad \kappa = \frac{k}{k + k_r}, \qquad \Omega^2 = \frac{k + k_r}{m}

@@ -249,7 +249,7 @@ def contacts(cam: Cam, points: dict[str, FixedPoint], name: str = "cam") -> tupl
         Dimensions vary from machine to machine.
     """
     size = sizes(cam, points)
-    if any(np.ndim(each) for each in size):
+    if any(np.ndim(each) for each in (*size, *(value for _, value in cam if not isinstance(value, tuple)))):
         raise ShapeError(
             f"the profile of cam {name} is that of one machine, and the entries describe several"
         )

@@ -5,8 +5,8 @@ The normal force N comes from the equilibrium of the whole machine (`linkwright.
 bodies, loads and guides. Where it is negative the first contact would have to pull: a second follower, a
 second cam or the outer flank of a groove takes over; a follower that only a spring closes leaves the cam.
 
-With dampers that resist in proportion to the speed, and inertia that goes with its square, the follower leaves
-the cam at
+With dampers that resist in proportion to the speed, and inertia that goes with its square, the follower
+leaves the cam at
 
 .. math:: \omega_\mathrm{off} = \min_\varphi\{\omega > 0 : N_0 + N_1\omega + N_2\omega^2 = 0\}, \qquad
     N_1 = 0: \ \omega_\mathrm{off} = \min_{N_2 < 0}\sqrt{N_0/(-N_2)}
