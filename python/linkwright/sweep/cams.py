@@ -1,6 +1,7 @@
 """Thousands to millions of cams that differ in law, radii, offset or lift: which keep their limits.
 
-Each cam is looked at at the same angles, in SIMD lanes; what is chosen in the end is looked at exactly.
+Of two contacts the first counts. Each cam is looked at at the same angles, in SIMD lanes; what is chosen in
+the end is looked at exactly.
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ ENTRIES = ("base_radius", "roller_radius", "offset", "distance", "arm_length", "
 
 _POSITIVE = ("base_radius", "distance", "arm_length")
 
-# Angles a turn at which cams are looked at: an extreme between them is missed by some 1e-5 of itself.
+# Angles a turn at which cams are looked at. An extreme between them is missed by up to (step)²/8 of its
+# second derivative: some 1e-4 of pressure angles, up to 1e-3 of the size of the cam in radii of curvature.
 PER_TURN = 360
 
 
@@ -181,8 +183,17 @@ def variant(machine: Machine, name: str, found: Cams, i: int) -> Machine:
     Returns
     -------
     Machine
-        A copy.
+        A copy; a cam that was given by its breadth has the base radius instead, if that was varied.
+
+    Raises
+    ------
+    InputError
+        The distance of the pivots was varied, which is no entry of the cam but a place of its pivot.
     """
+    if "distance" in found.entries:
+        raise InputError(
+            f"the distance of the pivots is no entry of cam {name}: move the point of its arm_pivot instead"
+        )
     cam = machine.mechanism.cams[name]
     if found.laws:
         law = found.laws[int(found.law[i])]
@@ -190,6 +201,8 @@ def variant(machine: Machine, name: str, found: Cams, i: int) -> Machine:
     entries: dict[str, Any] = {
         key: float(column[i]) for key, column in found.entries.items() if key != "lift_factor"
     }
+    if "base_radius" in entries:
+        entries["breadth"] = None
     factor = found.entries.get("lift_factor")
     if factor is not None:
         entries["sections"] = tuple(_times(each, float(factor[i])) for each in cam.sections)
