@@ -135,7 +135,7 @@ def _object(study: Study, written: list[Written], findings: list[str], *, curves
     results = {
         name: result.to_dict(curves=curves)
         for name, result in study.results().items()
-        if name.split(".")[0] in ("cam", "cam_force")
+        if name.startswith("cam")
     }
     files = [
         {

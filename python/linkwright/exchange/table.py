@@ -123,8 +123,7 @@ def _count(step: float) -> int:
         near = [360 / max(3, math.floor(n)), 360 / max(3, math.ceil(n))] if 0 < n < 1e9 else [1.0, 0.5]
         raise InputError(
             f"step of {math.degrees(step):.9g}°: expected a whole number of steps a turn, at least 3, such "
-            "as "
-            f"{near[0]:.6g}° or {near[1]:.6g}°"
+            f"as {near[0]:.6g}° or {near[1]:.6g}°"
         )
     return round(n)
 
@@ -216,6 +215,6 @@ def _refuse(file: File, rows: Table, radius: Floats) -> None:
     wrong = np.flatnonzero(~(off <= 1e-14 * np.abs(radius).max()))
     if wrong.size:
         raise ExchangeError(
-            f"{file}: line {wrong[0] + 2}: radius and polar angle are {1e3 * off[wrong[0]]:.3g} mm from x "
-            "and y"
+            f"{file}: line {wrong[0] + 2}: radius and polar angle are {1e3 * off[wrong[0]]:.3g} mm from "
+            "x and y"
         )

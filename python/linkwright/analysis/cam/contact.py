@@ -304,9 +304,8 @@ def _conjugate(cam: Cam, first: Contact, name: str) -> Contact:
         least = first.start + cam.stroke + (0.0 if cam.is_oscillating else roller)
         key, unit = ("angle", "rad") if cam.is_oscillating else ("distance", "m")
         raise AssemblyError(
-            f"the second follower of {name} leaves no room for its cam: mechanism.cams.{name}.second.{key} "
-            "must "
-            f"be more than {least:.6g} {unit}",
+            f"the second follower of {name} leaves no room for its cam: "
+            f"mechanism.cams.{name}.second.{key} must be more than {least:.6g} {unit}",
             element=name,
             crank_angle=cam.phase,
         )

@@ -9,7 +9,7 @@ doubtful.
 | arm as fast as the cam | β′ changes its sign: the face turns over the cam |
 | locked | d·n ≤ 0: pressure angle of 90° or more |
 | crossed | the profile crosses itself where it is nowhere undercut |
-| hollow | the cutter is larger than the least concave radius |
+| hollow | the cutter is larger than the least concave radius, or wider than the groove |
 | diameter | two followers do not both touch |
 
 Each is told with the cam angle, the amount, and the smallest change that mends it. A profile whose radius is
@@ -123,16 +123,15 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
             )
         else:
             what = (
-                "under the flat face its radius of curvature is "
-                f"{_mm(worst.value)} at {_degrees(worst.angle)}"
+                f"under the flat face its radius of curvature is {_mm(worst.value)} "
+                f"at {_degrees(worst.angle)}"
             )
         where = _undercut_range(flank, worst.angle)
         yield f"{_subject(profile, flank)} is undercut {where}: {what}; it takes {change}"
     elif not flank.contact.kernel.is_roller and _turns_over(profile.cam, flank):
         yield (
             f"{_subject(profile, flank)}: the follower turns as fast as the cam, so that its face rolls "
-            "over it; "
-            "it takes a longer section or a smaller swing"
+            "over it; it takes a longer section or a smaller swing"
         )
     hollow = shape.least.get("bend")
     if profile.cam.closure == "groove" and hollow and hollow.value < 0:
@@ -140,11 +139,9 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
         if least <= size.roller_radius:
             yield (
                 f"{_subject(profile, flank)}: the outer flank of the groove is undercut at "
-                f"{_degrees(hollow.angle)}, "
-                f"where the pitch curve is hollow with {_mm(least)} radius of curvature and the roller's "
-                "radius is "
-                f"{_mm(size.roller_radius)}; it takes a roller of less than {_mm(least)} radius, or a "
-                "larger base radius"
+                f"{_degrees(hollow.angle)}, where the pitch curve is hollow with {_mm(least)} radius of "
+                f"curvature and the roller's radius is {_mm(size.roller_radius)}; it takes a roller of less "
+                f"than {_mm(least)} radius, or a larger base radius"
             )
 
 
@@ -187,8 +184,8 @@ def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
         change = _size_for(profile, flank, base) or "a smaller swing"
         yield (
             f"{_subject(profile, flank)} cannot move its follower at "
-            f"{_degrees(float(flank.shape.angle[worst]))}: the "
-            f"pressure angle is {np.degrees(abs(gamma[worst])):.4g}°; it takes {change}{limit}"
+            f"{_degrees(float(flank.shape.angle[worst]))}: the pressure angle is "
+            f"{np.degrees(abs(gamma[worst])):.4g}°; it takes {change}{limit}"
         )
 
 
@@ -211,14 +208,21 @@ def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
 
 
 def _hollow(profile: CamProfile, flank: Flank) -> Iterator[str]:
-    """A cutter that does not fit into the concave parts."""
+    """A cutter that does not fit into the concave parts, or into a groove."""
     cutter, concave = profile.cam.cutter_radius, flank.concave
-    if cutter is not None and concave is not None and cutter >= concave.value:
+    roller = flank.contact.sizes.roller_radius
+    if profile.cam.closure == "groove":
+        # Where the roller passes, a cutter that is no larger passes too.
+        if cutter is not None and cutter > roller:
+            yield (
+                f"{_subject(profile, flank)} cannot be cut with a cutter of {_mm(cutter)} radius: its groove "
+                f"is as wide as the roller of {_mm(roller)} radius; it takes a cutter of at most that"
+            )
+    elif cutter is not None and concave is not None and cutter >= concave.value:
         yield (
             f"{_subject(profile, flank)} cannot be cut with a cutter of {_mm(cutter)} radius: at "
             f"{_degrees(concave.angle)} the profile is hollow with {_mm(concave.value)} radius; it takes a "
-            "cutter of less "
-            "than that"
+            "cutter of less than that"
         )
 
 

@@ -163,8 +163,7 @@ def _left(profile: CamProfile, found: Forces, force: Floats) -> tuple[str, ...]:
     return (
         f"the follower leaves cam {profile.name}: at a crank angle of {at:.4g}° and "
         f"{abs(float(np.nanmax(found.speed))):.4g} rad/s it would have to be pulled with {-lacking:.4g} N; "
-        "a spring that "
-        "presses with so much more there, a lower speed, or a groove keeps it on the cam",
+        "a spring that presses with so much more there, a lower speed, or a groove keeps it on the cam",
     )
 
 
