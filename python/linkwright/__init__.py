@@ -54,6 +54,7 @@ _HOME = {
     "cam_profile": "analysis.cam.profile",
     "cam_faults": "analysis.cam.faults",
     "cam_cautions": "analysis.cam.faults",
+    "least_sizes": "analysis.cam.least_sizes",
     "loaded_cam": "analysis.cam.loaded",
     "search_cams": "sweep.cams",
     "OneMass": "analysis.cam.one_mass",
@@ -120,6 +121,7 @@ if TYPE_CHECKING:
     from linkwright.analysis.cam.follower_vibration import vibration_over_speed as vibration_over_speed
     from linkwright.analysis.cam.hertz import Material as Material
     from linkwright.analysis.cam.hertz import line_contact as line_contact
+    from linkwright.analysis.cam.least_sizes import least_sizes as least_sizes
     from linkwright.analysis.cam.lift_off import least_preload as least_preload
     from linkwright.analysis.cam.lift_off import lift_off as lift_off
     from linkwright.analysis.cam.loaded import loaded_cam as loaded_cam

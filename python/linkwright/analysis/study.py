@@ -215,7 +215,9 @@ def _loaded(
     along = borne if borne is not None else _Findings().of(forces, machine, speed=speed)
     if along is None:
         return ()
-    looked = [_Findings().of(loaded_cam, machine, each, along) for each in cams]
+    # What presses on a profile that cannot be made says nothing.
+    sound = [each for each in cams if not cam_faults(each)]
+    looked = [_Findings().of(loaded_cam, machine, each, along) for each in sound]
     loaded = tuple(each for each in looked if each is not None)
     found.errors += [CamError(text) for each in loaded for text in each.findings]
     return loaded

@@ -112,7 +112,12 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
     is_roller = flank.contact.kernel.is_roller
     worst = shape.greatest["bend"] if is_roller else shape.least["bend"]
     soundness = 1.0 - size.roller_radius * worst.value if is_roller else worst.value
-    if soundness < _SHARP:
+    if not is_roller and _turns_over(profile.cam, flank):
+        yield (
+            f"{_subject(profile, flank)}: the follower turns as fast as the cam, so that its face rolls "
+            "over it; it takes a longer section or a smaller swing"
+        )
+    elif soundness < _SHARP:
         base = least_sound_base(profile.cam, flank.contact)
         change = _size_for(profile, flank, base, "more than ") or "another law or a smaller lift"
         if is_roller:
@@ -128,11 +133,6 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
             )
         where = _undercut_range(flank, worst.angle)
         yield f"{_subject(profile, flank)} is undercut {where}: {what}; it takes {change}"
-    elif not flank.contact.kernel.is_roller and _turns_over(profile.cam, flank):
-        yield (
-            f"{_subject(profile, flank)}: the follower turns as fast as the cam, so that its face rolls "
-            "over it; it takes a longer section or a smaller swing"
-        )
     hollow = shape.least.get("bend")
     if profile.cam.closure == "groove" and hollow and hollow.value < 0:
         least = -1.0 / hollow.value
