@@ -212,9 +212,7 @@ def _loaded(
     speed = None if machine.drive is None else machine.drive.speed
     if not (machine.bodies or machine.loads) or (borne is None and speed is None):
         return ()
-    along = borne if borne is not None else _Findings().of(forces, machine, speed=speed)
-    if along is None:
-        return ()
+    along = None if borne is not None else speed
     # What presses on a profile that cannot be made says nothing.
     sound = [each for each in cams if not cam_faults(each)]
     looked = [_Findings().of(loaded_cam, machine, each, along) for each in sound]

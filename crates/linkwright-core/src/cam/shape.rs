@@ -105,13 +105,16 @@ impl Cam<f64> {
                 best = Extreme { phi: shape.phi[i], value };
             }
         }
-        for i in peaks(&values, &shape.piece, best.value) {
-            let piece = &law.pieces()[shape.piece[i] as usize];
-            let slope = |phi: f64| self.quantity(what, piece, phi).1;
-            let phi = zero(slope, shape.phi[i - 1], shape.phi[i + 1]);
-            let value = sign * self.quantity(what, piece, phi).0;
-            if value > best.value {
-                best = Extreme { phi, value };
+        let inner = peaks(&values, &shape.piece, best.value).into_iter().map(|i| (i - 1, i + 1));
+        for (low, high) in inner.chain(edges(&shape.piece)) {
+            let piece = &law.pieces()[shape.piece[low] as usize];
+            let slope = |phi: f64| sign * self.quantity(what, piece, phi).1;
+            if slope(shape.phi[low]) > 0.0 && slope(shape.phi[high]) < 0.0 {
+                let phi = zero(slope, shape.phi[low], shape.phi[high]);
+                let value = sign * self.quantity(what, piece, phi).0;
+                if value > best.value {
+                    best = Extreme { phi, value };
+                }
             }
         }
         Extreme { phi: best.phi, value: sign * best.value }
@@ -245,12 +248,24 @@ fn peaks(values: &[f64], piece: &[u32], highest: f64) -> Vec<usize> {
         let bend = 2.0 * b - a - c;
         b + if bend > 0.0 { (c - a).powi(2) / (8.0 * bend) } else { 0.0 }
     };
-    // The parabola may fall short of the peak by a little: one that nearly reaches is looked at too.
-    let nearly = |i: usize| top(i) + 0.1 * (top(i) - values[i]).abs() >= highest;
+    // The parabola may fall short of the peak: one that nearly reaches is looked at too.
+    let nearly = |i: usize| top(i) + (top(i) - values[i]).abs() >= highest;
     (1..values.len().saturating_sub(1))
         .filter(inside)
         .filter(|&i| values[i] > values[i - 1] && values[i] >= values[i + 1] && nearly(i))
         .collect()
+}
+
+/// The first and the last interval of each piece: a peak in it may lie above neighbours of which the end is the higher.
+fn edges(piece: &[u32]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let n = piece.len();
+    (1..n)
+        .filter(move |&i| {
+            let first = i == 1 || piece[i - 2] != piece[i - 1];
+            let last = i + 1 == n || piece[i + 1] != piece[i];
+            piece[i - 1] == piece[i] && (first || last)
+        })
+        .map(|i| (i - 1, i))
 }
 
 /// A zero between two angles where the signs differ, else the end where the function is nearest to zero.

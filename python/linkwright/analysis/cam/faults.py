@@ -77,7 +77,7 @@ def cam_cautions(profile: CamProfile) -> tuple[str, ...]:
     tuple of str
         Pressure angle and curvature against their limits; derivatives that jump.
     """
-    return (*_steep(profile), *_tight(profile), *_jumps(profile))
+    return (*_steep(profile), *_tight(profile), *_jumps(profile), *_rubs(profile))
 
 
 def _degrees(angle: float) -> str:
@@ -291,3 +291,12 @@ def _jumps(profile: CamProfile) -> Iterator[str]:
         if angles:
             colon = " " if order == 3 else ": "
             yield f"the {what} of cam {profile.name} jumps at {_places(angles)}{colon}{effect}"
+
+
+def _rubs(profile: CamProfile) -> Iterator[str]:
+    """Friction that steady motion does without."""
+    if profile.cam.sliding_friction:
+        yield (
+            f"the friction of cam {profile.name} counts in the forces and in the torque that they ask of the "
+            "drive, not in steady motion and run-up"
+        )
