@@ -95,6 +95,8 @@ def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dic
         if unknown := [value for value in values if value not in known]:
             raise InputError(f'{option}: found "{unknown[0]}", expected {", ".join(known)}')
     lengths = {"tolerance": option_value("--tolerance", tolerance, LENGTH)}
+    if lengths["tolerance"] <= 0:
+        raise InputError(f'--tolerance: found "{tolerance}", expected more than 0, such as "1 um"')
     return {**lengths, "step": option_value("--step", step, ANGLE), "by": by, "form": form, "formats": wanted}
 
 

@@ -183,9 +183,13 @@ def force_table(loaded: LoadedCam) -> Table:
     Table
         Quantity, symbol, value, where.
     """
-    at = [f"at φ = {degrees(angle)}" for angle in (loaded.force_max_angle, loaded.force_min_angle)]
-    rows: list[Row] = [("greatest contact force", "N_max", with_unit(loaded.force_max, "N"), at[0])]
-    rows.append(("least contact force", "N_min", with_unit(loaded.force_min, "N"), at[1]))
+    rows: list[Row] = [
+        (f"{word} contact force", symbol, with_unit(force, "N"), f"at φ = {degrees(angle)}")
+        for word, symbol, force, angle in (
+            ("greatest", "N_max", loaded.force_max, loaded.force_max_angle),
+            ("least", "N_min", loaded.force_min, loaded.force_min_angle),
+        )
+    ]
     if loaded.side_changes:
         rows.append(("changes of the side that carries, a turn", "", str(loaded.side_changes), ""))
     if loaded.speed_lost is not None and loaded.speed_lost_angle is not None:

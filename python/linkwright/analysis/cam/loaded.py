@@ -118,6 +118,11 @@ class LoadedCam(Result):
     pressure: Floats | None
     findings: tuple[str, ...] = ()
 
+    @property
+    def force_size(self) -> float:
+        """Largest normal force in size [N]."""
+        return max(abs(self.force_max), abs(self.force_min))
+
 
 def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None) -> LoadedCam:
     """A cam under the loads of its machine.
