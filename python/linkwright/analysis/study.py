@@ -224,7 +224,8 @@ def _loaded(
 def _vibration(profile: CamProfile, found: _Findings) -> Iterator[tuple[str, FollowerVibration]]:
     """Vibration of a follower at the design speed; strikes and loss of contact are findings."""
     train, speed = profile.cam.train, profile.speed
-    if train is None or not speed:
+    leaps = any(joint.order < 0 for joint in profile.cam.motion.joints)
+    if train is None or not speed or leaps:
         return
     shaken = found.of(follower_vibration, profile.cam.lift, one_mass(train), abs(speed))
     if shaken is not None:

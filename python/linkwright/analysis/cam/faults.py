@@ -57,7 +57,7 @@ def cam_faults(profile: CamProfile) -> tuple[str, ...]:
     tuple of str
         Empty for a sound cam.
     """
-    found: list[str] = []
+    found: list[str] = [*_leaps(profile)]
     for flank in profile.flanks:
         told = [*_locked(profile, flank), *_undercut(profile, flank)]
         found += told or [*_crossed(profile, flank), *_hollow(profile, flank)]
@@ -281,8 +281,7 @@ def _places(angles: list[float]) -> str:
 def _jumps(profile: CamProfile) -> Iterator[str]:
     """Places where velocity or acceleration jumps, or jerk: between sections, or inside a law."""
     effects = {
-        0: ("lift", "the follower cannot follow"),
-        1: ("velocity", "a blow"),
+        1: ("velocity", "a blow, which no force here has in it"),
         2: ("acceleration", "a sudden force"),
         3: ("jerk", "by a finite step; acceleration is continuous"),
     }
@@ -291,6 +290,15 @@ def _jumps(profile: CamProfile) -> Iterator[str]:
         if angles:
             colon = " " if order == 3 else ": "
             yield f"the {what} of cam {profile.name} jumps at {_places(angles)}{colon}{effect}"
+
+
+def _leaps(profile: CamProfile) -> Iterator[str]:
+    """A lift that jumps: no follower gets from one place to the other."""
+    angles = [joint.angle for joint in profile.cam.motion.joints if joint.order < 0]
+    if angles:
+        # A lift made for a mass on a spring has the acceleration of the wanted motion in it.
+        wanted = "a law with continuous acceleration" if profile.cam.train else "a continuous law"
+        yield f"the lift of cam {profile.name} jumps at {_places(angles)}; it takes {wanted}"
 
 
 def _rubs(profile: CamProfile) -> Iterator[str]:
