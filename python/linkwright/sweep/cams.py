@@ -272,7 +272,8 @@ def _with(section: MotionSection, law: str) -> MotionSection:
     from linkwright.motion_laws.catalogue import LAWS
 
     if law not in LAWS:
-        raise InputError(f'laws: found "{law}", expected {suggestion(law, LAWS) or ", ".join(LAWS)}')
+        remedy = suggestion(law, LAWS) or "there is " + ", ".join(LAWS)
+        raise InputError(f'laws: found "{law}", expected the name of a law; {remedy}')
     if section.is_dwell or section.is_steady:
         return section
     entry: dict[str, Any] = {"kind": law}
