@@ -47,7 +47,7 @@ from linkwright.machine import (
     addresses,
     formula,
 )
-from linkwright.machine.outline import KINDS
+from linkwright.machine.outline import TABLES
 
 Floats = NDArray[np.float64]
 
@@ -272,7 +272,7 @@ def _parts(machine: Machine) -> list[object]:
     """The frozen parts that a machine consists of, with their names."""
     mechanism = machine.linkage
     parts: list[object] = [machine, machine.drive, mechanism.assembled_at]
-    tables = [getattr(mechanism, kind.table) for kind in KINDS]
+    tables = [getattr(mechanism, table) for table in TABLES]
     for table in (*tables, machine.bodies, machine.loads):
         parts.append(len(table))
         if table:
