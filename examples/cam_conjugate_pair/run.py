@@ -31,13 +31,13 @@ def gaps(machine: lw.Machine) -> np.ndarray:
 def study(machine: lw.Machine) -> dict[str, float]:
     """Largest gaps, size of the second cam, and the forces: negative where the second roller carries."""
     profile, gap = lw.cam_profile(machine), np.abs(gaps(machine)).max(axis=1)
-    loaded = lw.loaded_cam(machine, profile, lw.forces(machine, speed=machine.drive.speed))
+    loaded = lw.loaded_cam(machine, profile, machine.drive.speed)
     return {
         "gap_first": gap[0],
         "gap_second": gap[1],
         "base_radius_second": profile.flanks[1].contact.sizes.base_radius,
         "pressure_angle_max": np.degrees(profile.pressure_angle_max),
-        "force_max": loaded.force_max,
+        "force_size": loaded.force_size,
         "force_min": loaded.force_min,
     }
 

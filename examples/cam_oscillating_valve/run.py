@@ -16,7 +16,7 @@ import linkwright as lw
 def study(machine: lw.Machine) -> dict[str, float]:
     """Pressure angle, curvature, force on the cam, and the speed at which the roller leaves it."""
     profile = lw.cam_profile(machine)
-    loaded = lw.loaded_cam(machine, profile, lw.forces(machine, speed=machine.drive.speed))
+    loaded = lw.loaded_cam(machine, profile, machine.drive.speed)
     return {
         "pressure_angle_max": np.degrees(profile.pressure_angle_max),
         "curvature_radius_min": profile.curvature_radius_min,

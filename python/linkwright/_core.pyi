@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "FORMAT",
     "Cam",
     "Plan",
     "cam_crossings",
@@ -27,6 +28,8 @@ __all__ = [
 
 _Floats = NDArray[np.float64]
 _Ints = NDArray[np.int32]
+
+FORMAT: int
 
 @final
 class Plan:

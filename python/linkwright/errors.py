@@ -7,6 +7,7 @@
 | `MachineFileError` | input | the same for a file: with file and line |
 | `LawError` | input | a motion law cannot do what it was asked for |
 | `ShapeError` | input | arrays do not fit together |
+| `CoreError` | input | the compiled core is not that of this package |
 | `AssemblyError` | finding | the links do not close |
 | `StartError` | finding | the drive does not start, stalls or runs backwards |
 | `SteadyStateError` | finding | there is no periodic motion |
@@ -118,6 +119,18 @@ class LawError(InputError):
 
 class ShapeError(InputError):
     """Arrays do not fit together."""
+
+
+class CoreError(InputError):
+    """The compiled core is not that of this package; the numbers of both formats, and what to do."""
+
+    def __init__(self, found: int | None, expected: int, path: str) -> None:
+        super().__init__(
+            f"{path}: found a compiled core of format {found}, expected format {expected}; build it again "
+            "(in a clone: make demo, or maturin develop --release), or install linkwright anew"
+        )
+        self.found = found
+        self.expected = expected
 
 
 class AssemblyError(FindingError):

@@ -221,6 +221,13 @@ def test_crossings_of_many_polygons_against_all_pairs() -> None:
                 np.testing.assert_allclose(place, [x, y], atol=1e-12)
 
 
+def test_cutter_wider_than_its_groove() -> None:
+    lines = 'base_radius = "40 mm"\nroller_radius = "8 mm"\nclosure = "groove"\n'
+    assert not cam_faults(profile(lines + "cutter_radius = 0.008\n"))
+    (text,) = cam_faults(profile(lines + "cutter_radius = 0.0081\n"))
+    assert "its groove is as wide as the roller of 8 mm radius" in text
+
+
 def test_cutter_in_a_hollow() -> None:
     sections = SHARP.replace('"60 deg"', '"40 deg"').replace('"200 deg"', '"240 deg"')
     lines = 'base_radius = "60 mm"\nroller_radius = "5 mm"\n'

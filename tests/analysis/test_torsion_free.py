@@ -197,6 +197,14 @@ def test_equal_branches_are_orthogonal() -> None:
     assert all(nodes[0].at == "hub" for nodes in found.nodes[1:3])
 
 
+def test_tuned_branches_of_other_size() -> None:
+    """k/J alike in both branches: they swing against each other, by their inertias, with the hub at rest."""
+    discs = {"hub": 1.0, "small": 0.05000000000000001, "large": 0.4609375}
+    found = train(discs, [("small", "hub", 50.0), ("large", "hub", 460.9375)])
+    assert omega(found)[1] == pytest.approx(np.sqrt(1000), rel=1e-12)
+    assert found.mode_shapes[1] == pytest.approx([0, 1, -0.05 / 0.4609375], abs=1e-12)
+
+
 def test_sections_are_springs_in_a_row() -> None:
     """k = 1/Σ L/(G I_p); the node of equal halves lies where half the twist is."""
     machine = lw.loads("""

@@ -297,7 +297,9 @@ def test_points_from_a_file(tmp_path: Path) -> None:
         ("", "a head such as"),
         ("angle [deg, lift\n0, 0\n", "a head such as"),
         ("angle, lift\n0, 0, 0\n", "2 values"),
-        ("angle [deg], lift [mm]\n0, 0\nx, 4\n", "an angle"),
+        ("angle [deg], lift [mm]\n0, 0\nx, 4\n", "rise.csv:3: cams.K.sections.0.law.file, column angle"),
+        ("angle [deg], lift [mm]\n0, 0\n\n60,\n", "rise.csv:4: cams.K.sections.0.law.file, column lift"),
+        ("angle [deg], lift [mm]\n0, 0\n60, nan\n", "a finite number"),
         ("angle [deg], height [mm]\n0, 0\n120, 4\n", "one of file, angle"),
     ],
 )

@@ -17,6 +17,10 @@ use crate::motion_law::MotionLaw;
 use crate::reduce::{Body, Load};
 use crate::table::Table;
 
+/// Number of the language in which machines and cams cross the border: kinds of rows, order of lists and of
+/// results. It goes up with every change of these, here and in `linkwright.engine.core_format`.
+pub const FORMAT: u32 = 1;
+
 /// What a machine consists of.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -635,7 +639,7 @@ fn decode_formulas(mut code: &[i32], parameters: usize) -> Result<Vec<Formula>, 
     Ok(formulas)
 }
 
-/// `0 number: slot` · `1 zero` · `2 variable: which` · `8 whole power: exponent`; the others have no operand.
+/// Laws end to end, until the list is empty.
 fn decode_motion_laws(mut list: &[f64]) -> Result<Vec<MotionLaw>, PlanError> {
     let mut laws = Vec::new();
     while !list.is_empty() {
@@ -644,6 +648,7 @@ fn decode_motion_laws(mut list: &[f64]) -> Result<Vec<MotionLaw>, PlanError> {
     Ok(laws)
 }
 
+/// `0 number: slot` · `1 zero` · `2 variable: which` · `8 whole power: exponent`; the others have no operand.
 fn decode_op(code: i32, operand: i32, parameters: usize) -> Result<Op, PlanError> {
     let unknown = PlanError::Kind { what: "instruction", kind: code };
     Ok(match code {

@@ -32,6 +32,21 @@ fn table<'py>(py: Python<'py>, rows: &[Vec<f64>], width: usize) -> PyResult<Tabl
     Ok(table)
 }
 
+/// A table that a kernel fills while the interpreter's lock is let go.
+fn filled<'py>(
+    py: Python<'py>,
+    shape: [usize; 2],
+    fill: impl FnOnce(&mut [f64]) + Send,
+) -> PyResult<Table<'py>> {
+    let out = PyArray2::<f64>::zeros(py, shape, false);
+    {
+        let mut to = out.readwrite();
+        let to = to.as_slice_mut()?;
+        py.detach(|| fill(to));
+    }
+    Ok(out)
+}
+
 fn dimensions(list: &Floats<'_>) -> PyResult<Dimensions<f64>> {
     let &[base_radius, roller_radius, offset, distance, arm, tilt] = list.as_slice()? else {
         return Err(PyValueError::new_err("a cam has six dimensions"));
@@ -98,17 +113,7 @@ impl Cam {
     ) -> PyResult<Table<'py>> {
         let cam = CoreCam::new(self.kind, self.sense, self.side, dimensions(&size)?);
         let phi = phi.as_slice()?;
-        let rows = py.detach(|| {
-            let mut rows = vec![Vec::with_capacity(phi.len()); ROWS];
-            for &phi in phi {
-                let (piece, at) = self.law.piece(phi, before);
-                for (row, x) in rows.iter_mut().zip(cam.row(piece, at)) {
-                    row.push(x);
-                }
-            }
-            rows
-        });
-        table(py, &rows, phi.len())
+        filled(py, [ROWS, phi.len()], |to| cam.rows(&self.law, phi, before, to))
     }
 
     /// Place, first and second derivative of a curve beside the pitch curve, seen from the cam.
@@ -122,14 +127,7 @@ impl Cam {
     ) -> PyResult<Table<'py>> {
         let cam = CoreCam::new(self.kind, self.sense, self.side, dimensions(&size)?);
         let phi = phi.as_slice()?;
-        let mut rows = vec![Vec::with_capacity(phi.len()); 6];
-        for &phi in phi {
-            let (piece, at) = self.law.piece(phi, before);
-            for (row, &x) in rows.iter_mut().zip(cam.curve(piece, at, away).as_flattened()) {
-                row.push(x);
-            }
-        }
-        table(py, &rows, phi.len())
+        filled(py, [6, phi.len()], |to| cam.curves(&self.law, phi, before, away, to))
     }
 
     /// Results of many cams; each column has one entry or one a cam.
@@ -149,13 +147,7 @@ impl Cam {
         };
         let size = Dimensions { base_radius, roller_radius, offset, distance, arm, tilt };
         let cams = Cams { kind: self.kind, sense: self.sense, side: self.side, size, lift, n };
-        let out = PyArray2::<f64>::zeros(py, [n, RESULTS], false);
-        {
-            let mut to = out.readwrite();
-            let to = to.as_slice_mut()?;
-            py.detach(|| search(&self.law, &cams, per_turn, to));
-        }
-        Ok(out)
+        filled(py, [n, RESULTS], |to| search(&self.law, &cams, per_turn, to))
     }
 }
 

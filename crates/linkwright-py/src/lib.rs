@@ -312,6 +312,8 @@ fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Curve<'py
 #[pymodule(gil_used = false)]
 mod _core {
     #[pymodule_export]
+    const FORMAT: u32 = linkwright_core::plan::FORMAT;
+    #[pymodule_export]
     use super::cam::{Cam, cam_crossings};
     #[pymodule_export]
     use super::torsion::torsion_modes;

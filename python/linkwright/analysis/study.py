@@ -212,9 +212,7 @@ def _loaded(
     speed = None if machine.drive is None else machine.drive.speed
     if not (machine.bodies or machine.loads) or (borne is None and speed is None):
         return ()
-    along = borne if borne is not None else _Findings().of(forces, machine, speed=speed)
-    if along is None:
-        return ()
+    along = None if borne is not None else speed
     # What presses on a profile that cannot be made says nothing.
     sound = [each for each in cams if not cam_faults(each)]
     looked = [_Findings().of(loaded_cam, machine, each, along) for each in sound]
@@ -226,7 +224,8 @@ def _loaded(
 def _vibration(profile: CamProfile, found: _Findings) -> Iterator[tuple[str, FollowerVibration]]:
     """Vibration of a follower at the design speed; strikes and loss of contact are findings."""
     train, speed = profile.cam.train, profile.speed
-    if train is None or not speed:
+    leaps = any(joint.order < 0 for joint in profile.cam.motion.joints)
+    if train is None or not speed or leaps:
         return
     shaken = found.of(follower_vibration, profile.cam.lift, one_mass(train), abs(speed))
     if shaken is not None:

@@ -95,6 +95,8 @@ def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dic
         if unknown := [value for value in values if value not in known]:
             raise InputError(f'{option}: found "{unknown[0]}", expected {", ".join(known)}')
     lengths = {"tolerance": option_value("--tolerance", tolerance, LENGTH)}
+    if lengths["tolerance"] <= 0:
+        raise InputError(f'--tolerance: found "{tolerance}", expected more than 0, such as "1 um"')
     return {**lengths, "step": option_value("--step", step, ANGLE), "by": by, "form": form, "formats": wanted}
 
 
@@ -135,7 +137,7 @@ def _object(study: Study, written: list[Written], findings: list[str], *, curves
     results = {
         name: result.to_dict(curves=curves)
         for name, result in study.results().items()
-        if name.split(".")[0] in ("cam", "cam_force")
+        if name.startswith("cam")
     }
     files = [
         {

@@ -57,11 +57,15 @@ def _motor(machine: Machine) -> str:
 
 def _mechanism(machine: Machine) -> list[tuple[str, str]]:
     """The names of the elements, kind by kind."""
-    from linkwright.machine.outline import KINDS
+    from linkwright.machine.outline import TABLES
 
-    mechanism = machine.linkage
-    tables = [kind.table for kind in KINDS]
-    return [(table.replace("_", " "), ", ".join(getattr(mechanism, table))) for table in tables]
+    # A cam is told as such, not as the driver that it is in the whole mechanism.
+    cams = machine.mechanism.cams
+    known = {
+        table: [name for name in getattr(machine.linkage, table) if name not in cams] for table in TABLES
+    }
+    known["cams"] = list(cams)
+    return [(table.replace("_", " "), ", ".join(names)) for table, names in known.items()]
 
 
 def _train(machine: Machine) -> list[tuple[str, str]]:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
+from linkwright.engine.core_format import check_format
 from linkwright.engine.elements import Rows
 from linkwright.engine.settle import Settled
 from linkwright.errors import InputError, MachineError, Problem, ShapeError
@@ -46,9 +47,11 @@ from linkwright.machine import (
     addresses,
     formula,
 )
-from linkwright.machine.outline import KINDS
+from linkwright.machine.outline import TABLES
 
 Floats = NDArray[np.float64]
+
+check_format(_core)
 
 # Crank speed from which steady motion is sought when nothing in the machine suggests one [rad/s].
 _SPEED_UNKNOWN = 10.0
@@ -275,7 +278,7 @@ def _parts(machine: Machine) -> list[object]:
     """The frozen parts that a machine consists of, with their names."""
     mechanism = machine.linkage
     parts: list[object] = [machine, machine.drive, mechanism.assembled_at]
-    tables = [getattr(mechanism, kind.table) for kind in KINDS]
+    tables = [getattr(mechanism, table) for table in TABLES]
     for table in (*tables, machine.bodies, machine.loads):
         parts.append(len(table))
         if table:

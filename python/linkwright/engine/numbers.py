@@ -1,4 +1,4 @@
-"""Numbers of a machine as they cross the border: parameters in their slots, tables, formulas."""
+"""Numbers of a machine as they cross the border: parameters in their slots, tables, formulas, motion laws."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def encoded(law: MotionLaw) -> list[float]:
 
 
 class Numbers:
-    """Collects parameters, tables and formulas."""
+    """Collects parameters, tables, formulas and motion laws."""
 
     def __init__(self) -> None:
         self.parameters: list[Any] = []

@@ -54,9 +54,8 @@ class Drawing:
         for layer in self.curves:
             if not layer or set(layer) & _FORBIDDEN or layer in (CENTRE, ZERO_ANGLE, TEXT, "0"):
                 raise InputError(
-                    f'layer "{layer}": expected a name of its own without '
-                    f"any of {''.join(sorted(_FORBIDDEN))}, "
-                    f"such as {PROFILE}"
+                    f'layer "{layer}": expected a name of its own, such as {PROFILE}, '
+                    f"without any of {''.join(sorted(_FORBIDDEN))}"
                 )
 
     @cached_property

@@ -24,6 +24,9 @@ By = Literal["cam", "polar"]
 
 COLUMNS = ("phi_deg", "x_mm", "y_mm", "radius_mm", "polar_angle_deg", "curvature_per_mm")
 
+# Rows that a table may have: more than any machine tool reads.
+_MOST = 1_000_000
+
 # How far 360°/step may be from a whole number.
 _WHOLE = 1e-9
 
@@ -119,12 +122,14 @@ def curvature(track: Track, tau: Floats) -> Floats:
 def _count(step: float) -> int:
     """How many steps make a turn."""
     n = 2 * math.pi / step if step > 0 else math.nan
+    if n > _MOST:
+        least = 360 / _MOST
+        raise InputError(f"step of {math.degrees(step):.3g}°: expected {least:.3g}° or more")
     if not (math.isfinite(n) and n >= 3 and abs(n - round(n)) <= _WHOLE * n):
         near = [360 / max(3, math.floor(n)), 360 / max(3, math.ceil(n))] if 0 < n < 1e9 else [1.0, 0.5]
         raise InputError(
             f"step of {math.degrees(step):.9g}°: expected a whole number of steps a turn, at least 3, such "
-            "as "
-            f"{near[0]:.6g}° or {near[1]:.6g}°"
+            f"as {near[0]:.6g}° or {near[1]:.6g}°"
         )
     return round(n)
 
@@ -216,6 +221,6 @@ def _refuse(file: File, rows: Table, radius: Floats) -> None:
     wrong = np.flatnonzero(~(off <= 1e-14 * np.abs(radius).max()))
     if wrong.size:
         raise ExchangeError(
-            f"{file}: line {wrong[0] + 2}: radius and polar angle are {1e3 * off[wrong[0]]:.3g} mm from x "
-            "and y"
+            f"{file}: line {wrong[0] + 2}: radius and polar angle are {1e3 * off[wrong[0]]:.3g} mm from "
+            "x and y"
         )

@@ -7,8 +7,10 @@ each column, with its unit in brackets: ``angle [deg], lift [mm]``; without a un
 from __future__ import annotations
 
 import csv
+import math
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -53,34 +55,52 @@ def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...]
 
 def _columns(path: Path, key: str) -> dict[str, list[str]]:
     """The columns of a file by name, each entry with its unit."""
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            rows = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "no UTF-8 text"
-        found = f"{path}, which cannot be read ({reason})"
-        raise MachineFileError([Problem(key, found, "a file of comma-separated values")]) from None
-    heads = [_HEAD.fullmatch(cell) for cell in rows[0]] if rows else []
-    if len(rows) < 2 or not all(heads):
-        found = show(",".join(rows[0])) if rows else "an empty file"
+    lines = _lines(path, key)
+    heads = [_HEAD.fullmatch(cell) for cell in lines[0][1]] if lines else []
+    if len(lines) < 2 or not all(heads):
+        found = show(",".join(lines[0][1])) if lines else "an empty file"
         expected = 'a head such as "angle [deg], lift [mm]", and a row for each point'
         raise MachineFileError([Problem(key, found, expected, path=str(path), line=1)])
-    for line, row in enumerate(rows, start=1):
-        if len(row) != len(heads):
-            expected = f"{len(heads)} values, one for each column"
-            raise MachineFileError([Problem(key, show(",".join(row)), expected, path=str(path), line=line)])
+    names = [head[1] for head in heads if head is not None]
+    for line, row in lines[1:]:
+        for problem in _row_problems(key, names, row):
+            raise MachineFileError([replace(problem, path=str(path), line=line)])
     return {
-        head[1]: [_with_unit(row[i].strip(), head[2]) for row in rows[1:]]
+        head[1]: [_with_unit(row[i].strip(), head[2]) for _, row in lines[1:]]
         for i, head in enumerate(heads)
         if head is not None
     }
 
 
+def _lines(path: Path, key: str) -> list[tuple[int, list[str]]]:
+    """Number and cells of each line that is not empty."""
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            reader = csv.reader(file)
+            return [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "no UTF-8 text"
+        found = f"{path}, which cannot be read ({reason})"
+        raise MachineFileError([Problem(key, found, "a file of comma-separated values")]) from None
+
+
+def _row_problems(key: str, names: list[str], row: list[str]) -> Iterator[Problem]:
+    """What is wrong with a row of points."""
+    if len(row) != len(names):
+        yield Problem(key, show(",".join(row)), f"{len(names)} values, one for each column")
+    for name, cell in zip(names, row, strict=False):
+        if not _is_number(cell):
+            found = show(cell.strip()) if cell.strip() else "an empty cell"
+            yield Problem(f"{key}, column {name}", found, "a finite number")
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        return math.isfinite(float(cell))
+    except ValueError:
+        return False
+
+
 def _with_unit(number: str, unit: str | None) -> Any:
     """An entry as it would stand in the machine file."""
-    if unit:
-        return f"{number} {unit}"
-    try:
-        return float(number)
-    except ValueError:
-        return number
+    return f"{number} {unit}" if unit else float(number)

@@ -8,12 +8,14 @@
 | `catalogue` | published motors |
 | `element` | cranks, dyads, gears, cables, joints and bars |
 | `mechanism` | all elements by name |
-| `cam`, `cam_follower`, `motion_section`, `motion_law` | cams, and how their followers move |
+| `cam`, `cam_follower`, `follower_train` | cams, their followers as drivers, and what vibrates behind them |
+| `motion_section`, `motion_law`, `point_law` | sections of a cam's motion, and their laws |
+| `follower_motion`, `section_faults` | the motion over a turn; what is wrong with sections |
 | `assembly` | in which order a mechanism is built; what is missing or too much |
 | `pumping_unit`, `polished_rod_load`, `rod_rotator` | beam pumping units, and the rotator of the rod string |
 | `unit_catalogue` | published pumping units |
-| `linkage` | the whole mechanism: elements of the file, and what a pumping unit expands into |
 | `train`, `train_speeds`, `train_faults` | torsional trains, speeds of their discs, faults |
+| `linkage` | the whole mechanism: elements of the file, and what cams and a pumping unit expand into |
 | `body`, `loads` | masses; forces and torques |
 | `formula` | formulas as texts |
 | `curve` | curves given by points |

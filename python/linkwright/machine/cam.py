@@ -129,7 +129,9 @@ class Cam(Checked):
         None, description="Least convex radius of curvature allowed on the profile."
     )
     friction: Annotated[float, not_negative(RATIO)] = Field(
-        0.0, description="Coefficient of friction of an edge or a face on the cam; a roller rolls."
+        0.0,
+        description="Coefficient of friction of an edge or a face on the cam, which counts in forces and "
+        "not in steady motion.",
     )
     width: PositiveLength | None = Field(None, description="Of the cam's face, for the contact pressure.")
     elastic_modulus: Annotated[float, positive(PRESSURE)] = Field(
@@ -205,6 +207,8 @@ class Cam(Checked):
         if self.contact == "roller" and self.roller_radius is None:
             remedy = 'or say contact = "point" or "flat"'
             yield fault("roller_radius", expected="the radius of the roller", remedy=remedy)
+        if self.contact == "roller" and "friction" in self.model_fields_set and self.friction:
+            yield fault("friction", found=self.friction, expected="nothing for a roller, which rolls")
         if self.contact != "roller" and self.roller_radius is not None:
             expected = f'nothing for contact = "{self.contact}"'
             yield fault("roller_radius", found=self.roller_radius, expected=expected)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -12,7 +12,9 @@ from pydantic_core import InitErrorDetails
 from linkwright.machine.base import fault
 from linkwright.machine.cam import Cam
 from linkwright.machine.element import Crank, FixedPoint, Guide, LinearDriver
-from linkwright.machine.plain import look
+
+if TYPE_CHECKING:
+    from linkwright.machine.mechanism import Mechanism
 
 
 class Sizes(NamedTuple):
@@ -150,39 +152,56 @@ def follower_of(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -
     )
 
 
-def cam_place_faults(mechanism: object) -> Iterator[InitErrorDetails]:
+def cam_place_faults(mechanism: Mechanism) -> Iterator[InitErrorDetails]:
     """Cams whose follower does not reach them.
 
     Parameters
     ----------
-    mechanism : object
+    mechanism : Mechanism
         A mechanism without other faults.
 
     Yields
     ------
     InitErrorDetails
-        An offset beyond the prime circle; an arm too short or too long for the base circle.
+        An offset beyond the prime circle; an arm too short or too long for the base circle; sizes beyond
+        all measure.
     """
-    points = look(mechanism, "points")
-    for name, cam in dict(look(mechanism, "cams") or {}).items():
+    points = mechanism.fixed_points()
+    for name, cam in mechanism.cams.items():
         size = sizes(cam, points)
-        if not np.isnan(start_of(cam, size)).any():
+        if any(np.abs(each).max() > _LARGEST for each in (*size, cam.stroke)):
+            expected = f"lengths and lifts below {_LARGEST:g} m"
+            yield fault("cams", name, found="sizes beyond all measure", expected=expected)
             continue
-        if not cam.is_oscillating:
-            prime = size.base_radius + size.roller_radius
-            least = abs(size.offset) - size.roller_radius
-            remedy = f"make base_radius larger than {least:.6g} m or the offset smaller"
-            expected = f"less than base_radius + roller_radius, {prime:.6g} m"
-            yield fault("cams", name, "offset", found=size.offset, expected=expected, remedy=remedy)
-        elif size.distance == 0:
-            expected = "another place than the cam's centre"
-            yield fault("cams", name, "arm_pivot", found=cam.arm_pivot, expected=expected)
-        elif cam.is_roller:
-            low = abs(size.distance - size.arm) - size.roller_radius
-            high = size.distance + size.arm - size.roller_radius
-            expected = f"between {low:.6g} and {high:.6g} m"
-            remedy = f"the arm of {size.arm:.6g} m has its pivot {size.distance:.6g} m from the cam"
-            yield fault("cams", name, "base_radius", found=size.base_radius, expected=expected, remedy=remedy)
-        else:
-            expected = f"at most {size.distance - size.offset:.6g} m, or the pivot farther away"
-            yield fault("cams", name, "base_radius", found=size.base_radius, expected=expected)
+        start = start_of(cam, size)
+        if np.isnan(start).any() or (not cam.is_oscillating and np.any(start <= 0)):
+            yield from _unreached(name, cam, size)
+
+
+# Beyond this no cam is meant, and squares overflow [m].
+_LARGEST = 1e6
+
+
+def _unreached(name: str, cam: Cam, size: Sizes) -> Iterator[InitErrorDetails]:
+    """A follower that has no place on the base circle."""
+    if not cam.is_oscillating:
+        prime = size.base_radius + size.roller_radius
+        least = np.max(np.abs(size.offset) - size.roller_radius)
+        remedy = f"make base_radius larger than {least:.6g} m or the offset smaller"
+        expected = f"less than base_radius + roller_radius, {np.min(prime):.6g} m"
+        yield fault("cams", name, "offset", found=cam.offset, expected=expected, remedy=remedy)
+    elif size.distance == 0:
+        expected = "another place than the cam's centre"
+        yield fault("cams", name, "arm_pivot", found=cam.arm_pivot, expected=expected)
+    elif cam.is_roller:
+        low = abs(size.distance - size.arm) - size.roller_radius
+        high = size.distance + size.arm - size.roller_radius
+        expected = f"between {low:.6g} and {high:.6g} m"
+        remedy = f"the arm of {size.arm:.6g} m has its pivot {size.distance:.6g} m from the cam"
+        yield fault("cams", name, "base_radius", found=cam.base, expected=expected, remedy=remedy)
+    elif size.offset >= size.distance:
+        expected = f"less than {size.distance:.6g} m, the distance of the follower's pivot from the cam"
+        yield fault("cams", name, "offset", found=cam.offset, expected=expected)
+    else:
+        expected = f"at most {size.distance - size.offset:.6g} m, or the pivot farther away"
+        yield fault("cams", name, "base_radius", found=cam.base, expected=expected)

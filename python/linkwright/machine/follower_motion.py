@@ -44,7 +44,7 @@ class FollowerMotion:
     Raises
     ------
     ShapeError
-        An entry of a section is an array over many machines.
+        An entry of a section or of the train is an array over many machines.
     """
 
     def __init__(
@@ -54,6 +54,11 @@ class FollowerMotion:
             raise ShapeError(
                 "the sections of a cam cannot vary from machine to machine in a batch: "
                 "compute machines with other sections one by one"
+            )
+        if train is not None and any(isinstance(value, np.ndarray) for _, value in train):
+            raise ShapeError(
+                "the train of a follower cannot vary from machine to machine in a batch: "
+                "compute machines with other trains one by one"
             )
         self.programme: Programme = programme(sections, family)
         law = self.programme.law if train is None else train.lift_for(self.programme.law)

@@ -55,10 +55,7 @@ class FollowerTrain(Checked):
             )
 
     def lift_for(self, wanted: MotionLaw) -> MotionLaw:
-        r"""The lift that makes the mass move by a law at the polydyne speed.
-
-        .. math:: s = \frac{k + k_r}{k}\Bigl(x + 2\zeta_f\frac{\omega}{\Omega}x' +
-            \frac{\omega^2}{\Omega^2}x''\Bigr), \qquad \Omega^2 = \frac{k + k_r}{m}
+        """The lift that makes the mass move by a law at the polydyne speed.
 
         Parameters
         ----------
@@ -68,18 +65,12 @@ class FollowerTrain(Checked):
         Returns
         -------
         MotionLaw
-            s; the law itself without a polydyne speed.
-
-        References
-        ----------
-        .. [1] Norton, Cam Design and Manufacturing Handbook, 2nd ed., section 10.6.
+            s, see `linkwright.motion_laws.polydyne`; the law itself without a polydyne speed.
         """
-        from linkwright.motion_laws.motion_law import combined
+        from linkwright.motion_laws.polydyne import polydyne_lift
 
         if self.polydyne_speed is None:
             return wanted
         stiff = self.stiffness + self.spring_rate
         slow = self.polydyne_speed / math.sqrt(stiff / self.mass)
-        damped = 2 * self.damping_ratio_frame * slow
-        terms = ((1.0, wanted), (damped, wanted.derivative(1)), (slow**2, wanted.derivative(2)))
-        return combined(*terms).scaled(stiff / self.stiffness)
+        return polydyne_lift(wanted, slow, self.damping_ratio_frame, self.stiffness / stiff)

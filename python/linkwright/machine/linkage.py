@@ -22,7 +22,7 @@ from linkwright.machine.cam import Cam
 from linkwright.machine.cam_follower import follower_of
 from linkwright.machine.element import Cable, Crank, FixedPoint, LinearDriver, RigidPoint, Rocker
 from linkwright.machine.mechanism import Mechanism
-from linkwright.machine.outline import KINDS, Outline
+from linkwright.machine.outline import TABLES, Outline
 from linkwright.machine.plain import keys, look
 from linkwright.machine.pumping_unit import BEAM, BEAM_LINK, CRANK, CRANKSHAFT, ROD, SADDLE, PumpingUnit
 from linkwright.machine.rod_rotator import PIN, ROTATOR, RodRotator, lengths
@@ -150,8 +150,7 @@ def merged(own: Mechanism, unit: PumpingUnit, rotator: RodRotator | None) -> Mec
 
 def _merged(own: Mechanism, unit: PumpingUnit, rotator: RodRotator | None) -> Mechanism:
     expanded = mechanism_of(unit, rotator)
-    tables = (kind.table for kind in KINDS)
-    return own.with_entries({name: {**getattr(own, name), **getattr(expanded, name)} for name in tables})
+    return own.with_entries({name: {**getattr(own, name), **getattr(expanded, name)} for name in TABLES})
 
 
 def _has_arrays(*parts: BaseModel | None) -> bool:
@@ -188,7 +187,7 @@ def outline_of(machine: object) -> Outline:
     if not isinstance(unit, BaseModel | Mapping):
         return Outline.of(own)
     both = (_UNIT, _ROTATOR) if isinstance(rotator, BaseModel | Mapping) else (_UNIT,)
-    return Outline.of({kind.table: _joined(kind.table, own, *both) for kind in KINDS})
+    return Outline.of({table: _joined(table, own, *both) for table in TABLES})
 
 
 def _joined(table: str, own: object, *expanded: Mapping[str, Any]) -> dict[str, Any]:
@@ -222,7 +221,7 @@ def expansion_faults(machine: object) -> Iterator[InitErrorDetails]:
     taken = {
         name for part in (_UNIT, *((_ROTATOR,) if rotator else ())) for each in part.values() for name in each
     }
-    for table in (kind.table for kind in KINDS):
+    for table in TABLES:
         for name in keys(look(own, table)):
             if name in taken:
                 remedy = "the pumping unit has a part of this name: choose another"

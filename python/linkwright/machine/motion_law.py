@@ -48,8 +48,9 @@ _UP_TO_HALF = Bound(" of 0 to 0.5,", {"minimum": 0, "maximum": 0.5}, lambda x: 0
 _TO_HALF = Bound(
     " between 0 and 0.5,", {"exclusiveMinimum": 0, "exclusiveMaximum": 0.5}, lambda x: 0 < x < 0.5
 )
-# Polynomials of higher degree than these give are lost in rounding.
 Share = Annotated[float, not_negative(RATIO)]
+
+# Polynomials of higher degree than these give are lost in rounding.
 Order = Literal[1, 2, 3, 4]
 Continuity = Literal[0, 1, 2, 3, 4, 5, 6, 7]
 

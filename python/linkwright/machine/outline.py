@@ -126,6 +126,9 @@ KINDS = (
     ElementKind("bars", "bar", points=(), links=("",), references={"start": "point", "end": "point"}),
 )
 
+# The tables of a mechanism, each once.
+TABLES = tuple(dict.fromkeys(kind.table for kind in KINDS))
+
 # Tables of the elements that the drive moves.
 DRIVERS = ("cranks", "linear_drivers", "cams")
 

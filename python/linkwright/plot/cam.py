@@ -98,9 +98,7 @@ def cam_figure(profile: CamProfile) -> Figure:
         _draw_cam(each, profile, flank)
         followers = (flank,) if profile.cam.closure == "conjugate" else profile.flanks
         for k, follower in enumerate(followers):
-            _draw_follower(
-                each, profile, follower, turned=follower.contact.turned if k else 0.0, first=k == 0
-            )
+            _draw_follower(each, follower, turned=follower.contact.turned if k else 0.0, first=k == 0)
         each.set_aspect("equal", adjustable="datalim")
         each.set_xlabel("x [mm]")
         if len(parts) > 1:
@@ -289,7 +287,7 @@ def _draw_cam(axes: Axes, profile: CamProfile, flank: Flank) -> None:
     axes.plot(0, 0, "+", color=INK, markersize=9)
 
 
-def _draw_follower(axes: Axes, profile: CamProfile, flank: Flank, *, turned: float, first: bool) -> None:
+def _draw_follower(axes: Axes, flank: Flank, *, turned: float, first: bool) -> None:
     """Roller, edge or face at the start of the programme, in the frame of the cam's first contact."""
     rows = {name: float(values[0]) for name, values in flank.shape.rows.items()}
     cos, sin = math.cos(turned), math.sin(turned)

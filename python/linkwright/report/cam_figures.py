@@ -47,7 +47,7 @@ def cam_figures(study: Study) -> Iterator[Captioned]:
         figure, words = curvature_figure(profile), _curvature_words(profile)
         yield Captioned(f"cam_{name}_curvature", f"Curvature of cam {name}", words, figure)
         if name in loaded:
-            words = f"The contact bears up to {number(loaded[name].force_max)} N."
+            words = f"The contact bears up to {number(loaded[name].force_size)} N."
             if loaded[name].side_changes:
                 words += " Where the force is negative, the other side carries."
             figure = cam_force_figure(loaded[name])

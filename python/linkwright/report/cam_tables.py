@@ -183,9 +183,13 @@ def force_table(loaded: LoadedCam) -> Table:
     Table
         Quantity, symbol, value, where.
     """
-    at = f"at φ = {degrees(loaded.force_max_angle)}"
-    rows: list[Row] = [("greatest contact force", "N_max", with_unit(loaded.force_max, "N"), at)]
-    rows.append(("least contact force", "N_min", with_unit(loaded.force_min, "N"), ""))
+    rows: list[Row] = [
+        (f"{word} contact force", symbol, with_unit(force, "N"), f"at φ = {degrees(angle)}")
+        for word, symbol, force, angle in (
+            ("greatest", "N_max", loaded.force_max, loaded.force_max_angle),
+            ("least", "N_min", loaded.force_min, loaded.force_min_angle),
+        )
+    ]
     if loaded.side_changes:
         rows.append(("changes of the side that carries, a turn", "", str(loaded.side_changes), ""))
     if loaded.speed_lost is not None and loaded.speed_lost_angle is not None:
@@ -198,7 +202,12 @@ def force_table(loaded: LoadedCam) -> Table:
         deep = f"{_mm(loaded.shear_depth)} below the surface"
         rows.append(("greatest shear stress", "τ_max", f"{number(1e-6 * loaded.shear_max)} MPa", deep))
     heads = ("quantity", "", "value", "where")
-    return Table(f"cam_{loaded.name}_force", f"Forces on cam {loaded.name}", heads, rows)
+    return Table(
+        f"cam_{loaded.name}_force",
+        f"Forces on cam {loaded.name} at {number(loaded.speed)} rad/s",
+        heads,
+        rows,
+    )
 
 
 _FACTORS = {"C_v": "C_v", "C_a": "C_a", "C_j": "C_j", "C_M": "C_M", "jerk_squared": "∫j²"}

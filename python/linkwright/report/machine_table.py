@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from linkwright.machine import Guide, Machine, kind
 from linkwright.machine.cam import SecondFollower
-from linkwright.machine.outline import KINDS
+from linkwright.machine.outline import TABLES
 from linkwright.machine.plain import field_names, keys, look
 from linkwright.machine.text import join
 from linkwright.report.quantities import degrees, number, pretty_unit
@@ -77,10 +77,10 @@ def _unit(machine: Machine) -> Iterator[Part]:
 
 
 def _mechanism(machine: Machine) -> Iterator[Part]:
-    for element in KINDS:
-        group = _GROUPS.get(element.table) or element.table.replace("_", " ").capitalize()
-        for name in getattr(machine.mechanism, element.table):
-            yield _part(group, machine, ("mechanism", element.table, name))
+    for table in TABLES:
+        group = _GROUPS.get(table) or table.replace("_", " ").capitalize()
+        for name in getattr(machine.mechanism, table):
+            yield _part(group, machine, ("mechanism", table, name))
 
 
 def _tables(machine: Machine) -> Iterator[Part]:

@@ -142,7 +142,7 @@ def _follower(machine: Machine, name: str, cam: Cam, contact: Contact, series: i
     """What touches the cam: on a slide at the place of the follower, or on its arm about the pivot."""
     look: Scene = {"name": name, "at": name, "link": None, "series": series, "rod": [0.0, 0.0]}
     if cam.is_oscillating:
-        return _on_arm(machine, name, cam, contact, look, second=second)
+        return _on_arm(name, cam, contact, look, second=second)
     look["angle"] = float(cam.direction)
     place = [-_apart(cam, contact), 0.0] if second else [0.0, 0.0]
     # The second follower is held by the first; that goes on to where its work is.
@@ -162,7 +162,7 @@ def _apart(cam: Cam, contact: Contact) -> float:
     return float(cam.breadth) if cam.breadth is not None else 2 * contact.start + cam.stroke
 
 
-def _on_arm(machine: Machine, name: str, cam: Cam, contact: Contact, look: Scene, *, second: bool) -> Scene:
+def _on_arm(name: str, cam: Cam, contact: Contact, look: Scene, *, second: bool) -> Scene:
     """Roller or face of an oscillating follower."""
     look |= {"rod": [0.0, 0.0] if second else None, "at": cam.arm_pivot, "link": name, "angle": 0.0}
     if not contact.kernel.is_roller:

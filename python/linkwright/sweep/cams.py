@@ -1,6 +1,7 @@
 """Thousands to millions of cams that differ in law, radii, offset or lift: which keep their limits.
 
-Each cam is looked at at the same angles, in SIMD lanes; what is chosen in the end is looked at exactly.
+Of two contacts the first counts. Each cam is looked at at the same angles, in SIMD lanes; what is chosen in
+the end is looked at exactly.
 """
 
 from __future__ import annotations
@@ -28,9 +29,10 @@ Floats = NDArray[np.float64]
 # last.
 ENTRIES = ("base_radius", "roller_radius", "offset", "distance", "arm_length", "face_tilt", "lift_factor")
 
-_POSITIVE = ("base_radius", "distance", "arm_length")
+_POSITIVE = ("base_radius", "roller_radius", "distance", "arm_length")
 
-# Angles a turn at which cams are looked at: an extreme between them is missed by some 1e-5 of itself.
+# Angles a turn at which cams are looked at. An extreme between them is missed by up to (step)²/8 of its
+# second derivative: some 1e-4 of pressure angles, up to 1e-3 of the size of the cam in radii of curvature.
 PER_TURN = 360
 
 
@@ -148,7 +150,7 @@ def search_cams(
     name, cam = the_cam(machine, name)
     if per_turn < 16:
         raise InputError(f"per_turn = {per_turn}: expected 16 cam angles or more")
-    columns, n = _columns(entries)
+    columns, n = _columns(entries, _useful(cam))
     numbers, repeats = _numbers(law, len(laws) or 1, n)
     columns = {
         key: np.tile(column, repeats) if len(column) > 1 else column for key, column in columns.items()
@@ -181,8 +183,17 @@ def variant(machine: Machine, name: str, found: Cams, i: int) -> Machine:
     Returns
     -------
     Machine
-        A copy.
+        A copy; a cam that was given by its breadth has the base radius instead, if that was varied.
+
+    Raises
+    ------
+    InputError
+        The distance of the pivots was varied, which is no entry of the cam but a place of its pivot.
     """
+    if "distance" in found.entries:
+        raise InputError(
+            f"the distance of the pivots is no entry of cam {name}: move the point of its arm_pivot instead"
+        )
     cam = machine.mechanism.cams[name]
     if found.laws:
         law = found.laws[int(found.law[i])]
@@ -190,6 +201,8 @@ def variant(machine: Machine, name: str, found: Cams, i: int) -> Machine:
     entries: dict[str, Any] = {
         key: float(column[i]) for key, column in found.entries.items() if key != "lift_factor"
     }
+    if "base_radius" in entries:
+        entries["breadth"] = None
     factor = found.entries.get("lift_factor")
     if factor is not None:
         entries["sections"] = tuple(_times(each, float(factor[i])) for each in cam.sections)
@@ -204,18 +217,30 @@ def _times(section: MotionSection, factor: float) -> MotionSection:
     return section.with_entries({key: factor * x for key, x in values.items() if x is not None})
 
 
-def _columns(entries: Mapping[str, ArrayLike]) -> tuple[dict[str, Floats], int]:
+def _useful(cam: Cam) -> tuple[str, ...]:
+    """Entries that a cam of this kind depends on."""
+    own: tuple[str, ...]
+    if cam.is_oscillating:
+        own = ("distance", "arm_length") if cam.is_roller else ("distance", "offset")
+    else:
+        own = ("offset",) if cam.is_roller else ("face_tilt",)
+    roller = ("roller_radius",) if cam.contact == "roller" else ()
+    return ("base_radius", *roller, *own, "lift_factor")
+
+
+def _columns(entries: Mapping[str, ArrayLike], useful: Sequence[str]) -> tuple[dict[str, Floats], int]:
     """Columns by name, and how many variants."""
     columns = {}
     for key, values in entries.items():
-        if key not in ENTRIES:
-            raise InputError(f'entries: found "{key}", expected {suggestion(key, ENTRIES)}')
+        if key not in useful:
+            remedy = suggestion(key, useful)
+            raise InputError(f'entries: found "{key}", expected what such a cam depends on; {remedy}')
         columns[key] = np.atleast_1d(np.asarray(values, dtype=float))
         if columns[key].ndim != 1 or not np.isfinite(columns[key]).all():
             raise InputError(f'entries: found no list of finite numbers for "{key}"')
         least = columns[key].min(initial=np.inf)
         if key in _POSITIVE and least <= 0:
-            raise InputError(f"entries: found {key} {least:.6g} m, expected more than 0")
+            raise InputError(f"entries: found {key} {least:.6g}, expected more than 0")
     lengths = {len(column) for column in columns.values()} - {1}
     if len(lengths) > 1:
         found = ", ".join(f"{key} {len(column)}" for key, column in columns.items())
@@ -247,7 +272,8 @@ def _with(section: MotionSection, law: str) -> MotionSection:
     from linkwright.motion_laws.catalogue import LAWS
 
     if law not in LAWS:
-        raise InputError(f'laws: found "{law}", expected the name of a law; {suggestion(law, LAWS)}')
+        remedy = suggestion(law, LAWS) or "there is " + ", ".join(LAWS)
+        raise InputError(f'laws: found "{law}", expected the name of a law; {remedy}')
     if section.is_dwell or section.is_steady:
         return section
     entry: dict[str, Any] = {"kind": law}

@@ -71,6 +71,23 @@ impl Cam<f64> {
         [[p.x.c[0], p.y.c[0]], [p.x.c[1], p.y.c[1]], [2.0 * p.x.c[2], 2.0 * p.y.c[2]]]
     }
 
+    /// All rows at cam angles, at a joint from after it, or from `before`: row by row into `to`.
+    pub fn rows(&self, law: &MotionLaw, phi: &[f64], before: bool, to: &mut [f64]) {
+        row_by_row(phi, to, |phi| {
+            let (piece, at) = law.piece(phi, before);
+            self.row(piece, at)
+        });
+    }
+
+    /// The same of a curve `away` from the pitch curve: x, y, and their first and second derivatives.
+    pub fn curves(&self, law: &MotionLaw, phi: &[f64], before: bool, away: f64, to: &mut [f64]) {
+        row_by_row(phi, to, |phi| {
+            let (piece, at) = law.piece(phi, before);
+            let [[x, y], [x1, y1], [x2, y2]] = self.curve(piece, at, away);
+            [x, y, x1, y1, x2, y2]
+        });
+    }
+
     /// A quantity and its derivative by the cam angle.
     fn quantity(&self, what: Quantity, piece: &Piece, phi: f64) -> (f64, f64) {
         let cam = self.map(Dual::constant);
@@ -88,13 +105,16 @@ impl Cam<f64> {
                 best = Extreme { phi: shape.phi[i], value };
             }
         }
-        for i in peaks(&values, &shape.piece, best.value) {
-            let piece = &law.pieces()[shape.piece[i] as usize];
-            let slope = |phi: f64| self.quantity(what, piece, phi).1;
-            let phi = zero(slope, shape.phi[i - 1], shape.phi[i + 1]);
-            let value = sign * self.quantity(what, piece, phi).0;
-            if value > best.value {
-                best = Extreme { phi, value };
+        let inner = peaks(&values, &shape.piece, best.value).into_iter().map(|i| (i - 1, i + 1));
+        for (low, high) in inner.chain(edges(&shape.piece)) {
+            let piece = &law.pieces()[shape.piece[low] as usize];
+            let slope = |phi: f64| sign * self.quantity(what, piece, phi).1;
+            if slope(shape.phi[low]) > 0.0 && slope(shape.phi[high]) < 0.0 {
+                let phi = zero(slope, shape.phi[low], shape.phi[high]);
+                let value = sign * self.quantity(what, piece, phi).0;
+                if value > best.value {
+                    best = Extreme { phi, value };
+                }
             }
         }
         Extreme { phi: best.phi, value: sign * best.value }
@@ -133,6 +153,15 @@ impl<R: Real> Cam<R> {
         let gamma = contact.lead.y.atan2(contact.lead.x);
         let sound = self.soundness(&contact);
         [s, s1, s2, s3, pitch.x, pitch.y, normal.x, normal.y, gamma, contact.bend, sound, contact.along]
+    }
+}
+
+/// The numbers of each angle as columns of N rows end to end.
+fn row_by_row<const N: usize>(phi: &[f64], to: &mut [f64], numbers: impl Fn(f64) -> [f64; N]) {
+    for (i, &phi) in phi.iter().enumerate() {
+        for (k, x) in numbers(phi).into_iter().enumerate() {
+            to[k * (to.len() / N) + i] = x;
+        }
     }
 }
 
@@ -219,12 +248,24 @@ fn peaks(values: &[f64], piece: &[u32], highest: f64) -> Vec<usize> {
         let bend = 2.0 * b - a - c;
         b + if bend > 0.0 { (c - a).powi(2) / (8.0 * bend) } else { 0.0 }
     };
-    // The parabola may fall short of the peak by a little: one that nearly reaches is looked at too.
-    let nearly = |i: usize| top(i) + 0.1 * (top(i) - values[i]).abs() >= highest;
+    // The parabola may fall short of the peak: one that nearly reaches is looked at too.
+    let nearly = |i: usize| top(i) + (top(i) - values[i]).abs() >= highest;
     (1..values.len().saturating_sub(1))
         .filter(inside)
         .filter(|&i| values[i] > values[i - 1] && values[i] >= values[i + 1] && nearly(i))
         .collect()
+}
+
+/// The first and the last interval of each piece: a peak in it may lie above neighbours of which the end is the higher.
+fn edges(piece: &[u32]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let n = piece.len();
+    (1..n)
+        .filter(move |&i| {
+            let first = i == 1 || piece[i - 2] != piece[i - 1];
+            let last = i + 1 == n || piece[i + 1] != piece[i];
+            piece[i - 1] == piece[i] && (first || last)
+        })
+        .map(|i| (i - 1, i))
 }
 
 /// A zero between two angles where the signs differ, else the end where the function is nearest to zero.

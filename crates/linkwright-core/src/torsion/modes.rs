@@ -2,8 +2,8 @@
 //!
 //! All frequencies at once, a lane each: bisection by the count of [`Train::sweep`] until they lie apart, then Newton on
 //! the characteristic polynomial, whose zeros are all real, kept inside the bracket that the count proves. A mode shape follows from the disc where the two sweeps, from the leaves and from the root, fit together
-//! best: from there outwards all its ratios are stable. Where frequencies coincide, as in trains with equal branches, shapes
-//! are found by Jacobi's rotations instead, which keep them orthogonal.
+//! best: from there outwards all its ratios are stable. Where frequencies coincide, as in trains with equal branches, or a
+//! shape does not balance, all shapes are found by Jacobi's rotations instead, which keep them orthogonal.
 //!
 //! Source: Fernando, *On computing an eigenvector of a tridiagonal matrix*, SIAM J. Matrix Anal. Appl. 18 (1997)
 //! 1013–1034, for the fit of two sweeps; Golub and Van Loan, *Matrix Computations*, section 8.5, for Jacobi.
@@ -35,6 +35,9 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Frequencies closer than this share of the highest, squared, count as equal: their shapes would not be orthogonal.
 const EQUAL: f64 = 1e-7;
 
+/// Share of the torques that may be left over in a shape.
+const BALANCED: f64 = 1e-11;
+
 /// Natural frequencies and mode shapes.
 pub fn modes(train: &Train) -> Modes {
     let n = train.len();
@@ -47,6 +50,9 @@ pub fn modes(train: &Train) -> Modes {
     let mut sweeps = vec![[0.0; 3]; n];
     for (shape, &lambda) in shapes.chunks_exact_mut(n).zip(&lambda) {
         train.shape(lambda, &mut sweeps, shape);
+        if !train.balances(lambda, shape) {
+            return jacobi(train);
+        }
     }
     Modes { omega: lambda.iter().map(|x| x.sqrt()).collect(), shapes }
 }
@@ -101,6 +107,24 @@ impl Train {
             }
         }
         self.normalise(shape);
+    }
+
+    /// Whether all torques of a shape balance but for rounding. They do not where a disc between tuned branches is at rest: its
+    /// amplitude is rounding alone, and the branches beyond it follow from that.
+    fn balances(&self, lambda: f64, shape: &[f64]) -> bool {
+        let mut torque: Vec<[f64; 2]> =
+            shape.iter().zip(&self.inertia).map(|(q, J)| [-lambda * J * q, lambda * J * q.abs()]).collect();
+        torque[0][0] += self.stiffness[0] * shape[0];
+        torque[0][1] += self.stiffness[0] * shape[0].abs();
+        for c in 1..self.len() {
+            let (k, up) = (self.stiffness[c], self.parent[c]);
+            let twist = k * (shape[c] - shape[up]);
+            torque[c][0] += twist;
+            torque[up][0] -= twist;
+            torque[c][1] += k * (shape[c].abs() + shape[up].abs());
+        }
+        let largest = |part: usize| torque.iter().map(|each| each[part].abs()).fold(0.0, f64::max);
+        largest(0) <= BALANCED * largest(1)
     }
 
     fn normalise(&self, shape: &mut [f64]) {

@@ -249,7 +249,7 @@ def contacts(cam: Cam, points: dict[str, FixedPoint], name: str = "cam") -> tupl
         Dimensions vary from machine to machine.
     """
     size = sizes(cam, points)
-    if any(np.ndim(each) for each in size):
+    if any(np.ndim(each) for each in (*size, *(value for _, value in cam if not isinstance(value, tuple)))):
         raise ShapeError(
             f"the profile of cam {name} is that of one machine, and the entries describe several"
         )
@@ -304,9 +304,8 @@ def _conjugate(cam: Cam, first: Contact, name: str) -> Contact:
         least = first.start + cam.stroke + (0.0 if cam.is_oscillating else roller)
         key, unit = ("angle", "rad") if cam.is_oscillating else ("distance", "m")
         raise AssemblyError(
-            f"the second follower of {name} leaves no room for its cam: mechanism.cams.{name}.second.{key} "
-            "must "
-            f"be more than {least:.6g} {unit}",
+            f"the second follower of {name} leaves no room for its cam: "
+            f"mechanism.cams.{name}.second.{key} must be more than {least:.6g} {unit}",
             element=name,
             crank_angle=cam.phase,
         )

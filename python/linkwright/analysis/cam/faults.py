@@ -9,7 +9,7 @@ doubtful.
 | arm as fast as the cam | β′ changes its sign: the face turns over the cam |
 | locked | d·n ≤ 0: pressure angle of 90° or more |
 | crossed | the profile crosses itself where it is nowhere undercut |
-| hollow | the cutter is larger than the least concave radius |
+| hollow | the cutter is larger than the least concave radius, or wider than the groove |
 | diameter | two followers do not both touch |
 
 Each is told with the cam angle, the amount, and the smallest change that mends it. A profile whose radius is
@@ -57,7 +57,7 @@ def cam_faults(profile: CamProfile) -> tuple[str, ...]:
     tuple of str
         Empty for a sound cam.
     """
-    found: list[str] = []
+    found: list[str] = [*_leaps(profile)]
     for flank in profile.flanks:
         told = [*_locked(profile, flank), *_undercut(profile, flank)]
         found += told or [*_crossed(profile, flank), *_hollow(profile, flank)]
@@ -77,7 +77,7 @@ def cam_cautions(profile: CamProfile) -> tuple[str, ...]:
     tuple of str
         Pressure angle and curvature against their limits; derivatives that jump.
     """
-    return (*_steep(profile), *_tight(profile), *_jumps(profile))
+    return (*_steep(profile), *_tight(profile), *_jumps(profile), *_rubs(profile))
 
 
 def _degrees(angle: float) -> str:
@@ -128,8 +128,8 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
             )
         else:
             what = (
-                "under the flat face its radius of curvature is "
-                f"{_mm(worst.value)} at {_degrees(worst.angle)}"
+                f"under the flat face its radius of curvature is {_mm(worst.value)} "
+                f"at {_degrees(worst.angle)}"
             )
         where = _undercut_range(flank, worst.angle)
         yield f"{_subject(profile, flank)} is undercut {where}: {what}; it takes {change}"
@@ -139,11 +139,9 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
         if least <= size.roller_radius:
             yield (
                 f"{_subject(profile, flank)}: the outer flank of the groove is undercut at "
-                f"{_degrees(hollow.angle)}, "
-                f"where the pitch curve is hollow with {_mm(least)} radius of curvature and the roller's "
-                "radius is "
-                f"{_mm(size.roller_radius)}; it takes a roller of less than {_mm(least)} radius, or a "
-                "larger base radius"
+                f"{_degrees(hollow.angle)}, where the pitch curve is hollow with {_mm(least)} radius of "
+                f"curvature and the roller's radius is {_mm(size.roller_radius)}; it takes a roller of less "
+                f"than {_mm(least)} radius, or a larger base radius"
             )
 
 
@@ -186,8 +184,8 @@ def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
         change = _size_for(profile, flank, base) or "a smaller swing"
         yield (
             f"{_subject(profile, flank)} cannot move its follower at "
-            f"{_degrees(float(flank.shape.angle[worst]))}: the "
-            f"pressure angle is {np.degrees(abs(gamma[worst])):.4g}°; it takes {change}{limit}"
+            f"{_degrees(float(flank.shape.angle[worst]))}: the pressure angle is "
+            f"{np.degrees(abs(gamma[worst])):.4g}°; it takes {change}{limit}"
         )
 
 
@@ -210,14 +208,21 @@ def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
 
 
 def _hollow(profile: CamProfile, flank: Flank) -> Iterator[str]:
-    """A cutter that does not fit into the concave parts."""
+    """A cutter that does not fit into the concave parts, or into a groove."""
     cutter, concave = profile.cam.cutter_radius, flank.concave
-    if cutter is not None and concave is not None and cutter >= concave.value:
+    roller = flank.contact.sizes.roller_radius
+    if profile.cam.closure == "groove":
+        # Where the roller passes, a cutter that is no larger passes too.
+        if cutter is not None and cutter > roller:
+            yield (
+                f"{_subject(profile, flank)} cannot be cut with a cutter of {_mm(cutter)} radius: its groove "
+                f"is as wide as the roller of {_mm(roller)} radius; it takes a cutter of at most that"
+            )
+    elif cutter is not None and concave is not None and cutter >= concave.value:
         yield (
             f"{_subject(profile, flank)} cannot be cut with a cutter of {_mm(cutter)} radius: at "
             f"{_degrees(concave.angle)} the profile is hollow with {_mm(concave.value)} radius; it takes a "
-            "cutter of less "
-            "than that"
+            "cutter of less than that"
         )
 
 
@@ -276,8 +281,7 @@ def _places(angles: list[float]) -> str:
 def _jumps(profile: CamProfile) -> Iterator[str]:
     """Places where velocity or acceleration jumps, or jerk: between sections, or inside a law."""
     effects = {
-        0: ("lift", "the follower cannot follow"),
-        1: ("velocity", "a blow"),
+        1: ("velocity", "a blow, which no force here has in it"),
         2: ("acceleration", "a sudden force"),
         3: ("jerk", "by a finite step; acceleration is continuous"),
     }
@@ -286,3 +290,21 @@ def _jumps(profile: CamProfile) -> Iterator[str]:
         if angles:
             colon = " " if order == 3 else ": "
             yield f"the {what} of cam {profile.name} jumps at {_places(angles)}{colon}{effect}"
+
+
+def _leaps(profile: CamProfile) -> Iterator[str]:
+    """A lift that jumps: no follower gets from one place to the other."""
+    angles = [joint.angle for joint in profile.cam.motion.joints if joint.order < 0]
+    if angles:
+        # A lift made for a mass on a spring has the acceleration of the wanted motion in it.
+        wanted = "a law with continuous acceleration" if profile.cam.train else "a continuous law"
+        yield f"the lift of cam {profile.name} jumps at {_places(angles)}; it takes {wanted}"
+
+
+def _rubs(profile: CamProfile) -> Iterator[str]:
+    """Friction that steady motion does without."""
+    if profile.cam.sliding_friction:
+        yield (
+            f"the friction of cam {profile.name} counts in the forces and in the torque that they ask of the "
+            "drive, not in steady motion and run-up"
+        )

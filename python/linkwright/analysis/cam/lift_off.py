@@ -22,7 +22,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.cam.checks import positive
 from linkwright.analysis.cam.follower_load import FollowerLoad
@@ -165,10 +165,28 @@ def _speed_at(lift: MotionLaw, follower: FollowerLoad, held: MotionLaw, place: E
     a = follower.mass * float(lift.at(place.at, 2, place.side))
     b = follower.damping * float(lift.at(place.at, 1, place.side))
     c = float(held.at(place.at, 0, place.side))
+    return float(speed_of_loss(c, b, a))
+
+
+def speed_of_loss(still: ArrayLike, linear: ArrayLike, square: ArrayLike) -> Floats:
+    """The least positive ω at which a force N₀ + N₁ω + N₂ω² that presses at rest becomes zero.
+
+    Parameters
+    ----------
+    still, linear, square : array_like, shape (n,) or ()
+        N₀, positive; N₁ and N₂ [N, N s/rad, N s²/rad²].
+
+    Returns
+    -------
+    ndarray, shape (n,) or ()
+        ω; infinite where there is none [rad/s].
+    """
+    c, b, a = (np.asarray(x, dtype=float) for x in (still, linear, square))
     inside = b * b - 4 * a * c
-    # The root that is smaller and positive, without cancellation; c is positive.
-    below = -b + math.sqrt(inside) if inside >= 0 else 0.0
-    return 2 * c / below if below > 0 else math.inf
+    # The root that is smaller and positive, without cancellation.
+    below = np.sqrt(np.maximum(inside, 0.0)) - b
+    there = (inside >= 0) & (below > 0)
+    return np.where(there, 2 * c / np.where(there, below, 1.0), np.inf)
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,13 @@ The normal force N comes from the equilibrium of the whole machine (`linkwright.
 bodies, loads and guides. Where it is negative the first contact would have to pull: a second follower, a
 second cam or the outer flank of a groove takes over; a follower that only a spring closes leaves the cam.
 
-With forces that do not depend on the speed, and inertia that goes with its square, :math:`N = N_0 + \omega^2
-N_2`, the follower leaves the cam at
+With dampers that resist in proportion to the speed, and inertia that goes with its square, the follower
+leaves the cam at
 
-.. math:: \omega_\mathrm{off} = \min_{N_2 < 0}\sqrt{N_0/(-N_2)}
+.. math:: \omega_\mathrm{off} = \min_\varphi\{\omega > 0 : N_0 + N_1\omega + N_2\omega^2 = 0\}, \qquad
+    N_1 = 0: \ \omega_\mathrm{off} = \min_{N_2 < 0}\sqrt{N_0/(-N_2)}
+
+Loads that depend on the speed in another way count as this parabola through their values at 1, 2 and 3 rad/s.
 
 References
 ----------
@@ -17,17 +20,22 @@ References
 
 from __future__ import annotations
 
-import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.cam.hertz import LineContact, Material, line_contact
+from linkwright.analysis.cam.lift_off import speed_of_loss
 from linkwright.analysis.cam.profile import CamProfile, Flank
 from linkwright.analysis.forces import forces
+from linkwright.analysis.kinetostatics.motion import Motion
 from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.result import Result
+from linkwright.engine import compile_machine
+from linkwright.engine.cam import Extreme
 from linkwright.errors import FindingError
 from linkwright.machine import Machine
 
@@ -35,6 +43,18 @@ Floats = NDArray[np.float64]
 
 # A force below this share of the largest is none: rounding must not decide which side carries.
 _NOTHING = 1e-9
+
+# Rounding of a force that is a difference of forces of this share.
+_ROUNDING = 1e-12
+
+# Distance from a joint at which its two sides are looked at [rad].
+_BESIDE = 1e-9
+
+# Relative accuracy of the steady speed.
+_ACCURACY = 1e-10
+
+# Looks at the neighbourhood of an extreme, each some twenty times closer.
+_LOOKS = 3
 
 # Angles a turn at which the speed of losing contact is looked for; then so many in the two intervals about
 # the least, each time, until the angle is good to a millionth of a radian, and the speed, flat there, to
@@ -57,9 +77,11 @@ class LoadedCam(Result):
     name : str
         The cam's.
     force_max, force_max_angle : float
-        Largest in size [N], and the crank angle there [rad].
-    force_min : float
-        Least, with its sign [N].
+        Greatest, with its sign [N], and the crank angle there [rad].
+    force_min, force_min_angle : float
+        Least, with its sign [N], and the crank angle there [rad].
+    speed : float
+        Mean speed of the motion [rad/s].
     side_changes : int
         How often in these angles, gone round, the force changes from one side to the other.
     speed_lost : float
@@ -84,6 +106,8 @@ class LoadedCam(Result):
     force_max: float
     force_max_angle: float
     force_min: float
+    force_min_angle: float
+    speed: float
     side_changes: int
     speed_lost: float | None
     speed_lost_angle: float | None
@@ -94,8 +118,13 @@ class LoadedCam(Result):
     pressure: Floats | None
     findings: tuple[str, ...] = ()
 
+    @property
+    def force_size(self) -> float:
+        """Largest normal force in size [N]."""
+        return max(abs(self.force_max), abs(self.force_min))
 
-def loaded_cam(machine: Machine, profile: CamProfile, found: Forces | None = None) -> LoadedCam:
+
+def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None) -> LoadedCam:
     """A cam under the loads of its machine.
 
     Parameters
@@ -104,13 +133,14 @@ def loaded_cam(machine: Machine, profile: CamProfile, found: Forces | None = Non
         The machine, with bodies and loads.
     profile : CamProfile
         One of its cams.
-    found : Forces, optional
-        Forces along a motion; without them, those of the steady motion or at the design speed.
+    speed : float, optional
+        Of the crankshaft, the same at all angles [rad/s]; without it, the steady motion of the motor, or the
+        design speed where there is none.
 
     Returns
     -------
     LoadedCam
-        Over the crank angles of the forces.
+        Over a turn, at the angles of the profile: each joint of the law from before and from after.
 
     Raises
     ------
@@ -119,46 +149,89 @@ def loaded_cam(machine: Machine, profile: CamProfile, found: Forces | None = Non
     FindingError
         The machine has no motion.
     """
-    found = forces(machine) if found is None else found
+    cam = profile.cam
+    pressed = partial(_pressed, machine, profile.name, speed)
+    angles = _angles(profile)
+    found = pressed(angles)
     force = found.drives[profile.name]
-    angle = np.mod(found.crank_angle - profile.cam.phase, 2 * np.pi)
-    rows = [flank.contact.kernel.rows(angle) for flank in profile.flanks]
-    worst = int(np.nanargmax(np.abs(force)))
-    lost = _speed_lost(machine, profile) if profile.cam.closure == "spring" else None
+    rows = [flank.contact.kernel.rows(np.mod(angles - cam.phase, 2 * np.pi)) for flank in profile.flanks]
+    greatest = _largest(lambda phi: pressed(phi).drives[profile.name], angles, force)
+    least = _largest(lambda phi: -pressed(phi).drives[profile.name], angles, -force)
+    lost = _speed_lost(machine, profile) if cam.closure == "spring" else None
     hertz, misfit = _hertz(profile, rows, force)
     hardest = int(np.argmax(hertz.pressure)) if hertz else 0
-    carrying = force[np.abs(force) > _NOTHING * abs(force[worst])]
+    size = float(np.nanmax(np.abs(force)))
+    carrying = force[np.abs(force) > _NOTHING * size]
     return LoadedCam(
-        found.crank_angle,
+        angles,
         force,
         rows[0]["pressure_angle"],
         profile.name,
-        float(abs(force[worst])),
-        float(found.crank_angle[worst]),
-        float(np.nanmin(force)),
+        greatest.value,
+        greatest.angle,
+        -least.value,
+        least.angle,
+        found.motion.mean(found.speed),
         int(np.count_nonzero(np.diff(np.sign([*carrying[-1:], *carrying])))),
         lost[0] if lost else None,
         lost[1] if lost else None,
         float(hertz.pressure[hardest]) if hertz else None,
-        float(found.crank_angle[hardest]) if hertz else None,
+        float(angles[hardest]) if hertz else None,
         float(hertz.shear[hardest]) if hertz else None,
         float(hertz.shear_depth[hardest]) if hertz else None,
         hertz.pressure if hertz else None,
-        (*misfit, *_left(profile, found, force)),
+        (*misfit, *_left(profile, -least.value, least.angle, size, found)),
     )
 
 
-def _left(profile: CamProfile, found: Forces, force: Floats) -> tuple[str, ...]:
+def _angles(profile: CamProfile) -> Floats:
+    """Crank angles of the profile within a turn, increasing; joints from before and from after."""
+    cam_angles = profile.angle.copy()
+    twice = np.flatnonzero(np.diff(cam_angles) == 0)
+    cam_angles[twice] -= _BESIDE
+    cam_angles[twice + 1] += _BESIDE
+    cam_angles[0] += _BESIDE
+    cam_angles[-1] -= _BESIDE
+    found: Floats = np.sort(np.mod(cam_angles + profile.cam.phase, 2 * np.pi))
+    return found
+
+
+def _pressed(machine: Machine, name: str, speed: float | None, angles: Floats) -> Forces:
+    """Forces at crank angles of one turn, in steady motion or at a speed."""
+    drive = machine.drive
+    if speed is None and drive is not None and drive.motor is not None:
+        status, _, curves = compile_machine(machine).steady(angles, _ACCURACY)
+        if status != 0 or curves is None:
+            raise FindingError(f"there is no steady motion that presses on cam {name}")
+        time, omega, epsilon = curves[:3]
+        return forces(machine, Motion(angles, omega, epsilon, time))
+    return forces(machine, speed=speed, angles=angles)
+
+
+def _largest(function: Callable[[Floats], Floats], angles: Floats, values: Floats) -> Extreme:
+    """The largest value of a function sampled at angles, looked at closer and closer about its place."""
+    i = int(np.nanargmax(values))
+    best = Extreme(float(angles[i]), float(values[i]))
+    low, high = (float(angles[min(max(k, 0), len(angles) - 1)]) for k in (i - 1, i + 1))
+    for _ in range(_LOOKS):
+        places = np.linspace(low, high, _CLOSER)
+        here = function(places)
+        k = int(np.nanargmax(here))
+        if here[k] <= best.value:
+            break
+        best = Extreme(float(places[k]), float(here[k]))
+        low, high = (float(places[min(max(m, 0), len(places) - 1)]) for m in (k - 1, k + 1))
+    return best
+
+
+def _left(profile: CamProfile, least: float, at: float, size: float, found: Forces) -> tuple[str, ...]:
     """A follower that nothing keeps on its cam."""
-    lacking = float(np.nanmin(force))
-    if profile.cam.closure != "spring" or lacking >= -_NOTHING * float(np.nanmax(np.abs(force))):
+    if profile.cam.closure != "spring" or least >= -_NOTHING * size:
         return ()
-    at = np.degrees(found.crank_angle[int(np.nanargmin(force))])
     return (
-        f"the follower leaves cam {profile.name}: at a crank angle of {at:.4g}° and "
-        f"{abs(float(np.nanmax(found.speed))):.4g} rad/s it would have to be pulled with {-lacking:.4g} N; "
-        "a spring that "
-        "presses with so much more there, a lower speed, or a groove keeps it on the cam",
+        f"the follower leaves cam {profile.name}: at a crank angle of {np.degrees(at):.4g}° and "
+        f"{abs(float(np.nanmax(found.speed))):.4g} rad/s it would have to be pulled with {-least:.4g} N; "
+        "a spring that presses with so much more there, a lower speed, or a groove keeps it on the cam",
     )
 
 
@@ -166,26 +239,32 @@ def _speed_lost(machine: Machine, profile: CamProfile) -> tuple[float, float] | 
     """Speed at which contact is lost, and the crank angle, looked at closer and closer."""
     samples = np.linspace(0, 2 * np.pi, _ANGLES)
     angles = profile.cam.phase + np.unique(np.concatenate((profile.cam.lift.breaks, samples)))
-    square, at = _least_square(machine, profile, angles)
-    if not np.isfinite(square):
+    speed, at = _least_speed(machine, profile, angles)
+    if not np.isfinite(speed):
         return None
     width = float(samples[1])
     for _ in range(_ROUNDS):
-        nearer = _least_square(machine, profile, at + width * np.linspace(-1, 1, _CLOSER))
-        square, at = min((square, at), nearer)
+        nearer = _least_speed(machine, profile, at + width * np.linspace(-1, 1, _CLOSER))
+        speed, at = min((speed, at), nearer)
         width *= 4 / _CLOSER
-    return math.sqrt(max(square, 0.0)), at
+    return speed, at
 
 
-def _least_square(machine: Machine, profile: CamProfile, angles: Floats) -> tuple[float, float]:
-    """Least ω² at which contact is lost, and its angle, from forces at two speeds; else infinite."""
-    slow, fast = (forces(machine, speed=speed, angles=angles).drives[profile.name] for speed in (1.0, 2.0))
-    by_square = (fast - slow) / 3.0
-    still = slow - by_square
-    losing = by_square < -_NOTHING * max(float(np.abs(by_square).max()), 1e-300)
-    squares = np.where(losing, still / np.where(losing, -by_square, 1.0), np.inf)
-    at = int(np.argmin(squares))
-    return float(squares[at]), float(angles[at])
+def _least_speed(machine: Machine, profile: CamProfile, angles: Floats) -> tuple[float, float]:
+    """Least ω at which contact is lost, and its angle, from forces at three speeds; else infinite."""
+    one, two, three = (
+        forces(machine, speed=speed, angles=angles).drives[profile.name] for speed in (1.0, 2.0, 3.0)
+    )
+    square = 0.5 * (three - 2 * two + one)
+    linear = two - one - 3 * square
+    still = one - linear - square
+    size = float(np.abs(three).max())
+    least = max(_NOTHING * float(np.abs(square).max()), _ROUNDING * size)
+    losing = (square < -least) | (linear < -_NOTHING * size)
+    speeds = np.where(still > 0, speed_of_loss(still, linear, square), 0.0)
+    speeds = np.where(losing, speeds, np.inf)
+    at = int(np.argmin(speeds))
+    return float(speeds[at]), float(angles[at])
 
 
 def _hertz(
@@ -199,8 +278,10 @@ def _hertz(
     first = profile.flanks[0]
     pulled = _outer(first, rows[0]) if len(rows) == 1 else _inner(profile.flanks[1], rows[1])
     pushed = _inner(first, rows[0])
-    radius, roller = (np.where(force >= 0, a, b) for a, b in zip(pushed, pulled, strict=True))
     carried = np.abs(force) if cam.closure != "spring" else np.maximum(force, 0.0)
+    # A follower that only a spring closes has no other side that could carry.
+    pushes = (force >= 0) | (cam.closure == "spring")
+    radius, roller = (np.where(pushes, a, b) for a, b in zip(pushed, pulled, strict=True))
     try:
         return line_contact(carried, radius, roller, cam.width, material, material), ()
     except FindingError as error:

@@ -1,16 +1,8 @@
-r"""The lift that lets an elastic follower move exactly by a wanted law, at the speed of its design.
+"""The lift that lets an elastic follower move exactly by a wanted law, at the speed of its design.
 
-The equation of the one mass, read for the lift: with a train of stiffness k without damper of its own,
-closing spring k_r and damper c_f to the frame,
-
-.. math:: s = \frac1\kappa\left(x + 2\zeta_f\frac{\omega}{\Omega}\,x' + \frac{\omega^2}{\Omega^2}\,x''\right),
-    \qquad \kappa = \frac{k}{k + k_r}
-
+`linkwright.motion_laws.polydyne` has the formula: the equation of the one mass, read for the lift.
 The preload is in balance at rest and does not appear. The lift is continuous if x″ is, its velocity if x‴ is,
 its acceleration if x⁗ is.
-
-Source: W. M. Dudley, *New methods in valve cam design*, SAE Quarterly Transactions 2, 1948, 19–33;
-D. A. Stoddart, *Polydyne cam design*, Machine Design 25, 1953.
 """
 
 from __future__ import annotations
@@ -25,7 +17,8 @@ from linkwright.analysis.cam.lift_steps import Ends, continuity, steps
 from linkwright.analysis.cam.one_mass import OneMass
 from linkwright.analysis.result import Result
 from linkwright.errors import FindingError, InputError
-from linkwright.motion_laws.motion_law import MotionLaw, combined
+from linkwright.motion_laws.motion_law import MotionLaw
+from linkwright.motion_laws.polydyne import polydyne_correction, polydyne_lift
 
 Floats = NDArray[np.float64]
 
@@ -105,10 +98,8 @@ def polydyne(wanted: MotionLaw, model: OneMass, speed: float, ends: Ends = "dwel
     if smooth < 2:
         raise FindingError(_jump(wanted, ends, smooth + 1))
     slow = speed / model.natural_frequency
-    correction = combined(
-        (2 * model.damping_ratio_frame * slow, wanted.derivative(1)), (slow**2, wanted.derivative(2))
-    )
-    lift = combined((1.0, wanted), (1.0, correction)).scaled(1 / model.share)
+    correction = polydyne_correction(wanted, slow, model.damping_ratio_frame)
+    lift = polydyne_lift(wanted, slow, model.damping_ratio_frame, model.share)
     low, high = lift.extremes()
     return Polydyne(
         lift=lift,
@@ -119,7 +110,7 @@ def polydyne(wanted: MotionLaw, model: OneMass, speed: float, ends: Ends = "dwel
         lift_min=low.value,
         correction_max=abs(correction.peak().value),
         acceleration_max=abs(lift.peak(2).value) * speed**2,
-        findings=tuple(_findings(wanted, lift, ends, smooth)),
+        findings=tuple(_findings(wanted, lift, smooth)),
     )
 
 
@@ -134,7 +125,7 @@ def _jump(wanted: MotionLaw, ends: Ends, order: int) -> str:
     )
 
 
-def _findings(wanted: MotionLaw, lift: MotionLaw, ends: Ends, smooth: int) -> list[str]:
+def _findings(wanted: MotionLaw, lift: MotionLaw, smooth: int) -> list[str]:
     """What a designer must know of the lift."""
     found = []
     if smooth == 2:

@@ -158,6 +158,12 @@ class CamProfile(Result):
     flanks: tuple[Flank, ...]
     opposite: Opposite | None
 
+    @property
+    def joints(self) -> tuple[dict[str, Any], ...]:
+        """Where sections meet: cam angle [rad], highest continuous derivative, jumps of the derivatives."""
+        found = self.cam.motion.joints
+        return tuple({"angle": j.angle, "order": j.order, "jumps": list(j.jumps)} for j in found)
+
     def _entries(self) -> dict[str, Any]:
         """What is written out: numbers and curves, not the parts that they are from."""
         return {key: value for key, value in super()._entries().items() if key not in _PARTS}
@@ -292,7 +298,11 @@ def _least(found: list[Extreme | None]) -> Extreme | None:
 
 def _in_time(peak: float | None, order: int, speed: float | None) -> float | None:
     """A derivative by the cam angle as one by time; None without either."""
-    return None if peak is None or speed is None else peak * abs(speed) ** order
+    if peak is None or speed is None:
+        return None
+    with np.errstate(over="ignore"):
+        value = float(peak * np.abs(np.float64(speed)) ** order)
+    return value if np.isfinite(value) else None
 
 
 def _flank(contact: Contact, n: int) -> Flank:

@@ -1,0 +1,124 @@
+"""Cams in their machines: the speed of losing contact against the follower alone, pressure by Hertz."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.analysis.cam.follower_load import FollowerLoad
+from linkwright.analysis.cam.hertz import Material, line_contact
+from linkwright.analysis.cam.lift_off import lift_off
+from linkwright.analysis.cam.loaded import LoadedCam, loaded_cam
+from linkwright.analysis.cam.profile import CamProfile, cam_profile
+from linkwright.machine import Machine
+
+MASS, RATE, FREE, PIN = 0.6, 4e3, 0.2, 0.25
+BASE, ROLLER, WIDTH = 0.03, 0.008, 0.012
+
+FILE = """
+format = 1
+name = "F"
+[drive]
+speed = {speed}
+[mechanism.points]
+G = {{ x = {pin}, y = 0 }}
+[mechanism.cams.F]
+base_radius = {base}
+roller_radius = {roller}
+width = {width}
+closure = "{closure}"
+sections = [
+  {{ angle = "100 deg", lift = "9 mm", law = "{law}" }},
+  {{ angle = "80 deg", lift = "-9 mm", law = "{law}" }},
+  {{ angle = "180 deg" }},
+]
+[bodies]
+F = {{ mass = {mass} }}
+[loads]
+spring = {{ kind = "spring", between = ["F", "G"], stiffness = {rate}, free_length = {free} }}
+{more}
+"""
+
+
+def cam(more: str = "", closure: str = "spring", law: str = "cycloidal", speed: float = 20.0) -> Machine:
+    """A roller follower in line, pressed on its cam by a spring that is shorter than when it is free."""
+    text = FILE.format(
+        speed=speed,
+        pin=PIN,
+        base=BASE,
+        roller=ROLLER,
+        width=WIDTH,
+        closure=closure,
+        law=law,
+        mass=MASS,
+        rate=RATE,
+        free=PIN - BASE - ROLLER + 0.01,
+        more=more,
+    )
+    return lw.loads(text)
+
+
+# At no lift the spring is 1 cm shorter than when it is free.
+FOLLOWER = FollowerLoad(MASS, RATE, RATE * 0.01)
+
+
+@pytest.mark.parametrize("law", ["cycloidal", "modified_sine", "polynomial_4_5_6_7"])
+@pytest.mark.parametrize("damping", [0.0, 30.0])
+def test_contact_is_lost_as_the_follower_alone_says(law: str, damping: float) -> None:
+    damper = 'air = { kind = "viscous", on = "F", damping = 30 }' if damping else ""
+    found = loaded(cam(damper, law=law))
+    alone = FollowerLoad(MASS, RATE, RATE * 0.01, damping)
+    profile = cam_profile(cam(law=law))
+    wanted = lift_off(profile.cam.lift, alone)
+    assert found.speed_lost is not None
+    assert found.speed_lost_angle is not None
+    # Forces at 1 to 3 rad/s differ by a ten-thousandth of themselves through inertia.
+    assert found.speed_lost == pytest.approx(wanted.speed, rel=1e-10)
+    # The speed is flat at its least: the angle is good to the root of that.
+    assert found.speed_lost_angle == pytest.approx(wanted.cam_angle, abs=1e-4)
+
+
+def loaded(machine: Machine) -> LoadedCam:
+    return loaded_cam(machine, cam_profile(machine))
+
+
+def test_no_spring_loses_at_any_speed_and_a_groove_at_none() -> None:
+    machine = lw.replace(cam(), {"loads.spring.stiffness": 1e-9})
+    assert loaded(machine).speed_lost == pytest.approx(0, abs=0.01)
+    assert loaded(cam(closure="groove")).speed_lost is None
+
+
+def pressures(profile: CamProfile, force: np.ndarray, phi: np.ndarray) -> np.ndarray:
+    """Hertz with the radius of the profile from differences of its outline, (n,)."""
+    curve = profile.flanks[0].curve(0.0)
+    d1, d2 = curve.tangents(phi), curve.seconds(phi)
+    pitch = (d1**2).sum(axis=1) ** 1.5 / -(d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0])
+    steel = Material(210e9, 0.3)
+    own, roller = (pitch - ROLLER, np.full_like(pitch, ROLLER))
+    outer = force < 0
+    own[outer], found = -(pitch[outer] + ROLLER), np.abs(force)
+    return line_contact(found, own, roller, WIDTH, steel, steel).pressure
+
+
+@pytest.mark.parametrize("closure", ["spring", "groove"])
+def test_pressure_is_that_of_the_flank_that_carries(closure: str) -> None:
+    """A groove carries with its outer flank where the follower would leave the cam."""
+    machine = cam(closure=closure, speed=25.0 if closure == "spring" else 80.0)
+    profile = cam_profile(machine)
+    found = loaded_cam(machine, profile)
+    assert (found.force_min < 0) == (closure == "groove")
+    assert found.pressure is not None
+    wanted = pressures(profile, found.force, np.mod(found.crank_angle, 2 * np.pi))
+    np.testing.assert_allclose(found.pressure, wanted, rtol=1e-9, atol=1e-3)
+    assert found.pressure_max == found.pressure.max()
+
+
+def test_a_follower_that_leaves_is_told_and_its_cam_still_judged() -> None:
+    """Where the follower has left, no outer flank is asked for: the pressure there is zero."""
+    found = loaded(cam(speed=80.0))
+    assert found.force_min < 0
+    assert len(found.findings) == 1
+    assert "leaves cam F" in found.findings[0]
+    assert found.pressure is not None
+    np.testing.assert_array_equal(found.pressure[found.force < 0], 0.0)

@@ -1,0 +1,50 @@
+"""A compiled core from other sources is refused before it computes anything."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from linkwright import _core
+from linkwright.engine.core_format import FORMAT, check_format
+from linkwright.errors import CoreError
+
+ROOT = Path(__file__).parents[2]
+
+STALE = """
+import sys
+from linkwright import _core
+{change}
+sys.argv = ["linkwright", "run", "machines/roller_two_carts.toml", "--json"]
+from linkwright.cli import main
+main()
+"""
+
+
+def test_sources_and_core_say_the_same() -> None:
+    source = (ROOT / "crates/linkwright-core/src/plan.rs").read_text(encoding="utf-8")
+    found = re.search(r"pub const FORMAT: u32 = (\d+);", source)
+    assert found is not None
+    assert int(found[1]) == FORMAT == _core.FORMAT
+    check_format(_core)
+
+
+@pytest.mark.parametrize("change", ["_core.FORMAT += 1", "del _core.FORMAT"])
+def test_another_core_ends_with_a_remedy(change: str) -> None:
+    command = [sys.executable, "-c", STALE.format(change=change)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 2, done.stderr
+    assert not done.stdout
+    assert "Traceback" not in done.stderr
+    assert f"expected format {FORMAT}" in done.stderr
+    assert "build it again" in done.stderr
+
+
+def test_the_error_has_both_numbers() -> None:
+    with pytest.raises(CoreError) as caught:
+        check_format(object())
+    assert (caught.value.found, caught.value.expected) == (None, FORMAT)
