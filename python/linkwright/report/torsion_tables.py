@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.torsion.free import FreeVibration, Node
 from linkwright.analysis.torsion.holzer import HolzerTable
-from linkwright.report.quantities import number
 from linkwright.report.table import Row, Table
 
 Floats = NDArray[np.float64]
@@ -42,24 +41,21 @@ def torsion_tables(found: FreeVibration) -> Iterator[Table]:
 def _frequencies(found: FreeVibration) -> Table:
     rows: list[Row] = [
         (
-            str(k),
             _energy(found, k),
+            f"f_{k}",
             f"{f:.6g}",
             f"{60 * f:.6g}",
             ", ".join(map(_node, found.nodes[k])) or "–",
         )
         for k, f in enumerate(found.natural_frequencies.tolist())
     ]
-    heads = ("mode", "most energy in", "frequency [Hz]", "frequency [1/min]", "nodes")
+    heads = ("most energy in", "", "Hz", "1/min", "nodes")
     return Table("natural_frequencies", "Natural frequencies", heads, rows)
 
 
 def _node(node: Node) -> str:
-    """Where a node is: a disc, or a shaft and the share of its twist, and the length along it."""
-    if node.share == 0:
-        return node.at
-    length = "" if node.distance is None else f" ({number(node.distance)} m)"
-    return f"{node.at} {node.share:.3f}{length}"
+    """Where a node is: a disc, or a shaft and the share of its twist."""
+    return node.at if node.share == 0 else f"{node.at} {node.share:.3f}"
 
 
 def _energy(found: FreeVibration, k: int) -> str:
