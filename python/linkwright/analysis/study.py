@@ -179,9 +179,9 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     rotator = found.of(rod_rotator, machine, n=_INTERVALS) if machine.rod_rotator else None
     # A linkage that closes nowhere is told of by what follows.
     moved = _Findings().of(linkage, machine)
-    cams = _cams(machine, found)
+    cams, sound = _cams(machine, found)
     driven = _moved(machine, found) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
-    loaded = _loaded(machine, cams, driven.forces, found)
+    loaded = _loaded(machine, sound, driven.forces, found)
     shaken = tuple(each for cam in cams for each in _vibration(cam, found))
     return replace(
         driven,
@@ -197,25 +197,23 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     )
 
 
-def _cams(machine: Machine, found: _Findings) -> tuple[CamProfile, ...]:
-    """All cams; what makes one impossible is a finding."""
+def _cams(machine: Machine, found: _Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:
+    """All cams, and those that can be made; what makes one impossible is a finding."""
     looked = [found.of(cam_profile, machine, name) for name in machine.mechanism.cams]
-    profiles = tuple(each for each in looked if each is not None)
-    found.errors += [CamError(text) for each in profiles for text in cam_faults(each)]
-    return profiles
+    told = [(each, cam_faults(each)) for each in looked if each is not None]
+    found.errors += [CamError(text) for _, faults in told for text in faults]
+    return tuple(each for each, _ in told), tuple(each for each, faults in told if not faults)
 
 
 def _loaded(
     machine: Machine, cams: tuple[CamProfile, ...], borne: Forces | None, found: _Findings
 ) -> tuple[LoadedCam, ...]:
-    """The cams under load; a follower that leaves its cam is a finding."""
+    """The cams that can be made under load; a follower that leaves its cam is a finding."""
     speed = None if machine.drive is None else machine.drive.speed
     if not (machine.bodies or machine.loads) or (borne is None and speed is None):
         return ()
     along = None if borne is not None else speed
-    # What presses on a profile that cannot be made says nothing.
-    sound = [each for each in cams if not cam_faults(each)]
-    looked = [_Findings().of(loaded_cam, machine, each, along) for each in sound]
+    looked = [_Findings().of(loaded_cam, machine, each, along) for each in cams]
     loaded = tuple(each for each in looked if each is not None)
     found.errors += [CamError(text) for each in loaded for text in each.findings]
     return loaded

@@ -53,13 +53,9 @@ _BESIDE = 1e-9
 # Relative accuracy of the steady speed.
 _ACCURACY = 1e-10
 
-# Looks at the neighbourhood of an extreme, each some twenty times closer.
-_LOOKS = 3
-
-# Angles a turn at which the speed of losing contact is looked for; then so many in the two intervals about
-# the least, each time, until the angle is good to a millionth of a radian, and the speed, flat there, to
-# rounding.
-_ANGLES, _CLOSER, _ROUNDS = 720, 41, 4
+# Looks at the neighbourhood of an extreme, and places each time: the angle gets good to a millionth of a
+# radian, and the value, flat there, to rounding.
+_LOOKS, _CLOSER = 3, 41
 
 
 @dataclass(frozen=True)
@@ -157,7 +153,7 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
     rows = [flank.contact.kernel.rows(np.mod(angles - cam.phase, 2 * np.pi)) for flank in profile.flanks]
     greatest = _largest(lambda phi: pressed(phi).drives[profile.name], angles, force)
     least = _largest(lambda phi: -pressed(phi).drives[profile.name], angles, -force)
-    lost = _speed_lost(machine, profile) if cam.closure == "spring" else None
+    lost = _speed_lost(machine, profile, angles) if cam.closure == "spring" else None
     hertz, misfit = _hertz(profile, rows, force)
     hardest = int(np.argmax(hertz.pressure)) if hertz else 0
     size = float(np.nanmax(np.abs(force)))
@@ -217,9 +213,8 @@ def _largest(function: Callable[[Floats], Floats], angles: Floats, values: Float
         places = np.linspace(low, high, _CLOSER)
         here = function(places)
         k = int(np.nanargmax(here))
-        if here[k] <= best.value:
-            break
-        best = Extreme(float(places[k]), float(here[k]))
+        if here[k] > best.value:
+            best = Extreme(float(places[k]), float(here[k]))
         low, high = (float(places[min(max(m, 0), len(places) - 1)]) for m in (k - 1, k + 1))
     return best
 
@@ -235,26 +230,19 @@ def _left(profile: CamProfile, least: float, at: float, size: float, found: Forc
     )
 
 
-def _speed_lost(machine: Machine, profile: CamProfile) -> tuple[float, float] | None:
-    """Speed at which contact is lost, and the crank angle, looked at closer and closer."""
-    samples = np.linspace(0, 2 * np.pi, _ANGLES)
-    angles = profile.cam.phase + np.unique(np.concatenate((profile.cam.lift.breaks, samples)))
-    speed, at = _least_speed(machine, profile, angles)
-    if not np.isfinite(speed):
+def _speed_lost(machine: Machine, profile: CamProfile, angles: Floats) -> tuple[float, float] | None:
+    """Speed at which contact is lost, and the crank angle; None if it never is."""
+    speeds = partial(_speeds_lost, machine, profile.name)
+    sampled = speeds(angles)
+    if not np.isfinite(sampled).any():
         return None
-    width = float(samples[1])
-    for _ in range(_ROUNDS):
-        nearer = _least_speed(machine, profile, at + width * np.linspace(-1, 1, _CLOSER))
-        speed, at = min((speed, at), nearer)
-        width *= 4 / _CLOSER
-    return speed, at
+    least = _largest(lambda phi: -speeds(phi), angles, -sampled)
+    return -least.value, least.angle
 
 
-def _least_speed(machine: Machine, profile: CamProfile, angles: Floats) -> tuple[float, float]:
-    """Least ω at which contact is lost, and its angle, from forces at three speeds; else infinite."""
-    one, two, three = (
-        forces(machine, speed=speed, angles=angles).drives[profile.name] for speed in (1.0, 2.0, 3.0)
-    )
+def _speeds_lost(machine: Machine, name: str, angles: Floats) -> Floats:
+    """ω at which contact is lost at each angle, from forces at three speeds; else infinite."""
+    one, two, three = (forces(machine, speed=speed, angles=angles).drives[name] for speed in (1.0, 2.0, 3.0))
     square = 0.5 * (three - 2 * two + one)
     linear = two - one - 3 * square
     still = one - linear - square
@@ -262,9 +250,7 @@ def _least_speed(machine: Machine, profile: CamProfile, angles: Floats) -> tuple
     least = max(_NOTHING * float(np.abs(square).max()), _ROUNDING * size)
     losing = (square < -least) | (linear < -_NOTHING * size)
     speeds = np.where(still > 0, speed_of_loss(still, linear, square), 0.0)
-    speeds = np.where(losing, speeds, np.inf)
-    at = int(np.argmin(speeds))
-    return float(speeds[at]), float(angles[at])
+    return np.where(losing, speeds, np.inf)
 
 
 def _hertz(

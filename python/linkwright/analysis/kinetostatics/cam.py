@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.analysis.cam.contact import centre_of, contacts, touch
+from linkwright.analysis.cam.contact import centre_of, contacts, touch, turned_by
 from linkwright.analysis.kinetostatics.scene import Floats, Scene, dot, left
 from linkwright.analysis.kinetostatics.wrench import Wrenches
 from linkwright.machine.cam_follower import OscillatingFollower, TranslatingFollower
@@ -79,7 +79,7 @@ def pushes(scene: Scene, follower: Follower, name: str) -> tuple[Push, Push | No
     """
     cam, points = follower.cam, scene.mechanism.fixed_points()
     centre = np.array(centre_of(cam, points))
-    sense = -1.0 if cam.rotation == "opposite" else 1.0
+    sense = turned_by(cam, np.ones(1))
     made = []
     for contact, sign in zip(contacts(cam, points, name), (1.0, -1.0), strict=False):
         at = touch(cam, contact, points, scene.motion.crank_angle)
