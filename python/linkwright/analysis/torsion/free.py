@@ -33,6 +33,7 @@ from linkwright.analysis.result import Result
 from linkwright.engine.train import HELD, ReferredTrain, refer
 from linkwright.errors import InputError
 from linkwright.machine import Machine, Train
+from linkwright.machine.whole_train import whole_train
 
 Floats = NDArray[np.float64]
 
@@ -166,7 +167,7 @@ def free_vibration(machine: Machine) -> FreeVibration:
 
 
 def train_of(machine: Machine) -> Train:
-    """The train of a machine.
+    """The train of a machine, as discs, shafts and gears.
 
     Parameters
     ----------
@@ -176,7 +177,7 @@ def train_of(machine: Machine) -> Train:
     Returns
     -------
     Train
-        Its train.
+        Its train, with couplings and dampers as discs and shafts.
 
     Raises
     ------
@@ -185,7 +186,7 @@ def train_of(machine: Machine) -> Train:
     """
     if machine.train is None:
         raise InputError(f"{machine.name} has no [train]: expected [train.discs] and [train.shafts]")
-    return machine.train
+    return whole_train(machine.train)
 
 
 def twists_of(referred: ReferredTrain, amplitudes: Floats) -> Floats:
