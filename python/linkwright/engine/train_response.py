@@ -157,7 +157,7 @@ def _whole(referred: ReferredTrain, at: Operating, orders: Floats, torques: Comp
 def _solved(matrix: Complexes, torque: Complexes) -> Complexes:
     """Solutions one by one where one of them has none."""
     try:
-        found: Complexes = np.linalg.solve(matrix, torque[..., None])[..., 0]
+        found: Complexes = np.linalg.solve(matrix, torque[..., None])[..., 0].astype(complex, copy=False)
         return found
     except np.linalg.LinAlgError:
         if len(matrix) == 1:

@@ -142,7 +142,7 @@ def _onto_masses(referred: ReferredTrain, torques: Complexes) -> Complexes:
 
 def _mean_torques(referred: ReferredTrain, mean: Floats) -> Floats:
     """Torque of each shaft at its own speed under torques that do not pulsate."""
-    M = _onto_masses(referred, mean[None] + 0j)[0].real
+    M = _onto_masses(referred, mean[None].astype(complex))[0].real
     if referred.is_free:
         # What is left over speeds the train up as a whole.
         M = M - referred.inertia[:, None] * (M.sum(axis=0) / referred.inertia.sum())
