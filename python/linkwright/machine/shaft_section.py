@@ -65,8 +65,8 @@ class ShaftSection(Checked):
         description="Of the section; of a flange its thickness; of a hub what is engaged."
     )
     diameter: PositiveLength = Field(
-        description="Outside; of a taper where it begins; of a flange that of the shaft coming out of it; of a "
-        "spline over its teeth."
+        description="Outside; of a taper where it begins; of a flange that of the shaft coming out of it; "
+        "of a spline over its teeth."
     )
     inner_diameter: Bore = Field(0.0, description="Of the bore; of a taper where it begins.")
     diameter_end: PositiveLength | None = Field(None, description="Of a taper, where it ends.")

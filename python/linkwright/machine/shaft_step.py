@@ -1,7 +1,7 @@
 r"""What a step of a shaft adds to the thinner side: the thicker one does not turn as a whole at the step.
 
-The torque comes out of the thinner side into the middle of the thicker one, which yields there. The step counts
-as a further length of the thinner side, a share λ of its diameter, by the ratio of the diameters:
+The torque comes out of the thinner side into the middle of the thicker one, which yields there. The step
+counts as a further length of the thinner side, a share λ of its diameter, by the ratio of the diameters:
 
 | D/d | 1 | 1.25 | 1.5 | 2 | 3 | ∞ |
 | --- | --- | --- | --- | --- | --- | --- |
