@@ -142,4 +142,7 @@ class Train(Description):
     excitations: dict[Name, Excitation] = Field(
         default_factory=dict, description="Torques that pulsate, by name."
     )
+    driver: str | None = Field(
+        None, description="Disc that drives the loads, where no engine does. Without it, the first."
+    )
     run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")

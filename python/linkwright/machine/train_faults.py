@@ -90,7 +90,11 @@ def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
 
 
 def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
-    """Dampers, loads and torques on what is no disc."""
+    """Dampers, loads and torques on what is no disc, and a driver that is none."""
+    driver = look(train, "driver")
+    if isinstance(driver, str) and driver not in discs:
+        remedy = close_match(driver, discs) or suggestion(driver, discs)
+        yield fault("train", "driver", found=driver, expected="the name of a disc", remedy=remedy)
     for table in _ON:
         for name in keys(look(train, table)):
             on = look(look(look(train, table), name), "on")

@@ -87,7 +87,7 @@ def torques_of(train: Train, turning: Floats, speeds: Floats, engine: Iterable[S
     -------
     Torques
         Mean torques balance: with sources that drive, loads take off what they give, in proportion to their
-        laws; without, the first disc drives what the loads need. Without loads nothing balances.
+        laws; without, the driver gives what the loads need. Without loads nothing balances.
     """
     place = {name: k for k, name in enumerate(train.discs)}
     sources = [*engine, *_excitations(train, place, turning, speeds)]
@@ -103,7 +103,8 @@ def torques_of(train: Train, turning: Floats, speeds: Floats, engine: Iterable[S
         share = np.divide(drive, needed, out=np.ones_like(needed), where=needed > 0) if drive.any() else 1.0
         resistance = resistance * share
         if not drive.any():
-            mean[0] += needed
+            driver = place[train.driver or next(iter(place))]
+            mean[driver] += needed / turning[driver]
     sources += _load_harmonics(train, place, turning, resistance)
     orders = _orders(each.orders for each in sources)
     harmonics = np.zeros((len(orders), len(place), len(speeds)), complex)
