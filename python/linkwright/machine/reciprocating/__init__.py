@@ -1,0 +1,1 @@
+"""Parts of a reciprocating engine, and what follows from them in closed form."""
