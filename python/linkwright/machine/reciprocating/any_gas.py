@@ -5,7 +5,8 @@
 | `table` | measured indicator diagrams | `indicator` |
 | `wiebe` | a cycle by Wiebe's function | `combustion` |
 
-Both follow a load map (`gas_load`) and give a `CyclePressure` for a `Cylinder`; `gas_torque` makes harmonics of it.
+Both follow a load map (`gas_load`) and give a `CyclePressure` for a `Cylinder`; `gas_torque` makes harmonics
+of it.
 """
 
 from __future__ import annotations

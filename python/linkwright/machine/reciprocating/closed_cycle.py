@@ -2,12 +2,13 @@ r"""The gas between closing and opening: compression, release of heat, expansion
 
 For a mass of ideal gas of one temperature the first law is
 
-.. math:: \frac{dp}{dφ} = -γ \frac{V'}{V} p + \frac{γ - 1}{V} \left(Q x' - \frac{h S (T - T_w)}{ω}\right), \qquad
-    T = \frac{p V}{m R}, \qquad m R = \frac{p_r V_r}{T_r}
+.. math:: \frac{dp}{dφ} = -γ \frac{V'}{V} p + \frac{γ - 1}{V} \left(Q x' - \frac{h S (T - T_w)}{ω}\right),
+    \qquad T = \frac{p V}{m R}, \qquad m R = \frac{p_r V_r}{T_r}
 
-(Heywood, Internal Combustion Engine Fundamentals, 1988, section 9.2.2). With γ(T) and the conductance hS of the last
-iterate it is linear in p and in the heat Q, p = p_a + Q p_b, and both follow from integrating factors over the panels of the
-mesh for all loads at once; Q then follows from what is asked for without a search. A few iterates settle it to rounding.
+(Heywood, Internal Combustion Engine Fundamentals, 1988, section 9.2.2). With γ(T) and the conductance hS of
+the last iterate it is linear in p and in the heat Q, p = p_a + Q p_b, and both follow from integrating
+factors over the panels of the mesh for all loads at once; Q then follows from what is asked for without a
+search. A few iterates settle it to rounding.
 
 Where no exponent is given,
 
@@ -177,8 +178,8 @@ def closed_trace(gas: ClosedGas, rule: Rule, motored: Array | None = None) -> Cl
         if change < _TOLERANCE:
             return _trace(gas, split, Q, C)
     raise ConvergenceError(
-        f"the pressure of the gas does not settle within {_ITERATIONS} iterates (last change {change:.2g} of it); "
-        "check heat, walls and speeds",
+        f"the pressure of the gas does not settle within {_ITERATIONS} iterates (last change {change:.2g} of "
+        "it); check heat, walls and speeds",
         method="closed cycle",
         iterations=_ITERATIONS,
         residual=change,

@@ -1,14 +1,15 @@
 r"""A working cycle by calculation: compression, release of heat by Wiebe's function, expansion, gas exchange.
 
-`closed_cycle` has the gas while the cylinder is closed, `valves` the pressure while it is open, `wiebe` the release,
-`wall_heat` the losses. The heat of a cycle is given, or follows from the mean effective pressure
+`closed_cycle` has the gas while the cylinder is closed, `valves` the pressure while it is open, `wiebe` the
+release, `wall_heat` the losses. The heat of a cycle is given, or follows from the mean effective pressure
 
 .. math:: p_i = \frac{1}{V_h} \oint p \, dV
 
-or from the peak pressure. A load map asks for a mean effective pressure at each speed; the shape of the release stays.
+or from the peak pressure. A load map asks for a mean effective pressure at each speed; the shape of the
+release stays.
 
-Many speeds are not computed one by one: pressures at a few speeds between the corners of the load map (at Chebyshev's
-points) are computed, and those between them by the polynomial through these.
+Many speeds are not computed one by one: pressures at a few speeds between the corners of the load map are
+computed, and those between them by polynomials through these (`speed_points`).
 """
 
 from __future__ import annotations
@@ -114,8 +115,8 @@ class Combustion(Gas):
                     "releases",
                     i,
                     found=f"heat from {math.degrees(each.start):.6g} to {math.degrees(each.end):.6g} deg",
-                    expected=f"within {math.degrees(timing.closes):.6g} and {math.degrees(timing.opens):.6g} deg, "
-                    "while the cylinder is closed",
+                    expected=f"between {math.degrees(timing.closes):.6g} and "
+                    f"{math.degrees(timing.opens):.6g} deg, while the cylinder is closed",
                 )
 
     def cycle_pressure(self, cylinder: Cylinder, speeds: Array) -> CyclePressure:
@@ -155,7 +156,8 @@ class Combustion(Gas):
         Returns
         -------
         tuple
-            The cycle, and the mean effective pressure that the load map asks for, shape (n, 1) [Pa]; None without one.
+            The cycle, and the mean effective pressure that the load map asks for, shape (n, 1) [Pa]; None
+            without one.
         """
         charge = np.full((len(speeds), 1), self.charge_pressure)
         if self.load is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -14,8 +15,8 @@ Array = NDArray[np.float64]
 
 # Gauss points of a panel: integrals of polynomials up to degree 11 are exact.
 _POINTS = 6
-# Panels of the closed cycle. With a compression ratio of 20 the pressure's nearest pole is some 25 deg away from the
-# dead centre, so six points leave 1e-10 of it.
+# Panels of the closed cycle. With a compression ratio of 20 the pressure's nearest pole is some 25 deg away
+# from the dead centre, so six points leave 1e-10 of it.
 _CLOSED = math.radians(6.0)
 # Panels of the gas exchange: order 24 turns by less than a third of its period from point to point.
 _OPEN = math.radians(10.0)
@@ -61,13 +62,13 @@ class CycleMesh:
 
 @cache
 def _gauss() -> tuple[Array, Array, Array]:
-    """Gauss points and weights on −1 … 1, and the integrals of Lagrange's polynomials from −1 to each point."""
+    """Gauss points, weights on −1 … 1, and integrals of Lagrange's polynomials from −1 to each point."""
     x, w = legendre.leggauss(_POINTS)
     k = np.arange(_POINTS)
     # The polynomial through the points has the Legendre coefficients (k + ½) Σ w_j P_k(x_j) y_j.
     analysis = (k[:, None] + 0.5) * legendre.legvander(x, _POINTS - 1).T * w
     S = np.column_stack([legendre.legval(x, legendre.legint(column, lbnd=-1)) for column in analysis.T])
-    return x, w, S
+    return np.asarray(x), np.asarray(w), np.asarray(S)
 
 
 def mesh(edges: Array) -> CycleMesh:
@@ -96,8 +97,8 @@ def closed_edges(start: float, end: float, releases: list[tuple[float, float]]) 
     start, end : float
         Crank angles of closing and of opening [rad].
     releases : list of tuple
-        Start and duration of each release of heat [rad]. Its panels grow from its start with the square, since
-        the release begins with any power of the angle.
+        Start and duration of each release of heat [rad]. Its panels grow from its start with the square,
+        since the release begins with any power of the angle.
 
     Returns
     -------
@@ -128,7 +129,7 @@ def open_edges(start: float, end: float, corners: tuple[float, ...]) -> Array:
         Increasing [rad].
     """
     ends = sorted({start, end, *(each for each in corners if start < each < end)})
-    return np.unique(np.concatenate([_even(a, b, _OPEN) for a, b in zip(ends, ends[1:], strict=False)]))
+    return np.unique(np.concatenate([_even(a, b, _OPEN) for a, b in pairwise(ends)]))
 
 
 def _even(start: float, end: float, width: float) -> Array:
@@ -139,4 +140,4 @@ def _apart(edges: Array, corners: set[float]) -> Array:
     """The edges without those that lie close before another and are no corner."""
     keep = np.r_[np.diff(edges) > 0.05 * _CLOSED, True]
     first_of_release = np.isin(edges, list(corners))
-    return edges[keep | first_of_release]
+    return np.asarray(edges[keep | first_of_release])

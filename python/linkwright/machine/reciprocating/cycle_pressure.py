@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 class CyclePressure:
     """Pressures at n speeds as sums of a few traces over m crank angles.
 
-    Torque is linear in the pressure, so whatever is wanted of it is found for the traces alone and then summed.
+    Torque is linear in the pressure, so its harmonics are found for the traces alone and then summed.
 
     Attributes
     ----------

@@ -174,8 +174,8 @@ def powers(angle: Array, n: int) -> Complex:
     Returns
     -------
     ndarray, shape (n, m)
-        Each the product of the one before with e^{iφ}, which costs a tenth of as many exponentials and loses n
-        units in the last place.
+        Each the product of the one before with e^{iφ}, which costs a tenth of as many exponentials and
+        loses n units in the last place.
     """
     turns = np.empty((n, len(angle)), dtype=np.complex128)
     turns[0] = 1.0

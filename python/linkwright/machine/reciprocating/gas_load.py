@@ -51,7 +51,7 @@ class GasLoad(Checked):
     @property
     @abstractmethod
     def rated(self) -> float | None:
-        """Greatest mean effective pressure of the map [Pa]; None where it takes that of the gas as described."""
+        """Greatest mean effective pressure of the map [Pa]; None where it is that of the gas as described."""
 
     @property
     def rated_speed(self) -> float:
@@ -93,8 +93,8 @@ class TableGasLoad(GasLoad):
     kind: Literal["table"]
     file: str | None = Field(
         None,
-        description="File of comma-separated values beside the machine file, in place of the lists, with units in "
-        'its head: "speed [rpm], mean_effective_pressure [bar]".',
+        description="File of comma-separated values beside the machine file, in place of the lists, with "
+        'units in its head: "speed [rpm], mean_effective_pressure [bar]".',
     )
     speed: Speeds = Field((), description="Of the crank, increasing.")
     mean_effective_pressure: Pressures = Field((), description="Indicated, at each speed.")

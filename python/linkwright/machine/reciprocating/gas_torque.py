@@ -1,15 +1,15 @@
 r"""The torque of the gas on the crank, and its harmonics.
 
-The gas pushes the piston with p − p_c over the area A, and virtual work gives the torque at the crank whatever
-the mechanism between them,
+The gas pushes the piston with p − p_c over the area A, and virtual work gives the torque at the crank
+whatever the mechanism between them,
 
 .. math:: M(φ) = -(p - p_c) A x', \qquad
     M = \mathrm{Re} \sum_ν M_ν e^{iνφ}, \qquad
     M_ν = \frac{2}{Φ} \int_Φ M e^{-iνφ} dφ, \quad M_0 = \frac1Φ \int_Φ M dφ
 
-with x the distance of the piston from the axis of the crank (x′ < 0 as it descends: pressure drives) and Φ the
-angle of a working cycle. Orders count per turn of the crank: with four strokes they go by halves. The integrals are
-those of the mesh of `CyclePressure`.
+with x the distance of the piston from the axis of the crank (x′ < 0 as it descends: pressure drives) and Φ
+the angle of a working cycle. Orders count per turn of the crank: with four strokes they go by halves. The
+integrals are those of the mesh of `CyclePressure`.
 
 References
 ----------
@@ -43,7 +43,8 @@ class GasTorque:
     orders : ndarray, shape (o,)
         Per turn of the crank, from 0.
     firing : ndarray, shape (n, o)
-        M_ν of a sound cylinder, complex [N m]; φ = 0 is where the crank points along the cylinder, near firing.
+        M_ν of a sound cylinder, complex [N m]; φ = 0 is where the crank points along the cylinder, near the
+        firing.
     motored : ndarray, shape (n, o)
         The same of a cylinder that misfires: it compresses and expands without combustion.
     mean_effective_pressure : ndarray, shape (n,)
@@ -109,7 +110,7 @@ def torque_orders(strokes: int, highest: float = 24.0) -> Array:
         From 0, in steps of ½ with four strokes, of 1 with two.
     """
     step = 2.0 / strokes
-    return np.arange(round(highest / step) + 1) * step
+    return np.asarray(np.arange(round(highest / step) + 1) * step)
 
 
 def gas_torque(pressure: CyclePressure, cylinder: Cylinder, highest: float = 24.0) -> GasTorque:
@@ -144,6 +145,6 @@ def gas_torque(pressure: CyclePressure, cylinder: Cylinder, highest: float = 24.
         orders,
         firing,
         pressure.motored @ of_traces,
-        firing[:, 0].real * cylinder.cycle / cylinder.swept_volume,
+        np.asarray(firing[:, 0].real * (cylinder.cycle / cylinder.swept_volume)),
         pressure.peak_pressure,
     )

@@ -1,25 +1,25 @@
 r"""A measured indicator diagram: pressure in the cylinder over the crank angle of a whole cycle.
 
-Between its points the pressure is a periodic monotone cubic (Fritsch and Butland [1]_): it has no overshoot beside
-the steep rise of combustion, as a spline has, so that no pressure is invented, and none falls below the measured.
+Between its points the pressure is a periodic monotone cubic (Fritsch and Butland [1]_): it has no overshoot
+beside the steep rise of combustion, as a spline has, so that no pressure is invented.
 
 Without combustion the same cylinder would follow its compression line through the dead centre,
 
 .. math:: p_0 = p(φ_s) \left(\frac{V(φ_s)}{V}\right)^n
 
-from the start of combustion φ_s until the exhaust opens, n fitted to the forty degrees before φ_s. What is above
-this line is the combustion, and fades out while the exhaust blows down. Other loads scale it,
+from the start of combustion φ_s until the exhaust opens, n fitted to the forty degrees before φ_s. What is
+above this line is the combustion, and fades out while the exhaust blows down. Other loads scale it,
 
 .. math:: p = p_0 + f (p - p_0), \qquad f = \frac{p_i - p_{i,0}}{p_{i,1} - p_{i,0}}
 
-with p_i the mean effective pressure asked for, p_{i,1} that of the diagram and p_{i,0} that of the motored line.
-Between diagrams at several loads the pressure is linear in p_i; below the least and above the greatest of them
-combustion is scaled.
+with p_i the mean effective pressure asked for, p_{i,1} that of the diagram and p_{i,0} that of the motored
+line. Between diagrams at several loads the pressure is linear in p_i; below the least and above the greatest
+of them combustion is scaled.
 
 References
 ----------
-.. [1] Fritsch, Butland, A method for constructing local monotone piecewise cubic interpolants, SIAM J. Sci. Stat.
-Comput. 5 (1984) 300-304.
+.. [1] Fritsch, Butland, A method for constructing local monotone piecewise cubic interpolants, SIAM J. Sci.
+Stat. Comput. 5 (1984) 300-304.
 """
 
 from __future__ import annotations
@@ -72,8 +72,8 @@ class Diagram(Checked):
     kind: Literal["table"]
     file: str | None = Field(
         None,
-        description="File of comma-separated values beside the machine file, in place of the lists, with units in "
-        'its head: "angle [deg], pressure [bar]".',
+        description="File of comma-separated values beside the machine file, in place of the lists, with "
+        'units in its head: "angle [deg], pressure [bar]".',
     )
     angle: Angles = Field(
         (), description="Crank angles from the top dead centre of firing, increasing, over one working cycle."
@@ -158,7 +158,7 @@ class Indicator(Diagram, Gas):
         """Even angles of a cycle, as close as the finest diagram has them."""
         steps = [cycle / len(each.angle) for each in (self, *self.other_loads)]
         n = round(cycle / max(_FINEST, min(_STEP, *steps)))
-        return np.arange(n) * (cycle / n) - cycle / 2
+        return np.asarray(np.arange(n) * (cycle / n) - cycle / 2)
 
     def _motored(self, pressure: Array, angle: Array, cylinder: Cylinder) -> Array:
         """The diagram without its combustion."""

@@ -1,4 +1,4 @@
-"""What can be wrong with a measured indicator diagram: gaps, ends that do not meet, wrong units, wrong zero."""
+"""What can be wrong with an indicator diagram: gaps, ends that do not meet, wrong units, wrong zero."""
 
 from __future__ import annotations
 
@@ -99,7 +99,8 @@ def whole_cycle_faults(
     Yields
     ------
     InitErrorDetails
-        A cycle that is not covered or more than covered, ends that do not meet, a peak far from the dead centre.
+        A cycle that is not covered or more than covered, ends that do not meet, a peak far from the dead
+        centre.
     """
     span = angle[-1] - angle[0]
     if span > cycle + _SAME_ANGLE:

@@ -1,9 +1,10 @@
 r"""The periodic monotone cubic through points of a cycle.
 
-On each interval of width h with secant s it is Hermite's cubic; the slope at a point between secants of the same sign is
-their weighted harmonic mean, at an extreme zero,
+On each interval of width h with secant s it is Hermite's cubic; the slope at a point between secants of the
+same sign is their weighted harmonic mean, at an extreme zero,
 
-.. math:: \frac{w_1 + w_2}{d} = \frac{w_1}{s_-} + \frac{w_2}{s_+}, \qquad w_1 = 2 h_+ + h_-, \quad w_2 = h_+ + 2 h_-
+.. math:: \frac{w_1 + w_2}{d} = \frac{w_1}{s_-} + \frac{w_2}{s_+}, \qquad w_1 = 2 h_+ + h_-, \quad
+    w_2 = h_+ + 2 h_-
 
 References
 ----------
@@ -24,8 +25,8 @@ def periodic_cubic(knots: Array, values: Array, period: float, at: Array) -> Arr
     Parameters
     ----------
     knots : ndarray, shape (k,)
-        Arguments, increasing, over at most one period. One that is a whole period after the first counts as the
-        first, and the mean of both values is taken.
+        Arguments, increasing, over at most one period. One that is a whole period after the first counts as
+        the first, and the mean of both values is taken.
     values : ndarray, shape (k,)
         Value at each.
     period : float
@@ -68,4 +69,4 @@ def _slopes(h: Array, s: Array) -> Array:
     with np.errstate(divide="ignore", invalid="ignore"):
         mean = (w_1 + w_2) / (w_1 / left + w_2 / right)
     d = np.where(same, mean, 0.0)
-    return np.r_[d, d[0]]
+    return np.asarray(np.r_[d, d[0]])

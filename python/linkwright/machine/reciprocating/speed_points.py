@@ -12,13 +12,15 @@ References
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# Points of the only piece, and of one among several. Torque over a speed range of 1 to 6, with Woschni's loss, is met within
-# 1e-6 by nine; pieces of a table are short.
+# Points of the only piece, and of one among several. Nine meet the torque over a speed range of 1 to 6, with
+# Woschni's loss, within 1e-6; pieces of a table are short.
 _ALONE = 9
 _AMONG = 5
 
@@ -44,7 +46,7 @@ def speed_points(speeds: Array, kinks: tuple[float, ...]) -> tuple[Array, Array]
     if len(asked) <= (len(ends) - 1) * (each - 1) + 1:
         return asked, np.eye(len(asked))[place]
     unit = -np.cos(np.pi * np.arange(each) / (each - 1))
-    points = np.unique(np.concatenate([_between(a, b, unit) for a, b in zip(ends, ends[1:], strict=False)]))
+    points = np.unique(np.concatenate([_between(a, b, unit) for a, b in pairwise(ends)]))
     share = np.zeros((len(speeds), len(points)))
     piece = np.clip(np.searchsorted(ends, speeds, side="right") - 1, 0, len(ends) - 2)
     for i in range(len(ends) - 1):
@@ -55,7 +57,7 @@ def speed_points(speeds: Array, kinks: tuple[float, ...]) -> tuple[Array, Array]
 
 def _between(start: float, end: float, unit: Array) -> Array:
     """Chebyshev's points of a piece, with its very ends."""
-    return np.r_[start, (start + end) / 2 + (end - start) / 2 * unit[1:-1], end]
+    return np.asarray(np.r_[start, (start + end) / 2 + (end - start) / 2 * unit[1:-1], end])
 
 
 def _shares(x: Array, points: Array) -> Array:

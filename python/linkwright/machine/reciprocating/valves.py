@@ -1,12 +1,13 @@
 r"""Valve or port timing, and the pressure while the cylinder is open.
 
-From opening on the pressure falls to that of the exhaust, in the course of a cosine over the blow-down; between the opening
-of the intake and the closing of the exhaust it goes over to that of the charge, and stays there until the cylinder is closed:
+From opening on the pressure falls to that of the exhaust, in the course of a cosine over the blow-down;
+between the opening of the intake and the closing of the exhaust it goes over to that of the charge, and
+stays there until the cylinder is closed:
 
 .. math:: p = p_e + (p_c - p_e) s(φ) + (p_o - p_e) b(φ)
 
-with p_o the pressure at opening. It is a scheme, not gas dynamics: the pressures of the gas exchange are a few bars, those of
-combustion a hundred.
+with p_o the pressure at opening. It is a scheme, not gas dynamics: the pressures of the gas exchange are a
+few bars, those of combustion a hundred.
 """
 
 from __future__ import annotations
@@ -105,8 +106,8 @@ class Valves(Description):
     intake_closes: PositiveAngle | None = Field(None, description="Without it, 580 deg; 220 deg with two.")
     blowdown: PositiveAngle | None = Field(
         None,
-        description="Angle in which the pressure falls to that of the exhaust; without it 50 deg, or less where the "
-        "intake opens earlier.",
+        description="Angle in which the pressure falls to that of the exhaust; without it 50 deg, or less "
+        "where the intake opens earlier.",
     )
 
     def angle(self, name: str, strokes: int) -> float:

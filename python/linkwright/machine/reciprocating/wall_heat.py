@@ -6,15 +6,16 @@ r"""Heat that the gas loses to the walls of the cylinder.
 | `hohenberg` | 130 V^-0.06 p^0.8 T^-0.4 (c_m + 1.4)^0.8, p in bar |
 | `share` | none: a given share of the heat is lost as it is released |
 
-B bore [m], V volume [m³], T temperature of the gas [K], c_m mean speed of the piston [m/s], p_0 pressure of the motored
-cylinder; p_r, V_r, T_r where the cylinder closes. The walls are piston, head and the liner that is bare,
+B bore [m], V volume [m³], T temperature of the gas [K], c_m mean speed of the piston [m/s], p_0 pressure of
+the motored cylinder; p_r, V_r, T_r where the cylinder closes. The walls are piston, head and the liner that
+is bare,
 
 .. math:: S = \frac{π}{2} B^2 + \frac{4V}{B}
 
 References
 ----------
-.. [1] Woschni, SAE 670931 (1967); in SI by Heywood, Internal Combustion Engine Fundamentals, 1988, equations (12.18),
-(12.19), with the constants of the closed cycle.
+.. [1] Woschni, SAE 670931 (1967); in SI by Heywood, Internal Combustion Engine Fundamentals, 1988, equations
+(12.18), (12.19), with the constants of the closed cycle.
 .. [2] Hohenberg, SAE 790825 (1979).
 """
 

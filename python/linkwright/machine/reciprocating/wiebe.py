@@ -7,7 +7,8 @@ The denominator, 0.999 for the usual a = 6.908, makes the release complete at th
 References
 ----------
 .. [1] Wiebe, Brennverlauf und Kreisprozess von Verbrennungsmotoren, 1970.
-.. [2] Heywood, Internal Combustion Engine Fundamentals, 1988, equation (9.30): a efficiency factor, m form factor.
+.. [2] Heywood, Internal Combustion Engine Fundamentals, 1988, equation (9.30): a efficiency factor, m form
+factor.
 .. [3] Miyamoto et al., SAE 850107: two functions for Diesel engines.
 """
 

@@ -4,7 +4,8 @@ The work of the cycle is linear in the heat as the pressure is, so the heat for 
 
 .. math:: Q = \frac{p_i - p_{i,a}}{p_{i,b}}
 
-with the mean effective pressures of p_a and p_b; for a peak pressure p̂ it is the least (p̂ - p_a)/p_b over the cycle.
+with the mean effective pressures of p_a and p_b; for a peak pressure p̂ it is the least (p̂ - p_a)/p_b over the
+cycle.
 """
 
 from __future__ import annotations
@@ -59,12 +60,12 @@ class WorkingCycle:
     @property
     def angle(self) -> Array:
         """Crank angles of the cycle, shape (k,) [rad]."""
-        return np.r_[self.closed.mesh.angle, self.open.angle]
+        return np.concatenate([self.closed.mesh.angle, self.open.angle])
 
     @property
     def weight(self) -> Array:
         """What each angle counts in an integral, shape (k,) [rad]."""
-        return np.r_[self.closed.mesh.weight, self.open.weight]
+        return np.concatenate([self.closed.mesh.weight, self.open.weight])
 
     def pressure(self, trace: ClosedTrace) -> Array:
         """Pressure over the cycle, shape (n, k) [Pa].
@@ -79,14 +80,14 @@ class WorkingCycle:
     @property
     def _blowdown(self) -> Array:
         """Pressure of the open cylinder per pressure at opening."""
-        return self.timing.blowdown(self.open.angle)
+        return np.asarray(self.timing.blowdown(self.open.angle))
 
     @property
     def _exchange(self) -> Array:
         """Pressure of the open cylinder besides."""
         s = self.timing.charging(self.open.angle)
         p_e = self.exhaust_pressure
-        return p_e + (self.charge_pressure - p_e) * s - p_e * self._blowdown
+        return np.asarray(p_e + (self.charge_pressure - p_e) * s - p_e * self._blowdown)
 
     def mean_effective(self, trace: ClosedTrace) -> Array:
         """Mean effective pressure, shape (n, 1) [Pa].
@@ -155,7 +156,7 @@ class WorkingCycle:
             if wanted <= least:
                 expected = f"more than {least:.6g} Pa, the pressure of compression alone"
                 raise MachineError([Problem("gas.peak_pressure", f"{wanted:.6g} Pa", expected)])
-            # The peak lies between points; what it has beyond the greatest of them is that of the last iterate.
+            # The peak lies between points; how far beyond the greatest of them, the last iterate says.
             beyond = split.last.max(axis=1) / peak(angle, split.last)
             burns = split.per_heat > 0
             room = (wanted * beyond[:, None] - split.without) / np.where(burns, split.per_heat, 1.0)
