@@ -43,10 +43,6 @@ def torsion(
     from linkwright.files.read import read
 
     machine = read(file, set or [])
-    if machine.train is None:
-        raise InputError(
-            f"{file}: the machine has no [train]; describe one as [train.discs] and [train.shafts]"
-        )
     found = free_vibration(machine)
     tables = [holzer_table(machine, frequency) for frequency in holzer or ()]
     shown = _object(machine.name, found, tables)

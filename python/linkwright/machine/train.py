@@ -59,12 +59,9 @@ class ShaftSection(Checked):
         return math.pi / 32 * (d - b) * (d + b) * (d**2 + b**2)
 
 
-class Shaft(Checked):
-    """An elastic shaft between two discs, or between a disc and the ground."""
+class ElasticShaft(Checked):
+    """What makes a shaft twist: its stiffness, or its sections."""
 
-    between: tuple[str, str] = Field(
-        description='The two discs that it joins; one end may be "ground", which is held.'
-    )
     stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
     sections: tuple[ShaftSection, ...] | None = Field(
         None, description="Its cylindrical lengths in a row, from its first end, in place of the stiffness."
@@ -101,6 +98,14 @@ class Shaft(Checked):
                 return along + section.length * left / compliance
             left, along = left - compliance, along + section.length
         return along
+
+
+class Shaft(ElasticShaft):
+    """An elastic shaft between two discs, or between a disc and the ground."""
+
+    between: tuple[str, str] = Field(
+        description='The two discs that it joins; one end may be "ground", which is held.'
+    )
 
 
 class TrainGear(Checked):
