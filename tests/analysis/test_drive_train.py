@@ -227,6 +227,15 @@ def test_harmonics_are_the_torque_of_the_rigid_machine() -> None:
     assert whole == pytest.approx((torque**2).mean(), rel=1e-6)
 
 
+def test_many_speeds_at_once() -> None:
+    """A formula of the speed among the loads, too."""
+    fan = CART.replace("[loads]", '[loads]\nfan = { kind = "formula", on = "A", torque = "-0.7*omega^2" }')
+    orders, speeds = np.arange(0, 6.0), np.array([3.0, 9.0])
+    both = lw.mechanism_harmonics(lw.loads(fan), speeds, orders)
+    each = [lw.mechanism_harmonics(lw.loads(fan), speed, orders) for speed in speeds]
+    assert both == pytest.approx(np.array(each).T, rel=1e-13, abs=1e-11)
+
+
 def test_high_harmonics_keep_their_digits() -> None:
     """A slider without rod (a yoke) is cos φ: J′ has order 2 alone, and ν = 100 is rounding."""
     yoke = lw.loads("""

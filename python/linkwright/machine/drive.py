@@ -18,7 +18,8 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, Description, fault, wrong
 from linkwright.machine.motor import AnyMotor
-from linkwright.machine.train import ElasticShaft, PositiveStiffness
+from linkwright.machine.train import ElasticShaft
+from linkwright.machine.train_base import PositiveStiffness
 from linkwright.units import (
     FRACTION,
     INERTIA,

@@ -23,20 +23,24 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, Description, Name, fault
+from linkwright.machine.coupling import Coupling
+from linkwright.machine.damper import Damper
 from linkwright.machine.element import PositiveLength, PositiveNumber
-from linkwright.units import INERTIA, LENGTH, PRESSURE, TORSIONAL_STIFFNESS, not_negative, positive
+from linkwright.machine.train_base import GROUND, Damping, LossFactor, Modulus, PositiveStiffness
+from linkwright.machine.train_run import TrainRun
+from linkwright.machine.train_torques import Excitation, TrainLoad
+from linkwright.units import INERTIA, LENGTH, not_negative, positive
 
-# The end of a shaft that is held.
-GROUND = "ground"
-
-Modulus = Annotated[float, positive(PRESSURE)]
-PositiveStiffness = Annotated[float, positive(TORSIONAL_STIFFNESS)]
+__all__ = ["GROUND", "Disc", "Shaft", "ShaftSection", "Train", "TrainGear"]
 
 
 class Disc(Description):
     """A disc: all that turns with one place of the train."""
 
     inertia: Annotated[float, positive(INERTIA)] = Field(description="About the axis, at its own speed.")
+    damping: Damping = Field(
+        0.0, description="Torque against its vibration per speed, from outside the train."
+    )
 
 
 class ShaftSection(Checked):
@@ -67,6 +71,10 @@ class ElasticShaft(Checked):
         None, description="Its cylindrical lengths in a row, from its first end, in place of the stiffness."
     )
     shear_modulus: Modulus = Field(79.3e9, description="Of the sections; usually that of steel.")
+    damping: Damping = Field(0.0, description="Torque per speed of twisting.")
+    loss_factor: LossFactor = Field(
+        0.0, description="Hysteresis η: the stiffness is k(1 + iη), a cycle loses 2πη of its largest energy."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.stiffness is None) == (self.sections is None):
@@ -124,11 +132,19 @@ class TrainGear(Checked):
     stiffness: PositiveStiffness | None = Field(
         None, description="Of the mesh, as torque at the first disc per its angle. Without it, rigid."
     )
+    damping: Damping = Field(
+        0.0, description="Of an elastic mesh, as torque at the first disc per its speed."
+    )
+    loss_factor: LossFactor = Field(0.0, description="Hysteresis of an elastic mesh.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.ratio is None) == (self.teeth is None):
             found = "neither" if self.ratio is None else "both"
             yield fault(found=found, expected="either ratio or teeth")
+        for name in ("damping", "loss_factor"):
+            if self.stiffness is None and getattr(self, name):
+                remedy = "give the stiffness of the mesh, or the damping to its discs"
+                yield fault(name, found=getattr(self, name), expected="none with a rigid mesh", remedy=remedy)
 
     @property
     def speed_ratio(self) -> float:
@@ -141,8 +157,15 @@ class TrainGear(Checked):
 
 
 class Train(Description):
-    """Discs, shafts and gear stages by name."""
+    """Discs, shafts and gear stages by name, what damps them and what excites them."""
 
     discs: dict[Name, Disc] = Field(default_factory=dict, description="What turns, by name.")
     shafts: dict[Name, Shaft] = Field(default_factory=dict, description="What twists, by name.")
     gears: dict[Name, TrainGear] = Field(default_factory=dict, description="Gear stages by name.")
+    couplings: dict[Name, Coupling] = Field(default_factory=dict, description="Elastic couplings by name.")
+    dampers: dict[Name, Damper] = Field(default_factory=dict, description="Torsional dampers by name.")
+    loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="What the train drives, by name.")
+    excitations: dict[Name, Excitation] = Field(
+        default_factory=dict, description="Torques that pulsate, by name."
+    )
+    run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")

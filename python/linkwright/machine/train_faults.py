@@ -10,8 +10,11 @@ from linkwright.machine.base import close_match, fault, suggestion
 from linkwright.machine.plain import keys, look
 from linkwright.machine.train import GROUND, Train
 from linkwright.machine.train_speeds import Contradiction, parts_of, speeds
+from linkwright.machine.whole_train import whole_train
 
-_TABLES = ("shafts", "gears")
+# Tables whose entries join two discs, and those whose entries sit on one.
+_TABLES = ("shafts", "couplings", "gears")
+_ON = ("dampers", "loads", "excitations")
 
 
 def train_faults(train: object) -> Iterator[InitErrorDetails]:
@@ -44,14 +47,19 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
         return
     yield from _parts_faults(train, discs)
     if isinstance(train, Train):
-        yield from map(_loop_fault, speeds(train)[1])
+        yield from map(_loop_fault, speeds(whole_train(train))[1])
 
 
 def _same_names(train: object) -> Iterator[InitErrorDetails]:
-    """A gear stage with the name of a shaft: results name both alike."""
-    for name in keys(look(train, "gears")):
-        if name in keys(look(train, "shafts")):
-            yield fault("train", "gears", name, found=name, expected="another name than that of a shaft")
+    """Parts of one name: results name discs with rings, and shafts with couplings and meshes, alike."""
+    for tables in (("shafts", "couplings", "dampers", "gears"), ("discs", "dampers")):
+        seen: dict[str, str] = {}
+        for table in tables:
+            for name in keys(look(train, table)):
+                if name in seen:
+                    expected = f"another name than that of a part in [train.{seen[name]}]"
+                    yield fault("train", table, name, found=name, expected=expected)
+                seen.setdefault(name, table)
 
 
 def _pairs(train: object, table: str) -> Iterator[tuple[str, Sequence[str]]]:
@@ -70,7 +78,7 @@ def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
         for name, ends in _pairs(train, table):
             place = ("train", table, name, "between")
             for n, end in enumerate(ends):
-                if end == GROUND and table == "gears":
+                if end == GROUND and table != "shafts":
                     remedy = "hold a disc by a shaft to the ground"
                     yield fault(*place, n, found=end, expected="the name of a disc", remedy=remedy)
                 elif end not in known:
@@ -78,6 +86,19 @@ def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
                     yield fault(*place, n, found=end, expected="the name of a disc", remedy=remedy)
             if ends[0] == ends[1]:
                 yield fault(*place, 1, found=ends[1], expected="another disc than the first")
+    yield from _seat_faults(train, discs)
+
+
+def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
+    """Dampers, loads and torques on what is no disc."""
+    for table in _ON:
+        for name in keys(look(train, table)):
+            on = look(look(look(train, table), name), "on")
+            if isinstance(on, str) and on not in discs:
+                remedy = close_match(on, discs) or suggestion(on, discs)
+                yield fault(
+                    "train", table, name, "on", found=on, expected="the name of a disc", remedy=remedy
+                )
 
 
 def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:

@@ -67,7 +67,7 @@ def drive_line(machine: Machine) -> Train:
     """
     if machine.drive is None or not machine.drive.twists:
         raise InputError(
-            f"{machine.name} has neither a [train] nor a drive line that twists: expected [train.discs] and "
+            f"{machine.name} has no [train], and its drive line does not twist: expected [train.discs] and "
             f"[train.shafts], or one of {', '.join(STIFFNESS_KEYS)}"
         )
     return drive_train(machine.drive, mean_inertia(machine))
@@ -96,14 +96,14 @@ def mean_inertia(machine: Machine) -> float:
     return float(weights @ compiled.reductions(phi)[0])
 
 
-def mechanism_harmonics(machine: Machine, speed: float, orders: ArrayLike) -> Complex:
+def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -> Complex:
     r"""Harmonics of the torque with which a mechanism acts on its crank at constant speed.
 
     Parameters
     ----------
     machine : Machine
         The machine; its drive does not count.
-    speed : float
+    speed : array_like, shape () or (speeds,)
         Of the crank [rad/s].
     orders : array_like, shape (n,)
         Per turn of the crank, multiples of ½. Halves of a turn are not in a motion that repeats every turn:
@@ -111,13 +111,13 @@ def mechanism_harmonics(machine: Machine, speed: float, orders: ArrayLike) -> Co
 
     Returns
     -------
-    ndarray of complex, shape (n,)
+    ndarray of complex, shape (n,) or (n, speeds)
         M_ν, positive where the torque drives [N m]; of order 0 the mean.
 
     Raises
     ------
     InputError
-        An order is negative or no multiple of ½, or the speed is not positive.
+        An order is negative or no multiple of ½, or a speed is not positive.
     AssemblyError
         The mechanism does not close all round, or does not repeat every turn.
 
@@ -126,17 +126,14 @@ def mechanism_harmonics(machine: Machine, speed: float, orders: ArrayLike) -> Co
     Dead centres of a friction are kinks between which the torque is integrated, so that no sample is lost to
     a jump.
     """
-    nu = np.atleast_1d(np.asarray(orders, dtype=np.float64))
-    if nu.ndim != 1 or not np.isfinite(nu).all() or (nu < 0).any() or (2 * nu != np.round(2 * nu)).any():
-        raise InputError(f"orders: found {nu.tolist()}, expected multiples of 0.5 of 0 or more")
+    nu, omega = _orders(orders), _positive(speed)
     compiled = _mechanism(machine)
     pieces = 1 + int(nu.max(initial=0.0) / _ORDERS_OF_A_PIECE)
     phi, weights = turn_nodes(compiled, pieces)
-    M = _torque(compiled, phi, _positive(speed))
-    whole = nu == np.round(nu)
-    size = np.where(nu == 0, 1.0, 2.0) * whole
-    found: Complex = size * (np.exp(-1j * np.outer(nu, phi)) @ (weights * M))
-    return found
+    M = _torque(compiled, phi, omega)
+    size = np.where(nu == 0, 1.0, 2.0) * (nu == np.round(nu))
+    found: Complex = (size[:, None] * np.exp(-1j * np.outer(nu, phi))) @ (weights * M).T
+    return found[:, 0] if np.ndim(speed) == 0 else found
 
 
 def station_damping(machine: Machine, speed: float) -> dict[str, float]:
@@ -163,7 +160,7 @@ def station_damping(machine: Machine, speed: float) -> dict[str, float]:
     AssemblyError
         The mechanism does not close all round.
     """
-    omega = _positive(speed)
+    omega = float(_positive(speed)[0])
     compiled = _mechanism(machine)
     damping = {CRANK: mean_over_turn(compiled)[1] + _slope(lambda at: _resistance(compiled, at), omega)}
     motor = None if machine.drive is None else machine.drive.motor
@@ -185,14 +182,12 @@ def _mechanism(machine: Machine) -> Compiled:
     return compiled
 
 
-def _torque(compiled: Compiled, phi: Floats, omega: float) -> Floats:
-    """Torque of the mechanism on its crank at constant speed [N m]."""
+def _torque(compiled: Compiled, phi: Floats, omega: Floats) -> Floats:
+    """Torque of the mechanism on its crank at constant speeds, (speeds, angles) [N m]."""
     _, J_d1, load, dry, viscous = compiled.reductions(phi)
-    resistance = load + dry + viscous * omega + compiled.speed_load(omega)
-    if compiled.has_laws:
-        resistance = resistance + compiled.law_torques(phi, omega)[0]
-    torque: Floats = -resistance - 0.5 * J_d1 * omega**2
-    return torque
+    w = omega[:, None]
+    torque: Floats = -(load + dry + viscous * w + 0.5 * J_d1 * w**2) - compiled.speed_load(w)
+    return torque - compiled.law_torques(phi, omega) if compiled.has_laws else torque
 
 
 def _resistance(compiled: Compiled, omega: Floats) -> Floats:
@@ -207,8 +202,17 @@ def _slope(torque: Callable[[Floats], Floats], omega: float) -> float:
     return float((high - low) / (at[1] - at[0]))
 
 
-def _positive(speed: float) -> float:
-    """The speed, if it is one at which a machine turns."""
-    if not 0 < speed < np.inf:
-        raise InputError(f"speed: found {speed:g} rad/s, expected a number greater than 0")
-    return float(speed)
+def _orders(orders: ArrayLike) -> Floats:
+    """Orders that are multiples of a half."""
+    nu = np.atleast_1d(np.asarray(orders, dtype=np.float64))
+    if nu.ndim != 1 or not np.isfinite(nu).all() or (nu < 0).any() or (2 * nu != np.round(2 * nu)).any():
+        raise InputError(f"orders: found {nu.tolist()}, expected multiples of 0.5 of 0 or more")
+    return nu
+
+
+def _positive(speed: ArrayLike) -> Floats:
+    """Speeds at which a machine turns."""
+    omega = np.atleast_1d(np.asarray(speed, dtype=np.float64))
+    if omega.ndim != 1 or not (np.isfinite(omega) & (omega > 0)).all():
+        raise InputError(f"speed: found {omega.tolist()} rad/s, expected numbers greater than 0")
+    return omega

@@ -33,6 +33,7 @@ from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.drive_line import drive_line
 from linkwright.engine.train import HELD, ReferredTrain, refer
 from linkwright.machine import Machine, Train
+from linkwright.machine.whole_train import whole_train
 
 Floats = NDArray[np.float64]
 
@@ -168,7 +169,7 @@ def free_vibration(machine: Machine) -> FreeVibration:
 
 
 def train_of(machine: Machine) -> Train:
-    """The train of a machine: that of its file, or that of its drive line.
+    """The train of a machine, as discs, shafts and gears: that of its file, or that of its drive line.
 
     Parameters
     ----------
@@ -178,7 +179,7 @@ def train_of(machine: Machine) -> Train:
     Returns
     -------
     Train
-        Its train.
+        Its train, with couplings and dampers as discs and shafts.
 
     Raises
     ------
@@ -187,7 +188,7 @@ def train_of(machine: Machine) -> Train:
     AssemblyError
         The mechanism behind the drive line does not close all round.
     """
-    return drive_line(machine) if machine.train is None else machine.train
+    return whole_train(drive_line(machine) if machine.train is None else machine.train)
 
 
 def twists_of(referred: ReferredTrain, amplitudes: Floats) -> Floats:
