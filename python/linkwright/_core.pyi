@@ -142,7 +142,7 @@ def torsion_forced(
     """
 
 def torsion_waves(coefficients: _Floats, waves: int) -> _Floats:
-    """Greatest value, its place, least value, its place (4, waves) of waves given by (harmonics, waves) complex."""
+    """Greatest value, its place, least, its place (4, waves) of sums of harmonics (harmonics, waves)."""
 
 def torsion_modes(parent: _Ints, inertia: _Floats, stiffness: _Floats) -> tuple[_Floats, _Floats]:
     """Natural frequencies [rad/s], increasing, and mode shapes with Σ J q² = 1, one row a mode (n, n)."""

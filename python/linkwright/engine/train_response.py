@@ -34,7 +34,8 @@ class Tree:
     parent : ndarray of int, shape (masses,)
         Place in the order of the mass that each hangs on; of the first, its own.
     row : ndarray of int, shape (shafts,)
-        Place in the order of the mass that each shaft holds; the number of masses if it joins one with itself.
+        Place in the order of the mass that each shaft holds; the number of masses if it joins one with
+        itself.
     """
 
     order: Ints
@@ -156,13 +157,12 @@ def _whole(referred: ReferredTrain, at: Operating, orders: Floats, torques: Comp
 def _solved(matrix: Complexes, torque: Complexes) -> Complexes:
     """Solutions one by one where one of them has none."""
     try:
-        return np.linalg.solve(matrix, torque[..., None])[..., 0]
+        found: Complexes = np.linalg.solve(matrix, torque[..., None])[..., 0].astype(complex, copy=False)
+        return found
     except np.linalg.LinAlgError:
         if len(matrix) == 1:
             return np.full(torque.shape, np.inf + 0j)
-        return np.concatenate(
-            [_solved(matrix[k : k + 1], torque[k : k + 1]) for k in range(len(matrix))]
-        )
+        return np.concatenate([_solved(matrix[k : k + 1], torque[k : k + 1]) for k in range(len(matrix))])
 
 
 def extremes(coefficients: Complexes) -> Floats:

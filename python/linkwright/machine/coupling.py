@@ -10,6 +10,7 @@ from itertools import pairwise
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
@@ -17,6 +18,8 @@ from linkwright.machine.base import Checked, fault
 from linkwright.machine.curve import curve_faults
 from linkwright.machine.train_base import Damping, LossFactor, PositiveStiffness, PositiveTorque
 from linkwright.units import POWER, Angles, Torques, positive
+
+Floats = NDArray[np.float64]
 
 
 class Coupling(Checked):
@@ -65,34 +68,36 @@ class Coupling(Checked):
             if here <= before:
                 yield fault("torque", n, found=here, expected=f"more than {before:.6g}, the value before it")
 
-    def slope(self, torque: float = 0.0) -> float:
+    def slope(self, torque: Floats | float = 0.0) -> Floats:
         """Stiffness at a mean torque.
 
         Parameters
         ----------
-        torque : float
+        torque : ndarray or float
             Mean torque that it carries [N m].
 
         Returns
         -------
-        float
+        ndarray, of the shape of the torque
             dM/dΔ of the smooth curve through its points; beyond the last, that at the last [N m/rad].
         """
         if self.stiffness is not None:
-            return self.stiffness
+            return np.full_like(np.asarray(torque, float), self.stiffness)
         twist, torques, slopes = self.curve()
-        size = min(abs(torque), float(torques[-1]))
-        n = min(int(np.searchsorted(torques, size, side="right")) - 1, len(twist) - 2)
+        size = np.minimum(np.abs(torque), torques[-1])
+        n = np.minimum(np.searchsorted(torques, size, side="right") - 1, len(twist) - 2)
         h, rise = twist[n + 1] - twist[n], torques[n + 1] - torques[n]
-        low, high = 0.0, 1.0
+        piece = (rise, h * slopes[n], h * slopes[n + 1])
+        low, high = np.zeros_like(size), np.ones_like(size)
         # The curve rises everywhere, so that bisection finds the twist to the last digit.
-        for _ in range(60):
+        for _ in range(54):
             z = 0.5 * (low + high)
-            at = torques[n] + _hermite(z, rise, h * slopes[n], h * slopes[n + 1])[0]
-            low, high = (z, high) if at < size else (low, z)
-        return float(_hermite(0.5 * (low + high), rise, h * slopes[n], h * slopes[n + 1])[1] / h)
+            below = torques[n] + _hermite(z, *piece)[0] < size
+            low, high = np.where(below, z, low), np.where(below, high, z)
+        found: Floats = _hermite(0.5 * (low + high), *piece)[1] / h
+        return found
 
-    def curve(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def curve(self) -> tuple[Floats, Floats, Floats]:
         """Twists, torques and slopes at the points of its curve, from zero upwards.
 
         Returns
@@ -119,7 +124,7 @@ def _end_slope(chord: float, inside: float) -> float:
     return float(min(max(1.5 * chord - 0.5 * inside, 0.1 * chord), 3 * chord))
 
 
-def _hermite(z: float, rise: float, first: float, last: float) -> tuple[float, float]:
+def _hermite(z: Floats, rise: Floats, first: Floats, last: Floats) -> tuple[Floats, Floats]:
     """Cubic on 0…1 from 0 to a rise with slopes at both ends, and its slope."""
     value = z * (first + z * (3 * rise - 2 * first - last + z * (first + last - 2 * rise)))
     slope = first + z * (2 * (3 * rise - 2 * first - last) + 3 * z * (first + last - 2 * rise))

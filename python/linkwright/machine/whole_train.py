@@ -44,7 +44,7 @@ def _coupling(coupling: Coupling) -> Shaft:
     """What a coupling without mean torque does."""
     return Shaft(
         between=coupling.between,
-        stiffness=coupling.slope(),
+        stiffness=float(coupling.slope()),
         damping=coupling.damping,
         loss_factor=coupling.loss_factor,
     )

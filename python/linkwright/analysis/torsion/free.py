@@ -224,12 +224,23 @@ def own_stiffness(referred: ReferredTrain) -> Floats:
     ndarray, shape (shafts,)
         As in the file [N m/rad].
     """
-    own: Floats = referred.stiffness / _lead(referred) ** 2
+    own: Floats = referred.stiffness / lead_speeds(referred) ** 2
     return own
 
 
-def _lead(referred: ReferredTrain) -> Floats:
-    """Speed of the end of each shaft where its twist counts."""
+def lead_speeds(referred: ReferredTrain) -> Floats:
+    """Speed of the end of each shaft where its twist counts.
+
+    Parameters
+    ----------
+    referred : ReferredTrain
+        The train.
+
+    Returns
+    -------
+    ndarray, shape (shafts,)
+        Over that of the first disc.
+    """
     first, second = referred.tip.T
     speed: Floats = referred.speed[np.where(first == HELD, second, first)]
     return speed
@@ -241,7 +252,7 @@ def _at_ends(referred: ReferredTrain, amplitudes: Floats) -> tuple[Floats, Float
     angles = np.concatenate([amplitudes, np.zeros((*amplitudes.shape[:-1], 1))], axis=-1)
     speed = np.append(referred.speed, 1.0)
     first, second = referred.tip.T
-    lead = _lead(referred)
+    lead = lead_speeds(referred)
     return angles[..., first], angles[..., second] * np.where(second == HELD, 1.0, lead / speed[second])
 
 
