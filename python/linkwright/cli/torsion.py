@@ -46,10 +46,6 @@ def torsion(
     from linkwright.files.read import read
 
     machine = read(file, set or [])
-    if machine.train is None:
-        raise InputError(
-            f"{file}: the machine has no [train]; describe one as [train.discs] and [train.shafts]"
-        )
     found = free_vibration(machine)
     tables = [holzer_table(machine, frequency) for frequency in holzer or ()]
     forced = forced_vibration(machine) if is_excited(machine) else None

@@ -3,7 +3,7 @@
 | module | holds |
 | --- | --- |
 | `machine` | `Machine`: drive, mechanism, bodies, loads, run-up |
-| `drive` | gearbox, coupling, flywheel, brake |
+| `drive`, `drive_train` | gearbox, coupling, flywheel, brake; a drive line whose shafts twist, as a train |
 | `motor` | the kinds of motor, and how their entries follow from one another |
 | `catalogue` | published motors |
 | `element` | cranks, dyads, gears, cables, joints and bars |
@@ -96,8 +96,12 @@ from linkwright.machine.point_law import SplineLaw, TableLaw
 from linkwright.machine.polished_rod_load import PolishedRodLoad
 from linkwright.machine.pumping_unit import PumpingUnit
 from linkwright.machine.rod_rotator import RodRotator
+<<<<<<< HEAD
 from linkwright.machine.shaft_section import ShaftSection
 from linkwright.machine.train import Disc, Shaft, Train, TrainGear
+=======
+from linkwright.machine.train import Disc, ElasticShaft, Shaft, ShaftSection, Train, TrainGear
+>>>>>>> drive
 from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 
 __all__ = [
@@ -124,6 +128,7 @@ __all__ = [
     "Disc",
     "Drive",
     "DryFriction",
+    "ElasticShaft",
     "FixedPoint",
     "Flywheel",
     "FollowerTrain",

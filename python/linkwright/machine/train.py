@@ -33,7 +33,7 @@ from linkwright.machine.train_run import TrainRun
 from linkwright.machine.train_torques import Excitation, TrainLoad
 from linkwright.units import INERTIA, positive
 
-__all__ = ["GROUND", "Disc", "Shaft", "ShaftSection", "Train", "TrainGear"]
+__all__ = ["GROUND", "Disc", "ElasticShaft", "Shaft", "ShaftSection", "Train", "TrainGear"]
 
 
 class Disc(Description):
@@ -45,12 +45,9 @@ class Disc(Description):
     )
 
 
-class Shaft(Checked):
-    """An elastic shaft between two discs, or between a disc and the ground."""
+class ElasticShaft(Checked):
+    """What makes a shaft twist: its stiffness, or its sections."""
 
-    between: tuple[str, str] = Field(
-        description='The two discs that it joins; one end may be "ground", which is held.'
-    )
     stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
     sections: tuple[ShaftSection, ...] | None = Field(
         None, description="Its lengths in a row, from its first end, in place of the stiffness."
@@ -88,6 +85,14 @@ class Shaft(Checked):
         if self.sections is None:
             return None
         return place(self.sections, share)
+
+
+class Shaft(ElasticShaft):
+    """An elastic shaft between two discs, or between a disc and the ground."""
+
+    between: tuple[str, str] = Field(
+        description='The two discs that it joins; one end may be "ground", which is held.'
+    )
 
 
 class TrainGear(Checked):

@@ -1,9 +1,9 @@
 r"""When each cylinder fires: from the angles of throws and banks and the firing order.
 
-A throw at the angle α behind throw 1, counted in the sense of rotation, points along a cylinder at the angle β from the
-vertical when the crank angle is :math:`\varphi = \beta - \alpha`, once a turn. In which of the turns of a cycle a
-cylinder fires follows from the order: each fires at its first dead centre after the one before it, and when the first
-fires again, just one cycle must have passed.
+A throw at the angle α behind throw 1, counted in the sense of rotation, points along a cylinder at the angle
+β from the vertical when the crank angle is :math:`\varphi = \beta - \alpha`, once a turn. In which of the
+turns of a cycle a cylinder fires follows from the order: each fires at its first dead centre after the one
+before it, and when the first fires again, just one cycle must have passed.
 """
 
 from __future__ import annotations
