@@ -96,12 +96,8 @@ from linkwright.machine.point_law import SplineLaw, TableLaw
 from linkwright.machine.polished_rod_load import PolishedRodLoad
 from linkwright.machine.pumping_unit import PumpingUnit
 from linkwright.machine.rod_rotator import RodRotator
-<<<<<<< HEAD
 from linkwright.machine.shaft_section import ShaftSection
-from linkwright.machine.train import Disc, Shaft, Train, TrainGear
-=======
-from linkwright.machine.train import Disc, ElasticShaft, Shaft, ShaftSection, Train, TrainGear
->>>>>>> drive
+from linkwright.machine.train import Disc, ElasticShaft, Shaft, Train, TrainGear
 from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 
 __all__ = [
