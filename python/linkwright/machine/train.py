@@ -26,6 +26,7 @@ from linkwright.machine.base import Checked, Description, Name, fault
 from linkwright.machine.coupling import Coupling
 from linkwright.machine.damper import Damper
 from linkwright.machine.element import PositiveNumber
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.shaft_row import fillet_faults, flexibilities, place
 from linkwright.machine.shaft_section import Modulus, ShaftSection
 from linkwright.machine.train_base import GROUND, Damping, LossFactor, PositiveStiffness
@@ -146,6 +147,9 @@ class Train(Description):
     loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="What the train drives, by name.")
     excitations: dict[Name, Excitation] = Field(
         default_factory=dict, description="Torques that pulsate, by name."
+    )
+    engine: ReciprocatingEngine | None = Field(
+        None, description="Reciprocating engine, which stands for discs throw_1, throw_2, … and their shafts."
     )
     driver: str | None = Field(
         None, description="Disc that drives the loads, where no engine does. Without it, the first."
