@@ -89,4 +89,6 @@ def check_reach(wanted: Array, motored: Array, speeds: Array) -> None:
         i = int(short[0])
         found = f"a mean effective pressure of {wanted[i]:.6g} Pa at {speeds[i]:.6g} rad/s"
         expected = f"at least that of the motored cylinder, {motored[i]:.6g} Pa"
-        raise MachineError([Problem("gas.load", found, expected, "raise the load, or end it at this speed")])
+        raise MachineError(
+            [Problem("train.engine.gas.load", found, expected, "raise the load, or end it at this speed")]
+        )
