@@ -75,5 +75,8 @@ def peer(machine: lw.Machine, speeds: np.ndarray, torques: np.ndarray) -> np.nda
     assembly = Assembly(shafts, disk_elements=discs)
     orders = 0.5 * (np.arange(ORDERS) + 1)
     return np.stack(
-        [assembly.ss_response(torque, order * speeds)[0] for torque, order in zip(torques, orders, strict=True)]
+        [
+            assembly.ss_response(torque, order * speeds)[0]
+            for torque, order in zip(torques, orders, strict=True)
+        ]
     )

@@ -1,7 +1,8 @@
 """A train with all that stands for discs and shafts written out: engine, couplings, dampers.
 
-An engine is a disc a throw, with the mean of its inertia over the turn, and shafts between them. A coupling is a shaft with the slope of its curve without torque; a damper is a disc, its ring, on a shaft
-without stiffness or with that of its spring.
+An engine is a disc a throw, with the mean of its inertia over the turn, and shafts between them. A coupling
+is a shaft with the slope of its curve without torque; a damper is a disc, its ring, on a shaft without
+stiffness or with that of its spring.
 """
 
 from __future__ import annotations

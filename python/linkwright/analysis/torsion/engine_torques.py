@@ -1,12 +1,12 @@
 r"""Torques of an engine on its throws: gas, inertia, weight.
 
-With ψ the angle of a throw from where it points along a cylinder at its firing, the gas gives :math:`M_g(\psi)`; all moving
-parts of a throw together give about constant speed
+With ψ the angle of a throw from where it points along a cylinder at its firing, the gas gives
+:math:`M_g(\psi)`; all moving parts of a throw together give about constant speed
 
 .. math:: M = -\tfrac12 J'(\varphi)\,\Omega^2 - V'(\varphi)
 
-with the inertia J and the potential energy V of the true mechanism. A throw at the angle α, a cylinder that fires at
-:math:`\varphi_f`, turn the harmonics by :math:`e^{i\nu\alpha}` and :math:`e^{-i\nu\varphi_f}`.
+with the inertia J and the potential energy V of the true mechanism. A throw at the angle α, a cylinder that
+fires at :math:`\varphi_f`, turn the harmonics by :math:`e^{i\nu\alpha}` and :math:`e^{-i\nu\varphi_f}`.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.torsion.torques import Source
+from linkwright.machine.reciprocating.cylinder import Cylinder
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.reciprocating.engine_motion import piston_positions, throw_curves
 from linkwright.machine.reciprocating.firing import firing_angles
-from linkwright.machine.reciprocating.cylinder import Cylinder
 from linkwright.machine.reciprocating.gas_torque import GasTorque, gas_torque
 
 Floats = NDArray[np.float64]

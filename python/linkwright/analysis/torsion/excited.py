@@ -140,7 +140,8 @@ def _sources(
 def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:
     """Those at which the file looks at its train; of a drive line those about its steady speed."""
     if machine.train is None:
-        return np.linspace(*_ABOUT, _POINTS) * steady_speed(machine) / turning[place[CRANK]]
+        of_crank: Floats = np.linspace(*_ABOUT, _POINTS) * steady_speed(machine)
+        return of_crank / float(turning[place[CRANK]])
     run = machine.train.run
     if run is None:
         remedy = 'give [train.run] speed_min and speed_max, such as "500 rpm" and "2000 rpm"'

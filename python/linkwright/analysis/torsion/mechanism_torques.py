@@ -1,4 +1,4 @@
-"""What a mechanism does to the drive line that turns it: harmonics on its crank, damping, speed of service."""
+"""What a mechanism does to its drive line: harmonics on the crank, damping, speed of service."""
 
 from __future__ import annotations
 

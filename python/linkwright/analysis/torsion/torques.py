@@ -101,8 +101,8 @@ def torques_of(
     Returns
     -------
     Torques
-        Mean torques of a free train balance: loads take off what an engine gives, in proportion to their laws;
-        without an engine the driver gives what is needed. An engine without loads speeds the train up.
+        Mean torques of a free train balance: loads take off what an engine gives, in proportion to their
+        laws; without an engine the driver gives what is needed. An engine without loads speeds the train up.
     """
     place = {name: k for k, name in enumerate(train.discs)}
     found = [*sources, *_excitations(train, place, turning, speeds)]

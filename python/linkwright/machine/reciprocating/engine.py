@@ -1,7 +1,7 @@
 """A reciprocating engine: throws, banks, rods, gas, and the order in which its cylinders fire.
 
-It stands for a row of discs ``throw_1``, ``throw_2``, … with shafts ``crank_1``, ``crank_2``, … between them; what the
-engine drives, flywheel, dampers, is joined to them.
+It stands for a row of discs ``throw_1``, ``throw_2``, … with shafts ``crank_1``, ``crank_2``, … between
+them; what the engine drives, flywheel, dampers, is joined to them.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ from linkwright.machine.reciprocating.any_gas import AnyGas
 from linkwright.machine.reciprocating.firing import CylinderPlace, cylinder_places, firing_angles
 from linkwright.machine.reciprocating.rod import ArticulatedRod, Rod
 from linkwright.machine.reciprocating.throw import CrankThrow
-from linkwright.machine.reciprocating.throw_compliance import COMPLIANCE_FORMULAS
 from linkwright.machine.train_base import Damping, LossFactor, PositiveStiffness
 from linkwright.units import INERTIA, MASS, RATIO, Angles, not_negative, positive
 
@@ -57,12 +56,13 @@ class ReciprocatingEngine(Checked):
     piston_mass: Annotated[float, positive(MASS)] = Field(description="Piston, pin, rings, of one cylinder.")
     throw: CrankThrow | None = Field(None, description="Geometry of a throw.")
     throw_inertia: Annotated[float, positive(INERTIA)] | None = Field(
-        None, description="What turns with the crank, of one throw without rods. Without it, that of the throw."
+        None,
+        description="What turns with the crank, of one throw without rods. Without it, that of the throw.",
     )
     stiffness: PositiveStiffness | None = Field(
         None, description="From throw to throw, measured or computed. Without it, by a formula."
     )
-    stiffness_formula: Literal[*COMPLIANCE_FORMULAS] = Field(  # type: ignore[valid-type]
+    stiffness_formula: Literal["constrained"] = Field(
         "constrained", description="For the stiffness of the throw."
     )
     damping: Damping = Field(0.0, description="Viscous, of each throw against the frame.")
@@ -112,7 +112,9 @@ class ReciprocatingEngine(Checked):
                     yield fault(name, expected=f"{what} of the throws, or [train.engine.throw]")
         elif self.crank_radius is not None and abs(self.crank_radius / self.throw.radius - 1) > 1e-9:
             expected = f"the radius of the throw, {self.throw.radius:.6g} m"
-            yield fault("crank_radius", found=self.crank_radius, expected=expected, remedy="give one of the two")
+            yield fault(
+                "crank_radius", found=self.crank_radius, expected=expected, remedy="give one of the two"
+            )
 
     def _order_faults(self) -> Iterator[InitErrorDetails]:
         """A firing order that is no permutation of the cylinders."""
