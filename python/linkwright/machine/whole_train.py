@@ -62,8 +62,9 @@ def _crankshaft(engine: ReciprocatingEngine) -> tuple[dict[str, Disc], dict[str,
     n = len(engine.throws)
     disc = Disc(inertia=mean_throw_inertia(engine), damping=engine.damping)
     names = throw_names(n)
+    stiffness, limit = throw_stiffness(engine) if n > 1 else 0.0, engine.crank_limit
     shafts = {
-        name: Shaft(between=pair, stiffness=throw_stiffness(engine), loss_factor=engine.loss_factor)
+        name: Shaft(between=pair, stiffness=stiffness, loss_factor=engine.loss_factor, limit=limit)
         for name, pair in zip(crank_names(n), pairwise(names), strict=True)
     }
     return dict.fromkeys(names, disc), shafts

@@ -19,6 +19,7 @@ from linkwright.machine.reciprocating.any_gas import AnyGas
 from linkwright.machine.reciprocating.firing import CylinderPlace, cylinder_places, firing_angles
 from linkwright.machine.reciprocating.rod import ArticulatedRod, Rod
 from linkwright.machine.reciprocating.throw import CrankThrow
+from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.train_base import Damping, LossFactor, PositiveStiffness
 from linkwright.units import INERTIA, MASS, RATIO, Angles, not_negative, positive
 
@@ -62,11 +63,15 @@ class ReciprocatingEngine(Checked):
     stiffness: PositiveStiffness | None = Field(
         None, description="From throw to throw, measured or computed. Without it, by a formula."
     )
-    stiffness_formula: Literal["constrained"] = Field(
+    stiffness_formula: Literal["constrained", "free", "carter", "ker_wilson", "zimanenko"] = Field(
         "constrained", description="For the stiffness of the throw."
     )
     damping: Damping = Field(0.0, description="Viscous, of each throw against the frame.")
     loss_factor: LossFactor = Field(0.0, description="Hysteresis of the crankshaft.")
+    limit: ShaftLimit | None = Field(
+        None,
+        description="What the crankshaft bears; without a diameter of its own, at the crank pin of the throw.",
+    )
     gas: AnyGas = Field(description="Pressure in the cylinders.")
     factors: dict[str, Annotated[float, not_negative(RATIO)]] = Field(
         default_factory=dict,
@@ -166,6 +171,15 @@ class ReciprocatingEngine(Checked):
             return self.crank_radius
         assert self.throw is not None
         return self.throw.radius
+
+    @property
+    def crank_limit(self) -> ShaftLimit | None:
+        """What the crankshaft bears, with the section of its pin where it has none of its own."""
+        limit, throw = self.limit, self.throw
+        if throw is None or (limit is not None and (limit.diameter or limit.section_modulus)):
+            return limit
+        pin = {"diameter": throw.pin.diameter, "inner_diameter": throw.pin.inner_diameter}
+        return (limit or ShaftLimit()).model_copy(update=pin)
 
     def factor(self, number: int) -> float:
         """Share of the combustion in a cylinder, 1 if it is sound."""

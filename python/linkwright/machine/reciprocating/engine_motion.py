@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.reciprocating.running_gear import RunningGear, throw_motion
+from linkwright.machine.reciprocating.throw_compliance import compliance
+from linkwright.machine.reciprocating.throw_inertia import throw_inertia
 
 Floats = NDArray[np.float64]
 
@@ -74,7 +76,7 @@ def throw_curves(engine: ReciprocatingEngine, crank_angle: Floats) -> tuple[Floa
         Inertia [kg m²], its derivative [kg m²/rad], derivative of the potential energy [N m/rad].
     """
     J = np.full(len(crank_angle), own_inertia(engine))
-    J_d1, V_d1 = np.zeros_like(J), np.zeros_like(J)
+    J_d1, V_d1 = np.zeros_like(J), _own_weight(engine, crank_angle)
     gears = running_gears(engine)
     for gear, motion in zip(gears, throw_motion(engine.radius, gears, crank_angle), strict=True):
         mass, centre, inertia = gear.rod.body
@@ -90,10 +92,21 @@ def throw_curves(engine: ReciprocatingEngine, crank_angle: Floats) -> tuple[Floa
     return J, J_d1, V_d1
 
 
+def _own_weight(engine: ReciprocatingEngine, crank_angle: Floats) -> Floats:
+    """Derivative of the potential energy of the crank itself, where its geometry is known [N m/rad]."""
+    if engine.throw is None:
+        return np.zeros(len(crank_angle))
+    along, across = throw_inertia(engine.throw).static_moment
+    found: Floats = -GRAVITY * (along * np.sin(crank_angle) + across * np.cos(crank_angle))
+    return found
+
+
 def own_inertia(engine: ReciprocatingEngine) -> float:
     """Inertia of what turns with a throw, without rods [kg m²]."""
-    assert engine.throw_inertia is not None
-    return engine.throw_inertia
+    if engine.throw_inertia is not None:
+        return engine.throw_inertia
+    assert engine.throw is not None
+    return throw_inertia(engine.throw).inertia
 
 
 def mean_throw_inertia(engine: ReciprocatingEngine) -> float:
@@ -104,5 +117,7 @@ def mean_throw_inertia(engine: ReciprocatingEngine) -> float:
 
 def throw_stiffness(engine: ReciprocatingEngine) -> float:
     """Torque per twist from throw to throw [N m/rad]."""
-    assert engine.stiffness is not None
-    return engine.stiffness
+    if engine.stiffness is not None:
+        return engine.stiffness
+    assert engine.throw is not None
+    return 1.0 / compliance(engine.throw, engine.stiffness_formula)

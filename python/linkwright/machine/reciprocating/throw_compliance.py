@@ -8,8 +8,8 @@
 | `ker_wilson` | empirical, stiff webs | Ker Wilson 1956 |
 | `zimanenko` | empirical, automobile and tractor engines | Zimanenko |
 
-The formulas themselves are in `throw_formulas`. They differ by a tenth to a third: a measured stiffness, or one
-by finite elements, is better than any of them.
+The formulas themselves are in `throw_formulas`. They differ by a tenth to a third: a measured stiffness, or
+one by finite elements, is better than any of them.
 """
 
 from __future__ import annotations

@@ -28,11 +28,12 @@ References
 ----------
 .. [1] Dynamics of torsional vibration of V-type engines of aviation ground equipment (in Ukrainian),
     equation (17), after Seelmann.
-.. [2] Carter, An empirical formula for crankshaft stiffness in torsion, Engineering, 13 July 1928; after Feese,
-    Hill, Prevention of torsional vibration problems in reciprocating machinery, 38th Turbomachinery Symposium,
-    2009.
-.. [3] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 3; after the same.
-.. [4] Zimanenko, in Soviet textbooks on the dynamics of automobile and tractor engines.
+.. [2] Carter, An empirical formula for crankshaft stiffness in torsion, Engineering, 13 July 1928; after
+Feese,
+    Hill, Prevention of torsional vibration problems in reciprocating machinery, 38th Turbomachinery
+    Symposium, 2009.
+.. [3] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 3; after the
+same. .. [4] Zimanenko, in Soviet textbooks on the dynamics of automobile and tractor engines.
 """
 
 from __future__ import annotations
