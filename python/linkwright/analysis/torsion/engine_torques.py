@@ -69,7 +69,7 @@ def cylinder_torques(engine: ReciprocatingEngine, speeds: Floats, highest: float
         cylinder = Cylinder(engine.bore, engine.strokes, positions)
         banks.append(gas_torque(engine.gas.cycle_pressure(cylinder, speeds), cylinder, highest))
     orders = banks[0].orders
-    fires, _ = firing_angles(engine.places, engine.firing_order)
+    fires, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
     phase = np.exp(-1j * np.outer(fires, orders))[:, :, None]
     of_bank = [place.bank for place in engine.places]
     firing = np.stack([each.firing.T for each in banks])[of_bank] * phase
