@@ -30,8 +30,8 @@ the means over the turn are
 .. math:: \langle J \rangle = J_k + r^2 \left[ m_1 + (m_2 + m_3) S
     + 2 \left( m_1 - m \frac{l - c}{l} \right) \left(S - \tfrac12\right) \right].
 
-The last term is what the split of (1), (2) misses since it does not keep the centre of mass c. But for it, (7)
-is the series to its second term: it neglects the share λ⁴/8 of the reciprocating part, 0.05 % with λ = ¼.
+The last term is what the split of (1), (2) misses since it does not keep the centre of mass c. But for it,
+(7) is the series to its second term: it neglects the share λ⁴/8 of the reciprocating part, 0.05 % with λ = ¼.
 
 References
 ----------
@@ -111,8 +111,8 @@ def mean_inertia(crank_radius: float, gears: Sequence[RunningGear], own_inertia:
             return MeanInertia(*after.tolist())
         before = after
     text = (
-        f"the mean inertia of a throw was not found to {_AGREE:g} with {n} crank angles: a rod comes close to "
-        "a right angle to its cylinder; make it longer, or the crank radius smaller"
+        f"the mean inertia of a throw was not found to {_AGREE:g} with {n} crank angles: a rod comes close "
+        "to a right angle to its cylinder; make it longer, or the crank radius smaller"
     )
     raise ConvergenceError(text, method="mean inertia", iterations=n)
 
