@@ -25,13 +25,17 @@ from pydantic_core import InitErrorDetails
 from linkwright.machine.base import Checked, Description, Name, fault
 from linkwright.machine.coupling import Coupling
 from linkwright.machine.damper import Damper
-from linkwright.machine.element import PositiveLength, PositiveNumber
-from linkwright.machine.train_base import GROUND, Damping, LossFactor, Modulus, PositiveStiffness
+from linkwright.machine.element import PositiveNumber
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
+from linkwright.machine.shaft_limit import ShaftLimit
+from linkwright.machine.shaft_row import fillet_faults, flexibilities, place
+from linkwright.machine.shaft_section import Modulus, ShaftSection
+from linkwright.machine.train_base import GROUND, Damping, LossFactor, PositiveStiffness
 from linkwright.machine.train_run import TrainRun
 from linkwright.machine.train_torques import Excitation, TrainLoad
-from linkwright.units import INERTIA, LENGTH, not_negative, positive
+from linkwright.units import INERTIA, positive
 
-__all__ = ["GROUND", "Disc", "Shaft", "ShaftSection", "Train", "TrainGear"]
+__all__ = ["GROUND", "Disc", "ElasticShaft", "Shaft", "ShaftSection", "Train", "TrainGear"]
 
 
 class Disc(Description):
@@ -43,38 +47,19 @@ class Disc(Description):
     )
 
 
-class ShaftSection(Checked):
-    """A cylindrical length of a shaft, solid or hollow."""
-
-    length: PositiveLength = Field(description="Of the section.")
-    diameter: PositiveLength = Field(description="Outside.")
-    inner_diameter: Annotated[float, not_negative(LENGTH)] = Field(0.0, description="Of the bore.")
-
-    def _faults(self) -> Iterator[InitErrorDetails]:
-        if self.inner_diameter >= self.diameter:
-            expected = f"a bore smaller than the diameter, {self.diameter:.6g} m"
-            yield fault("inner_diameter", found=self.inner_diameter, expected=expected)
-
-    @property
-    def second_moment(self) -> float:
-        """Polar second moment of area I_p [m⁴]."""
-        # Written as a product, so that thin tubes lose no digits.
-        d, b = self.diameter, self.inner_diameter
-        return math.pi / 32 * (d - b) * (d + b) * (d**2 + b**2)
-
-
 class ElasticShaft(Checked):
     """What makes a shaft twist: its stiffness, or its sections."""
 
     stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
     sections: tuple[ShaftSection, ...] | None = Field(
-        None, description="Its cylindrical lengths in a row, from its first end, in place of the stiffness."
+        None, description="Its lengths in a row, from its first end, in place of the stiffness."
     )
     shear_modulus: Modulus = Field(79.3e9, description="Of the sections; usually that of steel.")
     damping: Damping = Field(0.0, description="Torque per speed of twisting.")
     loss_factor: LossFactor = Field(
         0.0, description="Hysteresis η: the stiffness is k(1 + iη), a cycle loses 2πη of its largest energy."
     )
+    limit: ShaftLimit | None = Field(None, description="What it bears.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.stiffness is None) == (self.sections is None):
@@ -82,6 +67,12 @@ class ElasticShaft(Checked):
             yield fault(found=found, expected="either stiffness or sections")
         if self.sections is not None and not self.sections:
             yield fault("sections", found="an empty list", expected="a list of at least one section")
+        limit = self.limit
+        if limit is not None and limit.needs_section and not limit.has_section and self.sections is None:
+            expected = "the diameter where the stress counts, as the shaft has no sections"
+            yield fault("limit", "diameter", expected=expected)
+        for each in fillet_faults(self.sections or ()):
+            yield InitErrorDetails(type=each["type"], loc=("sections", *each["loc"]), input=each["input"])
 
     @property
     def compliances(self) -> tuple[float, ...]:
@@ -89,7 +80,7 @@ class ElasticShaft(Checked):
         if self.sections is None:
             assert self.stiffness is not None
             return (1.0 / self.stiffness,)
-        return tuple(each.length / (self.shear_modulus * each.second_moment) for each in self.sections)
+        return tuple(each / self.shear_modulus for each in flexibilities(self.sections))
 
     @property
     def rate(self) -> float:
@@ -100,12 +91,7 @@ class ElasticShaft(Checked):
         """How far from the first end a share of the twist lies [m]; None without sections."""
         if self.sections is None:
             return None
-        left, along = share * math.fsum(self.compliances), 0.0
-        for section, compliance in zip(self.sections, self.compliances, strict=True):
-            if left <= compliance:
-                return along + section.length * left / compliance
-            left, along = left - compliance, along + section.length
-        return along
+        return place(self.sections, share)
 
 
 class Shaft(ElasticShaft):
@@ -167,5 +153,11 @@ class Train(Description):
     loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="What the train drives, by name.")
     excitations: dict[Name, Excitation] = Field(
         default_factory=dict, description="Torques that pulsate, by name."
+    )
+    engine: ReciprocatingEngine | None = Field(
+        None, description="Reciprocating engine, which stands for discs throw_1, throw_2, … and their shafts."
+    )
+    driver: str | None = Field(
+        None, description="Disc that drives the loads, where no engine does. Without it, the first."
     )
     run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated
 
 from linkwright.units import (
-    PRESSURE,
     RATIO,
     SPEED,
     TORQUE,
@@ -15,7 +14,6 @@ from linkwright.units import (
     positive,
 )
 
-Modulus = Annotated[float, positive(PRESSURE)]
 PositiveStiffness = Annotated[float, positive(TORSIONAL_STIFFNESS)]
 PositiveTorque = Annotated[float, positive(TORQUE)]
 PositiveSpeed = Annotated[float, positive(SPEED)]
