@@ -30,11 +30,11 @@ from linkwright.machine.reciprocating.cycle_pressure import CyclePressure
 from linkwright.machine.reciprocating.cylinder import Cylinder, powers
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 # Beyond, the mesh of the cycle would have to be finer: up to here its harmonics are good to 1e-6 of the
 # largest.
 _HIGHEST = 48.0
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
