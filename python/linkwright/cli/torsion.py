@@ -11,6 +11,7 @@ from linkwright.cli.common import File, Json, Sets
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
+    from linkwright.analysis.torsion.forced import ForcedVibration
     from linkwright.analysis.torsion.free import FreeVibration
     from linkwright.analysis.torsion.holzer import HolzerTable
 
@@ -38,18 +39,17 @@ def torsion(
     file: File, set: Sets = None, json: Json = False, holzer: Holzer = None, out: Folder = None
 ) -> None:
     """Torsional vibration of a train: natural frequencies, mode shapes, nodes, energy."""
+    from linkwright.analysis.torsion.excited import is_excited
+    from linkwright.analysis.torsion.forced import forced_vibration
     from linkwright.analysis.torsion.free import free_vibration
     from linkwright.analysis.torsion.holzer import holzer_table
     from linkwright.files.read import read
 
     machine = read(file, set or [])
-    if machine.train is None:
-        raise InputError(
-            f"{file}: the machine has no [train]; describe one as [train.discs] and [train.shafts]"
-        )
     found = free_vibration(machine)
     tables = [holzer_table(machine, frequency) for frequency in holzer or ()]
-    shown = _object(machine.name, found, tables)
+    forced = forced_vibration(machine) if is_excited(machine) else None
+    shown = _object(machine.name, found, tables, forced)
     if json:
         typer.echo(shown, nl=False)
     else:
@@ -58,7 +58,9 @@ def torsion(
         _write(found, shown, out, quiet=json)
 
 
-def _object(name: str, found: FreeVibration, tables: list[HolzerTable]) -> str:
+def _object(
+    name: str, found: FreeVibration, tables: list[HolzerTable], forced: ForcedVibration | None
+) -> str:
     """One JSON object."""
     from json import dumps
 
@@ -69,6 +71,8 @@ def _object(name: str, found: FreeVibration, tables: list[HolzerTable]) -> str:
     results: dict[str, Any] = {"free": free}
     if tables:
         results["holzer"] = [each.to_dict(curves=True) for each in tables]
+    if forced is not None:
+        results["forced"] = forced.to_dict()
     told: dict[str, Any] = {"machine": name, "results": finite(results), "findings": [], "warnings": []}
     return dumps(told, allow_nan=False, ensure_ascii=False) + "\n"
 

@@ -4,6 +4,8 @@
 //! | --- | --- |
 //! | here | what a train is, and its dynamic stiffness |
 //! | [`modes`] | natural frequencies and mode shapes |
+//! | [`forced`] | amplitudes at every order and speed |
+//! | [`waves`] | what harmonics add up to |
 //!
 //! A train without loops is a tree: every disc but the first hangs on one other by a shaft. Gear stages are
 //! referred to one speed before, so that shafts carry k (θ_a − θ_b). Looked at from its leaves to the root, each
@@ -18,7 +20,9 @@
 //!
 //! Source: Holzer, *Die Berechnung der Drehschwingungen* (1921); Parlett, *The Symmetric Eigenvalue Problem*, chapter 3.
 
+pub mod forced;
 pub mod modes;
+pub mod waves;
 
 use crate::real::Real;
 

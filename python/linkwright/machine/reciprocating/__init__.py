@@ -1,1 +1,1 @@
-"""Parts of a reciprocating engine, and what follows from them in closed form."""
+"""Reciprocating engines: descriptions of their parts, and what follows from them in closed form."""
