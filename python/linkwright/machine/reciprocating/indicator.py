@@ -52,10 +52,11 @@ _STEP = math.radians(0.5)
 _FINEST = math.radians(0.1)
 # Length of the compression line that its exponent is fitted to.
 _FITTED = math.radians(40.0)
-# Exponents of compression lie between 1.3 and 1.4; a wrong zero of pressure or angle leads far away.
-_LEAST, _GREATEST = 1.1, 1.6
-# Share of its mean effective pressures that is no combustion but noise.
-_NO_COMBUSTION = 0.01
+# Exponents of compression lie between 1.25 and 1.42; a wrong zero of pressure or angle leads away from there.
+_LEAST, _GREATEST = 1.2, 1.5
+# Mean effective pressure of the combustion as a share of the peak: at idle some 0.02, of a motored cylinder
+# noise.
+_NO_COMBUSTION = 2e-3
 # Angle over which combustion fades out once the exhaust is open, as a blow-down takes.
 _FADE = math.radians(50.0)
 
@@ -71,10 +72,10 @@ def _fitted(volume: Array, pressure: Array) -> float:
     return n
 
 
-def _check_combustion(fired: Array, motored: Array) -> None:
+def _check_combustion(fired: Array, motored: Array, peak: float) -> None:
     """Refuse diagrams of motored cylinders where a load is asked for."""
     for each, without in zip(fired, motored, strict=True):
-        if each - without < _NO_COMBUSTION * (abs(each) + abs(without)):
+        if each - without < _NO_COMBUSTION * peak:
             found = f"a mean effective pressure of {each:.6g} Pa, {without:.6g} Pa of it without combustion"
             expected = "a diagram with combustion, which a load map can scale"
             raise MachineError([Problem("train.engine.gas.pressure", found, expected)])
@@ -214,7 +215,7 @@ class Indicator(Diagram, Gas):
             shares = np.eye(2)[:, None, :] + np.zeros((1, n, 1))
             return shares[0], shares[1]
         wanted = self.load.mean_effective(speeds, float(fired[0]))
-        _check_combustion(fired, motored)
+        _check_combustion(fired, motored, max(self.pressure))
         order = np.argsort(fired)
         # Place of the load in the row of diagrams; the end diagrams hold beyond.
         place = np.interp(wanted, fired[order], np.arange(k))
