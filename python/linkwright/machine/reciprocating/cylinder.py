@@ -1,9 +1,9 @@
 r"""The working space of a cylinder: its volume and the piston's motion as Fourier series.
 
-With x(φ) the distance of the piston from the axis of the crank, A the area of the bore and ε the compression
+With x(φ) the distance of the piston from the axis of the crank, A the area of the bore and r_c the compression
 ratio,
 
-.. math:: V = A (x_\max - x) + V_c, \qquad V_h = A (x_\max - x_\min), \qquad V_c = \frac{V_h}{ε - 1}
+.. math:: V = A (x_\max - x) + V_c, \qquad V_h = A (x_\max - x_\min), \qquad V_c = \frac{V_h}{r_c - 1}
 
 The motion comes as values over one turn, so that any mechanism will do: a plain crank, an offset one, a rod
 on a master rod. Its top dead centre is found, and pressures are counted from there.
@@ -153,7 +153,7 @@ class Cylinder:
         angle : ndarray, shape (m,)
             Crank angles from the top dead centre [rad].
         compression_ratio : float
-            ε, greatest over least volume.
+            r_c, greatest over least volume.
 
         Returns
         -------
