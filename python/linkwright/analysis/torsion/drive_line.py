@@ -136,19 +136,19 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     return found[:, 0] if np.ndim(speed) == 0 else found
 
 
-def station_damping(machine: Machine, speed: float) -> dict[str, float]:
+def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
     r"""How much motor and mechanism damp where their torques follow the speed.
 
     Parameters
     ----------
     machine : Machine
         The machine.
-    speed : float
+    speed : array_like, shape () or (speeds,)
         Of the crank [rad/s].
 
     Returns
     -------
-    dict of str to float
+    dict of str to ndarray, shape () or (speeds,)
         −∂M/∂ω of ``"motor"`` at its own speed, and of ``"crank"``, mean over the turn [N m s/rad]. Negative
         where a torque grows with the speed it drives. That of the motor holds the gearbox's efficiency, by
         which its torque reaches the crank.
@@ -156,11 +156,11 @@ def station_damping(machine: Machine, speed: float) -> dict[str, float]:
     Raises
     ------
     InputError
-        The speed is not positive.
+        A speed is not positive.
     AssemblyError
         The mechanism does not close all round.
     """
-    omega = float(_positive(speed)[0])
+    omega = _positive(speed)
     compiled = _mechanism(machine)
     damping = {CRANK: mean_over_turn(compiled)[1] + _slope(lambda at: _resistance(compiled, at), omega)}
     motor = None if machine.drive is None else machine.drive.motor
@@ -168,7 +168,7 @@ def station_damping(machine: Machine, speed: float) -> dict[str, float]:
         driven = compile_machine(machine)
         slope = _slope(lambda at: driven.motor_torques(at)[1], omega)
         damping[MOTOR] = -slope / machine.drive.gearbox.ratio**2
-    return damping
+    return {station: c.reshape(np.shape(speed)) for station, c in damping.items()}
 
 
 def _mechanism(machine: Machine) -> Compiled:
@@ -195,11 +195,11 @@ def _resistance(compiled: Compiled, omega: Floats) -> Floats:
     return mean_laws(compiled, omega) + compiled.speed_load(omega)
 
 
-def _slope(torque: Callable[[Floats], Floats], omega: float) -> float:
-    """Derivative by the speed [N m s/rad]."""
-    at = omega * np.array([1 - _STEP, 1 + _STEP])
-    low, high = torque(at)
-    return float((high - low) / (at[1] - at[0]))
+def _slope(torque: Callable[[Floats], Floats], omega: Floats) -> Floats:
+    """Derivative by the speed, (speeds,) [N m s/rad]."""
+    low, high = omega * (1 - _STEP), omega * (1 + _STEP)
+    slope: Floats = (torque(high) - torque(low)) / (high - low)
+    return slope
 
 
 def _orders(orders: ArrayLike) -> Floats:
