@@ -130,9 +130,10 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     compiled = _mechanism(machine)
     pieces = 1 + int(nu.max(initial=0.0) / _ORDERS_OF_A_PIECE)
     phi, weights = turn_nodes(compiled, pieces)
-    M = _torque(compiled, phi, omega)
     size = np.where(nu == 0, 1.0, 2.0) * (nu == np.round(nu))
-    found: Complex = (size[:, None] * np.exp(-1j * np.outer(nu, phi))) @ (weights * M).T
+    waves = size[:, None] * weights * np.exp(-1j * np.outer(nu, phi))
+    found = -_resistance_harmonics(compiled, phi, waves, omega)
+    found[nu == 0] -= compiled.speed_load(omega)
     return found[:, 0] if np.ndim(speed) == 0 else found
 
 
@@ -182,12 +183,13 @@ def _mechanism(machine: Machine) -> Compiled:
     return compiled
 
 
-def _torque(compiled: Compiled, phi: Floats, omega: Floats) -> Floats:
-    """Torque of the mechanism on its crank at constant speeds, (speeds, angles) [N m]."""
+def _resistance_harmonics(compiled: Compiled, phi: Floats, waves: Complex, omega: Floats) -> Complex:
+    """Harmonics of what resists at constant speeds, inertia included, (orders, speeds) [N m]."""
     _, J_d1, load, dry, viscous = compiled.reductions(phi)
-    w = omega[:, None]
-    torque: Floats = -(load + dry + viscous * w + 0.5 * J_d1 * w**2) - compiled.speed_load(w)
-    return torque - compiled.law_torques(phi, omega) if compiled.has_laws else torque
+    # Parts of the torque, each with its power of the speed.
+    parts, powers = np.array([load + dry, viscous, 0.5 * J_d1]), np.array([omega**0, omega, omega**2])
+    found: Complex = (waves @ parts.T) @ powers
+    return found + waves @ compiled.law_torques(phi, omega).T if compiled.has_laws else found
 
 
 def _resistance(compiled: Compiled, omega: Floats) -> Floats:
