@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.forced import ForcedVibration, forced_vibration
+from linkwright.analysis.torsion.free import train_of
 from linkwright.machine import Machine, Shaft
 from linkwright.machine.shaft_limit import ShaftLimit, StressedSection
 
@@ -91,8 +92,7 @@ def shaft_stress(machine: Machine, found: ForcedVibration | None = None) -> Shaf
     .. [1] IACS, UR M68, 2021, M68.5.
     """
     found = forced_vibration(machine) if found is None else found
-    assert machine.train is not None
-    known = stressed(machine.train.shafts)
+    known = stressed(train_of(machine).shafts)
     rows = [found.shafts.index(name) for name in known]
     W = np.array([section.section_modulus for section, _ in known.values()])
     K = np.array([limit.concentration for _, limit in known.values()])
