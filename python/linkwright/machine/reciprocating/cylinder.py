@@ -1,7 +1,7 @@
 r"""The working space of a cylinder: its volume and the piston's motion as Fourier series.
 
-With x(φ) the distance of the piston from the axis of the crank, A the area of the bore and r_c the compression
-ratio,
+With x(φ) the distance of the piston from the axis of the crank, A the area of the bore and r_c the
+compression ratio,
 
 .. math:: V = A (x_\max - x) + V_c, \qquad V_h = A (x_\max - x_\min), \qquad V_c = \frac{V_h}{r_c - 1}
 
