@@ -14,13 +14,14 @@ if TYPE_CHECKING:
     from linkwright.analysis.torsion.forced import ForcedVibration
     from linkwright.analysis.torsion.free import FreeVibration
     from linkwright.analysis.torsion.holzer import HolzerTable
+    from linkwright.analysis.torsion.scheme import Scheme
 
 Folder = Annotated[
     Path | None,
     typer.Option(
         "--out",
         metavar="DIR",
-        help="Write results.json and the mode shapes as SVG and PNG there.",
+        help="Write results.json, the equivalent scheme and the mode shapes as SVG and PNG there.",
         show_default=False,
     ),
 ]
@@ -43,27 +44,29 @@ def torsion(
     from linkwright.analysis.torsion.forced import forced_vibration
     from linkwright.analysis.torsion.free import free_vibration
     from linkwright.analysis.torsion.holzer import holzer_table
+    from linkwright.analysis.torsion.scheme import scheme
     from linkwright.files.read import read
 
     machine = read(file, set or [])
-    if machine.train is None:
-        raise InputError(
-            f"{file}: the machine has no [train]; describe one as [train.discs] and [train.shafts]"
-        )
     found = free_vibration(machine)
     tables = [holzer_table(machine, frequency) for frequency in holzer or ()]
     forced = forced_vibration(machine) if is_excited(machine) else None
-    shown = _object(machine.name, found, tables, forced)
+    equivalent = scheme(machine)
+    shown = _object(machine.name, equivalent, found, tables, forced)
     if json:
         typer.echo(shown, nl=False)
     else:
         _print(found, tables)
     if out is not None:
-        _write(found, shown, out, quiet=json)
+        _write(equivalent, found, shown, out, quiet=json)
 
 
 def _object(
-    name: str, found: FreeVibration, tables: list[HolzerTable], forced: ForcedVibration | None
+    name: str,
+    equivalent: Scheme,
+    found: FreeVibration,
+    tables: list[HolzerTable],
+    forced: ForcedVibration | None,
 ) -> str:
     """One JSON object."""
     from json import dumps
@@ -72,7 +75,7 @@ def _object(
 
     free = found.to_dict(curves=True)
     free["nodes"] = [[node._asdict() for node in nodes] for nodes in found.nodes]
-    results: dict[str, Any] = {"free": free}
+    results: dict[str, Any] = {"scheme": equivalent.to_dict(curves=True), "free": free}
     if tables:
         results["holzer"] = [each.to_dict(curves=True) for each in tables]
     if forced is not None:
@@ -90,17 +93,18 @@ def _print(found: FreeVibration, tables: list[HolzerTable]) -> None:
     print_tables("", shown, ())
 
 
-def _write(found: FreeVibration, shown: str, folder: Path, *, quiet: bool) -> None:
-    """Results and figure; says where they are."""
-    from linkwright.plot import modes_figure, svg
+def _write(equivalent: Scheme, found: FreeVibration, shown: str, folder: Path, *, quiet: bool) -> None:
+    """Results and figures; says where they are."""
+    from linkwright.plot import modes_figure, scheme_figure, svg
 
-    figure = modes_figure(found)
-    names = ("results.json", "mode_shapes.svg", "mode_shapes.png")
+    figures = {"scheme": scheme_figure(equivalent), "mode_shapes": modes_figure(found)}
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        (folder / names[0]).write_text(shown, encoding="utf-8")
-        (folder / names[1]).write_text(svg(figure), encoding="utf-8")
-        figure.savefig(folder / names[2], dpi=150)
+        (folder / "results.json").write_text(shown, encoding="utf-8")
+        for name, figure in figures.items():
+            (folder / f"{name}.svg").write_text(svg(figure), encoding="utf-8")
+            figure.savefig(folder / f"{name}.png", dpi=150)
     except OSError as error:
         raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
+    names = ["results.json", *(f"{name}.{kind}" for name in figures for kind in ("svg", "png"))]
     typer.echo("Written:\n" + "\n".join(f"  {folder / name}" for name in names), err=quiet)

@@ -26,6 +26,8 @@ from linkwright.machine.base import Checked, Description, Name, fault
 from linkwright.machine.coupling import Coupling
 from linkwright.machine.damper import Damper
 from linkwright.machine.element import PositiveNumber
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
+from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_row import fillet_faults, flexibilities, place
 from linkwright.machine.shaft_section import Modulus, ShaftSection
 from linkwright.machine.train_base import GROUND, Damping, LossFactor, PositiveStiffness
@@ -33,7 +35,7 @@ from linkwright.machine.train_run import TrainRun
 from linkwright.machine.train_torques import Excitation, TrainLoad
 from linkwright.units import INERTIA, positive
 
-__all__ = ["GROUND", "Disc", "Shaft", "ShaftSection", "Train", "TrainGear"]
+__all__ = ["GROUND", "Disc", "ElasticShaft", "Shaft", "ShaftSection", "Train", "TrainGear"]
 
 
 class Disc(Description):
@@ -45,12 +47,9 @@ class Disc(Description):
     )
 
 
-class Shaft(Checked):
-    """An elastic shaft between two discs, or between a disc and the ground."""
+class ElasticShaft(Checked):
+    """What makes a shaft twist: its stiffness, or its sections."""
 
-    between: tuple[str, str] = Field(
-        description='The two discs that it joins; one end may be "ground", which is held.'
-    )
     stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
     sections: tuple[ShaftSection, ...] | None = Field(
         None, description="Its lengths in a row, from its first end, in place of the stiffness."
@@ -60,6 +59,7 @@ class Shaft(Checked):
     loss_factor: LossFactor = Field(
         0.0, description="Hysteresis η: the stiffness is k(1 + iη), a cycle loses 2πη of its largest energy."
     )
+    limit: ShaftLimit | None = Field(None, description="What it bears.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.stiffness is None) == (self.sections is None):
@@ -67,6 +67,10 @@ class Shaft(Checked):
             yield fault(found=found, expected="either stiffness or sections")
         if self.sections is not None and not self.sections:
             yield fault("sections", found="an empty list", expected="a list of at least one section")
+        limit = self.limit
+        if limit is not None and limit.needs_section and not limit.has_section and self.sections is None:
+            expected = "the diameter where the stress counts, as the shaft has no sections"
+            yield fault("limit", "diameter", expected=expected)
         for each in fillet_faults(self.sections or ()):
             yield InitErrorDetails(type=each["type"], loc=("sections", *each["loc"]), input=each["input"])
 
@@ -88,6 +92,14 @@ class Shaft(Checked):
         if self.sections is None:
             return None
         return place(self.sections, share)
+
+
+class Shaft(ElasticShaft):
+    """An elastic shaft between two discs, or between a disc and the ground."""
+
+    between: tuple[str, str] = Field(
+        description='The two discs that it joins; one end may be "ground", which is held.'
+    )
 
 
 class TrainGear(Checked):
@@ -141,5 +153,11 @@ class Train(Description):
     loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="What the train drives, by name.")
     excitations: dict[Name, Excitation] = Field(
         default_factory=dict, description="Torques that pulsate, by name."
+    )
+    engine: ReciprocatingEngine | None = Field(
+        None, description="Reciprocating engine, which stands for discs throw_1, throw_2, … and their shafts."
+    )
+    driver: str | None = Field(
+        None, description="Disc that drives the loads, where no engine does. Without it, the first."
     )
     run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")
