@@ -15,8 +15,8 @@ where σ = 1 for noise that is known, else estimated from what is left over. Cyl
 A act alike on this disc at these orders, and only their sum can be told.
 
 H is that of the elastic train. A train taken as rigid has
-:math:`H = i\nu\Omega \sum M/(-(\nu\Omega)^2 \sum J)` in its place, the same at every disc, and gives other x: by
-how much is what neglecting torsion costs.
+:math:`H = i\nu\Omega \sum M/(-(\nu\Omega)^2 \sum J)` in its place, the same at every disc, and gives other x:
+by how much is what neglecting torsion costs.
 
 References
 ----------
@@ -223,14 +223,16 @@ def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list
             f"cylinders {', '.join(names[open_part])} cannot be told apart by these orders at this disc"
         )
     size = np.linalg.norm(A, axis=0)
-    cosine = np.abs(A.T @ A) / np.where(size > 0, np.outer(size, size), 1.0)
+    product = np.outer(size, size)
+    cosine = np.abs(A.T @ A) / np.where(product > 0, product, 1.0)
     for a, b in np.argwhere(np.triu(cosine > _ALIKE, k=1)):
         if not (open_part[a] and open_part[b]):
             listed.append(f"cylinders {names[a]} and {names[b]} act alike (cosine {cosine[a, b]:.4f})")
     blind = ~open_part & (found.half_width() > 1)
     if blind.any():
         listed.append(f"cylinders {', '.join(names[blind])}: not even a misfire would show against the noise")
-    if found.is_noise_known and found.misfit > 1 + 3 / np.sqrt(2 * found.freedom):
+    # A misfit has the mean 1 and the deviation 1/√(2f); three of them are rare.
+    if found.is_noise_known and found.freedom and found.misfit > 1 + 3 / np.sqrt(2 * found.freedom):
         listed.append(
             f"what is left over is {found.misfit:.3g} times the noise: the train or its torques differ"
         )
