@@ -26,6 +26,7 @@ from linkwright.machine.base import Checked, Description, Name, fault
 from linkwright.machine.coupling import Coupling
 from linkwright.machine.damper import Damper
 from linkwright.machine.element import PositiveNumber
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_row import fillet_faults, flexibilities, place
 from linkwright.machine.shaft_section import Modulus, ShaftSection
@@ -34,7 +35,7 @@ from linkwright.machine.train_run import TrainRun
 from linkwright.machine.train_torques import Excitation, TrainLoad
 from linkwright.units import INERTIA, positive
 
-__all__ = ["GROUND", "Disc", "Shaft", "ShaftSection", "Train", "TrainGear"]
+__all__ = ["GROUND", "Disc", "ElasticShaft", "Shaft", "ShaftSection", "Train", "TrainGear"]
 
 
 class Disc(Description):
@@ -46,12 +47,9 @@ class Disc(Description):
     )
 
 
-class Shaft(Checked):
-    """An elastic shaft between two discs, or between a disc and the ground."""
+class ElasticShaft(Checked):
+    """What makes a shaft twist: its stiffness, or its sections."""
 
-    between: tuple[str, str] = Field(
-        description='The two discs that it joins; one end may be "ground", which is held.'
-    )
     stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
     sections: tuple[ShaftSection, ...] | None = Field(
         None, description="Its lengths in a row, from its first end, in place of the stiffness."
@@ -94,6 +92,14 @@ class Shaft(Checked):
         if self.sections is None:
             return None
         return place(self.sections, share)
+
+
+class Shaft(ElasticShaft):
+    """An elastic shaft between two discs, or between a disc and the ground."""
+
+    between: tuple[str, str] = Field(
+        description='The two discs that it joins; one end may be "ground", which is held.'
+    )
 
 
 class TrainGear(Checked):
@@ -147,5 +153,11 @@ class Train(Description):
     loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="What the train drives, by name.")
     excitations: dict[Name, Excitation] = Field(
         default_factory=dict, description="Torques that pulsate, by name."
+    )
+    engine: ReciprocatingEngine | None = Field(
+        None, description="Reciprocating engine, which stands for discs throw_1, throw_2, … and their shafts."
+    )
+    driver: str | None = Field(
+        None, description="Disc that drives the loads, where no engine does. Without it, the first."
     )
     run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")

@@ -13,6 +13,7 @@
 | `motion_laws` | motion laws and their derivatives, several in one picture |
 | `cam_dynamics` | contact force, pressure and vibration of cams and followers |
 | `torsion` | mode shapes of trains |
+| `torsion_scheme` | equivalent schemes of trains, by `scheme_layout`, `scheme_page`, `scheme_words` |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -44,6 +45,7 @@ from linkwright.plot.run_up import attempt_figure, run_up_figure
 from linkwright.plot.steady import speed_figure, time_figure, torque_figure
 from linkwright.plot.svg import svg
 from linkwright.plot.torsion import modes_figure
+from linkwright.plot.torsion_scheme import scheme_figure
 
 __all__ = [
     "attempt_figure",
@@ -69,6 +71,7 @@ __all__ = [
     "residual_figure",
     "rotator_figure",
     "run_up_figure",
+    "scheme_figure",
     "speed_figure",
     "svg",
     "time_figure",

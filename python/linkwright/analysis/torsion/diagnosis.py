@@ -15,8 +15,8 @@ where σ = 1 for noise that is known, else estimated from what is left over. Cyl
 A act alike on this disc at these orders, and only their sum can be told.
 
 H is that of the elastic train. A train taken as rigid has
-:math:`H = i\nu\Omega \sum M/(-(\nu\Omega)^2 \sum J)` in its place, the same at every disc, and gives other x:
-by how much is what neglecting torsion costs.
+:math:`H = i\nu\Omega \sum M/(-(\nu\Omega)^2 \sum J)` in its place, the same at every disc, and gives other
+x: by how much is what neglecting torsion costs.
 
 References
 ----------

@@ -30,8 +30,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
+from linkwright.analysis.torsion.drive_line import drive_line
 from linkwright.engine.train import HELD, ReferredTrain, refer
-from linkwright.errors import InputError
 from linkwright.machine import Machine, Train
 from linkwright.machine.whole_train import whole_train
 
@@ -127,7 +127,7 @@ def free_vibration(machine: Machine) -> FreeVibration:
     Parameters
     ----------
     machine : Machine
-        With a [train].
+        With a [train], or a [drive] that twists.
 
     Returns
     -------
@@ -138,6 +138,8 @@ def free_vibration(machine: Machine) -> FreeVibration:
     ------
     InputError
         The machine has no train.
+    AssemblyError
+        The mechanism behind the drive line does not close all round.
 
     References
     ----------
@@ -167,7 +169,7 @@ def free_vibration(machine: Machine) -> FreeVibration:
 
 
 def train_of(machine: Machine) -> Train:
-    """The train of a machine, as discs, shafts and gears.
+    """The train of a machine, as discs, shafts and gears: that of its file, or that of its drive line.
 
     Parameters
     ----------
@@ -182,11 +184,11 @@ def train_of(machine: Machine) -> Train:
     Raises
     ------
     InputError
-        It has none.
+        It has none, and its drive line does not twist.
+    AssemblyError
+        The mechanism behind the drive line does not close all round.
     """
-    if machine.train is None:
-        raise InputError(f"{machine.name} has no [train]: expected [train.discs] and [train.shafts]")
-    return whole_train(machine.train)
+    return whole_train(drive_line(machine) if machine.train is None else machine.train)
 
 
 def twists_of(referred: ReferredTrain, amplitudes: Floats) -> Floats:
