@@ -47,7 +47,7 @@ def closed_work(cycle: WorkingCycle, trace: ClosedTrace) -> np.ndarray:
 
 
 def test_otto_cycle() -> None:
-    """Heat at the dead centre: efficiency 1 − ε^{1−γ}; a duration costs its square."""
+    """Heat at the dead centre: efficiency 1 − r_c^{1−γ}; a duration costs its square."""
     loss = []
     for degrees in (4.0, 2.0, 1.0):
         release = {"start": f"{-degrees / 2} deg", "duration": f"{degrees} deg", "form_factor": 0.0}

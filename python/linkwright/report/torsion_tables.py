@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.torsion.free import FreeVibration, Node
 from linkwright.analysis.torsion.holzer import HolzerTable
+from linkwright.analysis.torsion.study import TorsionStudy
 from linkwright.report.table import Row, Table
 
 Floats = NDArray[np.float64]
@@ -18,6 +19,24 @@ _NAMED, _SHARE = 2, 0.05
 
 # Columns of shapes beside each other on a terminal.
 _SHAPES = 5
+
+
+def study_tables(study: TorsionStudy) -> Iterator[Table]:
+    """All tables of a study of torsional vibration.
+
+    Parameters
+    ----------
+    study : TorsionStudy
+        What to write.
+
+    Yields
+    ------
+    Table
+        For terminal and report.
+    """
+    yield from torsion_tables(study.free)
+    for each in study.holzer:
+        yield from holzer_tables(each)
 
 
 def torsion_tables(found: FreeVibration) -> Iterator[Table]:

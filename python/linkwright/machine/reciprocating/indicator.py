@@ -38,7 +38,7 @@ from linkwright.machine.base import Checked, fault
 from linkwright.machine.curve import curve_faults, unread_file
 from linkwright.machine.reciprocating.cycle_pressure import CyclePressure
 from linkwright.machine.reciprocating.cylinder import Cylinder
-from linkwright.machine.reciprocating.gas import Exponent, Gas, check_reach
+from linkwright.machine.reciprocating.gas import Exponent, Gas, below, check_reach
 from linkwright.machine.reciprocating.gas_load import TableGasLoad
 from linkwright.machine.reciprocating.indicator_faults import diagram_faults, whole_cycle_faults
 from linkwright.machine.reciprocating.periodic_cubic import periodic_cubic
@@ -174,9 +174,7 @@ class Indicator(Diagram, Gas):
         yield from whole_cycle_faults(self.angle, self.pressure, cycle)
         for i, each in enumerate(self.other_loads):
             for found in whole_cycle_faults(each.angle, each.pressure, cycle):
-                yield InitErrorDetails(
-                    type=found["type"], loc=("other_loads", i, *found.get("loc", ())), input=found["input"]
-                )
+                yield below(found, "other_loads", i)
 
     def cycle_pressure(self, cylinder: Cylinder, speeds: Array) -> CyclePressure:
         angle = self._angles(cylinder.cycle)
