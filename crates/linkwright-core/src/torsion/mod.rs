@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | here | what a train is, and its dynamic stiffness |
 //! | [`modes`] | natural frequencies and mode shapes |
+//! | [`transient`] | motion in time, with inertias that change with the angle |
 //!
 //! A train without loops is a tree: every disc but the first hangs on one other by a shaft. Gear stages are
 //! referred to one speed before, so that shafts carry k (θ_a − θ_b). Looked at from its leaves to the root, each
@@ -19,6 +20,7 @@
 //! Source: Holzer, *Die Berechnung der Drehschwingungen* (1921); Parlett, *The Symmetric Eigenvalue Problem*, chapter 3.
 
 pub mod modes;
+pub mod transient;
 
 use crate::real::Real;
 
