@@ -183,7 +183,8 @@ def _lengths(
     """Drawn length of each part, as its compliance where words leave room; and which parts are broken."""
     sides = _sides_turned(found) if turned else _sides(found, discs, parts)
     least = {each.name: _least(each, parts[each.name], sides, turned) for each in found.connections}
-    soft = {each.name: each.equivalent_length or 0.0 for each in found.connections}
+    rows = [each for each in found.connections if each.kind not in ("gears", "mesh")]
+    soft = dict.fromkeys(least, 0.0) | {each.name: each.equivalent_length or 0.0 for each in rows}
     known = [length for length in soft.values() if length > 0]
     if not known:
         return least, frozenset()

@@ -48,10 +48,9 @@ def mechanism_sources(
     size = np.abs(found).max(axis=1)
     kept = (of_crank > 0) & (size > _NEGLIGIBLE * size.max())
     damping = np.zeros((len(place), len(speeds)))
-    for w, speed in enumerate(speeds.tolist()):
-        for station, c in station_damping(machine, n * speed).items():
-            if station in place:
-                damping[place[station], w] += max(c, 0.0)
+    for station, c in station_damping(machine, n * speeds).items():
+        if station in place:
+            damping[place[station]] += np.maximum(c, 0.0)
     return [Source(place[CRANK], n * of_crank[kept], found[kept], found[0].real)], damping
 
 

@@ -150,7 +150,8 @@ def gas_torque(pressure: CyclePressure, cylinder: Cylinder, highest: float = 24.
     lever = -cylinder.area * x_d1 * pressure.weight * (2.0 / cylinder.cycle)
     turns = powers(-phi * (2.0 / cylinder.strokes), len(orders))
     turns[0] *= 0.5
-    of_traces = (pressure.traces - pressure.crankcase_pressure) @ (turns * lever).T
+    # No product of matrices: one so small is shared out to threads that wait longer than they work.
+    of_traces = np.einsum("tp,op->to", pressure.traces - pressure.crankcase_pressure, turns * lever)
     # Shares sum to one, so the pressure under the piston is taken off the traces.
     firing = pressure.firing @ of_traces
     return GasTorque(
