@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.torsion.torques import Source
 from linkwright.machine.reciprocating.cylinder import Cylinder
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
-from linkwright.machine.reciprocating.engine_motion import piston_positions, throw_curves
+from linkwright.machine.reciprocating.engine_motion import piston_positions, reduced_throw
 from linkwright.machine.reciprocating.firing import firing_angles
 from linkwright.machine.reciprocating.gas_torque import GasTorque, gas_torque
 
@@ -69,7 +69,7 @@ def cylinder_torques(engine: ReciprocatingEngine, speeds: Floats, highest: float
         cylinder = Cylinder(engine.bore, engine.strokes, positions)
         banks.append(gas_torque(engine.gas.cycle_pressure(cylinder, speeds), cylinder, highest))
     orders = banks[0].orders
-    fires, _ = firing_angles(engine.places, engine.firing_order)
+    fires, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
     phase = np.exp(-1j * np.outer(fires, orders))[:, :, None]
     of_bank = [place.bank for place in engine.places]
     firing = np.stack([each.firing.T for each in banks])[of_bank] * phase
@@ -110,8 +110,9 @@ def _moving_parts(engine: ReciprocatingEngine, speeds: Floats, orders: Floats) -
     """Harmonics of inertia and weight of the first throw, (orders, speeds)."""
     samples = max(256, 8 * int(np.ceil(orders[-1])))
     phi = 2 * np.pi * np.arange(samples) / samples
-    _, J_d1, V_d1 = throw_curves(engine, phi)
-    inertia, weight = (np.fft.rfft(-curve) * 2 / samples for curve in (0.5 * J_d1, V_d1))
+    throw = reduced_throw(engine, phi)
+    curves = (throw.inertia_torque(1.0), throw.weight_torque)
+    inertia, weight = (np.fft.rfft(curve) * 2 / samples for curve in curves)
     found = np.zeros((len(orders), len(speeds)), complex)
     # A motion that repeats every turn has whole orders alone.
     whole = np.flatnonzero(orders == np.round(orders))

@@ -1,17 +1,20 @@
 r"""Ratio of the specific heats of air and of what burns in it, by temperature.
 
-Air is O₂ + 3.762 N₂. Fuel CH_1.85 burns completely to CO₂ and H₂O; with the share b of the oxygen used a
-mole of oxygen becomes
+Air is O₂ + 3.727 N₂ + 0.044 Ar. Fuel CH_1.85 burns completely to CO₂ and H₂O; with the share b of the oxygen
+used a mole of oxygen becomes
 
-.. math:: (1 - b) \mathrm{O_2} + b (0.684 \mathrm{CO_2} + 0.632 \mathrm{H_2O}) + 3.762 \mathrm{N_2}
+.. math:: (1 - b) \mathrm{O_2} + b (0.684 \mathrm{CO_2} + 0.632 \mathrm{H_2O}) + 3.727 \mathrm{N_2} +
+    0.044 \mathrm{Ar}
 
 and γ = c/(c - 1) with c the mean of c_p/R over the moles. Dissociation is left out: below 2200 K it changes
 γ by less than a hundredth.
 
 References
 ----------
-.. [1] GRI-Mech 3.0, thermodynamic data (NASA polynomials, 200 to 3500 K).
-.. [2] Heywood, Internal Combustion Engine Fundamentals, 1988, section 3.4: stoichiometry and heating values.
+.. [1] GRI-Mech 3.0, thermodynamic data (NASA polynomials, 200 to 3500 K): O₂, CO₂, H₂O.
+.. [2] Goos, Burcat, Ruscic, Extended third millennium ideal gas thermochemical database: N₂, for which
+it is the better.
+.. [3] Heywood, Internal Combustion Engine Fundamentals, 1988, section 3.4: stoichiometry and heating values.
 """
 
 from __future__ import annotations
@@ -26,8 +29,8 @@ _COLD, _MIDDLE, _HOT = 200.0, 1000.0, 3500.0
 
 # c_p/R = a_0 + a_1 T + … + a_4 T⁴ below and above 1000 K.
 _NITROGEN = (
-    (3.298677, 1.4082404e-3, -3.963222e-6, 5.641515e-9, -2.444854e-12),
-    (2.92664, 1.4879768e-3, -5.68476e-7, 1.0097038e-10, -6.753351e-15),
+    (3.53100528, -1.23660987e-4, -5.02999437e-7, 2.43530612e-9, -1.40881235e-12),
+    (2.95257626, 1.39690057e-3, -4.92631691e-7, 7.86010367e-11, -4.60755321e-15),
 )
 _OXYGEN = (
     (3.78245636, -2.99673416e-3, 9.84730201e-6, -9.68129509e-9, 3.24372837e-12),
@@ -45,18 +48,21 @@ _WATER = (
 # Hydrogen per carbon: 1.85 is usual for Diesel fuel and petrol alike.
 _HYDROGEN = 1.85
 _OXYGEN_PER_CARBON = 1.0 + _HYDROGEN / 4
-_NITROGEN_PER_OXYGEN = 3.762
+# Dry air has 20.95 % of oxygen, 78.08 % of nitrogen and 0.93 % of argon by volume; CO₂ is counted as argon.
+_NITROGEN_PER_OXYGEN = 78.08 / 20.95
+_ARGON_PER_OXYGEN = 0.97 / 20.95
 # Of a mole of oxygen: air, and what its combustion adds to that.
-_AIR = np.array(_OXYGEN) + _NITROGEN_PER_OXYGEN * np.array(_NITROGEN)
+_ARGON = ((2.5, 0.0, 0.0, 0.0, 0.0),) * 2
+_AIR = np.array(_OXYGEN) + _NITROGEN_PER_OXYGEN * np.array(_NITROGEN) + _ARGON_PER_OXYGEN * np.array(_ARGON)
 _CHANGE = (np.array(_CARBON_DIOXIDE) + _HYDROGEN / 2 * np.array(_WATER)) / _OXYGEN_PER_CARBON - np.array(
     _OXYGEN
 )
-_MOLES = 1.0 + _NITROGEN_PER_OXYGEN
+_MOLES = 1.0 + _NITROGEN_PER_OXYGEN + _ARGON_PER_OXYGEN
 _MOLES_CHANGE = (1.0 + _HYDROGEN / 2) / _OXYGEN_PER_CARBON - 1.0
 
-# Masses of carbon, hydrogen, oxygen and nitrogen atoms [g/mol] give the air that a mass of fuel needs.
+# Masses of the atoms [g/mol] give the air that a mass of fuel needs.
 _FUEL_MASS = 12.011 + 1.008 * _HYDROGEN
-_AIR_MASS = 2 * (15.999 + 14.007 * _NITROGEN_PER_OXYGEN)
+_AIR_MASS = 2 * (15.999 + 14.007 * _NITROGEN_PER_OXYGEN) + 39.948 * _ARGON_PER_OXYGEN
 STOICHIOMETRIC = _OXYGEN_PER_CARBON * _AIR_MASS / _FUEL_MASS
 # Lower heating value of the fuel [J/kg], and gas constant of air [J/(kg K)].
 HEATING_VALUE = 42.7e6

@@ -28,7 +28,7 @@ from linkwright.machine.reciprocating.closed_cycle import ClosedGas, Rule
 from linkwright.machine.reciprocating.cycle_mesh import CycleMesh, closed_edges, mesh, open_edges
 from linkwright.machine.reciprocating.cycle_pressure import CyclePressure
 from linkwright.machine.reciprocating.cylinder import Cylinder
-from linkwright.machine.reciprocating.gas import Exponent, Gas
+from linkwright.machine.reciprocating.gas import Exponent, Gas, below
 from linkwright.machine.reciprocating.gas_load import PositivePressure
 from linkwright.machine.reciprocating.speed_points import speed_points
 from linkwright.machine.reciprocating.valves import Timing, Valves
@@ -105,9 +105,7 @@ class Combustion(Gas):
 
     def cycle_faults(self, strokes: int) -> Iterator[InitErrorDetails]:
         wrong = list(self.valves.cycle_faults(strokes))
-        for found in wrong:
-            loc = ("valves", *found.get("loc", ()))
-            yield InitErrorDetails(type=found["type"], loc=loc, input=found["input"])
+        yield from (below(found, "valves") for found in wrong)
         if wrong:
             return
         timing = self.valves.timing(strokes)

@@ -70,7 +70,7 @@ class ReciprocatingEngine(Checked):
     loss_factor: LossFactor = Field(0.0, description="Hysteresis of the crankshaft.")
     limit: ShaftLimit | None = Field(
         None,
-        description="What the crankshaft bears; without a diameter of its own, at the crank pin of the throw.",
+        description="What the crankshaft bears; without a diameter of its own, at the crank pin.",
     )
     gas: AnyGas = Field(description="Pressure in the cylinders.")
     factors: dict[str, Annotated[float, not_negative(RATIO)]] = Field(
@@ -137,7 +137,7 @@ class ReciprocatingEngine(Checked):
 
     def _cycle_fault(self) -> Iterator[InitErrorDetails]:
         """An order that needs more, or fewer, turns than a cycle has."""
-        found, wanted = firing_angles(self.places, self.firing_order)[1], self.cycle
+        found, wanted = firing_angles(self.places, self.firing_order, self.cycle)[1], self.cycle
         if abs(found - wanted) > _EQUAL:
             yield fault(
                 "firing_order",

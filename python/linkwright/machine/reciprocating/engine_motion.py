@@ -11,11 +11,9 @@ from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.reciprocating.running_gear import RunningGear, throw_motion
 from linkwright.machine.reciprocating.throw_compliance import compliance
 from linkwright.machine.reciprocating.throw_inertia import throw_inertia
+from linkwright.machine.reciprocating.throw_reduction import ThrowReduction, throw_reduction
 
 Floats = NDArray[np.float64]
-
-# Standard acceleration of free fall [m/s²].
-GRAVITY = 9.80665
 
 # Angles over a turn at which pistons are placed: far beyond the harmonics of any rod that closes with room
 # to spare.
@@ -60,8 +58,8 @@ def piston_positions(engine: ReciprocatingEngine) -> list[Floats]:
     return [throw_motion(engine.radius, gears, turn + bank)[n].piston for n, bank in enumerate(engine.banks)]
 
 
-def throw_curves(engine: ReciprocatingEngine, crank_angle: Floats) -> tuple[Floats, Floats, Floats]:
-    """Inertia of a throw with its rods and pistons, and what weight does to it.
+def reduced_throw(engine: ReciprocatingEngine, crank_angle: Floats) -> ThrowReduction:
+    """A throw with its rods and pistons, reduced to the crank.
 
     Parameters
     ----------
@@ -72,33 +70,13 @@ def throw_curves(engine: ReciprocatingEngine, crank_angle: Floats) -> tuple[Floa
 
     Returns
     -------
-    J, J_d1, V_d1 : ndarray, shape (n,)
-        Inertia [kg m²], its derivative [kg m²/rad], derivative of the potential energy [N m/rad].
+    ThrowReduction
+        Inertia, its derivative, torque of the weights; that of the crank itself where its geometry is known.
     """
-    J = np.full(len(crank_angle), own_inertia(engine))
-    J_d1, V_d1 = np.zeros_like(J), _own_weight(engine, crank_angle)
-    gears = running_gears(engine)
-    for gear, motion in zip(gears, throw_motion(engine.radius, gears, crank_angle), strict=True):
-        mass, centre, inertia = gear.rod.body
-        S = motion.point(centre)
-        J += mass * np.abs(S.d1) ** 2 + inertia * motion.angle_d1**2 + gear.piston_mass * motion.piston_d1**2
-        J_d1 += 2 * (
-            mass * (S.d1.conj() * S.d2).real
-            + inertia * motion.angle_d1 * motion.angle_d2
-            + gear.piston_mass * motion.piston_d1 * motion.piston_d2
-        )
-        # Up is the real axis.
-        V_d1 += GRAVITY * (mass * S.d1.real + gear.piston_mass * motion.piston_d1 * math.cos(gear.bank_angle))
-    return J, J_d1, V_d1
-
-
-def _own_weight(engine: ReciprocatingEngine, crank_angle: Floats) -> Floats:
-    """Derivative of the potential energy of the crank itself, where its geometry is known [N m/rad]."""
-    if engine.throw is None:
-        return np.zeros(len(crank_angle))
-    along, across = throw_inertia(engine.throw).static_moment
-    found: Floats = -GRAVITY * (along * np.sin(crank_angle) + across * np.cos(crank_angle))
-    return found
+    moment = (0.0, 0.0) if engine.throw is None else throw_inertia(engine.throw).static_moment
+    return throw_reduction(
+        engine.radius, running_gears(engine), crank_angle, own_inertia(engine), complex(*moment)
+    )
 
 
 def own_inertia(engine: ReciprocatingEngine) -> float:
@@ -112,7 +90,7 @@ def own_inertia(engine: ReciprocatingEngine) -> float:
 def mean_throw_inertia(engine: ReciprocatingEngine) -> float:
     """Mean over the turn of the inertia of a throw with its rods and pistons [kg m²]."""
     turn = 2 * math.pi * np.arange(_SAMPLES) / _SAMPLES
-    return float(throw_curves(engine, turn)[0].mean())
+    return float(reduced_throw(engine, turn).inertia_reduced.mean())
 
 
 def throw_stiffness(engine: ReciprocatingEngine) -> float:

@@ -69,6 +69,19 @@ class Gas(Checked):
         """
 
 
+def below(found: InitErrorDetails, *place: str | int) -> InitErrorDetails:
+    """The same fault, told by a description further up.
+
+    Parameters
+    ----------
+    found : InitErrorDetails
+        A fault.
+    *place : str or int
+        Keys down to the description that found it.
+    """
+    return InitErrorDetails(type=found["type"], loc=(*place, *found.get("loc", ())), input=found["input"])
+
+
 def check_reach(wanted: Array, motored: Array, speeds: Array) -> None:
     """Refuse mean effective pressures below that of the motored cylinder.
 

@@ -38,7 +38,7 @@ from linkwright.machine.base import Checked, fault
 from linkwright.machine.curve import curve_faults, unread_file
 from linkwright.machine.reciprocating.cycle_pressure import CyclePressure
 from linkwright.machine.reciprocating.cylinder import Cylinder
-from linkwright.machine.reciprocating.gas import Exponent, Gas, check_reach
+from linkwright.machine.reciprocating.gas import Exponent, Gas, below, check_reach
 from linkwright.machine.reciprocating.gas_load import TableGasLoad
 from linkwright.machine.reciprocating.indicator_faults import diagram_faults, whole_cycle_faults
 from linkwright.machine.reciprocating.periodic_cubic import periodic_cubic
@@ -52,10 +52,11 @@ _STEP = math.radians(0.5)
 _FINEST = math.radians(0.1)
 # Length of the compression line that its exponent is fitted to.
 _FITTED = math.radians(40.0)
-# Exponents of compression lie between 1.3 and 1.4; a wrong zero of pressure or angle leads far away.
-_LEAST, _GREATEST = 1.1, 1.6
-# Share of its mean effective pressures that is no combustion but noise.
-_NO_COMBUSTION = 0.01
+# Exponents of compression lie between 1.25 and 1.42; a wrong zero of pressure or angle leads away from there.
+_LEAST, _GREATEST = 1.2, 1.5
+# Mean effective pressure of the combustion as a share of the peak: at idle some 0.02, of a motored cylinder
+# noise.
+_NO_COMBUSTION = 2e-3
 # Angle over which combustion fades out once the exhaust is open, as a blow-down takes.
 _FADE = math.radians(50.0)
 
@@ -71,10 +72,10 @@ def _fitted(volume: Array, pressure: Array) -> float:
     return n
 
 
-def _check_combustion(fired: Array, motored: Array) -> None:
+def _check_combustion(fired: Array, motored: Array, peak: float) -> None:
     """Refuse diagrams of motored cylinders where a load is asked for."""
     for each, without in zip(fired, motored, strict=True):
-        if each - without < _NO_COMBUSTION * (abs(each) + abs(without)):
+        if each - without < _NO_COMBUSTION * peak:
             found = f"a mean effective pressure of {each:.6g} Pa, {without:.6g} Pa of it without combustion"
             expected = "a diagram with combustion, which a load map can scale"
             raise MachineError([Problem("train.engine.gas.pressure", found, expected)])
@@ -173,9 +174,7 @@ class Indicator(Diagram, Gas):
         yield from whole_cycle_faults(self.angle, self.pressure, cycle)
         for i, each in enumerate(self.other_loads):
             for found in whole_cycle_faults(each.angle, each.pressure, cycle):
-                yield InitErrorDetails(
-                    type=found["type"], loc=("other_loads", i, *found.get("loc", ())), input=found["input"]
-                )
+                yield below(found, "other_loads", i)
 
     def cycle_pressure(self, cylinder: Cylinder, speeds: Array) -> CyclePressure:
         angle = self._angles(cylinder.cycle)
@@ -214,7 +213,7 @@ class Indicator(Diagram, Gas):
             shares = np.eye(2)[:, None, :] + np.zeros((1, n, 1))
             return shares[0], shares[1]
         wanted = self.load.mean_effective(speeds, float(fired[0]))
-        _check_combustion(fired, motored)
+        _check_combustion(fired, motored, max(self.pressure))
         order = np.argsort(fired)
         # Place of the load in the row of diagrams; the end diagrams hold beyond.
         place = np.interp(wanted, fired[order], np.arange(k))

@@ -5,7 +5,7 @@ are counted, the imaginary axis a quarter of a turn on in the sense of rotation.
 :math:`p = r e^{iφ}`.
 
 In the frame of a cylinder, whose axis is turned by β and runs past the axis of the crank at the offset e in
-the sense of rotation, let the pin of the big end be :math:`p e^{-iβ} = ξ + iη`. The rod of the length l
+the sense of rotation, let the pin of the big end be :math:`p e^{-iβ} = ξ + iη`. The rod, of the length l,
 closes with
 
 .. math:: \sin ψ = \frac{e - η}{l}, \qquad x = ξ + l \cos ψ,
@@ -123,7 +123,7 @@ def crank_pin(crank_radius: float, crank_angle: ArrayLike) -> PinMotion:
     ----------
     crank_radius : float
         r [m].
-    crank_angle : array_like
+    crank_angle : array_like, shape (...)
         φ of this throw, from the vertical, of any shape [rad].
 
     Returns
@@ -169,7 +169,7 @@ def rod_motion(
     ----------
     pin : PinMotion
         The pin of the big end.
-    crank_angle : array_like
+    crank_angle : array_like, shape (...)
         φ at which it stands so, in its shape [rad].
     rod_length : float
         l [m].
@@ -222,7 +222,7 @@ def slider_crank(
     ----------
     crank_radius, rod_length : float
         r, l [m].
-    crank_angle : array_like
+    crank_angle : array_like, shape (...)
         φ from the axis of the cylinder, of any shape [rad].
     offset : float
         e of the axis of the cylinder from that of the crank, in the sense of rotation [m].
@@ -249,7 +249,6 @@ def _open(phi: Array, sine: Array, rod_length: float, name: str) -> AssemblyErro
     text = (
         f"the rod of {name} does not reach its piston at crank angle {np.degrees(angle):.6g} deg: its pin "
         f"stands {away:.6g} m beside the axis of the cylinder and the rod is {rod_length:.6g} m long; make "
-        "the "
-        "rod longer, or the crank radius smaller"
+        "the rod longer, or the crank radius smaller"
     )
     return AssemblyError(text, element=name, crank_angle=angle, gap=away - rod_length)

@@ -65,7 +65,7 @@ def throw_motion(
         r [m].
     gears : sequence of RunningGear
         Of the cylinders on this throw.
-    crank_angle : array_like
+    crank_angle : array_like, shape (...)
         φ of this throw, from the vertical, of any shape [rad].
 
     Returns
