@@ -92,7 +92,7 @@ def test_tuned_rules_are_means_of_the_levels(mu: float) -> None:
     assert np.mean(np.square(rubber)) == pytest.approx(rubber_rule(mu).loss_factor ** 2, rel=1e-5)
 
 
-@pytest.mark.parametrize(("rule_of", "mu", "above"), [(tuned_rule, 1.0, 0.015), (rubber_rule, 0.2, 0.07)])
+@pytest.mark.parametrize(("rule_of", "mu", "above"), [(tuned_rule, 1.0, 0.015), (rubber_rule, 0.2, 0.055)])
 def test_how_far_the_tuned_rules_are_from_the_points(rule_of: object, mu: float, above: float) -> None:
     """What the page says: the largest lies a little above the fixed points."""
     rule = rule_of(mu)  # type: ignore[operator]

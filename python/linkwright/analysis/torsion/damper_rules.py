@@ -20,7 +20,7 @@ rubber         :math:`1/(1+\mu)`   :math:`\eta^2 = \mu(3 + 2\mu)/(2 + \mu)`     
 
 The first is exact. With a spring, the curve cannot be level at both points at once, and the squares of the
 two dampings that make it so are averaged, as Brock did; the largest value lies a little above the points, by
-1 % for a fluid and :math:`\mu = 1`, by 6 % for rubber and :math:`\mu = 0.2`. Damping is counted by the
+1 % for a fluid and :math:`\mu = 1`, by 5 % for rubber and :math:`\mu = 0.2`. Damping is counted by the
 frequency of the mass; by that of the ring alone, :math:`f\omega_n`, the second is
 :math:`3\mu/(8(1 + \mu))`.
 
