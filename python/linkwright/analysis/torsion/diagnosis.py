@@ -223,14 +223,16 @@ def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list
             f"cylinders {', '.join(names[open_part])} cannot be told apart by these orders at this disc"
         )
     size = np.linalg.norm(A, axis=0)
-    cosine = np.abs(A.T @ A) / np.where(size > 0, np.outer(size, size), 1.0)
+    product = np.outer(size, size)
+    cosine = np.abs(A.T @ A) / np.where(product > 0, product, 1.0)
     for a, b in np.argwhere(np.triu(cosine > _ALIKE, k=1)):
         if not (open_part[a] and open_part[b]):
             listed.append(f"cylinders {names[a]} and {names[b]} act alike (cosine {cosine[a, b]:.4f})")
     blind = ~open_part & (found.half_width() > 1)
     if blind.any():
         listed.append(f"cylinders {', '.join(names[blind])}: not even a misfire would show against the noise")
-    if found.is_noise_known and found.misfit > 1 + 3 / np.sqrt(2 * found.freedom):
+    # A misfit has the mean 1 and the deviation 1/√(2f); three of them are rare.
+    if found.is_noise_known and found.freedom and found.misfit > 1 + 3 / np.sqrt(2 * found.freedom):
         listed.append(
             f"what is left over is {found.misfit:.3g} times the noise: the train or its torques differ"
         )

@@ -174,21 +174,27 @@ def _span(orders: Floats, waves: Complexes, start: float, end: float) -> Floats:
     points = max(int(np.ceil((end - start) * orders.max() / (2 * np.pi) * _POINTS)), 2) + 1
     angle = np.linspace(start, end, points)
     values = _wave(orders, waves[:, :, None], angle)
-    # Between a point and its neighbours the extreme is where the slope is zero.
     found = []
     for sign in (1.0, -1.0):
         best = np.argmax(sign * values, axis=1)
-        x = angle[best]
-        low, high = angle[np.maximum(best - 1, 0)], angle[np.minimum(best + 1, points - 1)]
         top = sign * values[np.arange(len(best)), best]
-        for _ in range(_NEWTON):
-            slope, bend = (_wave(orders, (1j * orders[:, None]) ** k * waves, x) for k in (1, 2))
-            step = np.divide(slope, bend, out=np.zeros_like(slope), where=bend != 0)
-            x = np.clip(x - step, low, high)
-            top = np.maximum(top, sign * _wave(orders, waves, x))
+        # A wave that fits the interval is as high at both its ends: the extreme may be beside either.
+        for start_at in (best, np.zeros_like(best), np.full_like(best, points - 1)):
+            low, high = angle[np.maximum(start_at - 1, 0)], angle[np.minimum(start_at + 1, points - 1)]
+            at = _flat(orders, waves, angle[start_at], low, high)
+            top = np.maximum(top, sign * _wave(orders, waves, at))
         found.append(top)
     span: Floats = found[0] + found[1]
     return span
+
+
+def _flat(orders: Floats, waves: Complexes, x: Floats, low: Floats, high: Floats) -> Floats:
+    """Where the slope is zero next to an angle, (discs,), by Newton between two bounds."""
+    for _ in range(_NEWTON):
+        slope, bend = (_wave(orders, (1j * orders[:, None]) ** k * waves, x) for k in (1, 2))
+        step = np.divide(slope, bend, out=np.zeros_like(slope), where=bend != 0)
+        x = np.clip(x - step, low, high)
+    return x
 
 
 def _wave(orders: Floats, waves: Complexes, angle: Floats) -> Floats:
