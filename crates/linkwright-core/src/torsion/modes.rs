@@ -88,7 +88,7 @@ mod tests {
             trace += train.stiffness[c] * (1.0 / train.inertia[c] + 1.0 / train.inertia[train.parent[c]]);
         }
         let sum: f64 = found.omega.iter().map(|w| w * w).sum();
-        assert!((sum - trace).abs() < tolerance * trace, "the sum of squares {sum} is the trace {trace}");
+        assert!((sum - trace).abs() <= tolerance * trace, "the sum of squares {sum} is the trace {trace}");
         let column = |mode: usize| found.shapes.iter().skip(mode).step_by(n);
         for i in 0..n {
             for j in 0..n {
