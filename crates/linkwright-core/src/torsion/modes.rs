@@ -189,10 +189,10 @@ mod tests {
                 let (mut left, mut size) = (vec![0.0; n], 0.0f64);
                 for c in 0..n {
                     let (k, p) = (train.stiffness[c], train.parent[c]);
-                    let own = (train.ground[c] - omega * omega * train.inertia[c]) * q[c];
-                    left[c] += own + k * (q[c] - q[p]);
+                    let (held, swung) = (train.ground[c] * q[c], omega * omega * train.inertia[c] * q[c]);
+                    left[c] += held - swung + k * (q[c] - q[p]);
                     left[p] -= k * (q[c] - q[p]);
-                    size = size.max(own.abs()).max(k * (q[c].abs() + q[p].abs()));
+                    size = size.max(held.abs()).max(swung.abs()).max(k * (q[c].abs() + q[p].abs()));
                 }
                 let worst = left.iter().fold(0.0f64, |a, b| a.max(b.abs()));
                 assert!(worst <= 1e-14 * n as f64 * size, "mode {mode}: {worst} of {size}, {train:?}");
