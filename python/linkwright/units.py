@@ -104,6 +104,7 @@ _KG_M2 = Dimension(m=2, kg=1)
 _KG_M = Dimension(m=-1, kg=1)
 _N_PER_M = Dimension(kg=1, s=-2)
 _KG_M3 = Dimension(m=-3, kg=1)
+_M3 = Dimension(m=3)
 _PA = Dimension(m=-1, kg=1, s=-2)
 _N_S_M = Dimension(kg=1, s=-1)
 _N_M_S = Dimension(m=2, kg=1, s=-1)
@@ -130,6 +131,7 @@ INERTIA = Kind(
     "a moment of inertia", "kg m^2", "kilogram metres squared", "0.14 kg m^2", _KG_M2, angle_free=True
 )
 MASS_PER_LENGTH = Kind("a mass per length", "kg/m", "kilograms per metre", "80 kg/m", _KG_M)
+SECTION_MODULUS = Kind("a section modulus", "m^3", "cubic metres", "25 cm^3", _M3)
 DENSITY = Kind("a density", "kg/m^3", "kilograms per cubic metre", "7850 kg/m^3", _KG_M3)
 PRESSURE = Kind("a pressure", "Pa", "pascals", "210 GPa", _PA)
 STIFFNESS = Kind("a stiffness", "N/m", "newtons per metre", "2000 N/m", _N_PER_M)
@@ -171,6 +173,7 @@ KINDS = (
     POWER,
     INERTIA,
     MASS_PER_LENGTH,
+    SECTION_MODULUS,
     DENSITY,
     PRESSURE,
     STIFFNESS,
@@ -226,6 +229,7 @@ COMMON: dict[Dimension, dict[str, float]] = {
     _N_M_RAD: {"N m/rad": 1.0, "kN m/rad": 1e3, "MN m/rad": 1e6, "N m/deg": 1 / _DEGREE},
     _KG_M2: {"kg m^2": 1.0, "kg cm^2": 1e-4, "kg mm^2": 1e-6, "g cm^2": 1e-7, "g mm^2": 1e-9, "t m^2": 1e3},
     _KG_M: {"kg/m": 1.0, "g/m": 1e-3, "kg/mm": 1e3, "g/mm": 1.0, "t/m": 1e3},
+    _M3: {"m^3": 1.0, "dm^3": 1e-3, "cm^3": 1e-6, "mm^3": 1e-9},
     _KG_M3: {"kg/m^3": 1.0, "kg/dm^3": 1e3, "g/cm^3": 1e3, "t/m^3": 1e3},
     _PA: {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "N/mm^2": 1e6, "N/m^2": 1.0},
     _N_PER_M: {"N/m": 1.0, "kN/m": 1e3, "MN/m": 1e6, "N/mm": 1e3, "kN/mm": 1e6},

@@ -234,6 +234,10 @@ def test_many_speeds_at_once() -> None:
     both = lw.mechanism_harmonics(lw.loads(fan), speeds, orders)
     each = [lw.mechanism_harmonics(lw.loads(fan), speed, orders) for speed in speeds]
     assert both == pytest.approx(np.array(each).T, rel=1e-13, abs=1e-11)
+    found = lw.station_damping(lw.loads(fan + MOTOR + BOX.format(ratio=5)), speeds)
+    assert found.keys() == {"motor", "crank"}
+    # Rounding of means over the turn, over a step of 1e-5.
+    assert found["crank"][1] == pytest.approx(lw.station_damping(lw.loads(fan), 9.0)["crank"], rel=1e-8)
 
 
 def test_high_harmonics_keep_their_digits() -> None:

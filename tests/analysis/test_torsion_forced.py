@@ -259,6 +259,26 @@ def test_sum_of_orders_in_phase() -> None:
     assert coefficients(orders, c)[8, 0] == c[3, 0]
 
 
+def test_orders_behind_a_stage_of_any_ratio_repeat() -> None:
+    orders = orders_together(math.sqrt(2) * np.array([1.0, 2.0, 4.5]))
+    assert orders.harmonic.tolist() == [2, 4, 9]
+    assert orders.turns == pytest.approx(math.sqrt(2), rel=1e-12)
+
+
+def test_drive_line_swings_as_its_rigid_steady_motion() -> None:
+    stiff = lw.read("machines/roller_two_carts.toml", ["drive.crankshaft.stiffness=2e8 N m/rad"])
+    steady = lw.steady_state(stiff)
+    speed = np.array([steady.speed_mean_time * 9.8])
+    found = forced_vibration(stiff, speed)
+    # What the linear part leaves out is of the order of δ² (Biezeno and Grammel).
+    assert found.unevenness[-1, 0] == pytest.approx(steady.unevenness, rel=0.06)
+    assert found.unevenness_rigid[0, 0] == pytest.approx(found.unevenness[-1, 0], rel=1e-3)
+    # The motor drives what the mechanism resists.
+    assert found.mean_torques[0, 0] == pytest.approx(
+        lw.mechanism_harmonics(stiff, speed[0] / 9.8, [0])[0].real * -1
+    )
+
+
 def test_orders_without_a_common_base_add_their_amplitudes() -> None:
     values = np.array([1.0, math.sqrt(2)])
     orders = orders_together(values)

@@ -73,7 +73,7 @@ class Coupling(Checked):
 
         Parameters
         ----------
-        torque : ndarray or float
+        torque : ndarray, any shape, or float
             Mean torque that it carries [N m].
 
         Returns

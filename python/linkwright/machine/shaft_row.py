@@ -24,8 +24,8 @@ def _step(first: ShaftSection, second: ShaftSection) -> tuple[float, float]:
         return 0.0, 0.0
     (d, bore), (D, other) = (first.diameters[1], first.bores[1]), (second.diameters[0], second.bores[0])
     if d <= D:
-        return step_length(d, D, first.fillet) / polar_moment(d, bore), 0.0
-    return 0.0, step_length(D, d, first.fillet) / polar_moment(D, other)
+        return step_length(d, D, first.fillet, bore) / polar_moment(d, bore), 0.0
+    return 0.0, step_length(D, d, first.fillet, other) / polar_moment(D, other)
 
 
 def flexibilities(sections: Sequence[ShaftSection]) -> tuple[float, ...]:
@@ -50,7 +50,7 @@ def flexibilities(sections: Sequence[ShaftSection]) -> tuple[float, ...]:
 
 
 def fillet_faults(sections: Sequence[ShaftSection]) -> Iterator[InitErrorDetails]:
-    """Fillets that lie between no two cylinders or tapers.
+    """Fillets that lie at no step between cylinders or tapers, or do not fit into theirs.
 
     Parameters
     ----------
@@ -63,12 +63,24 @@ def fillet_faults(sections: Sequence[ShaftSection]) -> Iterator[InitErrorDetails
         Each with the number of its section and the key.
     """
     for n, each in enumerate(sections):
-        if each.fillet is None:
+        if each.fillet is None or each.kind == "flange":
             continue
         following = sections[n + 1] if n + 1 < len(sections) else None
         if following is None or following.kind not in ("cylinder", "taper"):
             expected = "a cylinder or a taper after this section, to which the step leads"
             yield fault(n, "fillet", found=each.fillet, expected=expected)
+        elif each.fillet > _largest_fillet(each, following):
+            largest = _largest_fillet(each, following)
+            expected = f"at most {largest:.6g} m: the height of the step, a quarter of the thinner diameter"
+            remedy = "describe a larger rounding as a taper"
+            yield fault(n, "fillet", found=each.fillet, expected=expected, remedy=remedy)
+
+
+def _largest_fillet(first: ShaftSection, second: ShaftSection) -> float:
+    """Radius that a step has room for, and that its closed form holds for [m]."""
+    d, D = first.diameters[1], second.diameters[0]
+    thin = first if d <= D else second
+    return min(abs(D - d) / 2, min(d, D) / 4, thin.length)
 
 
 def end_inertias(sections: Sequence[ShaftSection], density: float) -> tuple[float, float]:

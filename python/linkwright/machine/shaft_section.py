@@ -8,18 +8,28 @@ A section twists under a torque $M$ by $e M$. Its *flexibility* is that without 
 | --- | --- | --- |
 | `cylinder` | a cylindrical length | $L/I_p$ |
 | `taper` | a cone, solid or hollow | the integral |
-| `flange` | from the shaft out to a circle of bolts | $(1/d^2 - 1/D_b^2)/(\pi L)$ |
-| `hub` | a shaft inside a shrunk or keyed hub | a share of $L/I_p$ |
-| `spline` | a splined length | $L/I_p$ of the circle of equal stiffness |
+| `flange` | from the shaft out to a circle of bolts | $(1/d^2 - 1/D_b^2)/(\pi L) + 0.1\,d/I_p$ |
+| `hub` | a shaft inside a shrunk or keyed hub | a third of $L/I_p$ |
+| `spline` | a splined length | $L/I_p$ of a circle a fifth of the teeth's height above their roots |
+
+The flange is a plate under a torque [1]_, whose middle yields where the shaft enters, by 0.1 d of the solid
+shaft; this keeps to the equation of torsion of bodies of revolution within 0.012 d for plates from 0.12 d
+to 0.5 d thick. The third of a hub is a rule for fits that slip a little at their edge [2]_; perfectly
+bonded, a shaft twists in a hub as 0.15 d do. Splines of 6 to 10 straight teeth have their circle at 0.19 to
+0.25 of the height.
+
+A keyway of width b and depth t takes the part $g = 3.38\,(b/d)^{0.336} (t/d)^{1.34}$ of the solid shaft's
+$I_p$, two of them $2g(1 - g/4)$: fitted to Prandtl's membrane equation within 0.4 % of $I_p$, for b/d of
+0.1 to 0.4 and t/d of 0.05 to 0.18; with a bore of half the diameter it takes a tenth more.
 
 Sections in a row, and the steps between them, are in `shaft_row`.
 
 References
 ----------
-.. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 3.
-.. [2] Nestorides, A Handbook on Torsional Vibration, 1958, part 2.
+.. [1] Timoshenko, Goodier, Theory of Elasticity, 3rd ed. 1970: problems in polar coordinates; torsion.
+.. [2] API RP 684, tutorial on rotordynamics: torsional modelling. Ker Wilson, Practical Solution of Torsional
+    Vibration Problems, vol. 1, 1956, chapter 3.
 .. [3] Moore, The Effect of Keyways on the Strength of Shafts, University of Illinois Bulletin 42, 1909.
-.. [4] Timoshenko, Goodier, Theory of Elasticity, 3rd ed. 1970: plates under tangential forces.
 """
 
 from __future__ import annotations
@@ -41,8 +51,12 @@ Density = Annotated[float, positive(DENSITY)]
 Bore = Annotated[float, not_negative(LENGTH)]
 Share = Annotated[float, Quantity(RATIO, FRACTION)]
 
-# Share of a shaft's length inside a hub that twists as if it were free.
+# Share of a shaft's length inside a hub that twists as if it were free [2].
 HUB_SHARE = 1 / 3
+# Share of the height of a spline's teeth, above their roots, where the circle of equal stiffness is.
+_TOOTH_SHARE = 0.2
+# Entry of a shaft into a flange, as a length over the diameter.
+_ENTRY = 0.1
 
 Kind = Literal["cylinder", "taper", "flange", "hub", "spline"]
 
@@ -50,7 +64,7 @@ Kind = Literal["cylinder", "taper", "flange", "hub", "spline"]
 _KEYS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "cylinder": ((), ("keyway_width", "keyway_depth", "keyways", "fillet")),
     "taper": (("diameter_end",), ("inner_diameter_end", "fillet")),
-    "flange": (("bolt_circle",), ()),
+    "flange": (("bolt_circle",), ("fillet",)),
     "hub": ((), ("share", "keyway_width", "keyway_depth", "keyways")),
     "spline": (("root_diameter",), ("share",)),
 }
@@ -84,7 +98,7 @@ class ShaftSection(Checked):
     )
     keyway_width: PositiveLength | None = Field(None, description="Of a keyway, if there is one.")
     keyway_depth: PositiveLength | None = Field(
-        None, description="Of the keyway, below the surface of the shaft at its side."
+        None, description="Of the keyway in the shaft, from the top of the full circle."
     )
     keyways: Literal[1, 2] | None = Field(
         None, description="How many; two lie opposite. Without it, one if a keyway is given."
@@ -92,7 +106,7 @@ class ShaftSection(Checked):
     fillet: Annotated[float, not_negative(LENGTH)] | None = Field(
         None,
         description="Radius in the corner of the step to the next section; 0 for a sharp one. Without it, "
-        "the step adds no twist.",
+        "the step adds no twist. Of a flange: in the corner with its shaft.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -135,12 +149,12 @@ class ShaftSection(Checked):
         if self.root_diameter is not None and self.root_diameter >= d:
             expected = f"less than over the teeth, {d:.6g} m"
             yield fault("root_diameter", found=self.root_diameter, expected=expected)
-        if self.keyway_width is not None and self.keyway_width > d / 2:
-            expected = f"at most half the diameter, {d / 2:.6g} m"
+        if self.keyway_width is not None and self.keyway_width > 0.4 * d:
+            expected = f"at most 0.4 of the diameter, {0.4 * d:.6g} m"
             yield fault("keyway_width", found=self.keyway_width, expected=expected)
-        wall = (d - self.inner_diameter) / 2
-        if self.keyway_depth is not None and self.keyway_depth > min(d / 4, wall):
-            expected = f"at most a quarter of the diameter and less than the wall, {min(d / 4, wall):.6g} m"
+        deepest = min(0.2 * d, 0.3 * (d - self.inner_diameter))
+        if self.keyway_depth is not None and self.keyway_depth > deepest:
+            expected = f"at most 0.2 of the diameter and 0.6 of the wall, {deepest:.6g} m"
             yield fault("keyway_depth", found=self.keyway_depth, expected=expected)
 
     @property
@@ -162,24 +176,33 @@ class ShaftSection(Checked):
 
     @property
     def _keyway(self) -> tuple[float, float]:
-        """Width and depth of all keyways over the diameter; 0 without one."""
-        if self.keyway_width is None or self.keyway_depth is None:
-            return 0.0, 0.0
-        many = (self.keyways or 1) / self.diameter
-        return many * self.keyway_width, many * self.keyway_depth
+        """Width and depth of the keyway over the diameter; 0 without one."""
+        return (self.keyway_width or 0.0) / self.diameter, (self.keyway_depth or 0.0) / self.diameter
+
+    @property
+    def _stiff_moment(self) -> float:
+        """Polar second moment of the circle or ring of equal stiffness [m⁴]."""
+        d, bore = self.diameters[0], self.bores[0]
+        if self.kind == "spline":
+            return polar_moment(d + _TOOTH_SHARE * (self.diameter - d), bore)
+        width, depth = self._keyway
+        taken: float = 3.38 * width**0.336 * depth**1.34
+        if self.keyways == 2:
+            taken *= 2 * (1 - taken / 4)
+        return polar_moment(d, bore) - taken * polar_moment(d)
 
     @property
     def flexibility(self) -> float:
         """Twist per torque, times the shear modulus [1/m³]."""
         if self.kind == "flange":
             assert self.bolt_circle is not None
-            return (self.diameter**-2 - self.bolt_circle**-2) / (math.pi * self.length)
+            plate = (self.diameter**-2 - self.bolt_circle**-2) / (math.pi * self.length)
+            corner: float = 0.7 * ((self.fillet or 0.0) / self.diameter) ** 1.3
+            return plate + (_ENTRY - corner) * self.diameter / polar_moment(self.diameter)
         if self.kind == "taper":
             return cone_integral(self.length, self.diameters, self.bores)
         share = self.share if self.share is not None else HUB_SHARE if self.kind == "hub" else 1.0
-        width, depth = self._keyway
-        # Moore: a shaft twists so much more over the length of a keyway.
-        return share * self.length / self.second_moment * (1 + 0.4 * width + 0.7 * depth)
+        return share * self.length / self._stiff_moment
 
     @property
     def section_modulus(self) -> float:
@@ -189,8 +212,9 @@ class ShaftSection(Checked):
         width, depth = self._keyway
         rings = zip(self.diameters, self.bores, strict=True)
         plain = min(polar_moment(d, b) / (d / 2) for d, b in rings)
-        # Moore: the strength that a keyway leaves.
-        return plain * (1 - 0.2 * width - 1.1 * depth)
+        # The strength that each keyway leaves [3].
+        left: float = (1 - 0.2 * width - 1.1 * depth) ** (self.keyways or 1)
+        return plain * left
 
     def inertia(self, density: float) -> float:
         """Moment of inertia about the axis [kg m²]; of a flange out to its circle of bolts.

@@ -26,6 +26,8 @@ from linkwright.machine.base import Checked, Description, Name, fault
 from linkwright.machine.coupling import Coupling
 from linkwright.machine.damper import Damper
 from linkwright.machine.element import PositiveNumber
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
+from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_row import fillet_faults, flexibilities, place
 from linkwright.machine.shaft_section import Modulus, ShaftSection
 from linkwright.machine.train_base import GROUND, Damping, LossFactor, PositiveStiffness
@@ -57,6 +59,7 @@ class ElasticShaft(Checked):
     loss_factor: LossFactor = Field(
         0.0, description="Hysteresis η: the stiffness is k(1 + iη), a cycle loses 2πη of its largest energy."
     )
+    limit: ShaftLimit | None = Field(None, description="What it bears.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.stiffness is None) == (self.sections is None):
@@ -64,6 +67,10 @@ class ElasticShaft(Checked):
             yield fault(found=found, expected="either stiffness or sections")
         if self.sections is not None and not self.sections:
             yield fault("sections", found="an empty list", expected="a list of at least one section")
+        limit = self.limit
+        if limit is not None and limit.needs_section and not limit.has_section and self.sections is None:
+            expected = "the diameter where the stress counts, as the shaft has no sections"
+            yield fault("limit", "diameter", expected=expected)
         for each in fillet_faults(self.sections or ()):
             yield InitErrorDetails(type=each["type"], loc=("sections", *each["loc"]), input=each["input"])
 
@@ -146,6 +153,9 @@ class Train(Description):
     loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="What the train drives, by name.")
     excitations: dict[Name, Excitation] = Field(
         default_factory=dict, description="Torques that pulsate, by name."
+    )
+    engine: ReciprocatingEngine | None = Field(
+        None, description="Reciprocating engine, which stands for discs throw_1, throw_2, … and their shafts."
     )
     driver: str | None = Field(
         None, description="Disc that drives the loads, where no engine does. Without it, the first."

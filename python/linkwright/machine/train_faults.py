@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from pydantic_core import InitErrorDetails
 
@@ -10,10 +12,11 @@ from linkwright.machine.base import close_match, fault, suggestion
 from linkwright.machine.plain import keys, look
 from linkwright.machine.train import GROUND, Train
 from linkwright.machine.train_speeds import Contradiction, parts_of, speeds
-from linkwright.machine.whole_train import whole_train
+from linkwright.machine.whole_train import crank_names, throw_names, whole_train
 
 # Tables whose entries join two discs, and those whose entries sit on one.
 _TABLES = ("shafts", "couplings", "gears")
+_NUMBERS = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _ON = ("dampers", "loads", "excitations")
 
 
@@ -32,7 +35,9 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
     """
     if train is None:
         return
-    discs = keys(look(train, "discs")) if isinstance(look(train, "discs"), dict) else ()
+    own = keys(look(train, "discs")) if isinstance(look(train, "discs"), dict) else ()
+    throws = _throws(train)
+    discs = (*throw_names(throws), *own)
     if not discs:
         remedy = 'describe what turns as [train.discs], NAME = { inertia = "2 kg m^2" }'
         yield fault("train", "discs", expected="at least one disc", remedy=remedy)
@@ -52,14 +57,24 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
 
 def _same_names(train: object) -> Iterator[InitErrorDetails]:
     """Parts of one name: results name discs with rings, and shafts with couplings and meshes, alike."""
-    for tables in (("shafts", "couplings", "dampers", "gears"), ("discs", "dampers")):
-        seen: dict[str, str] = {}
+    throws = _throws(train)
+    for tables, taken in (
+        (("shafts", "couplings", "dampers", "gears"), crank_names(throws)),
+        (("discs", "dampers"), throw_names(throws)),
+    ):
+        seen = dict.fromkeys(taken, "engine")
         for table in tables:
             for name in keys(look(train, table)):
                 if name in seen:
                     expected = f"another name than that of a part in [train.{seen[name]}]"
                     yield fault("train", table, name, found=name, expected=expected)
                 seen.setdefault(name, table)
+
+
+def _throws(train: object) -> int:
+    """How many throws an engine has, whose angles may still be a text as it was read."""
+    angles = look(look(train, "engine"), "throws")
+    return len(_NUMBERS.findall(angles)) if isinstance(angles, str) else len(keys(angles))
 
 
 def _pairs(train: object, table: str) -> Iterator[tuple[str, Sequence[str]]]:
@@ -108,6 +123,7 @@ def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
 def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
     """A train that falls apart; what hangs on the ground alone hangs together with nothing."""
     pairs = [(a, b) for table in _TABLES for _, (a, b) in _pairs(train, table) if GROUND not in (a, b)]
+    pairs += pairwise(throw_names(_throws(train)))
     parts = parts_of(discs, pairs)
     if len(parts) > 1:
         found = "; ".join(_listed(part) for part in parts[:4]) + ("; …" if len(parts) > 4 else "")

@@ -21,7 +21,7 @@ class TrainRun(Checked):
     speed_rated: PositiveSpeed | None = Field(
         None, description="Speed of service, at which waveforms are shown. Without it, the highest."
     )
-    orders_max: PositiveNumber = Field(24.0, le=1000, description="Highest order of gas and inertia torques.")
+    orders_max: PositiveNumber = Field(24.0, le=48, description="Highest order of gas and inertia torques.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.speed_max <= self.speed_min:

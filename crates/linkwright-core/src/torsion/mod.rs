@@ -11,6 +11,7 @@
 //! | [`modes`] | natural frequencies and mode shapes together |
 //! | [`forced`] | amplitudes at every order and speed |
 //! | [`waves`] | what harmonics add up to |
+//! | [`transient`] | motion in time, with inertias that change with the angle |
 //!
 //! A train without loops is a tree: every disc but the first hangs on one other by a shaft. Gear stages are
 //! referred to one speed before, so that shafts carry k (θ_a − θ_b). Looked at from its leaves to the root, each
@@ -33,6 +34,7 @@ pub mod holzer;
 pub mod modes;
 pub mod rotations;
 pub mod shapes;
+pub mod transient;
 pub mod waves;
 
 /// A train referred to one speed, its discs in an order in which each hangs on an earlier one.

@@ -130,25 +130,26 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     compiled = _mechanism(machine)
     pieces = 1 + int(nu.max(initial=0.0) / _ORDERS_OF_A_PIECE)
     phi, weights = turn_nodes(compiled, pieces)
-    M = _torque(compiled, phi, omega)
     size = np.where(nu == 0, 1.0, 2.0) * (nu == np.round(nu))
-    found: Complex = (size[:, None] * np.exp(-1j * np.outer(nu, phi))) @ (weights * M).T
+    waves = size[:, None] * weights * np.exp(-1j * np.outer(nu, phi))
+    found = -_resistance_harmonics(compiled, phi, waves, omega)
+    found[nu == 0] -= compiled.speed_load(omega)
     return found[:, 0] if np.ndim(speed) == 0 else found
 
 
-def station_damping(machine: Machine, speed: float) -> dict[str, float]:
+def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
     r"""How much motor and mechanism damp where their torques follow the speed.
 
     Parameters
     ----------
     machine : Machine
         The machine.
-    speed : float
+    speed : array_like, shape () or (speeds,)
         Of the crank [rad/s].
 
     Returns
     -------
-    dict of str to float
+    dict of str to ndarray, shape () or (speeds,)
         −∂M/∂ω of ``"motor"`` at its own speed, and of ``"crank"``, mean over the turn [N m s/rad]. Negative
         where a torque grows with the speed it drives. That of the motor holds the gearbox's efficiency, by
         which its torque reaches the crank.
@@ -156,11 +157,11 @@ def station_damping(machine: Machine, speed: float) -> dict[str, float]:
     Raises
     ------
     InputError
-        The speed is not positive.
+        A speed is not positive.
     AssemblyError
         The mechanism does not close all round.
     """
-    omega = float(_positive(speed)[0])
+    omega = _positive(speed)
     compiled = _mechanism(machine)
     damping = {CRANK: mean_over_turn(compiled)[1] + _slope(lambda at: _resistance(compiled, at), omega)}
     motor = None if machine.drive is None else machine.drive.motor
@@ -168,7 +169,7 @@ def station_damping(machine: Machine, speed: float) -> dict[str, float]:
         driven = compile_machine(machine)
         slope = _slope(lambda at: driven.motor_torques(at)[1], omega)
         damping[MOTOR] = -slope / machine.drive.gearbox.ratio**2
-    return damping
+    return {station: c.reshape(np.shape(speed)) for station, c in damping.items()}
 
 
 def _mechanism(machine: Machine) -> Compiled:
@@ -182,12 +183,13 @@ def _mechanism(machine: Machine) -> Compiled:
     return compiled
 
 
-def _torque(compiled: Compiled, phi: Floats, omega: Floats) -> Floats:
-    """Torque of the mechanism on its crank at constant speeds, (speeds, angles) [N m]."""
+def _resistance_harmonics(compiled: Compiled, phi: Floats, waves: Complex, omega: Floats) -> Complex:
+    """Harmonics of what resists at constant speeds, inertia included, (orders, speeds) [N m]."""
     _, J_d1, load, dry, viscous = compiled.reductions(phi)
-    w = omega[:, None]
-    torque: Floats = -(load + dry + viscous * w + 0.5 * J_d1 * w**2) - compiled.speed_load(w)
-    return torque - compiled.law_torques(phi, omega) if compiled.has_laws else torque
+    # Parts of the torque, each with its power of the speed.
+    parts, powers = np.array([load + dry, viscous, 0.5 * J_d1]), np.array([omega**0, omega, omega**2])
+    found: Complex = (waves @ parts.T) @ powers
+    return found + waves @ compiled.law_torques(phi, omega).T if compiled.has_laws else found
 
 
 def _resistance(compiled: Compiled, omega: Floats) -> Floats:
@@ -195,11 +197,11 @@ def _resistance(compiled: Compiled, omega: Floats) -> Floats:
     return mean_laws(compiled, omega) + compiled.speed_load(omega)
 
 
-def _slope(torque: Callable[[Floats], Floats], omega: float) -> float:
-    """Derivative by the speed [N m s/rad]."""
-    at = omega * np.array([1 - _STEP, 1 + _STEP])
-    low, high = torque(at)
-    return float((high - low) / (at[1] - at[0]))
+def _slope(torque: Callable[[Floats], Floats], omega: Floats) -> Floats:
+    """Derivative by the speed, (speeds,) [N m s/rad]."""
+    low, high = omega * (1 - _STEP), omega * (1 + _STEP)
+    slope: Floats = (torque(high) - torque(low)) / (high - low)
+    return slope
 
 
 def _orders(orders: ArrayLike) -> Floats:

@@ -11,15 +11,26 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.torsion.engine_torques import engine_sources
 from linkwright.analysis.torsion.free import lead_speeds, train_of
+from linkwright.analysis.torsion.mechanism_torques import mechanism_sources, steady_speed
 from linkwright.analysis.torsion.torques import Source, Torques, torques_of
 from linkwright.engine.train import ReferredTrain, refer
 from linkwright.engine.train_response import Operating
 from linkwright.errors import InputError
 from linkwright.machine import Machine, Train
+from linkwright.machine.drive_train import CRANK
+from linkwright.machine.train_run import TrainRun
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
+
+# Speeds of a drive line over its steady speed, and how many.
+_ABOUT = (0.2, 1.3)
+_POINTS = 200
+
+# Share of the largest torque on a mass below which a shaft carries rounding.
+_ROUNDING = 1e-11
 
 
 @dataclass(frozen=True)
@@ -79,10 +90,19 @@ def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
         Nothing excites the train, or it has no speeds.
     """
     train = train_of(machine)
-    assert machine.train is not None
-    speeds = _speeds(machine) if speeds is None else np.atleast_1d(np.asarray(speeds, float))
     referred = refer(train)
-    torques = torques_of(train, referred.speed, speeds, engine_sources(machine, speeds))
+    place = {name: k for k, name in enumerate(train.discs)}
+    speeds = _speeds(machine, referred.speed, place) if speeds is None else np.atleast_1d(speeds) * 1.0
+    sources, damping = _sources(machine, referred.speed, place, speeds)
+    torques = torques_of(
+        train,
+        referred.speed,
+        speeds,
+        sources,
+        damping,
+        is_free=referred.is_free,
+        has_engine=machine.train is not None and machine.train.engine is not None,
+    )
     if not len(torques.orders):
         remedy = "give [train.excitations], harmonics of [train.loads], or a [train.engine]"
         raise InputError(f"nothing excites the train of {machine.name}: {remedy}")
@@ -91,7 +111,7 @@ def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
 
 
 def is_excited(machine: Machine) -> bool:
-    """Whether a machine has a train with something that excites it.
+    """Whether a machine has a train with something that excites it, and the speeds at which to look.
 
     Parameters
     ----------
@@ -100,31 +120,31 @@ def is_excited(machine: Machine) -> bool:
     """
     train = machine.train
     if train is None:
+        return machine.drive is not None and machine.drive.twists
+    if train.run is None:
         return False
-    return bool(train.excitations) or any(each.harmonics for each in train.loads.values())
+    pulsates = any(each.harmonics for each in train.loads.values())
+    return bool(train.excitations) or pulsates or train.engine is not None
 
 
-def engine_sources(machine: Machine, speeds: Floats) -> list[Source]:
-    """Torques of the engine on its throws.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    speeds : ndarray, shape (speeds,)
-        Of the first disc [rad/s].
-
-    Returns
-    -------
-    list of Source
-        None without an engine.
-    """
-    return []
+def _sources(
+    machine: Machine, turning: Floats, place: dict[str, int], speeds: Floats
+) -> tuple[list[Source], Floats | None]:
+    """Torques of the engine or of the mechanism, and their damping (discs, speeds)."""
+    if machine.train is None:
+        return mechanism_sources(machine, turning, place, speeds)
+    if machine.train.engine is None:
+        return [], None
+    run = machine.train.run
+    highest = TrainRun.model_fields["orders_max"].default if run is None else run.orders_max
+    return engine_sources(machine.train.engine, speeds, highest), None
 
 
-def _speeds(machine: Machine) -> Floats:
-    """Those at which the file looks at its train."""
-    assert machine.train is not None
+def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:
+    """Those at which the file looks at its train; of a drive line those about its steady speed."""
+    if machine.train is None:
+        of_crank: Floats = np.linspace(*_ABOUT, _POINTS) * steady_speed(machine)
+        return of_crank / float(turning[place[CRANK]])
     run = machine.train.run
     if run is None:
         remedy = 'give [train.run] speed_min and speed_max, such as "500 rpm" and "2000 rpm"'
@@ -151,14 +171,16 @@ def _mean_torques(referred: ReferredTrain, mean: Floats) -> Floats:
     held = np.concatenate([q, np.zeros_like(q[:1])])
     first, second = referred.ends.T
     carried: Floats = referred.stiffness[:, None] * (held[first] - held[second])
+    # What is left of the rounding of large torques is none.
+    carried[np.abs(carried) < _ROUNDING * np.abs(M).max(initial=0.0)] = 0.0
     return carried / lead_speeds(referred)[:, None]
 
 
-def _operating(train: Train, referred: ReferredTrain, torques: Torques, mean: Floats) -> Operating:
+def _operating(train: Train | None, referred: ReferredTrain, torques: Torques, mean: Floats) -> Operating:
     """Stiffness about the mean torques, damping with that of the loads."""
     stiffness = np.repeat(referred.stiffness[:, None], len(torques.speeds), axis=1)
     lead = lead_speeds(referred)
-    for name, coupling in train.couplings.items():
+    for name, coupling in ({} if train is None else train.couplings).items():
         if coupling.twist is not None:
             s = referred.shafts.index(name)
             stiffness[s] = lead[s] ** 2 * coupling.slope(mean[s])

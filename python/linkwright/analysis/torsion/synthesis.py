@@ -36,14 +36,14 @@ class Orders:
     ----------
     values : ndarray, shape (orders,)
         Waves a turn.
-    turns : int
+    turns : float
         After which those with a common base repeat.
     harmonic : ndarray of int, shape (orders,)
         Waves of each in that time; 0 of one that has no common base with the others.
     """
 
     values: Floats
-    turns: int
+    turns: float
     harmonic: NDArray[np.int64]
 
     @cached_property
@@ -60,16 +60,24 @@ def orders_together(values: Floats) -> Orders:
     values : ndarray, shape (orders,)
         Waves a turn, above zero.
     """
-    fractions = [Fraction(value).limit_denominator(_TURNS) for value in values.tolist()]
-    close = [abs(f - v) <= _EQUAL * v for f, v in zip(fractions, values.tolist(), strict=True)]
-    turns, highest = 1, max(values.tolist(), default=0.0)
+    # Orders behind a gear stage go by its ratio, which need be no fraction: they are counted by the lowest.
+    units = [1.0, values.min()] if len(values) else [1.0]
+    return max((_counted(values, unit) for unit in units), key=lambda each: each.together.sum())
+
+
+def _counted(values: Floats, unit: float) -> Orders:
+    """Orders as fractions of a unit."""
+    share = (values / unit).tolist()
+    fractions = [Fraction(value).limit_denominator(_TURNS) for value in share]
+    close = [abs(f - v) <= _EQUAL * v for f, v in zip(fractions, share, strict=True)]
+    turns, highest = 1, max(share, default=0.0)
     for f, fits in sorted(zip(fractions, close, strict=True), key=lambda each: each[0].denominator):
         more = lcm(turns, f.denominator)
         if fits and more <= _TURNS and more * highest <= _HARMONICS:
             turns = more
     fits_base = [ok and turns % f.denominator == 0 for f, ok in zip(fractions, close, strict=True)]
-    harmonic = np.where(fits_base, np.rint(values * turns), 0).astype(np.int64)
-    return Orders(values, turns, harmonic)
+    harmonic = np.where(fits_base, np.rint(np.array(share) * turns), 0).astype(np.int64)
+    return Orders(values, turns / unit, harmonic)
 
 
 def span(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> tuple[Floats, Floats]:

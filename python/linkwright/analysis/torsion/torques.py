@@ -69,7 +69,16 @@ class Source:
     mean: Floats | None = None
 
 
-def torques_of(train: Train, turning: Floats, speeds: Floats, engine: Iterable[Source] = ()) -> Torques:
+def torques_of(
+    train: Train,
+    turning: Floats,
+    speeds: Floats,
+    sources: Iterable[Source] = (),
+    damping: Floats | None = None,
+    *,
+    is_free: bool = True,
+    has_engine: bool = False,
+) -> Torques:
     """All torques on the discs of a train.
 
     Parameters
@@ -80,38 +89,44 @@ def torques_of(train: Train, turning: Floats, speeds: Floats, engine: Iterable[S
         Speed of each disc over that of the first.
     speeds : ndarray, shape (speeds,)
         Of the first disc [rad/s].
-    engine : iterable of Source
+    sources : iterable of Source
         Torques of an engine or of a mechanism, with their mean.
+    damping : ndarray, shape (discs, speeds), optional
+        Of motor and mechanism [N m s/rad].
+    is_free : bool
+        Whether the train can turn as a whole. A held one leaves its mean torque to the ground.
+    has_engine : bool
+        Whether the sources drive, so that the loads follow them.
 
     Returns
     -------
     Torques
-        Mean torques balance: with sources that drive, loads take off what they give, in proportion to their
-        laws; without, the driver gives what the loads need. Without loads nothing balances.
+        Mean torques of a free train balance: loads take off what an engine gives, in proportion to their
+        laws; without an engine the driver gives what is needed. An engine without loads speeds the train up.
     """
     place = {name: k for k, name in enumerate(train.discs)}
-    sources = [*engine, *_excitations(train, place, turning, speeds)]
+    found = [*sources, *_excitations(train, place, turning, speeds)]
     mean = np.zeros((len(place), len(speeds)))
-    for each in sources:
+    for each in found:
         if each.mean is not None:
             mean[each.disc] += each.mean
-    drive = mean.sum(axis=0)
-    resistance, damping = _loads(train, place, turning, speeds)
-    # Power balances: what turns n times as fast counts n times.
-    drive, needed = turning @ mean, turning @ resistance
-    if needed.any():
-        share = np.divide(drive, needed, out=np.ones_like(needed), where=needed > 0) if drive.any() else 1.0
-        resistance = resistance * share
-        if not drive.any():
+    resistance, of_loads = _loads(train, place, turning, speeds)
+    if is_free:
+        # Power balances: what turns n times as fast counts n times.
+        drive, needed = turning @ mean, turning @ resistance
+        if has_engine:
+            resistance = resistance * np.divide(drive, needed, out=np.ones_like(needed), where=needed > 0)
+        else:
             driver = place[train.driver or next(iter(place))]
-            mean[driver] += needed / turning[driver]
-    sources += _load_harmonics(train, place, turning, resistance)
-    orders = _orders(each.orders for each in sources)
+            mean[driver] += (needed - drive) / turning[driver]
+    found += _load_harmonics(train, place, turning, resistance)
+    orders = _orders(each.orders for each in found)
     harmonics = np.zeros((len(orders), len(place), len(speeds)), complex)
-    for each in sources:
+    for each in found:
         at = np.abs(orders[:, None] - each.orders).argmin(axis=0)
         np.add.at(harmonics, (at, each.disc), each.harmonics)
-    return Torques(speeds, orders, harmonics, mean - resistance, damping)
+    own = of_loads if damping is None else of_loads + damping
+    return Torques(speeds, orders, harmonics, mean - resistance, own)
 
 
 def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> list[Source]:

@@ -10,11 +10,8 @@ the last iterate it is linear in p and in the heat Q, p = p_a + Q p_b, and both 
 factors over the panels of the mesh for all loads at once; Q then follows from what is asked for without a
 search. A few iterates settle it to rounding.
 
-Where no exponent is given,
-
-.. math:: γ = 1.35 - 6·10^{-5} T + 10^{-8} T^2
-
-(Brunt and Platts, SAE 1999-01-0187, for Diesel engines up to 3000 K).
+Where no exponent is given, γ is that of air and of what burns in it (`burnt_gas`). The mass of the fuel and
+the change of the moles by combustion are left out of mR: together some three per cent at full load.
 """
 
 from __future__ import annotations
@@ -25,28 +22,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.errors import ConvergenceError
+from linkwright.errors import ConvergenceError, MachineError, Problem
+from linkwright.machine.reciprocating.burnt_gas import burnable, heat_ratio
 from linkwright.machine.reciprocating.cycle_mesh import CycleMesh
 from linkwright.machine.reciprocating.wall_heat import GasState, WallHeat
 
 Array = NDArray[np.float64]
 
-# The iterates contract by an order of magnitude each; rounding is at some 1e-14.
-_TOLERANCE = 1e-12
+# The iterates contract by an order of magnitude each, so what is left is ten times less.
+_TOLERANCE = 1e-10
 _ITERATIONS = 60
+# Rich mixtures burn with up to a quarter more fuel than the air suffices for.
+_RICHEST = 1.25
 # Exponent of the first iterate.
 _FIRST = 1.35
-
-
-def brunt_platts(temperature: Array) -> Array:
-    """Ratio of the specific heats, of the shape of the temperatures.
-
-    Parameters
-    ----------
-    temperature : ndarray, shape (n, m)
-        Of the gas, up to 3000 K [K].
-    """
-    return np.asarray(1.35 - 6e-5 * temperature + 1e-8 * temperature**2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,8 +46,12 @@ class ClosedGas:
     ----------
     mesh : CycleMesh
         Crank angles from closing to opening.
-    volume, volume_d1, release : ndarray, shape (m,)
-        V [m³], V′ [m³/rad], and x′ [1/rad], the release of the heat that stays in the gas.
+    volume, volume_d1 : ndarray, shape (m,)
+        V [m³], V′ [m³/rad].
+    released, release : ndarray, shape (m,)
+        Share x of the fuel that is burnt, and its derivative x′ [1/rad].
+    kept : float
+        Share of the heat that stays in the gas as it is released.
     bore, swept_volume, volume_closing : float
         Of the cylinder [m], [m³], and its volume at closing [m³].
     pressure_closing : ndarray, shape (n, 1)
@@ -68,7 +61,7 @@ class ClosedGas:
     speed, piston_speed : ndarray, shape (n, 1)
         ω [rad/s], and mean speed of the piston [m/s].
     exponent : float or None
-        γ; None for γ(T).
+        γ; None for that of air and burnt gas.
     wall : WallHeat or None
         Loss by convection.
     """
@@ -76,7 +69,9 @@ class ClosedGas:
     mesh: CycleMesh
     volume: Array
     volume_d1: Array
+    released: Array
     release: Array
+    kept: float
     bore: float
     swept_volume: float
     volume_closing: float
@@ -86,6 +81,11 @@ class ClosedGas:
     piston_speed: Array
     exponent: float | None
     wall: WallHeat | None
+
+    @property
+    def charge(self) -> Array:
+        """mR of the gas, shape (n, 1) [J/K]."""
+        return np.asarray(self.pressure_closing * self.volume_closing / self.temperature_closing)
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,15 +167,16 @@ def closed_trace(gas: ClosedGas, rule: Rule, motored: Array | None = None) -> Cl
         The iterates do not settle.
     """
     p = gas.pressure_closing * (gas.volume_closing / gas.volume) ** _FIRST
-    change = np.inf
+    change, Q = np.inf, np.zeros_like(gas.pressure_closing)
     for _ in range(_ITERATIONS):
-        T = _temperature(gas, p)
+        T = p * gas.volume / gas.charge
         C = _conductance(gas, p, T, p if motored is None else motored)
-        split = _split(gas, p, T, C)
+        split = _split(gas, p, _exponent(gas, T, Q), C)
         Q = rule(split)
         new = split.without + Q * split.per_heat
         change, p = float(np.abs(new / p - 1).max()), new
         if change < _TOLERANCE:
+            _check_air(gas, Q)
             return _trace(gas, split, Q, C)
     raise ConvergenceError(
         f"the pressure of the gas does not settle within {_ITERATIONS} iterates (last change {change:.2g} of "
@@ -186,34 +187,45 @@ def closed_trace(gas: ClosedGas, rule: Rule, motored: Array | None = None) -> Cl
     )
 
 
-def _temperature(gas: ClosedGas, p: Array) -> Array:
-    """T = pV/(mR)."""
-    return p * gas.volume * gas.temperature_closing / (gas.pressure_closing * gas.volume_closing)
+def _exponent(gas: ClosedGas, T: Array, Q: Array) -> Array:
+    """γ, given or of air and burnt gas."""
+    if gas.exponent is not None:
+        return np.full_like(T, gas.exponent)
+    return heat_ratio(T, np.clip(gas.released * (Q / burnable(gas.charge)), 0.0, 1.0))
+
+
+def _check_air(gas: ClosedGas, Q: Array) -> None:
+    """Refuse heat that the air in the cylinder cannot release."""
+    share = Q / burnable(gas.charge)
+    if gas.exponent is None and share.max() > _RICHEST:
+        i = int(share.argmax())
+        found = f"{Q[i, 0]:.6g} J a cycle, for which {share[i, 0]:.3g} times the air would be needed"
+        expected = f"at most {burnable(gas.charge)[i, 0]:.6g} J from the air at the charge pressure"
+        remedy = "raise charge_pressure, lower the load, or give isentropic_exponent for an idealised gas"
+        raise MachineError([Problem("train.engine.gas", found, expected, remedy)])
 
 
 def _conductance(gas: ClosedGas, p: Array, T: Array, motored: Array) -> Array | None:
     """Conductance of the walls per speed [J/(K rad)]; None without walls."""
     if gas.wall is None:
         return None
-    closing = gas.temperature_closing / (gas.pressure_closing * gas.volume_closing)
-    state = GasState(gas.bore, gas.swept_volume, gas.volume, p, T, motored, closing, gas.piston_speed)
+    state = GasState(gas.bore, gas.swept_volume, gas.volume, p, T, motored, 1 / gas.charge, gas.piston_speed)
     return gas.wall.conductance(state) / gas.speed
 
 
-def _split(gas: ClosedGas, p: Array, T: Array, C: Array | None) -> Split:
+def _split(gas: ClosedGas, p: Array, gamma: Array, C: Array | None) -> Split:
     """Pressure as a linear function of the heat, with γ and conductance of an iterate."""
     V, w = gas.volume, gas.mesh.weight
-    gamma = brunt_platts(T) if gas.exponent is None else np.full_like(T, gas.exponent)
     decay = gamma * (gas.volume_d1 / V)
     source = None
     if C is not None:
         assert gas.wall is not None
         loss = (gamma - 1) * C
-        decay += loss * gas.temperature_closing / (gas.pressure_closing * gas.volume_closing)
+        decay += loss / gas.charge
         source = loss * gas.wall.wall_temperature / V
     E = np.exp(gas.mesh.integrals(decay))
     E_end = np.exp(decay @ w)[:, None]
-    released = (gamma - 1) * (gas.release / V) * E
+    released = (gamma - 1) * (gas.kept * gas.release / V) * E
     a, a_end = gas.pressure_closing + np.zeros_like(E), gas.pressure_closing
     if source is not None:
         a, a_end = a + gas.mesh.integrals(source * E), a_end + ((source * E) @ w)[:, None]
@@ -223,8 +235,8 @@ def _split(gas: ClosedGas, p: Array, T: Array, C: Array | None) -> Split:
 def _trace(gas: ClosedGas, split: Split, Q: Array, C: Array | None) -> ClosedTrace:
     """The settled pressure with what belongs to it."""
     p = split.without + Q * split.per_heat
-    T = _temperature(gas, p)
-    lost = Q * (1.0 - gas.release @ gas.mesh.weight)
+    T = p * gas.volume / gas.charge
+    lost = (1.0 - gas.kept) * Q
     if C is not None:
         assert gas.wall is not None
         lost += ((C * (T - gas.wall.wall_temperature)) @ gas.mesh.weight)[:, None]

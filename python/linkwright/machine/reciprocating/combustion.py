@@ -28,7 +28,7 @@ from linkwright.machine.reciprocating.closed_cycle import ClosedGas, Rule
 from linkwright.machine.reciprocating.cycle_mesh import CycleMesh, closed_edges, mesh, open_edges
 from linkwright.machine.reciprocating.cycle_pressure import CyclePressure
 from linkwright.machine.reciprocating.cylinder import Cylinder
-from linkwright.machine.reciprocating.gas import Exponent, Gas
+from linkwright.machine.reciprocating.gas import Exponent, Gas, below
 from linkwright.machine.reciprocating.gas_load import PositivePressure
 from linkwright.machine.reciprocating.speed_points import speed_points
 from linkwright.machine.reciprocating.valves import Timing, Valves
@@ -43,10 +43,11 @@ Array = NDArray[np.float64]
 _HEATS = ("heat", "mean_effective_pressure", "peak_pressure")
 # Shares of heat are written with a few digits.
 _WHOLE = 1e-6
-# Back pressure of a turbine where none is given, as a share of the charge pressure; without a charger
-# the pressure of the air and of a silencer.
-_BACK = 0.9
-_BACK_LEAST = 105e3
+# Back pressure where none is given: that of a silencer, and that of a turbine as a share of what the charge
+# has above the air. Its corner lies where charging begins, not within the range of a charged engine.
+_SILENCER = 105e3
+_AIR = 100e3
+_TURBINE = 0.9
 
 
 class Combustion(Gas):
@@ -65,7 +66,8 @@ class Combustion(Gas):
         340.0, description="Of the gas as the cylinder closes."
     )
     exhaust_pressure: PositivePressure | None = Field(
-        None, description="Absolute; without it, 90 % of the charge pressure, at least 105 kPa."
+        None,
+        description="Absolute; without it, 105 kPa and 90 % of what the charge pressure has above 100 kPa.",
     )
     heat: Annotated[float, positive(ENERGY)] | None = Field(
         None, description="Heat of the fuel in a cycle of one cylinder."
@@ -81,7 +83,7 @@ class Combustion(Gas):
         description="How the heat is released; several functions add up by their shares.",
     )
     isentropic_exponent: Exponent | None = Field(
-        None, description="Of the gas; without it, that of hot gas by its temperature (Brunt and Platts)."
+        None, description="Of the gas; without it, that of air and burnt gas by its temperature."
     )
     walls: AnyWallHeat | None = Field(None, description="Loss of heat to the walls. Without it, none.")
     valves: Valves = Field(Valves(), description="When valves or ports open and close.")
@@ -103,9 +105,7 @@ class Combustion(Gas):
 
     def cycle_faults(self, strokes: int) -> Iterator[InitErrorDetails]:
         wrong = list(self.valves.cycle_faults(strokes))
-        for found in wrong:
-            loc = ("valves", *found.get("loc", ()))
-            yield InitErrorDetails(type=found["type"], loc=loc, input=found["input"])
+        yield from (below(found, "valves") for found in wrong)
         if wrong:
             return
         timing = self.valves.timing(strokes)
@@ -201,7 +201,7 @@ class Combustion(Gas):
         spans = [(each.start, each.duration) for each in self.releases]
         closed = mesh(closed_edges(timing.closes, timing.opens, spans))
         exchange = mesh(open_edges(timing.opens, timing.ends, timing.corners))
-        back = np.maximum(_BACK * charge, _BACK_LEAST)
+        back = _SILENCER + _TURBINE * np.maximum(charge - _AIR, 0.0)
         return WorkingCycle(
             self._closed_gas(cylinder, timing, closed, speeds[:, None], charge),
             exchange,
@@ -216,13 +216,14 @@ class Combustion(Gas):
     ) -> ClosedGas:
         """The gas between closing and opening."""
         kept = 1.0 - self.walls.share if isinstance(self.walls, HeatShare) else 1.0
-        release = sum((each.rate(closed.angle) for each in self.releases), np.zeros_like(closed.angle))
         volume, volume_d1 = cylinder.volume(closed.angle, self.compression_ratio)
         return ClosedGas(
             mesh=closed,
             volume=volume,
             volume_d1=volume_d1,
-            release=kept * release,
+            released=np.sum([each.released(closed.angle) for each in self.releases], axis=0),
+            release=np.sum([each.rate(closed.angle) for each in self.releases], axis=0),
+            kept=kept,
             bore=cylinder.bore,
             swept_volume=cylinder.swept_volume,
             volume_closing=float(cylinder.volume(np.array([timing.closes]), self.compression_ratio)[0][0]),

@@ -8,6 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.machine.reciprocating.periodic_cubic import periodic_cubic
+
 Array = NDArray[np.float64]
 
 
@@ -52,6 +54,23 @@ class CyclePressure:
     def pressure_motored(self) -> Array:
         """The same without combustion, shape (n, m) [Pa]."""
         return self.motored @ self.traces
+
+    def at(self, angle: Array) -> tuple[Array, Array]:
+        """Pressure at any crank angles, by the monotone cubic through the points.
+
+        Parameters
+        ----------
+        angle : ndarray, shape (j,)
+            Crank angles from the top dead centre of firing [rad].
+
+        Returns
+        -------
+        tuple of ndarray
+            Absolute pressure with combustion and without, shape (n, j) each [Pa].
+        """
+        cycle = float(self.weight.sum())
+        traces = np.array([periodic_cubic(self.angle, each, cycle, angle) for each in self.traces])
+        return self.firing @ traces, self.motored @ traces
 
     @property
     def peak_pressure(self) -> Array:

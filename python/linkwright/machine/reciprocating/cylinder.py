@@ -1,9 +1,9 @@
 r"""The working space of a cylinder: its volume and the piston's motion as Fourier series.
 
-With x(φ) the distance of the piston from the axis of the crank, A the area of the bore and ε the compression
-ratio,
+With x(φ) the distance of the piston from the axis of the crank, A the area of the bore and r_c the
+compression ratio,
 
-.. math:: V = A (x_\max - x) + V_c, \qquad V_h = A (x_\max - x_\min), \qquad V_c = \frac{V_h}{ε - 1}
+.. math:: V = A (x_\max - x) + V_c, \qquad V_h = A (x_\max - x_\min), \qquad V_c = \frac{V_h}{r_c - 1}
 
 The motion comes as values over one turn, so that any mechanism will do: a plain crank, an offset one, a rod
 on a master rod. Its top dead centre is found, and pressures are counted from there.
@@ -88,9 +88,13 @@ class Cylinder:
         tuple of ndarray
             x and x′, shape (m,) each.
         """
-        c, k = self._series, np.arange(len(self._series))
-        turns = powers(crank_angle, len(c))
-        return (c @ turns).real, ((1j * k * c) @ turns).real
+        c = self._series
+        turn = np.exp(1j * crank_angle)
+        # Horner; a product of matrices so small is shared out to threads, which wait longer than they work.
+        x, x_d1 = np.zeros_like(turn), np.zeros_like(turn)
+        for k in range(len(c) - 1, 0, -1):
+            x, x_d1 = (x + c[k]) * turn, (x_d1 + k * c[k]) * turn
+        return x.real + c[0].real, -x_d1.imag
 
     def _dead_centre(self, start: float) -> float:
         """Angle near a start where the piston rests, by Newton [rad]."""
@@ -149,7 +153,7 @@ class Cylinder:
         angle : ndarray, shape (m,)
             Crank angles from the top dead centre [rad].
         compression_ratio : float
-            ε, greatest over least volume.
+            r_c, greatest over least volume.
 
         Returns
         -------

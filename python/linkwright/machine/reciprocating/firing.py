@@ -57,7 +57,9 @@ def cylinder_places(
     return [CylinderPlace(t, b, _turn(banks[b] - throws[t])) for t, b in pairs]
 
 
-def firing_angles(places: Sequence[CylinderPlace], order: Sequence[int]) -> tuple[list[float], float]:
+def firing_angles(
+    places: Sequence[CylinderPlace], order: Sequence[int], cycle: float
+) -> tuple[list[float], float]:
     """Crank angle at which each cylinder fires, as near as its throw points along it.
 
     Parameters
@@ -66,24 +68,31 @@ def firing_angles(places: Sequence[CylinderPlace], order: Sequence[int]) -> tupl
         The cylinders by number.
     order : sequence of int
         Their numbers, from 1, as they fire.
+    cycle : float
+        Crank angle of a working cycle [rad].
 
     Returns
     -------
     angles : list of float
         By number, of the first in the order 0 to 2π [rad].
-    cycle : float
-        After which the first fires again [rad].
+    found : float
+        After which the first fires again; the order fits if it is the cycle [rad].
     """
     along = [places[number - 1].along for number in order]
-    angles = [0.0] * len(places)
-    now = along[0]
-    for number, here, after in zip(order, along, [*along[1:], along[0]], strict=True):
+    steps = [_turn(after - here) for here, after in zip(along, [*along[1:], along[0]], strict=True)]
+    # Where two in a row have their dead centres together, the second fires with the first or turns later.
+    together = steps.count(0.0)
+    turns = round((cycle - sum(steps)) / (2 * math.pi))
+    if together and turns % together == 0:
+        steps = [step or 2 * math.pi * (turns // together) for step in steps]
+    angles, now = [0.0] * len(places), along[0]
+    for number, step in zip(order, steps, strict=True):
         angles[number - 1] = now
-        now += _turn(after - here) if len(order) > 1 else 2 * math.pi
-    return angles, now - along[0]
+        now += step
+    return angles, sum(steps)
 
 
 def _turn(angle: float) -> float:
     """An angle from 0 up to a turn; what is a turn but for rounding is 0."""
     turned = angle % (2 * math.pi)
-    return 0.0 if 2 * math.pi - turned < _EQUAL else turned
+    return 0.0 if turned < _EQUAL or 2 * math.pi - turned < _EQUAL else turned

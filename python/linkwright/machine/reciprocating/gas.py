@@ -69,6 +69,19 @@ class Gas(Checked):
         """
 
 
+def below(found: InitErrorDetails, *place: str | int) -> InitErrorDetails:
+    """The same fault, told by a description further up.
+
+    Parameters
+    ----------
+    found : InitErrorDetails
+        A fault.
+    *place : str or int
+        Keys down to the description that found it.
+    """
+    return InitErrorDetails(type=found["type"], loc=(*place, *found.get("loc", ())), input=found["input"])
+
+
 def check_reach(wanted: Array, motored: Array, speeds: Array) -> None:
     """Refuse mean effective pressures below that of the motored cylinder.
 
@@ -89,4 +102,6 @@ def check_reach(wanted: Array, motored: Array, speeds: Array) -> None:
         i = int(short[0])
         found = f"a mean effective pressure of {wanted[i]:.6g} Pa at {speeds[i]:.6g} rad/s"
         expected = f"at least that of the motored cylinder, {motored[i]:.6g} Pa"
-        raise MachineError([Problem("gas.load", found, expected, "raise the load, or end it at this speed")])
+        raise MachineError(
+            [Problem("train.engine.gas.load", found, expected, "raise the load, or end it at this speed")]
+        )

@@ -21,7 +21,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, fault
-from linkwright.machine.curve import curve_faults
+from linkwright.machine.curve import curve_faults, unread_file
 from linkwright.units import PRESSURE, RATIO, SPEED, Pressures, Speeds, not_negative, positive
 
 Array = NDArray[np.float64]
@@ -103,6 +103,9 @@ class TableGasLoad(GasLoad):
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.file is not None:
+            yield unread_file(self.file)
+            return
         yield from curve_faults(self, "speed", ("mean_effective_pressure", "charge_pressure"))
         for place, each in enumerate(self.charge_pressure or ()):
             if each <= 0:

@@ -25,11 +25,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.errors import MachineError, Problem
 from linkwright.machine.reciprocating.cycle_pressure import CyclePressure
 from linkwright.machine.reciprocating.cylinder import Cylinder, powers
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+
+# Beyond, the mesh of the cycle would have to be finer: up to here its harmonics are good to 1e-6 of the
+# largest.
+_HIGHEST = 48.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +113,15 @@ def torque_orders(strokes: int, highest: float = 24.0) -> Array:
     -------
     ndarray, shape (o,)
         From 0, in steps of ½ with four strokes, of 1 with two.
+
+    Raises
+    ------
+    MachineError
+        The last order is beyond what the mesh of the cycle resolves.
     """
+    if not 0 <= highest <= _HIGHEST:
+        expected = f"a number from 0 to {_HIGHEST:.6g}"
+        raise MachineError([Problem("train.run.orders_max", f"{highest:.6g}", expected)])
     step = 2.0 / strokes
     return np.asarray(np.arange(round(highest / step) + 1) * step)
 
@@ -137,7 +150,8 @@ def gas_torque(pressure: CyclePressure, cylinder: Cylinder, highest: float = 24.
     lever = -cylinder.area * x_d1 * pressure.weight * (2.0 / cylinder.cycle)
     turns = powers(-phi * (2.0 / cylinder.strokes), len(orders))
     turns[0] *= 0.5
-    of_traces = (pressure.traces - pressure.crankcase_pressure) @ (turns * lever).T
+    # No product of matrices: one so small is shared out to threads that wait longer than they work.
+    of_traces = np.einsum("tp,op->to", pressure.traces - pressure.crankcase_pressure, turns * lever)
     # Shares sum to one, so the pressure under the piston is taken off the traces.
     firing = pressure.firing @ of_traces
     return GasTorque(

@@ -33,11 +33,13 @@ from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.errors import MachineError, Problem
 from linkwright.machine.base import Checked, fault
-from linkwright.machine.curve import curve_faults
+from linkwright.machine.curve import curve_faults, unread_file
 from linkwright.machine.reciprocating.cycle_pressure import CyclePressure
 from linkwright.machine.reciprocating.cylinder import Cylinder
-from linkwright.machine.reciprocating.gas import Exponent, Gas, check_reach
+from linkwright.machine.reciprocating.gas import Exponent, Gas, below, check_reach
+from linkwright.machine.reciprocating.gas_load import TableGasLoad
 from linkwright.machine.reciprocating.indicator_faults import diagram_faults, whole_cycle_faults
 from linkwright.machine.reciprocating.periodic_cubic import periodic_cubic
 from linkwright.units import ANGLE, Angle, Angles, Pressures, positive
@@ -50,8 +52,33 @@ _STEP = math.radians(0.5)
 _FINEST = math.radians(0.1)
 # Length of the compression line that its exponent is fitted to.
 _FITTED = math.radians(40.0)
+# Exponents of compression lie between 1.25 and 1.42; a wrong zero of pressure or angle leads away from there.
+_LEAST, _GREATEST = 1.2, 1.5
+# Mean effective pressure of the combustion as a share of the peak: at idle some 0.02, of a motored cylinder
+# noise.
+_NO_COMBUSTION = 2e-3
 # Angle over which combustion fades out once the exhaust is open, as a blow-down takes.
 _FADE = math.radians(50.0)
+
+
+def _fitted(volume: Array, pressure: Array) -> float:
+    """Exponent of a polytropic line through points."""
+    n = -float(np.polyfit(np.log(volume), np.log(pressure), 1)[0])
+    if not _LEAST < n < _GREATEST:
+        found = f"{n:.4g} fitted to the compression of the diagram"
+        expected = f"between {_LEAST} and {_GREATEST}"
+        remedy = "check compression_ratio, combustion_start, and the zeros of pressure and of angle"
+        raise MachineError([Problem("train.engine.gas.polytropic_exponent", found, expected, remedy)])
+    return n
+
+
+def _check_combustion(fired: Array, motored: Array, peak: float) -> None:
+    """Refuse diagrams of motored cylinders where a load is asked for."""
+    for each, without in zip(fired, motored, strict=True):
+        if each - without < _NO_COMBUSTION * peak:
+            found = f"a mean effective pressure of {each:.6g} Pa, {without:.6g} Pa of it without combustion"
+            expected = "a diagram with combustion, which a load map can scale"
+            raise MachineError([Problem("train.engine.gas.pressure", found, expected)])
 
 
 def default_opening(strokes: int) -> float:
@@ -83,8 +110,7 @@ class Diagram(Checked):
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from super()._faults()
         if self.file is not None:
-            expected = "points in lists: a file of points is read with the machine file that names it"
-            yield fault("file", found=self.file, expected=expected)
+            yield unread_file(self.file)
             return
         wrong = list(curve_faults(self, "angle", ("pressure",)))
         yield from wrong or diagram_faults(self.angle, self.pressure)
@@ -132,15 +158,23 @@ class Indicator(Diagram, Gas):
         if self.exhaust_opens is not None and not math.pi / 4 < self.exhaust_opens < math.pi * 1.2:
             found = f"{math.degrees(self.exhaust_opens):.6g} deg"
             yield fault("exhaust_opens", found=found, expected="between 45 and 216 deg")
+        yield from self._load_faults()
+
+    def _load_faults(self) -> Iterator[InitErrorDetails]:
+        """Diagrams that no load map leads to; a load map with what only a model can follow."""
+        if self.other_loads and self.load is None:
+            expected = "a load map, which says at which speed each diagram holds"
+            yield fault("load", expected=expected)
+        if isinstance(self.load, TableGasLoad) and self.load.charge_pressure is not None:
+            expected = "none: a measured diagram has its charge pressure in itself"
+            yield fault("load", "charge_pressure", found="a list", expected=expected)
 
     def cycle_faults(self, strokes: int) -> Iterator[InitErrorDetails]:
         cycle = math.pi * strokes
         yield from whole_cycle_faults(self.angle, self.pressure, cycle)
         for i, each in enumerate(self.other_loads):
             for found in whole_cycle_faults(each.angle, each.pressure, cycle):
-                yield InitErrorDetails(
-                    type=found["type"], loc=("other_loads", i, *found.get("loc", ())), input=found["input"]
-                )
+                yield below(found, "other_loads", i)
 
     def cycle_pressure(self, cylinder: Cylinder, speeds: Array) -> CyclePressure:
         angle = self._angles(cylinder.cycle)
@@ -165,7 +199,7 @@ class Indicator(Diagram, Gas):
         start, opens = self.combustion_start, self.exhaust_opens or default_opening(cylinder.strokes)
         V, _ = cylinder.volume(angle, self.compression_ratio)
         ahead = (angle <= start) & (angle > start - _FITTED)
-        n = self.polytropic_exponent or -float(np.polyfit(np.log(V[ahead]), np.log(pressure[ahead]), 1)[0])
+        n = self.polytropic_exponent or _fitted(V[ahead], pressure[ahead])
         at = np.flatnonzero(ahead)[-1]
         line = pressure[at] * (V[at] / V) ** n
         fades = np.clip((angle - opens) / _FADE, 0.0, 1.0)
@@ -176,9 +210,10 @@ class Indicator(Diagram, Gas):
         """Shares of the traces at each speed, from the mean effective pressures of the diagrams."""
         k, n = len(fired), len(speeds)
         if self.load is None:
-            wanted = np.full(n, fired[0])
-        else:
-            wanted = self.load.mean_effective(speeds, float(fired[0]))
+            shares = np.eye(2)[:, None, :] + np.zeros((1, n, 1))
+            return shares[0], shares[1]
+        wanted = self.load.mean_effective(speeds, float(fired[0]))
+        _check_combustion(fired, motored, max(self.pressure))
         order = np.argsort(fired)
         # Place of the load in the row of diagrams; the end diagrams hold beyond.
         place = np.interp(wanted, fired[order], np.arange(k))

@@ -19,6 +19,8 @@ _LARGEST_STEP = math.radians(16.0)
 _HOLE = 3.0
 # ... unless it is so small that the curve between the points is certain.
 _SMALL_STEP = math.radians(2.0)
+# Cycle of four strokes.
+_LONGEST = 4 * math.pi
 # Angles are printed to a hundredth of a degree.
 _SAME_ANGLE = math.radians(0.02)
 # Share of the greatest pressure by which two ends at the same angle may differ: drift of a transducer.
@@ -61,8 +63,10 @@ def diagram_faults(angle: tuple[float, ...], pressure: tuple[float, ...]) -> Ite
     elif top > _HIGHEST:
         found = f"a greatest pressure of {top:.6g} Pa"
         yield fault("pressure", found=found, expected=f"less than {_HIGHEST:.0e} Pa", remedy="check the unit")
-    steps = np.diff(np.asarray(angle))
-    for i in _holes(steps):
+    if angle[-1] - angle[0] > _LONGEST + _SAME_ANGLE:
+        yield _wrong_span(angle, _LONGEST, "more than")
+        return
+    for i in _holes(np.diff(np.asarray(angle))):
         yield _hole(angle[i], angle[i + 1])
 
 
@@ -152,5 +156,5 @@ def _peak_faults(
             "angle",
             found=f"the greatest pressure at {math.degrees(at):.6g} deg",
             expected=f"within {math.degrees(_PEAK_WITHIN):.6g} deg of the top dead centre of firing, angle 0",
-            remedy=f"count the angles from there: subtract about {math.degrees(off):.6g} deg",
+            remedy=f"count from there: subtract {180 * round(at / math.pi)} deg from all angles",
         )

@@ -155,7 +155,7 @@ class WorkingCycle:
             least = float(peak(angle, split.without).max())
             if wanted <= least:
                 expected = f"more than {least:.6g} Pa, the pressure of compression alone"
-                raise MachineError([Problem("gas.peak_pressure", f"{wanted:.6g} Pa", expected)])
+                raise MachineError([Problem("train.engine.gas.peak_pressure", f"{wanted:.6g} Pa", expected)])
             # The peak lies between points; how far beyond the greatest of them, the last iterate says.
             beyond = split.last.max(axis=1) / peak(angle, split.last)
             burns = split.per_heat > 0
