@@ -78,8 +78,11 @@ def test_out(file: str, tmp_path: Path) -> None:
     assert result.exit_code == 0
     assert (out / "results.json").read_text(encoding="utf-8") == result.stdout
     assert json.loads(result.stdout)["results"]["holzer"][0]["frequency"] == 30
-    assert (out / "mode_shapes.svg").read_text(encoding="utf-8").startswith("<svg")
-    assert (out / "mode_shapes.png").stat().st_size > 5000
+    for name in ("scheme", "mode_shapes"):
+        assert (out / f"{name}.svg").read_text(encoding="utf-8").startswith("<svg")
+        assert (out / f"{name}.png").stat().st_size > 5000
+    parts = json.loads(result.stdout)["results"]["scheme"]["connections"]
+    assert [each["name"] for each in parts] == ["fast", "slow", "stage"]
 
 
 def test_wrong_train(file: str) -> None:

@@ -1,20 +1,11 @@
 //! Torsional trains at the border.
 
-use linkwright_core::torsion::transient::course::{self, Method, Request};
-use linkwright_core::torsion::transient::rates::Rates;
-use linkwright_core::torsion::transient::system::{Encoded, System};
-use linkwright_core::torsion::{Train, modes};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use linkwright_core::torsion::{Train, forced, modes, waves};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::column;
-use crate::errors::plan_error;
 use crate::{Curve, Floats, Ints, Table};
-
-/// How it ended, by which method; steps, rejected, evaluations; time reached, bound of the fastest swing, energies at start
-/// and end; samples, extremes, work.
-type Moved<'py> = (u8, u8, [usize; 3], [f64; 6], Table<'py>, Table<'py>, Curve<'py>);
 
 /// Natural frequencies, and mode shapes row by row.
 #[pyfunction]
@@ -24,11 +15,7 @@ pub(crate) fn torsion_modes<'py>(
     inertia: Floats<'_>,
     stiffness: Floats<'_>,
 ) -> PyResult<(Curve<'py>, Table<'py>)> {
-    let parent: Vec<usize> =
-        parent.as_slice()?.iter().map(|&i| usize::try_from(i).unwrap_or(usize::MAX)).collect();
-    let train = Train::new(&parent, inertia.as_slice()?, stiffness.as_slice()?).ok_or_else(|| {
-        PyValueError::new_err("no train: each disc hangs on an earlier one, all are positive")
-    })?;
+    let train = tree(&parent, &inertia, stiffness.as_slice()?)?;
     let n = train.len();
     let shapes = PyArray2::<f64>::zeros(py, [n, n], false);
     let found = py.detach(|| modes::modes(&train));
@@ -36,117 +23,63 @@ pub(crate) fn torsion_modes<'py>(
     Ok((PyArray1::from_vec(py, found.omega), shapes))
 }
 
-/// A train in motion, decoded and checked.
-#[pyclass(frozen, module = "linkwright._core")]
-pub(crate) struct TorsionSystem(System);
-
-impl TorsionSystem {
-    fn fits(&self, what: &str, found: usize, expected: usize) -> PyResult<()> {
-        if found == expected {
-            Ok(())
-        } else {
-            Err(PyValueError::new_err(format!("{what} holds {found} numbers, {expected} are needed")))
-        }
-    }
+/// A train, its discs in an order in which each hangs on an earlier one.
+fn tree(parent: &Ints<'_>, inertia: &Floats<'_>, stiffness: &[f64]) -> PyResult<Train> {
+    let parent: Vec<usize> =
+        parent.as_slice()?.iter().map(|&i| usize::try_from(i).unwrap_or(usize::MAX)).collect();
+    Train::new(&parent, inertia.as_slice()?, stiffness)
+        .ok_or_else(|| PyValueError::new_err("no train: each disc hangs on an earlier one, all are positive"))
 }
 
-#[pymethods]
-impl TorsionSystem {
-    #[new]
-    fn new(
-        inertia: Floats<'_>,
-        damping: Floats<'_>,
-        links: Ints<'_>,
-        link_numbers: Floats<'_>,
-        rotors: Ints<'_>,
-        rotor_numbers: Floats<'_>,
-        torques: Ints<'_>,
-        torque_numbers: Floats<'_>,
-        table_starts: Ints<'_>,
-        periods: Floats<'_>,
-        knots: Floats<'_>,
-        curve_starts: Ints<'_>,
-        points: Floats<'_>,
-    ) -> PyResult<Self> {
-        let code = Encoded {
-            masses: [inertia.as_slice()?, damping.as_slice()?],
-            links: links.as_slice()?,
-            link_numbers: link_numbers.as_slice()?,
-            rotors: rotors.as_slice()?,
-            rotor_numbers: rotor_numbers.as_slice()?,
-            torques: torques.as_slice()?,
-            torque_numbers: torque_numbers.as_slice()?,
-            table_starts: table_starts.as_slice()?,
-            periods: periods.as_slice()?,
-            knots: knots.as_slice()?,
-            curve_starts: curve_starts.as_slice()?,
-            points: points.as_slice()?,
-        };
-        System::decode(&code).map(TorsionSystem).map_err(plan_error)
+/// Amplitudes (orders, discs, speeds) in place of torques, real and imaginary part in turn. Tables have a row a disc, a
+/// column a speed: k, c and ηk of the shaft above each disc, c of the disc against the ground.
+#[pyfunction]
+pub(crate) fn torsion_forced(
+    py: Python<'_>,
+    parent: Ints<'_>,
+    inertia: Floats<'_>,
+    speeds: Floats<'_>,
+    tables: [Floats<'_>; 4],
+    orders: Floats<'_>,
+    mut torques: PyReadwriteArray1<'_, f64>,
+) -> PyResult<()> {
+    // What the shafts are is in the tables.
+    let train = tree(&parent, &inertia, &vec![1.0; inertia.as_slice()?.len()])?;
+    let [stiffness, shaft, loss, ground] = &tables;
+    let damping = forced::Damping {
+        speeds: speeds.as_slice()?,
+        stiffness: stiffness.as_slice()?,
+        shaft: shaft.as_slice()?,
+        loss: loss.as_slice()?,
+        ground: ground.as_slice()?,
+    };
+    let (orders, (torques, _)) = (orders.as_slice()?, torques.as_slice_mut()?.as_chunks_mut());
+    if py.detach(|| forced::forced(&train, &damping, orders, torques)) {
+        return Ok(());
     }
+    Err(PyValueError::new_err("tables and torques do not have a place for every disc and speed"))
+}
 
-    fn follow<'py>(
-        &self,
-        py: Python<'py>,
-        angle: Floats<'_>,
-        speed: Floats<'_>,
-        times: Floats<'_>,
-        duration: f64,
-        accuracy: f64,
-        method: u8,
-        steps_max: usize,
-    ) -> PyResult<Moved<'py>> {
-        let method = match method {
-            0 => Method::Auto,
-            1 => Method::Explicit,
-            2 => Method::Implicit,
-            other => return Err(PyValueError::new_err(format!("there is no method {other}"))),
-        };
-        let (angle, speed, times) = (angle.as_slice()?, speed.as_slice()?, times.as_slice()?);
-        self.fits("angle", angle.len(), self.0.len())?;
-        self.fits("speed", speed.len(), self.0.len())?;
-        let request = Request { angle, speed, times, duration, accuracy, method, steps_max };
-        let found = py.detach(|| course::follow(&self.0, &request));
-        let rows = found.samples.len() / times.len().max(1);
-        let samples = PyArray2::<f64>::zeros(py, [rows, times.len()], false);
-        samples.readwrite().as_slice_mut()?.copy_from_slice(&found.samples);
-        let extremes = PyArray2::<f64>::zeros(py, [found.extremes.len(), 4], false);
-        extremes.readwrite().as_slice_mut()?.copy_from_slice(found.extremes.as_flattened());
-        let [t0, v0, t1, v1] = found.energies;
-        Ok((
-            found.end as u8,
-            found.method as u8,
-            [found.steps, found.rejected, found.evaluations],
-            [found.time, found.fastest, t0, v0, t1, v1],
-            samples,
-            extremes,
-            column(py, found.work),
-        ))
+/// Greatest value, its place, least value, its place of waves, a row each. Coefficients (harmonics, waves), real and
+/// imaginary part in turn.
+#[pyfunction]
+pub(crate) fn torsion_waves<'py>(
+    py: Python<'py>,
+    coefficients: Floats<'_>,
+    waves: usize,
+) -> PyResult<Table<'py>> {
+    let (coefficients, _) = coefficients.as_slice()?.as_chunks();
+    if waves > 0 && coefficients.len() % waves != 0 {
+        return Err(PyValueError::new_err("coefficients do not have a place for every wave"));
     }
-
-    fn net_torques<'py>(
-        &self,
-        py: Python<'py>,
-        t: f64,
-        angle: PyReadonlyArray2<'_, f64>,
-        speed: Floats<'_>,
-    ) -> PyResult<(Table<'py>, Table<'py>)> {
-        let (n, speed) = (self.0.len(), speed.as_slice()?);
-        let rows = angle.as_array().nrows();
-        self.fits("angle", angle.as_array().ncols(), n)?;
-        self.fits("speed", speed.len(), n)?;
-        let net = PyArray2::<f64>::zeros(py, [rows, n], false);
-        let inertia = PyArray2::<f64>::zeros(py, [rows, n], false);
-        {
-            let (mut net, mut inertia) = (net.readwrite(), inertia.readwrite());
-            let lists =
-                net.as_slice_mut()?.chunks_exact_mut(n).zip(inertia.as_slice_mut()?.chunks_exact_mut(n));
-            let mut rates = Rates::new(&self.0);
-            rates.enter(t);
-            for (angle, (net, inertia)) in angle.as_slice()?.chunks_exact(n).zip(lists) {
-                rates.net_torques(t, angle, speed, net, inertia);
-            }
+    let found = py.detach(|| waves::extremes(coefficients, waves));
+    let table = PyArray2::<f64>::zeros(py, [4, waves], false);
+    let mut rows = table.readwrite();
+    for (nth, to) in rows.as_slice_mut()?.chunks_exact_mut(waves.max(1)).enumerate() {
+        for (to, each) in to.iter_mut().zip(&found) {
+            *to = [each.max, each.at_max, each.min, each.at_min][nth];
         }
-        Ok((net, inertia))
     }
+    drop(rows);
+    Ok(table)
 }

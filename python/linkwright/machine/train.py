@@ -23,53 +23,43 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, Description, Name, fault
-from linkwright.machine.element import PositiveLength, PositiveNumber
-from linkwright.units import INERTIA, LENGTH, PRESSURE, TORSIONAL_STIFFNESS, not_negative, positive
+from linkwright.machine.coupling import Coupling
+from linkwright.machine.damper import Damper
+from linkwright.machine.element import PositiveNumber
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
+from linkwright.machine.shaft_limit import ShaftLimit
+from linkwright.machine.shaft_row import fillet_faults, flexibilities, place
+from linkwright.machine.shaft_section import Modulus, ShaftSection
+from linkwright.machine.train_base import GROUND, Damping, LossFactor, PositiveStiffness
+from linkwright.machine.train_run import TrainRun
+from linkwright.machine.train_torques import Excitation, TrainLoad
+from linkwright.units import INERTIA, positive
 
-# The end of a shaft that is held.
-GROUND = "ground"
-
-Modulus = Annotated[float, positive(PRESSURE)]
-PositiveStiffness = Annotated[float, positive(TORSIONAL_STIFFNESS)]
+__all__ = ["GROUND", "Disc", "ElasticShaft", "Shaft", "ShaftSection", "Train", "TrainGear"]
 
 
 class Disc(Description):
     """A disc: all that turns with one place of the train."""
 
     inertia: Annotated[float, positive(INERTIA)] = Field(description="About the axis, at its own speed.")
-
-
-class ShaftSection(Checked):
-    """A cylindrical length of a shaft, solid or hollow."""
-
-    length: PositiveLength = Field(description="Of the section.")
-    diameter: PositiveLength = Field(description="Outside.")
-    inner_diameter: Annotated[float, not_negative(LENGTH)] = Field(0.0, description="Of the bore.")
-
-    def _faults(self) -> Iterator[InitErrorDetails]:
-        if self.inner_diameter >= self.diameter:
-            expected = f"a bore smaller than the diameter, {self.diameter:.6g} m"
-            yield fault("inner_diameter", found=self.inner_diameter, expected=expected)
-
-    @property
-    def second_moment(self) -> float:
-        """Polar second moment of area I_p [m⁴]."""
-        # Written as a product, so that thin tubes lose no digits.
-        d, b = self.diameter, self.inner_diameter
-        return math.pi / 32 * (d - b) * (d + b) * (d**2 + b**2)
-
-
-class Shaft(Checked):
-    """An elastic shaft between two discs, or between a disc and the ground."""
-
-    between: tuple[str, str] = Field(
-        description='The two discs that it joins; one end may be "ground", which is held.'
+    damping: Damping = Field(
+        0.0, description="Torque against its vibration per speed, from outside the train."
     )
+
+
+class ElasticShaft(Checked):
+    """What makes a shaft twist: its stiffness, or its sections."""
+
     stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
     sections: tuple[ShaftSection, ...] | None = Field(
-        None, description="Its cylindrical lengths in a row, from its first end, in place of the stiffness."
+        None, description="Its lengths in a row, from its first end, in place of the stiffness."
     )
     shear_modulus: Modulus = Field(79.3e9, description="Of the sections; usually that of steel.")
+    damping: Damping = Field(0.0, description="Torque per speed of twisting.")
+    loss_factor: LossFactor = Field(
+        0.0, description="Hysteresis η: the stiffness is k(1 + iη), a cycle loses 2πη of its largest energy."
+    )
+    limit: ShaftLimit | None = Field(None, description="What it bears.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.stiffness is None) == (self.sections is None):
@@ -77,6 +67,12 @@ class Shaft(Checked):
             yield fault(found=found, expected="either stiffness or sections")
         if self.sections is not None and not self.sections:
             yield fault("sections", found="an empty list", expected="a list of at least one section")
+        limit = self.limit
+        if limit is not None and limit.needs_section and not limit.has_section and self.sections is None:
+            expected = "the diameter where the stress counts, as the shaft has no sections"
+            yield fault("limit", "diameter", expected=expected)
+        for each in fillet_faults(self.sections or ()):
+            yield InitErrorDetails(type=each["type"], loc=("sections", *each["loc"]), input=each["input"])
 
     @property
     def compliances(self) -> tuple[float, ...]:
@@ -84,7 +80,7 @@ class Shaft(Checked):
         if self.sections is None:
             assert self.stiffness is not None
             return (1.0 / self.stiffness,)
-        return tuple(each.length / (self.shear_modulus * each.second_moment) for each in self.sections)
+        return tuple(each / self.shear_modulus for each in flexibilities(self.sections))
 
     @property
     def rate(self) -> float:
@@ -95,12 +91,15 @@ class Shaft(Checked):
         """How far from the first end a share of the twist lies [m]; None without sections."""
         if self.sections is None:
             return None
-        left, along = share * math.fsum(self.compliances), 0.0
-        for section, compliance in zip(self.sections, self.compliances, strict=True):
-            if left <= compliance:
-                return along + section.length * left / compliance
-            left, along = left - compliance, along + section.length
-        return along
+        return place(self.sections, share)
+
+
+class Shaft(ElasticShaft):
+    """An elastic shaft between two discs, or between a disc and the ground."""
+
+    between: tuple[str, str] = Field(
+        description='The two discs that it joins; one end may be "ground", which is held.'
+    )
 
 
 class TrainGear(Checked):
@@ -119,11 +118,19 @@ class TrainGear(Checked):
     stiffness: PositiveStiffness | None = Field(
         None, description="Of the mesh, as torque at the first disc per its angle. Without it, rigid."
     )
+    damping: Damping = Field(
+        0.0, description="Of an elastic mesh, as torque at the first disc per its speed."
+    )
+    loss_factor: LossFactor = Field(0.0, description="Hysteresis of an elastic mesh.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.ratio is None) == (self.teeth is None):
             found = "neither" if self.ratio is None else "both"
             yield fault(found=found, expected="either ratio or teeth")
+        for name in ("damping", "loss_factor"):
+            if self.stiffness is None and getattr(self, name):
+                remedy = "give the stiffness of the mesh, or the damping to its discs"
+                yield fault(name, found=getattr(self, name), expected="none with a rigid mesh", remedy=remedy)
 
     @property
     def speed_ratio(self) -> float:
@@ -136,8 +143,21 @@ class TrainGear(Checked):
 
 
 class Train(Description):
-    """Discs, shafts and gear stages by name."""
+    """Discs, shafts and gear stages by name, what damps them and what excites them."""
 
     discs: dict[Name, Disc] = Field(default_factory=dict, description="What turns, by name.")
     shafts: dict[Name, Shaft] = Field(default_factory=dict, description="What twists, by name.")
     gears: dict[Name, TrainGear] = Field(default_factory=dict, description="Gear stages by name.")
+    couplings: dict[Name, Coupling] = Field(default_factory=dict, description="Elastic couplings by name.")
+    dampers: dict[Name, Damper] = Field(default_factory=dict, description="Torsional dampers by name.")
+    loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="What the train drives, by name.")
+    excitations: dict[Name, Excitation] = Field(
+        default_factory=dict, description="Torques that pulsate, by name."
+    )
+    engine: ReciprocatingEngine | None = Field(
+        None, description="Reciprocating engine, which stands for discs throw_1, throw_2, … and their shafts."
+    )
+    driver: str | None = Field(
+        None, description="Disc that drives the loads, where no engine does. Without it, the first."
+    )
+    run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")

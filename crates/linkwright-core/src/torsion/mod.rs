@@ -4,6 +4,8 @@
 //! | --- | --- |
 //! | here | what a train is, and its dynamic stiffness |
 //! | [`modes`] | natural frequencies and mode shapes |
+//! | [`forced`] | amplitudes at every order and speed |
+//! | [`waves`] | what harmonics add up to |
 //! | [`transient`] | motion in time, with inertias that change with the angle |
 //!
 //! A train without loops is a tree: every disc but the first hangs on one other by a shaft. Gear stages are
@@ -19,8 +21,10 @@
 //!
 //! Source: Holzer, *Die Berechnung der Drehschwingungen* (1921); Parlett, *The Symmetric Eigenvalue Problem*, chapter 3.
 
+pub mod forced;
 pub mod modes;
 pub mod transient;
+pub mod waves;
 
 use crate::real::Real;
 

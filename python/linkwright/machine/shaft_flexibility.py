@@ -1,0 +1,117 @@
+r"""Closed forms for the twist of cones: $\int dx/I_p$ over a length whose diameters change in proportion.
+
+A solid cone from $d_1$ to $d_2$ has
+
+.. math:: \int_0^L \frac{dx}{I_p} = \frac{32 L}{3 \pi} \, \frac{d_1^2 + d_1 d_2 + d_2^2}{d_1^3 d_2^3}
+
+Sections are taken to stay plane and to turn as a whole. Föppl's exact solution of the cone, whose surfaces of
+equal twist are spheres, is more flexible by 0.5 % at a half angle of 10°, 2.1 % at 20°, 5.2 % at 30°.
+
+References
+----------
+.. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 3:
+    tapered shafts.
+.. [2] Timoshenko, Goodier, Theory of Elasticity, 3rd ed. 1970, torsion of circular shafts of variable
+    diameter: the cone.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+
+# Points of one Gauss-Legendre rule; an interval is halved until two rules agree to this.
+_POINTS = 16
+_AGREE = 1e-13
+# A wall that thins to nothing has no finite integral; halvings end here.
+_DEEPEST = 48
+
+
+def polar_moment(diameter: float, bore: float = 0.0) -> float:
+    """Polar second moment of area of a circle or ring [m⁴].
+
+    Parameters
+    ----------
+    diameter, bore : float
+        Outside and inside [m].
+    """
+    # Written as a product, so that thin tubes lose no digits.
+    return math.pi / 32 * (diameter - bore) * (diameter + bore) * (diameter**2 + bore**2)
+
+
+def cone_integral(
+    length: float, diameters: tuple[float, float], bores: tuple[float, float] = (0.0, 0.0)
+) -> float:
+    """The integral of dx/I_p over a cone, solid or hollow [1/m³].
+
+    Parameters
+    ----------
+    length : float
+        Of the cone [m].
+    diameters, bores : tuple of float
+        Outside and inside, at its two ends [m]; between them in proportion.
+    """
+    if bores == (0.0, 0.0):
+        a, b = diameters
+        return 32 * length / (3 * math.pi) * (a * a + a * b + b * b) / (a * b) ** 3
+    return length * _over_share(diameters, bores, 0.0, 1.0, 0)
+
+
+def cone_place(
+    share: float, diameters: tuple[float, float], bores: tuple[float, float] = (0.0, 0.0)
+) -> float:
+    """Share of the length of a cone over which a share of its twist lies.
+
+    Parameters
+    ----------
+    share : float
+        Of the twist, 0 to 1, from the first end.
+    diameters, bores : tuple of float
+        Outside and inside, at its two ends [m].
+    """
+    whole = cone_integral(1.0, diameters, bores)
+    low, high = 0.0, 1.0
+    # The twist grows steadily along the cone; sixty halvings reach the last bit.
+    for _ in range(60):
+        z = (low + high) / 2
+        part = cone_integral(z, (diameters[0], _at(diameters, z)), (bores[0], _at(bores, z)))
+        low, high = (z, high) if part < share * whole else (low, z)
+    return (low + high) / 2
+
+
+def _at(ends: tuple[float, float], share: float) -> float:
+    """A diameter at a share of the length."""
+    return ends[0] + share * (ends[1] - ends[0])
+
+
+@cache
+def _gauss() -> tuple[tuple[float, float], ...]:
+    """Places and weights on 0 to 1."""
+    places, weights = np.polynomial.legendre.leggauss(_POINTS)
+    return tuple(zip(((places + 1) / 2).tolist(), (weights / 2).tolist(), strict=True))
+
+
+def _rule(diameters: tuple[float, float], bores: tuple[float, float], start: float, end: float) -> float:
+    """One rule over shares of the length from start to end."""
+    width = end - start
+    terms = (
+        weight / polar_moment(_at(diameters, start + z * width), _at(bores, start + z * width))
+        for z, weight in _gauss()
+    )
+    return width * math.fsum(terms)
+
+
+def _over_share(
+    diameters: tuple[float, float], bores: tuple[float, float], start: float, end: float, depth: int
+) -> float:
+    """The integral over shares of the length, halved where one rule is not enough."""
+    middle = (start + end) / 2
+    whole = _rule(diameters, bores, start, end)
+    halves = _rule(diameters, bores, start, middle) + _rule(diameters, bores, middle, end)
+    if depth == _DEEPEST or abs(whole - halves) <= _AGREE * halves:
+        return halves
+    return _over_share(diameters, bores, start, middle, depth + 1) + _over_share(
+        diameters, bores, middle, end, depth + 1
+    )
