@@ -70,8 +70,10 @@ def _about_share(paper: Paper3) -> str:
     of = {each.name: each for each in paper.inertia.shifts}
     least = of[f"(9), both rods with k = {low:.2f}"]
     return (
-        f"With I_w about the small end, as (1) needs it, the master rod has k = {paper.inertia.share:.2f}. The "
-        f"range {low:g}…{high:g} printed as usual fits the small end's share 1 − k. Used in (9), {low:g} takes "
+        f"With I_w about the small end, as (1) needs it, the master rod has k = {paper.inertia.share:.2f}. "
+        "The "
+        f"range {low:g}…{high:g} printed as usual fits the small end's share 1 − k. Used in (9), {low:g} "
+        "takes "
         f"{share(least.deviation)} off the disc and moves the first mode of the crankshaft by "
         f"{share(least.changes[1])}."
     ).replace("takes −", "takes ")

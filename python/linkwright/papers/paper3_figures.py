@@ -1,4 +1,4 @@
-"""Figures to paper 3: the train and its modes, discs and what formulas make of them, vibration, unevenness."""
+"""Figures to paper 3: the train and its modes, discs and what formulas make of them, unevenness."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.analysis.torsion.scheme import scheme
-from linkwright.machine.reciprocating.engine_motion import throw_curves
+from linkwright.machine.reciprocating.engine_motion import reduced_throw
 from linkwright.papers.paper3_engine import MODES
 from linkwright.plot.style import (
     BLUE,
@@ -86,7 +86,9 @@ def _disc(paper: Paper3) -> Figure:
     trial = paper.trial
     phi = np.linspace(0, 2 * np.pi, 721)
     figure, (axes,) = panels(1, height=2.9)
-    axes.plot(np.degrees(phi), throw_curves(trial.engine, phi)[0], color=BLUE, label="exact J(φ)")
+    axes.plot(
+        np.degrees(phi), reduced_throw(trial.engine, phi).inertia_reduced, color=BLUE, label="exact J(φ)"
+    )
     level(axes, trial.inertia, "its mean", INK)
     for shift, colour in zip(paper.inertia.shifts[:2], (RED, GREEN), strict=True):
         axes.axhline(shift.value, color=colour, linewidth=1.2, label=shift.name)
