@@ -40,7 +40,7 @@ THROWS = {
 
 
 def machine(gears: tuple[RunningGear, ...]) -> lw.Machine:
-    """The same throw as a linkage of a machine file, whose x axis is the vertical, along which things fall."""
+    """The throw as a linkage of a machine file; x is the vertical, along which things fall."""
     lines = ["format = 1", 'name = "throw"', "[mechanism.points]", "O = { x = 0, y = 0 }"]
     lines += ["[mechanism.cranks]", f"crank = {{ radius = {RADIUS} }}"]
     bodies = ["[bodies]"]
@@ -120,6 +120,9 @@ def test_own_inertia_and_weight_of_the_throw() -> None:
     assert np.all(found.inertia_reduced == 0.2)
     assert np.all(found.inertia_reduced_d1 == 0)
     assert found.weight_torque == pytest.approx(3 * np.sin(phi) + 4 * np.cos(phi), rel=1e-14)
+    # Whole numbers, and one angle, do as well.
+    assert mean_inertia(RADIUS, (MASTER,), 1).mean == pytest.approx(1 + mean_inertia(RADIUS, (MASTER,)).mean)
+    assert throw_reduction(RADIUS, (MASTER,), 0, 1).inertia_reduced.shape == ()
 
 
 def test_pin_on_the_axis_of_the_crank_pin_is_fork_and_blade() -> None:

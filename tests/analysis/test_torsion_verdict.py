@@ -197,7 +197,7 @@ def test_barred_speeds_near_service_are_told() -> None:
 def test_what_is_not_judged_is_told() -> None:
     found = rule("700 MPa", 100)
     assert any("nothing is said by iacs_m68 above" in each for each in found.notes)
-    assert any("600 MPa count" in each for each in found.notes)
+    assert any("as 600 MPa" in each for each in found.notes)
 
 
 def test_loop_of_rigid_stages_is_told() -> None:

@@ -75,17 +75,24 @@ def _print(study: TorsionStudy) -> None:
 
 
 def _write(study: TorsionStudy, shown: str, folder: Path, *, quiet: bool) -> None:
-    """Results and figures; says where they are."""
+    """Report, results and drawings; says where they are."""
+    from linkwright.cli.run import command_line
+    from linkwright.cli.tables import progress
     from linkwright.plot import modes_figure, scheme_figure, svg
+    from linkwright.report.torsion_page import torsion_html
 
-    figures = {"scheme": scheme_figure(study.scheme), "mode_shapes": modes_figure(study.free)}
+    with progress("drawing"):
+        page = torsion_html(study, command=command_line())
+        figures = {"scheme": scheme_figure(study.scheme), "mode_shapes": modes_figure(study.free)}
     try:
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "results.json").write_text(shown, encoding="utf-8")
+        (folder / "report.html").write_text(page, encoding="utf-8")
         for name, figure in figures.items():
             (folder / f"{name}.svg").write_text(svg(figure), encoding="utf-8")
             figure.savefig(folder / f"{name}.png", dpi=150)
     except OSError as error:
         raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
-    names = ["results.json", *(f"{name}.{kind}" for name in figures for kind in ("svg", "png"))]
+    drawn = [f"{name}.{kind}" for name in figures for kind in ("svg", "png")]
+    names = ["results.json", "report.html", *drawn]
     typer.echo("Written:\n" + "\n".join(f"  {folder / name}" for name in names), err=quiet)

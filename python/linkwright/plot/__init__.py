@@ -13,6 +13,7 @@
 | `motion_laws` | motion laws and their derivatives, several in one picture |
 | `cam_dynamics` | contact force, pressure and vibration of cams and followers |
 | `torsion` | mode shapes of trains |
+| `torsion_forced` | forced vibration of trains over their speeds |
 | `torsion_scheme` | equivalent schemes of trains, by `scheme_layout`, `scheme_page`, `scheme_words` |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
@@ -45,6 +46,13 @@ from linkwright.plot.run_up import attempt_figure, run_up_figure
 from linkwright.plot.steady import speed_figure, time_figure, torque_figure
 from linkwright.plot.svg import svg
 from linkwright.plot.torsion import modes_figure
+from linkwright.plot.torsion_forced import (
+    heat_figure,
+    orders_figure,
+    shaft_torques_figure,
+    stress_figure,
+    torsion_unevenness_figure,
+)
 from linkwright.plot.torsion_scheme import scheme_figure
 
 __all__ = [
@@ -58,11 +66,13 @@ __all__ = [
     "curvature_figure",
     "forces_figure",
     "gear_torque_figure",
+    "heat_figure",
     "hodograph_figure",
     "lift_figure",
     "modes_figure",
     "motion_laws_figure",
     "motor_figure",
+    "orders_figure",
     "polar_figure",
     "polished_rod_figure",
     "pressure_angle_figure",
@@ -72,10 +82,13 @@ __all__ = [
     "rotator_figure",
     "run_up_figure",
     "scheme_figure",
+    "shaft_torques_figure",
     "speed_figure",
+    "stress_figure",
     "svg",
     "time_figure",
     "torque_figure",
+    "torsion_unevenness_figure",
     "transmission_figure",
     "vibration_figure",
 ]

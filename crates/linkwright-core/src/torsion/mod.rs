@@ -6,6 +6,7 @@
 //! | [`modes`] | natural frequencies and mode shapes |
 //! | [`forced`] | amplitudes at every order and speed |
 //! | [`waves`] | what harmonics add up to |
+//! | [`transient`] | motion in time, with inertias that change with the angle |
 //!
 //! A train without loops is a tree: every disc but the first hangs on one other by a shaft. Gear stages are
 //! referred to one speed before, so that shafts carry k (θ_a − θ_b). Looked at from its leaves to the root, each
@@ -22,6 +23,7 @@
 
 pub mod forced;
 pub mod modes;
+pub mod transient;
 pub mod waves;
 
 use crate::real::Real;

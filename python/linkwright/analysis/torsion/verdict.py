@@ -225,7 +225,8 @@ def _notes(seen: Survey) -> Iterator[str]:
     for name, shaft in seen.at.train.shafts.items():
         if shaft.limit is not None and shaft.limit.counted_strength != shaft.limit.tensile_strength:
             counted = (shaft.limit.counted_strength or 0.0) / 1e6
-            said.setdefault(f"of the tensile strength {counted:.4g} MPa count", []).append(name)
+            text = f"the rule counts the tensile strength as {counted:.4g} MPa"
+            said.setdefault(text, []).append(name)
     yield from (f"{', '.join(parts)}: {text}" for text, parts in said.items())
 
 

@@ -105,7 +105,7 @@ def throw_reduction(
         A rod does not reach its piston, at the first such crank angle.
     """
     phi = np.asarray(crank_angle, dtype=np.float64)
-    J, J_d1 = np.full(phi.shape, own_inertia), np.zeros(phi.shape)
+    J, J_d1 = np.full(phi.shape, float(own_inertia)), np.zeros(phi.shape)
     # Σ m Re S′ of all that has weight.
     lift = np.zeros(phi.shape) if not static_moment else (1j * static_moment * np.exp(1j * phi)).real
     for gear, motion in zip(gears, throw_motion(crank_radius, gears, phi), strict=True):
