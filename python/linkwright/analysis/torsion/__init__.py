@@ -5,4 +5,11 @@
 | `free` | natural frequencies, mode shapes, nodes, energy, and what changes them |
 | `drive_line` | the train of a drive line, and how its mechanism excites it |
 | `holzer` | what a train needs to swing at any frequency |
+| `stress`, `mesh_torque` | stresses in shafts, with those permitted; torque of gear stages |
+| `barred_range` | speeds that shafts do not bear for ever |
+| `verdict` | whether all limits are kept |
+| `criteria`, `survey`, `exceedance`, `resonance` | what is asked, at which speeds, and where it is not kept |
+| `carried`, `forced` | torque and heat of shafts; amplitudes and unevenness of discs |
+| `unevenness_along` | the measure N over the cylinders, at every disc |
+| `diagnosis`, `engine_diagnosis` | which cylinder is weak, from a `measured_speed` |
 """

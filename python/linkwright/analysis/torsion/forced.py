@@ -41,6 +41,22 @@ class ForcedVibration(Carried):
 
     Attributes
     ----------
+    speeds : ndarray, shape (speeds,)
+        Of the first disc [rad/s].
+    orders : ndarray, shape (orders,)
+        Waves a turn of the first disc.
+    discs, shafts : tuple of str
+        As in `FreeVibration`.
+    amplitudes : ndarray of complex, shape (orders, discs, speeds)
+        θ of each disc beside its steady turning [rad].
+    shaft_torques : ndarray of complex, shape (orders, shafts, speeds)
+        At the first end, elastic and damping part together [N m].
+    mean_torques : ndarray, shape (shafts, speeds)
+        What the shafts carry [N m].
+    torque_greatest, torque_least : ndarray, shape (shafts, speeds)
+        Of mean and vibration together [N m].
+    shaft_heat : ndarray, shape (shafts, speeds)
+        Mean power that each shaft, coupling or damper turns to heat [W].
     unevenness, unevenness_rigid, unevenness_torsional : ndarray, shape (discs, speeds)
         δ; of the train as a whole; of the rest.
     disc_heat : ndarray, shape (discs, speeds)
