@@ -83,7 +83,7 @@ def _disc(paper: Paper3) -> list[Row]:
     """(4) to (9), with the master rod alone."""
     found, (low, high) = paper.inertia, paper.published["printed"]["k"]
     fourth = "the series of the mean ends with its second term"
-    centre_low, centre_high = (1 - math.sqrt(each) for each in (high, low))
+    centre_low, centre_high = (1 - math.sqrt(each) for each in (low, high))
     return [
         Row(
             "(4)–(7) disc of equal mean energy",
