@@ -170,7 +170,8 @@ def test_exceedances_of_curves() -> None:
         calls.append(len(x))
         return np.array([5 - (x - 4) ** 2, np.where(x > math.e, 2.0, 0.0), np.where(x > 6, np.nan, x / 5)])
 
-    parabola, jump, hole = exceedances(curves, np.linspace(0.5, 9.5, 10))
+    speeds = np.linspace(0.5, 9.5, 10)
+    parabola, jump, hole = exceedances(curves, speeds, curves(speeds))
     assert (parabola.low, parabola.high) == pytest.approx((2, 6), rel=1e-9)
     assert parabola.peak == pytest.approx(4, abs=1e-3)
     assert jump.low == pytest.approx(math.e, rel=1e-9)
