@@ -8,8 +8,8 @@
 | `ker_wilson` | empirical, stiff webs | Ker Wilson 1956 |
 | `zimanenko` | empirical, automobile and tractor engines | Zimanenko |
 
-The formulas themselves are in `throw_formulas`. They differ by a tenth to a third: a measured stiffness, or one
-by finite elements, is better than any of them.
+The formulas themselves are in `throw_formulas`. They differ by a tenth to a third: a measured stiffness, or
+one by finite elements, is better than any of them.
 """
 
 from __future__ import annotations
@@ -101,21 +101,21 @@ COMPLIANCE_FORMULAS: Mapping[str, ComplianceFormula] = MappingProxyType(
             ComplianceFormula(
                 "carter",
                 throw_formulas.carter,
-                "Carter, Engineering 1928, as restated by Feese and Hill 2009",
+                "Carter, Engineering 1928, as commonly quoted",
                 "flexible webs, stiff journals and pins",
                 _nothing,
             ),
             ComplianceFormula(
                 "ker_wilson",
                 throw_formulas.ker_wilson,
-                "Ker Wilson 1956, vol. 1, as restated by Feese and Hill 2009",
+                "Ker Wilson 1956, vol. 1, as commonly quoted",
                 "stiff webs, flexible journals and pins",
                 _overlap_remark,
             ),
             ComplianceFormula(
                 "zimanenko",
                 throw_formulas.zimanenko,
-                "Zimanenko, as in Soviet textbooks",
+                "Zimanenko, as in Soviet textbooks, read with reserve",
                 "automobile and tractor engines",
                 _short_remark,
             ),
