@@ -22,7 +22,9 @@ __all__ = [
     "steady_rows",
     "steady_state",
     "third",
+    "torsion_forced",
     "torsion_modes",
+    "torsion_waves",
     "transient",
 ]
 
@@ -126,5 +128,25 @@ class Cam:
 def cam_crossings(x: _Floats, y: _Floats) -> _Floats:
     """Crossings of the sides of a closed polygon: side and share of both, place (n, 4)."""
 
-def torsion_modes(parent: _Ints, inertia: _Floats, stiffness: _Floats) -> tuple[_Floats, _Floats]:
-    """Natural frequencies [rad/s], increasing, and mode shapes with Σ J q² = 1, one row a mode (n, n)."""
+def torsion_forced(
+    parent: _Ints,
+    inertia: _Floats,
+    speeds: _Floats,
+    tables: Sequence[_Floats],
+    orders: _Floats,
+    torques: _Floats,
+) -> None:
+    """Amplitudes (orders, discs, speeds) in place of torques, real and imaginary part in turn [N m → rad].
+
+    Tables k, c, ηk of the shaft above each disc and c of the disc itself, (discs, speeds) each, flat.
+    """
+
+def torsion_waves(coefficients: _Floats, waves: int) -> _Floats:
+    """Greatest value, its place, least, its place (4, waves) of sums of harmonics (harmonics, waves)."""
+
+def torsion_modes(inertia: _Floats, ends: _Ints, stiffness: _Floats) -> tuple[_Floats, _Floats] | None:
+    """Natural frequencies [rad/s], increasing, and mode shapes with Σ J q² = 1, one row a mode (n, n).
+
+    Shafts join the masses of their ends (shafts, 2), −1 being the ground; without stiffness they do not. None where they
+    close a loop.
+    """

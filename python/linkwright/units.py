@@ -29,12 +29,13 @@ if TYPE_CHECKING:
 
 
 class Dimension(NamedTuple):
-    """Exponents of metre, kilogram, second and radian."""
+    """Exponents of metre, kilogram, second, radian and kelvin."""
 
     m: int = 0
     kg: int = 0
     s: int = 0
     rad: int = 0
+    K: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,11 +104,13 @@ _KG_M2 = Dimension(m=2, kg=1)
 _KG_M = Dimension(m=-1, kg=1)
 _N_PER_M = Dimension(kg=1, s=-2)
 _KG_M3 = Dimension(m=-3, kg=1)
+_M3 = Dimension(m=3)
 _PA = Dimension(m=-1, kg=1, s=-2)
 _N_S_M = Dimension(kg=1, s=-1)
 _N_M_S = Dimension(m=2, kg=1, s=-1)
 _N_M_S_RAD = Dimension(m=2, kg=1, s=-1, rad=-1)
 _W = Dimension(m=2, kg=1, s=-3)
+_K = Dimension(K=1)
 _ONE = Dimension()
 
 LENGTH = Kind("a length", "m", "metres", "0.2 m", _M)
@@ -128,6 +131,7 @@ INERTIA = Kind(
     "a moment of inertia", "kg m^2", "kilogram metres squared", "0.14 kg m^2", _KG_M2, angle_free=True
 )
 MASS_PER_LENGTH = Kind("a mass per length", "kg/m", "kilograms per metre", "80 kg/m", _KG_M)
+SECTION_MODULUS = Kind("a section modulus", "m^3", "cubic metres", "25 cm^3", _M3)
 DENSITY = Kind("a density", "kg/m^3", "kilograms per cubic metre", "7850 kg/m^3", _KG_M3)
 PRESSURE = Kind("a pressure", "Pa", "pascals", "210 GPa", _PA)
 STIFFNESS = Kind("a stiffness", "N/m", "newtons per metre", "2000 N/m", _N_PER_M)
@@ -143,6 +147,7 @@ TORSIONAL_DAMPING = Kind(
     _N_M_S_RAD,
     angle_free=True,
 )
+TEMPERATURE = Kind("an absolute temperature", "K", "kelvins", "330 K", _K)
 RATIO = Kind("a ratio", "", "", "90 %", _ONE)
 # Derivatives of a follower's lift, or of its swing, by the angle of the cam.
 LIFT_D1 = Kind("a length per cam angle", "m/rad", "metres per radian", "20 mm/rad", _M_RAD)
@@ -168,12 +173,14 @@ KINDS = (
     POWER,
     INERTIA,
     MASS_PER_LENGTH,
+    SECTION_MODULUS,
     DENSITY,
     PRESSURE,
     STIFFNESS,
     TORSIONAL_STIFFNESS,
     DAMPING,
     TORSIONAL_DAMPING,
+    TEMPERATURE,
     RATIO,
     LIFT_D1,
     LIFT_D2,
@@ -222,6 +229,7 @@ COMMON: dict[Dimension, dict[str, float]] = {
     _N_M_RAD: {"N m/rad": 1.0, "kN m/rad": 1e3, "MN m/rad": 1e6, "N m/deg": 1 / _DEGREE},
     _KG_M2: {"kg m^2": 1.0, "kg cm^2": 1e-4, "kg mm^2": 1e-6, "g cm^2": 1e-7, "g mm^2": 1e-9, "t m^2": 1e3},
     _KG_M: {"kg/m": 1.0, "g/m": 1e-3, "kg/mm": 1e3, "g/mm": 1.0, "t/m": 1e3},
+    _M3: {"m^3": 1.0, "dm^3": 1e-3, "cm^3": 1e-6, "mm^3": 1e-9},
     _KG_M3: {"kg/m^3": 1.0, "kg/dm^3": 1e3, "g/cm^3": 1e3, "t/m^3": 1e3},
     _PA: {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "N/mm^2": 1e6, "N/m^2": 1.0},
     _N_PER_M: {"N/m": 1.0, "kN/m": 1e3, "MN/m": 1e6, "N/mm": 1e3, "kN/mm": 1e6},
@@ -230,6 +238,7 @@ COMMON: dict[Dimension, dict[str, float]] = {
     _N_M_S_RAD: {"N m s/rad": 1.0, "kN m s/rad": 1e3},
     _W: {"W": 1.0, "kW": 1e3, "MW": 1e6, "hp": 745.6998715822701, "N m/s": 1.0, "J/s": 1.0},
     _PER_SECOND: {"Hz": 1.0, "1/s": 1.0, "s^-1": 1.0, "1/min": 1 / 60, "min^-1": 1 / 60},
+    _K: {"K": 1.0},
     _ONE: {"": 1.0, "%": 1e-2},
     _M_RAD: {"m/rad": 1.0, "mm/rad": 1e-3, "mm/deg": 1e-3 / _DEGREE},
     _M_RAD2: {"m/rad^2": 1.0, "mm/rad^2": 1e-3, "mm/deg^2": 1e-3 / _DEGREE**2},
@@ -249,6 +258,8 @@ _UNIT = re.compile(r"[A-Za-z_%0-9^/() .-]{1,60}")
 # "N/m s": is the second inside the denominator? Readers, and programs, disagree.
 _TWO_READINGS = re.compile(r"/\s*[^\s/()]+\s+[^\s/]")
 _BARE_POWER = re.compile(r"[A-Za-z]\d")
+# Scales of temperature with a zero of their own.
+_OTHER_ZERO = re.compile(r"(deg ?)?[CF]|celsius|fahrenheit|degree_[a-z]+", re.IGNORECASE)
 
 # A value is shown on one line of a terminal, together with a few words.
 _SHOWN = 80
@@ -426,7 +437,7 @@ def _normal(unit: str) -> str:
 def _fits(dimension: Dimension, kind: Kind) -> bool:
     """Whether a unit of this dimension can measure the quantity."""
     if kind.angle_free:
-        return dimension[:3] == kind.dimension[:3] and dimension.rad <= 0
+        return dimension._replace(rad=0) == kind.dimension._replace(rad=0) and dimension.rad <= 0
     return dimension == kind.dimension
 
 
@@ -437,12 +448,15 @@ def _from_pint(text: str) -> tuple[float, Dimension] | None:
         return None
     registry = _registry()
     try:
-        found: tuple[Any, Any] = registry.get_base_units(registry.parse_units(text.replace("%", "percent")))
+        unit = registry.parse_units(text.replace("%", "percent"))
+        if registry.Quantity(0.0, unit).to_base_units().magnitude != 0.0:
+            return None
+        found: tuple[Any, Any] = registry.get_base_units(unit)
     except Exception:  # whatever pint's tokenizer and its arithmetic meet in a text that is no unit
         return None
     factor, base = found
     powers: dict[str, Any] = dict(base._units)
-    names = ("meter", "kilogram", "second", "radian")
+    names = ("meter", "kilogram", "second", "radian", "kelvin")
     dimension = [powers.pop(name, 0) for name in names]
     return None if powers else (float(factor), Dimension(*dimension))
 
@@ -459,6 +473,8 @@ def _registry() -> pint.UnitRegistry[Any]:
 
 def _unknown_unit(unit: str, text: str) -> str:
     """What to change in a unit that nobody knows."""
+    if _OTHER_ZERO.fullmatch(text):
+        return f'"{unit}" does not count from absolute zero: write kelvins, 273.15 more than degrees Celsius'
     if _TWO_READINGS.search(text):
         return f'"{unit}" can be read in two ways: put one "/" last, or use parentheses, as in N/(m s)'
     if _BARE_POWER.search(text):
@@ -657,4 +673,5 @@ Angles = Annotated[tuple[float, ...], QuantityList(ANGLE)]
 Speeds = Annotated[tuple[float, ...], QuantityList(SPEED)]
 Velocities = Annotated[tuple[float, ...], QuantityList(VELOCITY)]
 Forces = Annotated[tuple[float, ...], QuantityList(FORCE)]
+Pressures = Annotated[tuple[float, ...], QuantityList(PRESSURE)]
 Torques = Annotated[tuple[float, ...], QuantityList(TORQUE)]

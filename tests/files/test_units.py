@@ -28,7 +28,7 @@ def test_common_spellings_agree_with_pint(text: str, factor: float, dimension: u
     # Some of pint's factors are products of rounded ones.
     assert factor == pytest.approx(float(theirs), rel=1e-14)
     powers = {str(name): power for name, power in base._units.items()}
-    ours = zip(("meter", "kilogram", "second", "radian"), dimension, strict=True)
+    ours = zip(("meter", "kilogram", "second", "radian", "kelvin"), dimension, strict=True)
     assert powers == {name: power for name, power in ours if power}
 
 
@@ -54,6 +54,8 @@ def test_common_spellings_agree_with_pint(text: str, factor: float, dimension: u
         ("3 N m/rad", units.TORSIONAL_STIFFNESS, 3.0),
         ("3 N m", units.TORSIONAL_STIFFNESS, 3.0),
         ("9.81 m s⁻²", units.ACCELERATION, 9.81),
+        ("330 K", units.TEMPERATURE, 330.0),
+        ("5 delta_degC", units.TEMPERATURE, 5.0),
         ("90 %", units.RATIO, 0.9),
         ("0.9", units.RATIO, 0.9),
         # Spellings that only pint knows.
@@ -93,7 +95,10 @@ def test_texts_give_si(text: object, kind: units.Kind, value: float | None) -> N
         ("1e999 m", units.LENGTH, "finite"),
         ("1e308 km", units.LENGTH, "finite"),
         ("nan m", units.LENGTH, "a length"),
-        ("20 degC", units.LENGTH, "not a known unit"),
+        ("20 degC", units.LENGTH, "absolute zero"),
+        ("60 degC", units.TEMPERATURE, "273.15"),
+        ("60 °C", units.TEMPERATURE, "273.15"),
+        ("3 N m K", units.TORSIONAL_STIFFNESS, "something else"),
         ("1 m**99999", units.LENGTH, ""),
         ("1 " + "m" * 5000, units.LENGTH, ""),
         ("1 __import__('os')", units.LENGTH, "not a known unit"),

@@ -22,7 +22,7 @@
 //! | [`rk`], [`transient`] | motion in time from given angle and speed, with its events |
 //! | [`batch`] | many machines: lanes and threads |
 //! | [`cam`] | profiles of cams: contact, pressure angle, curvature, many cams |
-//! | [`torsion`] | natural frequencies and mode shapes of trains of discs and shafts |
+//! | [`torsion`] | natural frequencies, mode shapes and motion in time of trains of discs and shafts |
 //! | [`status`] | why a machine has no answer |
 //!
 //! Everything is SI: m, kg, s, rad, N, N m, J. φ is the crank angle, counter-clockwise positive.

@@ -316,7 +316,7 @@ mod _core {
     #[pymodule_export]
     use super::cam::{Cam, cam_crossings};
     #[pymodule_export]
-    use super::torsion::torsion_modes;
+    use super::torsion::{torsion_forced, torsion_modes, torsion_waves};
     #[pymodule_export]
     use super::{
         Plan, change_point, follow_group, gaps, kinks, law_torques, motions, motor_torques, reductions,

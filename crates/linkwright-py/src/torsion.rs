@@ -1,28 +1,95 @@
 //! Torsional trains at the border.
 
-use linkwright_core::torsion::{Train, modes};
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use linkwright_core::torsion::forest::Forest;
+use linkwright_core::torsion::{Train, forced, modes, waves};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadwriteArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::{Curve, Floats, Ints, Table};
 
-/// Natural frequencies, and mode shapes row by row.
+/// Natural frequencies, and mode shapes row by row; `None` where shafts close a loop.
 #[pyfunction]
 pub(crate) fn torsion_modes<'py>(
     py: Python<'py>,
-    parent: Ints<'_>,
     inertia: Floats<'_>,
+    ends: PyReadonlyArray2<'_, i32>,
     stiffness: Floats<'_>,
-) -> PyResult<(Curve<'py>, Table<'py>)> {
+) -> PyResult<Option<(Curve<'py>, Table<'py>)>> {
+    let (inertia, stiffness) = (inertia.as_slice()?, stiffness.as_slice()?);
+    let (ends, _) = ends.as_slice()?.as_chunks();
+    let parts = match Forest::new(inertia, ends, stiffness) {
+        Forest::Trees(parts) => parts,
+        Forest::Loops => return Ok(None),
+        Forest::Wrong => {
+            return Err(PyValueError::new_err("no train: inertias are positive, stiffnesses not negative"));
+        }
+    };
+    let found = py.detach(|| modes::modes_of_parts(&parts));
+    let omega = PyArray1::from_slice(py, &found.omega);
+    // The core has a row a disc.
+    let shapes = PyArray2::<f64>::zeros(py, [inertia.len(); 2], true);
+    shapes.readwrite().as_slice_mut()?.copy_from_slice(&found.shapes);
+    Ok(Some((omega, shapes)))
+}
+
+/// A train, its discs in an order in which each hangs on an earlier one.
+fn tree(parent: &Ints<'_>, inertia: &Floats<'_>, stiffness: &[f64]) -> PyResult<Train> {
     let parent: Vec<usize> =
         parent.as_slice()?.iter().map(|&i| usize::try_from(i).unwrap_or(usize::MAX)).collect();
-    let train = Train::new(&parent, inertia.as_slice()?, stiffness.as_slice()?).ok_or_else(|| {
-        PyValueError::new_err("no train: each disc hangs on an earlier one, all are positive")
-    })?;
-    let n = train.len();
-    let shapes = PyArray2::<f64>::zeros(py, [n, n], false);
-    let found = py.detach(|| modes::modes(&train));
-    shapes.readwrite().as_slice_mut()?.copy_from_slice(&found.shapes);
-    Ok((PyArray1::from_vec(py, found.omega), shapes))
+    Train::new(&parent, inertia.as_slice()?, stiffness)
+        .ok_or_else(|| PyValueError::new_err("no train: each disc hangs on an earlier one, all are positive"))
+}
+
+/// Amplitudes (orders, discs, speeds) in place of torques, real and imaginary part in turn. Tables have a row a disc, a
+/// column a speed: k, c and ηk of the shaft above each disc, c of the disc against the ground.
+#[pyfunction]
+pub(crate) fn torsion_forced(
+    py: Python<'_>,
+    parent: Ints<'_>,
+    inertia: Floats<'_>,
+    speeds: Floats<'_>,
+    tables: [Floats<'_>; 4],
+    orders: Floats<'_>,
+    mut torques: PyReadwriteArray1<'_, f64>,
+) -> PyResult<()> {
+    // What the shafts are is in the tables.
+    let train = tree(&parent, &inertia, &vec![1.0; inertia.as_slice()?.len()])?;
+    let [stiffness, shaft, loss, ground] = &tables;
+    let damping = forced::Damping {
+        speeds: speeds.as_slice()?,
+        stiffness: stiffness.as_slice()?,
+        shaft: shaft.as_slice()?,
+        loss: loss.as_slice()?,
+        ground: ground.as_slice()?,
+    };
+    let (orders, (torques, _)) = (orders.as_slice()?, torques.as_slice_mut()?.as_chunks_mut());
+    if py.detach(|| forced::forced(&train, &damping, orders, torques)) {
+        return Ok(());
+    }
+    Err(PyValueError::new_err("tables and torques do not have a place for every disc and speed"))
+}
+
+/// Greatest value, its place, least value, its place of waves, a row each. Coefficients (harmonics, waves), real and
+/// imaginary part in turn.
+#[pyfunction]
+pub(crate) fn torsion_waves<'py>(
+    py: Python<'py>,
+    coefficients: Floats<'_>,
+    waves: usize,
+) -> PyResult<Table<'py>> {
+    let (coefficients, _) = coefficients.as_slice()?.as_chunks();
+    if waves > 0 && coefficients.len() % waves != 0 {
+        return Err(PyValueError::new_err("coefficients do not have a place for every wave"));
+    }
+    let found = py.detach(|| waves::extremes(coefficients, waves));
+    let table = PyArray2::<f64>::zeros(py, [4, waves], false);
+    let mut rows = table.readwrite();
+    for (nth, to) in rows.as_slice_mut()?.chunks_exact_mut(waves.max(1)).enumerate() {
+        for (to, each) in to.iter_mut().zip(&found) {
+            *to = [each.max, each.at_max, each.min, each.at_min][nth];
+        }
+    }
+    drop(rows);
+    Ok(table)
 }

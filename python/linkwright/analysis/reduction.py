@@ -154,10 +154,15 @@ def mean_laws(compiled: Compiled, speeds: ArrayLike) -> Floats:
     return mean
 
 
-def turn_nodes(compiled: Compiled) -> tuple[Floats, Floats]:
-    """Crank angles and weights for means over a turn: Gauss–Legendre quadrature from kink to kink."""
+def turn_nodes(compiled: Compiled, pieces: int = 1) -> tuple[Floats, Floats]:
+    """Crank angles and weights for means over a turn: Gauss–Legendre quadrature from kink to kink.
+
+    What varies faster than the mechanism, such as high harmonics, needs several pieces between two kinks.
+    """
     x, w = np.polynomial.legendre.leggauss(_NODES)
-    ends = compiled.kinks()
+    kinks = compiled.kinks()
+    parts = np.linspace(kinks[:-1], kinks[1:], pieces, endpoint=False)
+    ends = np.append(parts.T.ravel(), kinks[-1])
     half = 0.5 * np.diff(ends)[:, None]
     phi = (ends[:-1, None] + half * (x + 1)).ravel()
     return phi, (half * w).ravel() / (2 * np.pi)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from linkwright.papers.paper1 import Drive, Paper1
     from linkwright.papers.paper2 import Paper2
+    from linkwright.papers.paper3 import Paper3
     from linkwright.papers.paper4 import Paper4
     from linkwright.papers.published import PublishedDrive
 
@@ -50,7 +51,7 @@ def papers(number: Number = None, json: Json = False, out: Folder = None) -> Non
     if number is None:
         typer.echo("\n".join(f"  {n}  {title}" for n, title in PAPERS.items()))
         return
-    paper = {1: _first, 2: _second, 4: _fourth}[known_paper(number)]()
+    paper = {1: _first, 2: _second, 3: _third, 4: _fourth}[known_paper(number)]()
     if out:
         _write(paper, out)
     if json:
@@ -112,6 +113,22 @@ def _second() -> _Shown:
     )
 
 
+def _third() -> _Shown:
+    """Paper 3."""
+    from linkwright.papers.paper3 import paper3
+    from linkwright.papers.paper3_conclusions import conclusions
+    from linkwright.papers.paper3_figures import figures
+    from linkwright.papers.paper3_page import page
+    from linkwright.papers.paper3_table import COLUMNS, cells
+
+    paper = paper3()
+    heads = [f"{head} \\[{unit}]" if unit else head for head, unit in COLUMNS]
+    show = partial(_print_rows, paper, conclusions(paper), [_grid(heads, cells(paper), numbers=True)])
+    return _Shown(
+        paper.number, paper.title, paper.to_dict(), partial(figures, paper), partial(page, paper), show
+    )
+
+
 def _fourth() -> _Shown:
     """Paper 4."""
     from linkwright.papers.paper4 import paper4
@@ -163,13 +180,19 @@ def _write(paper: _Shown, folder: Path) -> None:
         raise InputError(f"{folder}: cannot be written ({error.strerror or error})") from None
 
 
-def _print_rows(paper: Paper2 | Paper4, conclusions: Sequence[str], tables: Sequence[Table] = ()) -> None:
+def _print_rows(
+    paper: Paper2 | Paper3 | Paper4, conclusions: Sequence[str], tables: Sequence[Table] = ()
+) -> None:
     """A row for each printed number, further tables, and what follows."""
     from rich.console import Console
+    from rich.markup import escape
 
     console = Console(highlight=False, width=None if sys.stdout.isatty() else _WIDTH)
     console.print(f"[bold]Paper {paper.number}: {paper.title}[/bold]\n")
-    rows = [(row.name, row.printed, row.computed, _coloured(row.verdict, row.kind)) for row in paper.rows]
+    rows = [
+        (*map(escape, (row.name, row.printed, row.computed)), _coloured(row.verdict, row.kind))
+        for row in paper.rows
+    ]
     for table in (_grid(("printed", "", "computed", "verdict"), rows), *tables):
         console.print(table)
         console.print()

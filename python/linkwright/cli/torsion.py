@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,15 +11,14 @@ from linkwright.cli.common import File, Json, Sets
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
-    from linkwright.analysis.torsion.free import FreeVibration
-    from linkwright.analysis.torsion.holzer import HolzerTable
+    from linkwright.analysis.torsion.study import TorsionStudy
 
 Folder = Annotated[
     Path | None,
     typer.Option(
         "--out",
         metavar="DIR",
-        help="Write results.json and the mode shapes as SVG and PNG there.",
+        help="Write results.json, the equivalent scheme and the mode shapes as SVG and PNG there.",
         show_default=False,
     ),
 ]
@@ -38,61 +37,62 @@ def torsion(
     file: File, set: Sets = None, json: Json = False, holzer: Holzer = None, out: Folder = None
 ) -> None:
     """Torsional vibration of a train: natural frequencies, mode shapes, nodes, energy."""
-    from linkwright.analysis.torsion.free import free_vibration
-    from linkwright.analysis.torsion.holzer import holzer_table
+    from linkwright.analysis.torsion.study import torsion_study
+    from linkwright.cli.tables import progress
     from linkwright.files.read import read
 
     machine = read(file, set or [])
-    if machine.train is None:
-        raise InputError(
-            f"{file}: the machine has no [train]; describe one as [train.discs] and [train.shafts]"
-        )
-    found = free_vibration(machine)
-    tables = [holzer_table(machine, frequency) for frequency in holzer or ()]
-    shown = _object(machine.name, found, tables)
+    with progress("computing"):
+        study = torsion_study(machine, holzer=holzer or ())
+    shown = _object(study)
     if json:
         typer.echo(shown, nl=False)
     else:
-        _print(found, tables)
+        _print(study)
     if out is not None:
-        _write(found, shown, out, quiet=json)
+        _write(study, shown, out, quiet=json)
+    if study.findings:
+        raise typer.Exit(1)
 
 
-def _object(name: str, found: FreeVibration, tables: list[HolzerTable]) -> str:
+def _object(study: TorsionStudy) -> str:
     """One JSON object."""
     from json import dumps
 
     from linkwright.analysis.result import finite
 
-    free = found.to_dict(curves=True)
-    free["nodes"] = [[node._asdict() for node in nodes] for nodes in found.nodes]
-    results: dict[str, Any] = {"free": free}
-    if tables:
-        results["holzer"] = [each.to_dict(curves=True) for each in tables]
-    told: dict[str, Any] = {"machine": name, "results": finite(results), "findings": [], "warnings": []}
-    return dumps(told, allow_nan=False, ensure_ascii=False) + "\n"
+    told = {"findings": study.findings, "warnings": [*study.findings, *study.warnings]}
+    shown = {"machine": study.machine.name, "results": finite(study.results()), **told}
+    return dumps(shown, allow_nan=False, ensure_ascii=False) + "\n"
 
 
-def _print(found: FreeVibration, tables: list[HolzerTable]) -> None:
+def _print(study: TorsionStudy) -> None:
     """Tables for people."""
     from linkwright.cli.tables import print_tables
-    from linkwright.report.torsion_tables import holzer_tables, torsion_tables
+    from linkwright.report.torsion_tables import study_tables
 
-    shown = [*torsion_tables(found), *(each for table in tables for each in holzer_tables(table))]
-    print_tables("", shown, ())
+    print_tables("", list(study_tables(study)), study.findings, study.warnings)
 
 
-def _write(found: FreeVibration, shown: str, folder: Path, *, quiet: bool) -> None:
-    """Results and figure; says where they are."""
-    from linkwright.plot import modes_figure, svg
+def _write(study: TorsionStudy, shown: str, folder: Path, *, quiet: bool) -> None:
+    """Report, results and drawings; says where they are."""
+    from linkwright.cli.run import command_line
+    from linkwright.cli.tables import progress
+    from linkwright.plot import modes_figure, scheme_figure, svg
+    from linkwright.report.torsion_page import torsion_html
 
-    figure = modes_figure(found)
-    names = ("results.json", "mode_shapes.svg", "mode_shapes.png")
+    with progress("drawing"):
+        page = torsion_html(study, command=command_line())
+        figures = {"scheme": scheme_figure(study.scheme), "mode_shapes": modes_figure(study.free)}
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        (folder / names[0]).write_text(shown, encoding="utf-8")
-        (folder / names[1]).write_text(svg(figure), encoding="utf-8")
-        figure.savefig(folder / names[2], dpi=150)
+        (folder / "results.json").write_text(shown, encoding="utf-8")
+        (folder / "report.html").write_text(page, encoding="utf-8")
+        for name, figure in figures.items():
+            (folder / f"{name}.svg").write_text(svg(figure), encoding="utf-8")
+            figure.savefig(folder / f"{name}.png", dpi=150)
     except OSError as error:
         raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
+    drawn = [f"{name}.{kind}" for name in figures for kind in ("svg", "png")]
+    names = ["results.json", "report.html", *drawn]
     typer.echo("Written:\n" + "\n".join(f"  {folder / name}" for name in names), err=quiet)

@@ -550,7 +550,7 @@ def drive_inertia(drive: Drive) -> Any:
     """Inertia of all that turns at the motor's speed or the crank's, at the crank [kg m²]."""
     at_motor = (drive.motor.inertia if drive.motor else 0.0) + drive.gearbox.inertia
     at_motor = at_motor + (drive.coupling.inertia if drive.coupling else 0.0)
-    at_crank: Any = 0.0
+    at_crank: Any = drive.gearbox.wheel_inertia
     for part in (drive.flywheel, drive.brake):
         if part is not None and part.on == "motor":
             at_motor = at_motor + part.inertia

@@ -21,8 +21,9 @@ from numpy.typing import NDArray
 
 from linkwright import _core
 from linkwright.errors import MachineError, Problem
-from linkwright.machine.train import GROUND, Train
+from linkwright.machine.train import GROUND, Shaft, Train, TrainGear
 from linkwright.machine.train_speeds import parts_of, speeds
+from linkwright.machine.whole_train import whole_train
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -52,7 +53,13 @@ class ReferredTrain:
     inertia : ndarray, shape (masses,)
         Referred [kg m²].
     stiffness : ndarray, shape (shafts,)
-        Referred [N m/rad].
+        Referred; zero for a fluid [N m/rad].
+    disc_damping : ndarray, shape (masses,)
+        Viscous, against the ground, referred [N m s/rad].
+    damping : ndarray, shape (shafts,)
+        Viscous, referred [N m s/rad].
+    loss_factor : ndarray, shape (shafts,)
+        η of the complex stiffness k (1 + iη).
     """
 
     discs: tuple[str, ...]
@@ -63,6 +70,9 @@ class ReferredTrain:
     tip: Ints
     inertia: Floats
     stiffness: Floats
+    disc_damping: Floats
+    damping: Floats
+    loss_factor: Floats
 
     @property
     def is_free(self) -> bool:
@@ -72,63 +82,58 @@ class ReferredTrain:
     @cached_property
     def stiffness_matrix(self) -> Floats:
         """K of the masses, shape (masses, masses) [N m/rad]."""
+        return self._matrix(self.stiffness)
+
+    @cached_property
+    def loss_matrix(self) -> Floats:
+        """Hysteresis, the imaginary part of K, shape (masses, masses) [N m/rad]."""
+        return self._matrix(self.loss_factor * self.stiffness)
+
+    @cached_property
+    def damping_matrix(self) -> Floats:
+        """C of the masses, viscous, shape (masses, masses) [N m s/rad]."""
+        return self._matrix(self.damping) + np.diag(self.disc_damping)
+
+    def _matrix(self, between: Floats) -> Floats:
+        """The matrix of what acts between the ends of each shaft."""
         n = len(self.inertia)
-        K = np.zeros((n + 1, n + 1))
+        found = np.zeros((n + 1, n + 1))
         # The last row and column are those of the ground.
         a, b = self.ends.T
-        np.add.at(K, (a, a), self.stiffness)
-        np.add.at(K, (b, b), self.stiffness)
-        np.add.at(K, (a, b), -self.stiffness)
-        np.add.at(K, (b, a), -self.stiffness)
-        return K[:n, :n]
+        np.add.at(found, (a, a), between)
+        np.add.at(found, (b, b), between)
+        np.add.at(found, (a, b), -between)
+        np.add.at(found, (b, a), -between)
+        return found[:n, :n]
 
     def modes(self) -> tuple[Floats, Floats]:
         """Natural frequencies [rad/s], increasing, and shapes of the masses, a row each, with Σ J q² = 1."""
-        tree = self._tree()
-        if tree is None:
-            return self._whole()
-        order, parent, stiffness = tree
-        omega, shapes = _core.torsion_modes(parent, self.inertia[order], stiffness)
-        return omega, shapes[:, np.argsort(order)]
-
-    def _tree(self) -> tuple[Ints, Ints, Floats] | None:
-        """Masses in an order in which each hangs on an earlier one, and by how much; None with loops."""
-        joined = self._joined()
-        held = {b: k for (a, b), k in joined.items() if a == HELD}
-        about: dict[int, dict[int, float]] = {n: {} for n in range(len(self.inertia))}
-        for (a, b), k in joined.items():
-            if a != HELD:
-                about[a][b] = about[b][a] = k
-        if len(held) > 1 or len(joined) - len(held) != len(about) - 1:
-            return None
-        root = next(iter(held), 0)
-        rows = [(root, root, held.get(root, 0.0))]
-        place = {root: 0}
-        for at, _, _ in rows:
-            for below, k in about[at].items():
-                if below not in place:
-                    place[below] = len(rows)
-                    rows.append((below, at, k))
-        order, above, stiffness = zip(*rows, strict=True)
-        parent = [place[each] for each in above]
-        return np.array(order, np.int32), np.array(parent, np.int32), np.array(stiffness, float)
-
-    def _joined(self) -> dict[tuple[int, int], float]:
-        """Stiffness between masses, of shafts in parallel together, without what joins a mass with itself."""
-        found: dict[tuple[int, int], float] = {}
-        for (a, b), k in zip(self.ends.tolist(), self.stiffness.tolist(), strict=True):
-            if a != b:
-                pair = (min(a, b), max(a, b))
-                found[pair] = found.get(pair, 0.0) + k
-        return found
+        found = _core.torsion_modes(self.inertia, self.ends, self.stiffness)
+        return found if found is not None else self._whole()
 
     def _whole(self) -> tuple[Floats, Floats]:
-        """Modes from the matrices, for trains with loops."""
-        scale = 1.0 / np.sqrt(self.inertia)
-        square, vectors = np.linalg.eigh(scale[:, None] * self.stiffness_matrix * scale)
+        """Modes from the matrices, for trains with loops: each part by itself, which frequencies put in order."""
+        n = len(self.inertia)
+        pairs = self.ends[self.stiffness > 0].tolist()
+        parts = parts_of(range(n), ((a, b) for a, b in pairs if HELD not in (a, b)))
+        held = {end for pair in pairs if HELD in pair for end in pair}
+        omega, shapes, row = np.empty(n), np.zeros((n, n)), 0
+        for part in parts:
+            rows = slice(row, row + len(part))
+            omega[rows], shapes[rows, part] = self._part(part, held.isdisjoint(part))
+            row += len(part)
+        order = np.argsort(omega, kind="stable")
+        return omega[order], shapes[order]
+
+    def _part(self, masses: list[int], is_free: bool) -> tuple[Floats, Floats]:
+        """Modes of masses that hang together."""
+        J = self.inertia[masses]
+        scale = 1.0 / np.sqrt(J)
+        K = self.stiffness_matrix[np.ix_(masses, masses)]
+        square, vectors = np.linalg.eigh(scale[:, None] * K * scale)
         omega, shapes = np.sqrt(np.maximum(square, 0.0)), (scale[:, None] * vectors).T
-        if self.is_free:
-            omega[0], shapes[0] = 0.0, 1.0 / np.sqrt(self.inertia.sum())
+        if is_free:
+            omega[0], shapes[0] = 0.0, 1.0 / np.sqrt(J.sum())
         return omega, shapes
 
 
@@ -138,7 +143,7 @@ def refer(train: Train) -> ReferredTrain:
     Parameters
     ----------
     train : Train
-        Checked: it hangs together, and its loops can turn.
+        Checked: it hangs together, and its loops can turn. Couplings and dampers count as discs and shafts.
 
     Raises
     ------
@@ -146,28 +151,41 @@ def refer(train: Train) -> ReferredTrain:
         An entry that was exchanged unchecked is no number above zero.
     """
     _require_numbers(train)
+    train = whole_train(train)
     n = {name: abs(speed) for name, speed in speeds(train)[0].items()}
     rigid = [gear.between for gear in train.gears.values() if gear.stiffness is None]
     masses = parts_of(train.discs, rigid)
     place = {name: k for k, part in enumerate(masses) for name in part}
-    twisting = [(name, each.between, each.rate) for name, each in train.shafts.items()]
-    twisting += [
-        (name, each.between, each.stiffness)
-        for name, each in train.gears.items()
-        if each.stiffness is not None
-    ]
+    elastic = {name: each for name, each in train.gears.items() if each.stiffness is not None}
+    twisting: dict[str, Shaft | TrainGear] = {**train.shafts, **elastic}
+    pairs = [each.between for each in twisting.values()]
     # What counts is the end of a shaft that turns, and the first disc of a mesh.
-    lead = [a if a != GROUND else b for _, (a, b), _ in twisting]
+    factor = np.array([n[a if a != GROUND else b] ** 2 for a, b in pairs])
+
+    def summed(entry: str) -> Floats:
+        return np.array([sum(n[a] ** 2 * getattr(train.discs[a], entry) for a in part) for part in masses])
+
     return ReferredTrain(
         discs=tuple(train.discs),
-        shafts=tuple(name for name, _, _ in twisting),
+        shafts=tuple(twisting),
         speed=np.array(list(n.values())),
         mass=np.array([place[name] for name in train.discs], np.int32),
-        ends=_indices([pair for _, pair, _ in twisting], place),
-        tip=_indices([pair for _, pair, _ in twisting], {name: k for k, name in enumerate(train.discs)}),
-        inertia=np.array([sum(n[a] ** 2 * train.discs[a].inertia for a in part) for part in masses]),
-        stiffness=np.array([n[a] ** 2 * k for a, (_, _, k) in zip(lead, twisting, strict=True)]),
+        ends=_indices(pairs, place),
+        tip=_indices(pairs, {name: k for k, name in enumerate(train.discs)}),
+        inertia=summed("inertia"),
+        stiffness=factor * np.array([_rate(each) for each in twisting.values()]),
+        disc_damping=summed("damping"),
+        damping=factor * np.array([each.damping for each in twisting.values()]),
+        loss_factor=np.array([each.loss_factor for each in twisting.values()], float),
     )
+
+
+def _rate(part: Shaft | TrainGear) -> float:
+    """Stiffness of a shaft or of an elastic mesh."""
+    if isinstance(part, Shaft):
+        return part.rate
+    assert part.stiffness is not None
+    return part.stiffness
 
 
 def _require_numbers(train: Train) -> None:
@@ -178,10 +196,12 @@ def _require_numbers(train: Train) -> None:
         ratio = gear.ratio if gear.ratio is not None else abs(gear.speed_ratio)
         entries |= {f"train.gears.{name}.ratio": ratio}
         entries |= {f"train.gears.{name}.stiffness": 1.0 if gear.stiffness is None else gear.stiffness}
+    # A fluid alone, of a damper, has no stiffness.
+    fluids = {f"train.shafts.{name}" for name, each in train.shafts.items() if each.damping}
     wrong = [
         Problem(key, f"{value!r}", "one finite number above zero")
         for key, value in entries.items()
-        if not isinstance(value, Real) or not 0 < value < np.inf
+        if not isinstance(value, Real) or not (0 < value < np.inf or (value == 0 and key in fluids))
     ]
     if wrong:
         raise MachineError(wrong)

@@ -1,7 +1,8 @@
 """Points from files of comma-separated values that a machine file names.
 
 A table of the machine file with the entry ``file`` gets the columns of that file as lists. The head names
-each column, with its unit in brackets: ``angle [deg], lift [mm]``; without a unit the numbers are SI.
+each column, with its unit in brackets: ``angle [deg], lift [mm]``; without a unit the numbers are SI. Lines
+that begin with ``#`` are comments.
 """
 
 from __future__ import annotations
@@ -60,7 +61,9 @@ def _columns(path: Path, key: str) -> dict[str, list[str]]:
     if len(lines) < 2 or not all(heads):
         found = show(",".join(lines[0][1])) if lines else "an empty file"
         expected = 'a head such as "angle [deg], lift [mm]", and a row for each point'
-        raise MachineFileError([Problem(key, found, expected, path=str(path), line=1)])
+        raise MachineFileError(
+            [Problem(key, found, expected, path=str(path), line=lines[0][0] if lines else 1)]
+        )
     names = [head[1] for head in heads if head is not None]
     for line, row in lines[1:]:
         for problem in _row_problems(key, names, row):
@@ -73,10 +76,10 @@ def _columns(path: Path, key: str) -> dict[str, list[str]]:
 
 
 def _lines(path: Path, key: str) -> list[tuple[int, list[str]]]:
-    """Number and cells of each line that is not empty."""
+    """Number and cells of each line that is neither empty nor a comment."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file)
+            reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in file)
             return [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "no UTF-8 text"

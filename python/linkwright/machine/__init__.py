@@ -3,7 +3,7 @@
 | module | holds |
 | --- | --- |
 | `machine` | `Machine`: drive, mechanism, bodies, loads, run-up |
-| `drive` | gearbox, coupling, flywheel, brake |
+| `drive`, `drive_train` | gearbox, coupling, flywheel, brake; a drive line whose shafts twist, as a train |
 | `motor` | the kinds of motor, and how their entries follow from one another |
 | `catalogue` | published motors |
 | `element` | cranks, dyads, gears, cables, joints and bars |
@@ -16,6 +16,7 @@
 | `unit_catalogue` | published pumping units |
 | `shaft_section`, `shaft_row` | sections of a shaft, and several in a row |
 | `shaft_flexibility`, `shaft_step` | closed forms of cones and rings; what a step adds |
+| `shaft_limit`, `propulsion_shaft`, `crankshaft_limit` | what shafts bear, given or by the rules of ships |
 | `reciprocating/` | parts of reciprocating engines |
 | `train`, `train_speeds`, `train_faults` | torsional trains, speeds of their discs, faults |
 | `linkage` | the whole mechanism: elements of the file, and what cams and a pumping unit expand into |
@@ -96,8 +97,9 @@ from linkwright.machine.point_law import SplineLaw, TableLaw
 from linkwright.machine.polished_rod_load import PolishedRodLoad
 from linkwright.machine.pumping_unit import PumpingUnit
 from linkwright.machine.rod_rotator import RodRotator
+from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_section import ShaftSection
-from linkwright.machine.train import Disc, Shaft, Train, TrainGear
+from linkwright.machine.train import Disc, ElasticShaft, Shaft, Train, TrainGear
 from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 
 __all__ = [
@@ -124,6 +126,7 @@ __all__ = [
     "Disc",
     "Drive",
     "DryFriction",
+    "ElasticShaft",
     "FixedPoint",
     "Flywheel",
     "FollowerTrain",
@@ -159,6 +162,7 @@ __all__ = [
     "SCurveLaw",
     "SecondFollower",
     "Shaft",
+    "ShaftLimit",
     "ShaftSection",
     "Slider",
     "SlottedLever",

@@ -37,6 +37,18 @@ def curve_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iter
     yield from _length_faults(owner, argument, values)
 
 
+def unread_file(found: str) -> InitErrorDetails:
+    """The fault of a file of points in a description that is not read from a machine file.
+
+    Parameters
+    ----------
+    found : str
+        Its name.
+    """
+    expected = "points in lists: a file of points is read with the machine file that names it"
+    return fault("file", found=found, expected=expected)
+
+
 def _length_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iterator[InitErrorDetails]:
     """Lists that have not as many values as there are arguments."""
     n = len(getattr(owner, argument))

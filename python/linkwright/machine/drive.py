@@ -2,17 +2,24 @@
 
 Inertias of the motor, of the coupling and of the gearbox are given at the motor shaft; that is how catalogues
 give them. At the crankshaft they count with the square of the ratio.
+
+Shafts and gears are rigid unless their stiffness is given. What steady motion and motion in time do not ask
+for, torsional vibration does: `drive_train` makes a train of a drive line that twists.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from numbers import Real
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic_core import InitErrorDetails
 
-from linkwright.machine.base import Description, wrong
+from linkwright.machine.base import Checked, Description, fault, wrong
 from linkwright.machine.motor import AnyMotor
+from linkwright.machine.train import ElasticShaft
+from linkwright.machine.train_base import PositiveStiffness
 from linkwright.units import (
     FRACTION,
     INERTIA,
@@ -26,6 +33,7 @@ from linkwright.units import (
 )
 
 Shaft = Literal["motor", "crank"]
+End = Literal["motor", "gearbox", "crank"]
 
 _REVERSE = '"same", or a number greater than 0'
 
@@ -56,27 +64,55 @@ class Gearbox(Description):
         '"same" for the efficiency in both directions. Without it, 1/efficiency.',
     )
     inertia: Annotated[float, not_negative(INERTIA)] = Field(0.0, description="At the motor shaft.")
+    wheel_inertia: Annotated[float, not_negative(INERTIA)] = Field(
+        0.0, description="Of its last wheel or pulley about the crankshaft, where `inertia` does not hold it."
+    )
+    stiffness: PositiveStiffness | None = Field(
+        None,
+        description="Of its teeth or belt, as torque at the motor shaft per angle there. Without it, rigid.",
+    )
 
 
 class Coupling(Description):
     """Coupling between the motor and the gearbox."""
 
     inertia: Annotated[float, not_negative(INERTIA)] = Field(description="At the motor shaft.")
+    beside: Literal["motor", "gearbox"] | None = Field(
+        None, description="End of a motor shaft that twists where it sits. Without it, half at each end."
+    )
 
 
-class Flywheel(Description):
+class _OnShaft(Checked):
+    """A part on one of the two shafts, which may twist."""
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        beside, on = getattr(self, "beside", None), getattr(self, "on", "")
+        if beside not in (None, on, "gearbox"):
+            remedy = f'it sits on the {on} shaft; change "on" as well to put it on the other'
+            yield fault("beside", found=beside, expected=f'"{on}" or "gearbox"', remedy=remedy)
+
+
+class Flywheel(_OnShaft):
     """Disc that evens out the motion."""
 
     inertia: Annotated[float, not_negative(INERTIA)] = Field(description="About its own shaft.")
     on: Shaft = Field("crank", description="The shaft that it sits on.")
+    beside: End | None = Field(
+        None,
+        description="End of its shaft, if that twists. Without it, the end away from the gearbox.",
+    )
 
 
-class Brake(Description):
+class Brake(_OnShaft):
     """Brake of constant torque, which opposes the motion."""
 
     torque: Annotated[float, not_negative(TORQUE)] = Field(description="At its own shaft.")
     inertia: Annotated[float, not_negative(INERTIA)] = Field(0.0, description="About its own shaft.")
     on: Shaft = Field("motor", description="The shaft that it sits on.")
+    beside: End | None = Field(
+        None,
+        description="End of its shaft, if that twists. Without it, the end away from the gearbox.",
+    )
 
 
 class Drive(Description):
@@ -90,3 +126,14 @@ class Drive(Description):
     coupling: Coupling | None = Field(None, description="Coupling at the motor shaft.")
     flywheel: Flywheel | None = Field(None, description="Flywheel.")
     brake: Brake | None = Field(None, description="Brake.")
+    motor_shaft: ElasticShaft | None = Field(
+        None, description="Shaft and coupling between motor and gearbox, where they twist."
+    )
+    crankshaft: ElasticShaft | None = Field(
+        None, description="Shaft between gearbox and mechanism, where it twists."
+    )
+
+    @property
+    def twists(self) -> bool:
+        """Whether a shaft, or the gears, are elastic."""
+        return not (self.motor_shaft is None and self.crankshaft is None and self.gearbox.stiffness is None)

@@ -12,6 +12,7 @@ from linkwright.errors import MachineError
 from linkwright.machine.base import Description, fault, faults_of, raise_faults
 from linkwright.machine.body import Body, body_faults
 from linkwright.machine.drive import Drive
+from linkwright.machine.drive_train import two_trains
 from linkwright.machine.linkage import expansion_faults, merged, outline_of, with_followers
 from linkwright.machine.loads import AnyLoad
 from linkwright.machine.loads.references import load_faults
@@ -106,7 +107,7 @@ def _reference_faults(machine: object) -> list[InitErrorDetails]:
     """Nothing that moves, names that clash, bodies and loads that refer to nothing."""
     mechanism, unit = look(machine, "mechanism"), look(machine, "pumping_unit")
     train = look(machine, "train")
-    faults = list(train_faults(train))
+    faults = [*train_faults(train), *two_trains(machine)]
     if unit is None and train is None and (mechanism is None or _is_left_out(machine)):
         return [fault("mechanism", expected="a table")]
     faults += expansion_faults(machine)

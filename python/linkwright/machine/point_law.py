@@ -10,7 +10,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.errors import LawError, Problem
 from linkwright.machine.base import fault
-from linkwright.machine.curve import curve_faults
+from linkwright.machine.curve import curve_faults, unread_file
 from linkwright.machine.motion_law import Law
 from linkwright.units import Angles, Lengths
 
@@ -44,8 +44,7 @@ class PointLaw(Law):
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.file is not None:
-            expected = "points in lists: a file of points is read with the machine file that names it"
-            yield fault("file", found=self.file, expected=expected)
+            yield unread_file(self.file)
         elif (self.lift is None) == (self.swing is None):
             found = "both lift and swing" if self.lift else None
             yield fault("lift", found=found, expected="a list of lifts, or of swings")

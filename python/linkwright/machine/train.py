@@ -23,34 +23,43 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, Description, Name, fault
+from linkwright.machine.coupling import Coupling
+from linkwright.machine.damper import Damper
 from linkwright.machine.element import PositiveNumber
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
+from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_row import fillet_faults, flexibilities, place
 from linkwright.machine.shaft_section import Modulus, ShaftSection
-from linkwright.units import INERTIA, TORSIONAL_STIFFNESS, positive
+from linkwright.machine.train_base import GROUND, Damping, LossFactor, PositiveStiffness
+from linkwright.machine.train_run import TrainRun
+from linkwright.machine.train_torques import Excitation, TrainLoad
+from linkwright.units import INERTIA, positive
 
-# The end of a shaft that is held.
-GROUND = "ground"
-
-PositiveStiffness = Annotated[float, positive(TORSIONAL_STIFFNESS)]
+__all__ = ["GROUND", "Disc", "ElasticShaft", "Shaft", "ShaftSection", "Train", "TrainGear"]
 
 
 class Disc(Description):
     """A disc: all that turns with one place of the train."""
 
     inertia: Annotated[float, positive(INERTIA)] = Field(description="About the axis, at its own speed.")
-
-
-class Shaft(Checked):
-    """An elastic shaft between two discs, or between a disc and the ground."""
-
-    between: tuple[str, str] = Field(
-        description='The two discs that it joins; one end may be "ground", which is held.'
+    damping: Damping = Field(
+        0.0, description="Torque against its vibration per speed, from outside the train."
     )
+
+
+class ElasticShaft(Checked):
+    """What makes a shaft twist: its stiffness, or its sections."""
+
     stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
     sections: tuple[ShaftSection, ...] | None = Field(
         None, description="Its lengths in a row, from its first end, in place of the stiffness."
     )
     shear_modulus: Modulus = Field(79.3e9, description="Of the sections; usually that of steel.")
+    damping: Damping = Field(0.0, description="Torque per speed of twisting.")
+    loss_factor: LossFactor = Field(
+        0.0, description="Hysteresis η: the stiffness is k(1 + iη), a cycle loses 2πη of its largest energy."
+    )
+    limit: ShaftLimit | None = Field(None, description="What it bears.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.stiffness is None) == (self.sections is None):
@@ -58,6 +67,10 @@ class Shaft(Checked):
             yield fault(found=found, expected="either stiffness or sections")
         if self.sections is not None and not self.sections:
             yield fault("sections", found="an empty list", expected="a list of at least one section")
+        limit = self.limit
+        if limit is not None and limit.needs_section and not limit.has_section and self.sections is None:
+            expected = "the diameter where the stress counts, as the shaft has no sections"
+            yield fault("limit", "diameter", expected=expected)
         for each in fillet_faults(self.sections or ()):
             yield InitErrorDetails(type=each["type"], loc=("sections", *each["loc"]), input=each["input"])
 
@@ -81,6 +94,14 @@ class Shaft(Checked):
         return place(self.sections, share)
 
 
+class Shaft(ElasticShaft):
+    """An elastic shaft between two discs, or between a disc and the ground."""
+
+    between: tuple[str, str] = Field(
+        description='The two discs that it joins; one end may be "ground", which is held.'
+    )
+
+
 class TrainGear(Checked):
     """A gear stage between two discs, rigid, or elastic in its mesh."""
 
@@ -97,11 +118,19 @@ class TrainGear(Checked):
     stiffness: PositiveStiffness | None = Field(
         None, description="Of the mesh, as torque at the first disc per its angle. Without it, rigid."
     )
+    damping: Damping = Field(
+        0.0, description="Of an elastic mesh, as torque at the first disc per its speed."
+    )
+    loss_factor: LossFactor = Field(0.0, description="Hysteresis of an elastic mesh.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.ratio is None) == (self.teeth is None):
             found = "neither" if self.ratio is None else "both"
             yield fault(found=found, expected="either ratio or teeth")
+        for name in ("damping", "loss_factor"):
+            if self.stiffness is None and getattr(self, name):
+                remedy = "give the stiffness of the mesh, or the damping to its discs"
+                yield fault(name, found=getattr(self, name), expected="none with a rigid mesh", remedy=remedy)
 
     @property
     def speed_ratio(self) -> float:
@@ -114,8 +143,21 @@ class TrainGear(Checked):
 
 
 class Train(Description):
-    """Discs, shafts and gear stages by name."""
+    """Discs, shafts and gear stages by name, what damps them and what excites them."""
 
     discs: dict[Name, Disc] = Field(default_factory=dict, description="What turns, by name.")
     shafts: dict[Name, Shaft] = Field(default_factory=dict, description="What twists, by name.")
     gears: dict[Name, TrainGear] = Field(default_factory=dict, description="Gear stages by name.")
+    couplings: dict[Name, Coupling] = Field(default_factory=dict, description="Elastic couplings by name.")
+    dampers: dict[Name, Damper] = Field(default_factory=dict, description="Torsional dampers by name.")
+    loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="What the train drives, by name.")
+    excitations: dict[Name, Excitation] = Field(
+        default_factory=dict, description="Torques that pulsate, by name."
+    )
+    engine: ReciprocatingEngine | None = Field(
+        None, description="Reciprocating engine, which stands for discs throw_1, throw_2, … and their shafts."
+    )
+    driver: str | None = Field(
+        None, description="Disc that drives the loads, where no engine does. Without it, the first."
+    )
+    run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")

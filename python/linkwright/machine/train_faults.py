@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from pydantic_core import InitErrorDetails
 
@@ -10,8 +12,12 @@ from linkwright.machine.base import close_match, fault, suggestion
 from linkwright.machine.plain import keys, look
 from linkwright.machine.train import GROUND, Train
 from linkwright.machine.train_speeds import Contradiction, parts_of, speeds
+from linkwright.machine.whole_train import crank_names, throw_names, whole_train
 
-_TABLES = ("shafts", "gears")
+# Tables whose entries join two discs, and those whose entries sit on one.
+_TABLES = ("shafts", "couplings", "gears")
+_NUMBERS = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_ON = ("dampers", "loads", "excitations")
 
 
 def train_faults(train: object) -> Iterator[InitErrorDetails]:
@@ -29,7 +35,9 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
     """
     if train is None:
         return
-    discs = keys(look(train, "discs")) if isinstance(look(train, "discs"), dict) else ()
+    own = keys(look(train, "discs")) if isinstance(look(train, "discs"), dict) else ()
+    throws = _throws(train)
+    discs = (*throw_names(throws), *own)
     if not discs:
         remedy = 'describe what turns as [train.discs], NAME = { inertia = "2 kg m^2" }'
         yield fault("train", "discs", expected="at least one disc", remedy=remedy)
@@ -44,14 +52,29 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
         return
     yield from _parts_faults(train, discs)
     if isinstance(train, Train):
-        yield from map(_loop_fault, speeds(train)[1])
+        yield from map(_loop_fault, speeds(whole_train(train))[1])
 
 
 def _same_names(train: object) -> Iterator[InitErrorDetails]:
-    """A gear stage with the name of a shaft: results name both alike."""
-    for name in keys(look(train, "gears")):
-        if name in keys(look(train, "shafts")):
-            yield fault("train", "gears", name, found=name, expected="another name than that of a shaft")
+    """Parts of one name: results name discs with rings, and shafts with couplings and meshes, alike."""
+    throws = _throws(train)
+    for tables, taken in (
+        (("shafts", "couplings", "dampers", "gears"), crank_names(throws)),
+        (("discs", "dampers"), throw_names(throws)),
+    ):
+        seen = dict.fromkeys(taken, "engine")
+        for table in tables:
+            for name in keys(look(train, table)):
+                if name in seen:
+                    expected = f"another name than that of a part in [train.{seen[name]}]"
+                    yield fault("train", table, name, found=name, expected=expected)
+                seen.setdefault(name, table)
+
+
+def _throws(train: object) -> int:
+    """How many throws an engine has, whose angles may still be a text as it was read."""
+    angles = look(look(train, "engine"), "throws")
+    return len(_NUMBERS.findall(angles)) if isinstance(angles, str) else len(keys(angles))
 
 
 def _pairs(train: object, table: str) -> Iterator[tuple[str, Sequence[str]]]:
@@ -70,7 +93,7 @@ def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
         for name, ends in _pairs(train, table):
             place = ("train", table, name, "between")
             for n, end in enumerate(ends):
-                if end == GROUND and table == "gears":
+                if end == GROUND and table != "shafts":
                     remedy = "hold a disc by a shaft to the ground"
                     yield fault(*place, n, found=end, expected="the name of a disc", remedy=remedy)
                 elif end not in known:
@@ -78,11 +101,29 @@ def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
                     yield fault(*place, n, found=end, expected="the name of a disc", remedy=remedy)
             if ends[0] == ends[1]:
                 yield fault(*place, 1, found=ends[1], expected="another disc than the first")
+    yield from _seat_faults(train, discs)
+
+
+def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
+    """Dampers, loads and torques on what is no disc, and a driver that is none."""
+    driver = look(train, "driver")
+    if isinstance(driver, str) and driver not in discs:
+        remedy = close_match(driver, discs) or suggestion(driver, discs)
+        yield fault("train", "driver", found=driver, expected="the name of a disc", remedy=remedy)
+    for table in _ON:
+        for name in keys(look(train, table)):
+            on = look(look(look(train, table), name), "on")
+            if isinstance(on, str) and on not in discs:
+                remedy = close_match(on, discs) or suggestion(on, discs)
+                yield fault(
+                    "train", table, name, "on", found=on, expected="the name of a disc", remedy=remedy
+                )
 
 
 def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
     """A train that falls apart; what hangs on the ground alone hangs together with nothing."""
     pairs = [(a, b) for table in _TABLES for _, (a, b) in _pairs(train, table) if GROUND not in (a, b)]
+    pairs += pairwise(throw_names(_throws(train)))
     parts = parts_of(discs, pairs)
     if len(parts) > 1:
         found = "; ".join(_listed(part) for part in parts[:4]) + ("; …" if len(parts) > 4 else "")

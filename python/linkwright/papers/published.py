@@ -26,6 +26,7 @@ QUANTITIES = {
 PAPERS = {
     1: "Unevenness of motion of the drives of roller-forming machines, one to four carts",
     2: "Cam drive of a roller-forming machine with a combined mode of motion",
+    3: "Torsional vibration of V-type engines, and the unevenness of their rotation",
     4: "Lever mechanism of a worm-type rotator of a sucker-rod string",
 }
 

@@ -13,6 +13,9 @@
 | `motion_laws` | motion laws and their derivatives, several in one picture |
 | `cam_dynamics` | contact force, pressure and vibration of cams and followers |
 | `torsion` | mode shapes of trains |
+| `damper` | response of a train with the best damper |
+| `torsion_forced` | forced vibration of trains over their speeds |
+| `torsion_scheme` | equivalent schemes of trains, by `scheme_layout`, `scheme_page`, `scheme_words` |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -34,6 +37,7 @@ from linkwright.plot.cam_dynamics import (
     vibration_figure,
 )
 from linkwright.plot.compare import compare_figure
+from linkwright.plot.damper import damper_figure
 from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
 from linkwright.plot.linkage import coupler_figure, transmission_figure
 from linkwright.plot.motion_laws import motion_laws_figure
@@ -44,6 +48,14 @@ from linkwright.plot.run_up import attempt_figure, run_up_figure
 from linkwright.plot.steady import speed_figure, time_figure, torque_figure
 from linkwright.plot.svg import svg
 from linkwright.plot.torsion import modes_figure
+from linkwright.plot.torsion_forced import (
+    heat_figure,
+    orders_figure,
+    shaft_torques_figure,
+    stress_figure,
+    torsion_unevenness_figure,
+)
+from linkwright.plot.torsion_scheme import scheme_figure
 
 __all__ = [
     "attempt_figure",
@@ -54,13 +66,16 @@ __all__ = [
     "contact_force_figure",
     "coupler_figure",
     "curvature_figure",
+    "damper_figure",
     "forces_figure",
     "gear_torque_figure",
+    "heat_figure",
     "hodograph_figure",
     "lift_figure",
     "modes_figure",
     "motion_laws_figure",
     "motor_figure",
+    "orders_figure",
     "polar_figure",
     "polished_rod_figure",
     "pressure_angle_figure",
@@ -69,10 +84,14 @@ __all__ = [
     "residual_figure",
     "rotator_figure",
     "run_up_figure",
+    "scheme_figure",
+    "shaft_torques_figure",
     "speed_figure",
+    "stress_figure",
     "svg",
     "time_figure",
     "torque_figure",
+    "torsion_unevenness_figure",
     "transmission_figure",
     "vibration_figure",
 ]

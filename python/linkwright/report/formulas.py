@@ -19,6 +19,21 @@ class Formula(NamedTuple):
     source: str
 
 
+def formula(words: str, text: str, source: str) -> Formula:
+    """A formula of symbols with spaces between them.
+
+    Parameters
+    ----------
+    words : str
+        What it says.
+    text : str
+        Symbols; ``x_y``, ``x^y``, ``frac(a|b)`` and ``root(a)`` do more.
+    source : str
+        Where it is from.
+    """
+    return Formula(words, _math(text), source)
+
+
 def _math(text: str) -> str:
     """MathML of symbols with spaces between them; ``x_y``, ``x^y``, ``frac(a|b)`` and ``root(a)`` do more."""
     return f'<math displaystyle="true"><mrow>{_row(text)}</mrow></math>'

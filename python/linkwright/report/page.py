@@ -74,17 +74,17 @@ def report_html(study: Study, *, command: str = "") -> str:
     str
         The page; the same study gives the same page.
     """
-    return _environment().get_template("report.html").render(_context(study, command))
+    return environment().get_template("report.html").render(_context(study, command))
 
 
 def _context(study: Study, command: str) -> dict[str, Any]:
     """All that the template asks for."""
-    drawn = [(each, _picture(each.figure, each.name, each.title)) for each in figures(study)]
+    drawn = [(each, picture(each.figure, each.name, each.title)) for each in figures(study)]
     return {
         "study": study,
         "machine": study.machine,
         "headline": list(_headline(study)),
-        "groups": _grouped(machine_parts(study.machine)),
+        "groups": grouped(machine_parts(study.machine)),
         "tables": tables(study),
         "figures": drawn,
         "scene": _embedded(scene(study)),
@@ -97,7 +97,8 @@ def _context(study: Study, command: str) -> dict[str, Any]:
     }
 
 
-def _picture(figure: Any, name: str, title: str) -> Markup:
+def picture(figure: Any, name: str, title: str) -> Markup:
+    """A figure as markup inside the page."""
     from markupsafe import Markup
 
     return Markup(inline_svg(figure, name, title))
@@ -108,7 +109,8 @@ def _embedded(scene: dict[str, Any] | None) -> str:
     return json.dumps(finite(scene), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
-def _grouped(parts: list[Part]) -> list[tuple[str, list[Part]]]:
+def grouped(parts: list[Part]) -> list[tuple[str, list[Part]]]:
+    """Parts of a machine with the heading of each group."""
     return [(group, list(found)) for group, found in groupby(parts, key=lambda part: part.group)]
 
 
@@ -136,7 +138,8 @@ def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
         yield "mean resisting torque", number(reduced.torque_load_mean, 4), "N m"
 
 
-def _environment() -> Environment:
+def environment() -> Environment:
+    """Jinja2 with the templates and filters of all pages."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(

@@ -7,9 +7,13 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.torsion.forced import ForcedVibration
 from linkwright.analysis.torsion.free import FreeVibration, Node
 from linkwright.analysis.torsion.holzer import HolzerTable
-from linkwright.report.table import Row, Table
+from linkwright.analysis.torsion.study import TorsionStudy
+from linkwright.analysis.torsion.verdict import Verdict
+from linkwright.report.quantities import number
+from linkwright.report.table import Row, Table, with_unit
 
 Floats = NDArray[np.float64]
 
@@ -18,6 +22,108 @@ _NAMED, _SHARE = 2, 0.05
 
 # Columns of shapes beside each other on a terminal.
 _SHAPES = 5
+
+
+def study_tables(study: TorsionStudy) -> Iterator[Table]:
+    """All tables of a study of torsional vibration.
+
+    Parameters
+    ----------
+    study : TorsionStudy
+        What to write.
+
+    Yields
+    ------
+    Table
+        For terminal and report.
+    """
+    if study.verdict is not None and study.verdict.judgements:
+        yield _judgements(study.verdict)
+    yield from torsion_tables(study.free)
+    if study.forced is not None:
+        yield _shafts(study, study.forced)
+        yield _discs(study, study.forced)
+    for each in study.holzer:
+        yield from holzer_tables(each)
+
+
+_STATES = {"ok": "kept", "bar": "bar the speeds", "exceeds": "exceeded"}
+
+
+def _judgements(found: Verdict) -> Table:
+    """Each limit and whether it is kept."""
+    rows: list[Row] = [
+        (
+            f"{each.part}: {each.what}",
+            "",
+            _shown(each.found, each.kind.unit),
+            _shown(each.permitted, each.kind.unit),
+            _rpm(each.speed),
+            _STATES[each.state],
+        )
+        for each in found.judgements
+    ]
+    return Table("limits", "Limits", ("limit", "", "found", "permitted", "at rpm", "verdict"), rows)
+
+
+def _shown(value: float, unit: str) -> str:
+    """A quantity for people: stresses in MPa."""
+    return with_unit(value / 1e6, "MPa") if unit == "Pa" else with_unit(value, unit)
+
+
+def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
+    """Torques of every shaft at their worst, and in service."""
+    at = _service(study, forced)
+    rows: list[Row] = []
+    for s, name in enumerate(forced.shafts):
+        vibratory = forced.shaft_torque_vibratory[s]
+        worst = int(np.nan_to_num(vibratory, nan=-1.0, posinf=np.finfo(float).max).argmax())
+        numbers = (
+            vibratory[worst],
+            forced.mean_torques[s, at],
+            vibratory[at],
+            forced.shaft_torque_max[s, at],
+            forced.shaft_heat[s, at],
+        )
+        cells = [_finite(value) for value in numbers]
+        rows.append((name, "", cells[0], _rpm(forced.speeds[worst]), *cells[1:]))
+    service = _rpm(forced.speeds[at])
+    heads = ("shaft", "", "vibratory", "at rpm", "mean", "vibratory", "greatest", "heat")
+    title = f"Torques [N m]: largest over the speeds; then at {service} rpm, with heat [W]"
+    return Table("shaft_torques", title, heads, rows)
+
+
+def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
+    """Unevenness along the train in service."""
+    at = _service(study, forced)
+    parts = [forced.unevenness, forced.unevenness_rigid, forced.unevenness_torsional]
+    columns = [[_finite(value, 3) for value in part[:, at].tolist()] for part in parts]
+    heads = ["disc", "", "δ", "as a whole", "torsional"]
+    if study.along is not None:
+        heads += ["N", "spread of N"]
+        columns += [
+            [_finite(v, 3) for v in each.tolist()] for each in (study.along.unevenness, study.along.spread)
+        ]
+    rows: list[Row] = [(name, "", *cells) for name, *cells in zip(forced.discs, *columns, strict=True)]
+    title = f"Unevenness of rotation at {_rpm(forced.speeds[at])} rpm"
+    return Table("unevenness", title, tuple(heads), rows)
+
+
+def _service(study: TorsionStudy, forced: ForcedVibration) -> int:
+    """Place of the speed of service; of a drive line that of the middle."""
+    run = study.machine.train.run if study.machine.train is not None else None
+    if run is None:
+        return len(forced.speeds) // 2
+    return int(np.argmin(np.abs(forced.speeds - run.service)))
+
+
+def _rpm(speed: float) -> str:
+    return f"{speed * 30 / np.pi:.5g}"
+
+
+def _finite(value: float, digits: int = 4) -> str:
+    """A number, or a dash at a resonance that nothing damps."""
+    return number(value, digits) if np.isfinite(value) else "–"
 
 
 def torsion_tables(found: FreeVibration) -> Iterator[Table]:

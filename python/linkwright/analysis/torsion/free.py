@@ -30,9 +30,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
+from linkwright.analysis.torsion.drive_line import drive_line
 from linkwright.engine.train import HELD, ReferredTrain, refer
-from linkwright.errors import InputError
 from linkwright.machine import Machine, Train
+from linkwright.machine.whole_train import whole_train
 
 Floats = NDArray[np.float64]
 
@@ -126,7 +127,7 @@ def free_vibration(machine: Machine) -> FreeVibration:
     Parameters
     ----------
     machine : Machine
-        With a [train].
+        With a [train], or a [drive] that twists.
 
     Returns
     -------
@@ -137,6 +138,8 @@ def free_vibration(machine: Machine) -> FreeVibration:
     ------
     InputError
         The machine has no train.
+    AssemblyError
+        The mechanism behind the drive line does not close all round.
 
     References
     ----------
@@ -166,7 +169,7 @@ def free_vibration(machine: Machine) -> FreeVibration:
 
 
 def train_of(machine: Machine) -> Train:
-    """The train of a machine.
+    """The train of a machine, as discs, shafts and gears: that of its file, or that of its drive line.
 
     Parameters
     ----------
@@ -176,16 +179,16 @@ def train_of(machine: Machine) -> Train:
     Returns
     -------
     Train
-        Its train.
+        Its train, with couplings and dampers as discs and shafts.
 
     Raises
     ------
     InputError
-        It has none.
+        It has none, and its drive line does not twist.
+    AssemblyError
+        The mechanism behind the drive line does not close all round.
     """
-    if machine.train is None:
-        raise InputError(f"{machine.name} has no [train]: expected [train.discs] and [train.shafts]")
-    return machine.train
+    return whole_train(drive_line(machine) if machine.train is None else machine.train)
 
 
 def twists_of(referred: ReferredTrain, amplitudes: Floats) -> Floats:
@@ -221,12 +224,23 @@ def own_stiffness(referred: ReferredTrain) -> Floats:
     ndarray, shape (shafts,)
         As in the file [N m/rad].
     """
-    own: Floats = referred.stiffness / _lead(referred) ** 2
+    own: Floats = referred.stiffness / lead_speeds(referred) ** 2
     return own
 
 
-def _lead(referred: ReferredTrain) -> Floats:
-    """Speed of the end of each shaft where its twist counts."""
+def lead_speeds(referred: ReferredTrain) -> Floats:
+    """Speed of the end of each shaft where its twist counts.
+
+    Parameters
+    ----------
+    referred : ReferredTrain
+        The train.
+
+    Returns
+    -------
+    ndarray, shape (shafts,)
+        Over that of the first disc.
+    """
     first, second = referred.tip.T
     speed: Floats = referred.speed[np.where(first == HELD, second, first)]
     return speed
@@ -238,7 +252,7 @@ def _at_ends(referred: ReferredTrain, amplitudes: Floats) -> tuple[Floats, Float
     angles = np.concatenate([amplitudes, np.zeros((*amplitudes.shape[:-1], 1))], axis=-1)
     speed = np.append(referred.speed, 1.0)
     first, second = referred.tip.T
-    lead = _lead(referred)
+    lead = lead_speeds(referred)
     return angles[..., first], angles[..., second] * np.where(second == HELD, 1.0, lead / speed[second])
 
 

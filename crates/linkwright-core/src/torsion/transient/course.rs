@@ -1,0 +1,265 @@
+//! The motion from mark to mark: where something outside switches, a step ends, and the next begins anew.
+
+use super::explicit::{Explicit, STABLE_PHASE};
+use super::extremes::{Extreme, Extremes};
+use super::implicit::Implicit;
+use super::rates::Rates;
+use super::stepper::{Scale, Stepper};
+use super::system::System;
+
+/// What to follow.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    /// Angles and speeds of the masses at the start.
+    pub angle: &'a [f64],
+    pub speed: &'a [f64],
+    /// Times to sample at, increasing from zero on.
+    pub times: &'a [f64],
+    pub duration: f64,
+    /// Relative accuracy of a step.
+    pub accuracy: f64,
+    pub method: Method,
+    pub steps_max: usize,
+}
+
+/// Which steps are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Method {
+    /// Explicit unless the fastest swing would ask for too many steps.
+    Auto = 0,
+    Explicit = 1,
+    Implicit = 2,
+}
+
+/// How the motion ended; the numbers are what crosses the border.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum End {
+    /// The time is over.
+    Time = 0,
+    /// More steps would be needed than allowed.
+    TooManySteps = 1,
+    /// No step keeps the accuracy.
+    Inaccurate = 2,
+    /// An acceleration is no finite number at the start of a stretch.
+    NotFinite = 3,
+}
+
+/// The motion.
+#[derive(Clone, Debug)]
+pub struct Course {
+    pub end: End,
+    /// Time reached \[s\].
+    pub time: f64,
+    /// Rows over the samples: angle of each mass, its speed, torque of each link, kinetic and potential energy.
+    pub samples: Vec<f64>,
+    /// Of the torque of each link, then of the speed of each mass.
+    pub extremes: Vec<Extreme>,
+    /// Work of each torque, loss in each link, loss at each mass \[J\].
+    pub work: Vec<f64>,
+    /// Kinetic and potential energy at the start and at the end \[J\].
+    pub energies: [f64; 4],
+    pub method: Method,
+    pub steps: usize,
+    pub rejected: usize,
+    pub evaluations: usize,
+    /// Bound of the fastest swing at the start \[rad/s\].
+    pub fastest: f64,
+}
+
+/// Steps that stability would ask of the explicit method beyond which the implicit one is taken: a second or so of work.
+const STIFF: f64 = 200_000.0;
+
+/// Angle of a table over which a step may go, so that none is overlooked: a twelfth of its turn \[rad\].
+const REACH: f64 = 0.5;
+
+/// First step as a share of the fastest swing's radian, and of the whole time.
+const FIRST: (f64, f64) = (0.1, 1e-3);
+
+/// Follows the motion.
+pub fn follow(system: &System, request: &Request<'_>) -> Course {
+    let mut rates = Rates::new(system);
+    let state = rates.state(request.angle, request.speed);
+    rates.enter(0.0);
+    rates.derivative(0.0, &state, &mut state.clone());
+    let fastest = rates.fastest();
+    let stiff = request.duration * fastest / STABLE_PHASE > STIFF;
+    let method = match request.method {
+        Method::Auto if stiff => Method::Implicit,
+        Method::Auto => Method::Explicit,
+        chosen => chosen,
+    };
+    if method == Method::Implicit {
+        let stepper = Implicit::new(&rates);
+        Follower::new(rates, state, request, method, fastest, stepper).run()
+    } else {
+        let stepper = Explicit::new(&rates);
+        Follower::new(rates, state, request, method, fastest, stepper).run()
+    }
+}
+
+struct Follower<'a, S> {
+    request: &'a Request<'a>,
+    rates: Rates<'a>,
+    stepper: S,
+    scale: Scale,
+    extremes: Extremes,
+    course: Course,
+    state: Vec<f64>,
+    end: Vec<f64>,
+    sample: Vec<f64>,
+    next_sample: usize,
+}
+
+impl<'a, S: Stepper> Follower<'a, S> {
+    fn new(
+        mut rates: Rates<'a>,
+        state: Vec<f64>,
+        request: &'a Request<'a>,
+        method: Method,
+        fastest: f64,
+        stepper: S,
+    ) -> Self {
+        let (n, m) = (rates.system.len(), rates.system.links.len());
+        let [kinetic, potential] = rates.energies(&state);
+        let course = Course {
+            end: End::Time,
+            time: 0.0,
+            samples: vec![f64::NAN; (2 * n + m + 2) * request.times.len()],
+            extremes: Vec::new(),
+            work: vec![0.0; rates.powers.len()],
+            energies: [kinetic, potential, 0.0, 0.0],
+            method,
+            steps: 0,
+            rejected: 0,
+            evaluations: 0,
+            fastest,
+        };
+        let accuracy = match method {
+            Method::Implicit => estimated(request.accuracy),
+            _ => request.accuracy,
+        };
+        let mut scale = Scale::new(accuracy, &rates, fastest);
+        scale.widen(&state);
+        Follower {
+            request,
+            stepper,
+            scale,
+            extremes: Extremes::new(&rates),
+            course,
+            end: state.clone(),
+            sample: state.clone(),
+            state,
+            rates,
+            next_sample: 0,
+        }
+    }
+
+    fn run(mut self) -> Course {
+        for mark in marks(self.rates.system, self.request.duration) {
+            self.course.end = self.stretch(mark);
+            if self.course.end != End::Time {
+                break;
+            }
+        }
+        let [kinetic, potential] = self.rates.energies(&self.state);
+        self.course.energies[2..].copy_from_slice(&[kinetic, potential]);
+        self.course.extremes = self.extremes.rows;
+        self.course.rejected = self.stepper.rejected();
+        self.course.evaluations = self.rates.evaluations;
+        self.course
+    }
+
+    /// Up to the next mark.
+    fn stretch(&mut self, mark: f64) -> End {
+        let start = self.course.time;
+        self.rates.enter(0.5 * (start + mark));
+        let first = (FIRST.0 / self.course.fastest.max(f64::MIN_POSITIVE)).min(FIRST.1 * (mark - start));
+        self.stepper.begin(&mut self.rates, start, &self.state, first);
+        if !self.rates.acceleration.iter().all(|a| a.is_finite()) {
+            return End::NotFinite;
+        }
+        self.extremes.begin(&self.rates, start);
+        while self.next_sample < self.request.times.len() && self.request.times[self.next_sample] <= start {
+            self.sample.copy_from_slice(&self.state);
+            self.write_sample();
+        }
+        while self.course.time < mark {
+            if self.course.steps == self.request.steps_max {
+                return End::TooManySteps;
+            }
+            if !self.step(mark) {
+                return End::Inaccurate;
+            }
+        }
+        End::Time
+    }
+
+    /// One step; whether one keeps the accuracy.
+    fn step(&mut self, mark: f64) -> bool {
+        let t = self.course.time;
+        let longest = (mark - t).min(REACH / self.rates.turning(&self.state).max(f64::MIN_POSITIVE));
+        let at = (t, &self.state);
+        let Some(h) = self.stepper.step(&mut self.rates, at, longest, &self.scale, &mut self.end) else {
+            return false;
+        };
+        // What is left to the mark is taken whole, and then it is met to the last bit.
+        let reached = if h == mark - t { mark } else { t + h };
+        if reached == t {
+            return false;
+        }
+        self.stepper.work(&mut self.rates, at, h, &mut self.course.work);
+        self.stepper.accept(&mut self.rates, reached, &self.end);
+        let mut is_filled = self.extremes.pass(&mut self.rates, &mut self.stepper, at, h, &self.end);
+        while self.next_sample < self.request.times.len() && self.request.times[self.next_sample] <= reached {
+            if !is_filled {
+                self.stepper.fill(&mut self.rates, (t, &self.state), h, &self.end);
+                is_filled = true;
+            }
+            let share = ((self.request.times[self.next_sample] - t) / h).clamp(0.0, 1.0);
+            for i in 0..self.sample.len() {
+                self.sample[i] = self.stepper.component(share, &self.state, i);
+            }
+            self.write_sample();
+        }
+        self.stepper.advance();
+        std::mem::swap(&mut self.state, &mut self.end);
+        self.scale.widen(&self.state);
+        self.course.time = reached;
+        self.course.steps += 1;
+        true
+    }
+
+    /// Writes what the sample's state says into the next column.
+    fn write_sample(&mut self) {
+        let (n, columns, column) = (self.rates.system.len(), self.request.times.len(), self.next_sample);
+        let sample = &mut self.sample;
+        let links = self.rates.system.links.iter();
+        let torques: Vec<f64> = links.map(|link| self.rates.link_torque_at(link, |i| sample[i])).collect();
+        let energies = self.rates.energies(sample);
+        self.rates.to_absolute(sample);
+        let values = sample[..2 * n].iter().chain(&torques).chain(&energies);
+        for (row, &value) in values.enumerate() {
+            self.course.samples[row * columns + column] = value;
+        }
+        self.next_sample += 1;
+    }
+}
+
+/// Accuracy for the implicit method's estimate, which is of lower order than its steps: those are then about as exact as
+/// asked for (RADAU5 does the same).
+fn estimated(accuracy: f64) -> f64 {
+    0.1 * accuracy.powf(2.0 / 3.0)
+}
+
+/// Times at which something outside switches or bends, and the end.
+fn marks(system: &System, duration: f64) -> Vec<f64> {
+    let inside = |&t: &f64| 0.0 < t && t < duration;
+    let mut found: Vec<f64> =
+        system.torques.iter().flat_map(|torque| torque.marks(&system.curves)).filter(inside).collect();
+    found.push(duration);
+    found.sort_by(f64::total_cmp);
+    found.dedup();
+    found
+}

@@ -1,0 +1,167 @@
+//! Largest and least torque of each link and speed of each mass, with their times, between the ends of steps as well.
+//!
+//! Values and their rates at both ends of a step tell where the cubic between them turns; where that could be a new extreme,
+//! the method's own polynomial is asked.
+
+use super::rates::Rates;
+use super::stepper::Stepper;
+
+/// Largest value, its time, least value, its time.
+pub type Extreme = [f64; 4];
+
+/// Share of a cubic's rise above the ends by which it may miss.
+const DOUBT: f64 = 0.1;
+
+/// Extremes so far: links, then masses.
+#[derive(Clone, Debug)]
+pub struct Extremes {
+    pub rows: Vec<Extreme>,
+    before: Vec<(f64, f64)>,
+    now: Vec<(f64, f64)>,
+}
+
+impl Extremes {
+    /// None yet.
+    pub fn new(rates: &Rates<'_>) -> Self {
+        let n = rates.system.links.len() + rates.system.len();
+        let none = [f64::NEG_INFINITY, 0.0, f64::INFINITY, 0.0];
+        Extremes { rows: vec![none; n], before: vec![(0.0, 0.0); n], now: vec![(0.0, 0.0); n] }
+    }
+
+    /// Takes values and rates at the instant last evaluated, where a stretch of time begins.
+    pub fn begin(&mut self, rates: &Rates<'_>, t: f64) {
+        self.observe(rates, t);
+        std::mem::swap(&mut self.before, &mut self.now);
+    }
+
+    /// Takes those at the end of a step, and what lies inside it; whether the step's polynomial had to be made.
+    pub fn pass(
+        &mut self,
+        rates: &mut Rates<'_>,
+        stepper: &mut impl Stepper,
+        at: (f64, &Vec<f64>),
+        h: f64,
+        end: &[f64],
+    ) -> bool {
+        self.observe(rates, at.0 + h);
+        let mut is_filled = false;
+        for row in 0..self.rows.len() {
+            for turn in turns(self.before[row], self.now[row], h) {
+                if !self.could_exceed(row, turn) {
+                    continue;
+                }
+                if !is_filled {
+                    stepper.fill(rates, at, h, end);
+                    is_filled = true;
+                }
+                let value = |share: f64| value_at(rates, stepper, at.1, row, share);
+                let (share, value) = refined(value, turn.share);
+                note(&mut self.rows[row], value, at.0 + share * h);
+            }
+        }
+        std::mem::swap(&mut self.before, &mut self.now);
+        is_filled
+    }
+
+    fn observe(&mut self, rates: &Rates<'_>, t: f64) {
+        let system = rates.system;
+        let links = system.links.iter().map(|link| rates.link_torque(link));
+        let speeds = rates.omega.iter().copied().zip(rates.acceleration.iter().copied());
+        for ((now, row), found) in self.now.iter_mut().zip(&mut self.rows).zip(links.chain(speeds)) {
+            *now = found;
+            note(row, found.0, t);
+        }
+    }
+
+    /// Whether a turn of the cubic may be a new extreme.
+    fn could_exceed(&self, row: usize, turn: Turn) -> bool {
+        let [most, _, least, _] = self.rows[row];
+        let ends = 0.5 * (self.before[row].0 + self.now[row].0);
+        let bold = turn.value + DOUBT * (turn.value - ends);
+        bold > most || bold < least
+    }
+}
+
+fn note(row: &mut Extreme, value: f64, t: f64) {
+    if value > row[0] {
+        (row[0], row[1]) = (value, t);
+    }
+    if value < row[2] {
+        (row[2], row[3]) = (value, t);
+    }
+}
+
+/// Torque of a link or speed of a mass at a share of the step.
+fn value_at(rates: &Rates<'_>, stepper: &impl Stepper, state: &[f64], row: usize, share: f64) -> f64 {
+    let component = |i: usize| stepper.component(share, state, i);
+    let (system, n) = (rates.system, rates.system.len());
+    if let Some(link) = system.links.get(row) {
+        return rates.link_torque_at(link, component);
+    }
+    let i = row - system.links.len();
+    let first = if i > 0 && rates.is_relative() { component(n) } else { 0.0 };
+    first + component(n + i)
+}
+
+/// Where a cubic turns, as a share of the step, and its value there.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    share: f64,
+    value: f64,
+}
+
+/// Turns of the cubic with value and rate at both ends of a step.
+fn turns((v0, r0): (f64, f64), (v1, r1): (f64, f64), h: f64) -> impl Iterator<Item = Turn> {
+    let (s0, s1, rise) = (h * r0, h * r1, v1 - v0);
+    // p′ = s0 + 2bz + 3cz²
+    let (b, c) = (3.0 * rise - 2.0 * s0 - s1, s0 + s1 - 2.0 * rise);
+    let root = (b * b - 3.0 * c * s0).sqrt();
+    // The larger sum first, so that no digits cancel; without a root both are NaN, which lies in no step.
+    let sum = -(b + root.copysign(b));
+    [sum / (3.0 * c), s0 / sum]
+        .into_iter()
+        .filter(|z| (0.0..1.0).contains(z))
+        .map(move |z| Turn { share: z, value: v0 + z * (s0 + z * (b + z * c)) })
+}
+
+/// Share and value of the extreme near a share, by parabolas through three values, twice.
+fn refined(value: impl Fn(f64) -> f64, near: f64) -> (f64, f64) {
+    let mut share = near;
+    for reach in [0.05, 0.005] {
+        let middle = share.clamp(reach, 1.0 - reach);
+        let [a, b, c] = [middle - reach, middle, middle + reach].map(&value);
+        let bend = a - 2.0 * b + c;
+        if bend != 0.0 {
+            share = (middle + 0.5 * reach * (a - c) / bend).clamp(middle - reach, middle + reach);
+        }
+    }
+    (share, value(share))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_of_a_cubic() {
+        // z³ − 1.2z² + 0.36z turns at 0.2 and 0.6.
+        let p = |z: f64| z * (0.36 + z * (z - 1.2));
+        let slope = |z: f64| 0.36 + z * (3.0 * z - 2.4);
+        let mut found: Vec<Turn> =
+            turns((p(0.0), slope(0.0) / 0.5), (p(1.0), slope(1.0) / 0.5), 0.5).collect();
+        found.sort_by(|a, b| a.share.total_cmp(&b.share));
+        assert_eq!(found.len(), 2);
+        for (turn, wanted) in found.iter().zip([0.2, 0.6]) {
+            assert!((turn.share - wanted).abs() < 1e-14 && (turn.value - p(wanted)).abs() < 1e-14);
+        }
+        assert_eq!(turns((0.0, 1.0), (1.0, 1.0), 1.0).count(), 0, "a straight line");
+    }
+
+    /// Exact to the fourth order of the last reach for a sine.
+    #[test]
+    fn peak_of_a_sine() {
+        let (share, value) = refined(|z| (2.0 * z + 0.7).sin(), 0.41);
+        assert!((share - (std::f64::consts::FRAC_PI_2 - 0.7) / 2.0).abs() < 1e-5, "{share}");
+        assert!((value - 1.0).abs() < 1e-10, "{value}");
+    }
+}

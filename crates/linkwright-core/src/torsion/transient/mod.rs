@@ -1,0 +1,25 @@
+//! Motion of a train in time: start, stop, resonance passed, step of load, short circuit.
+//!
+//! | module | answers |
+//! | --- | --- |
+//! | [`periodic`], [`curve`] | functions of an angle; curves through points |
+//! | [`torque`] | torques from outside over speed, angle and time |
+//! | [`system`] | masses, links and torques as they cross the border |
+//! | [`rates`] | the equations of motion |
+//! | [`stepper`] | what a method of integration can do |
+//! | [`explicit`] | steps of order 8, as long as the fastest swing allows |
+//! | [`matrix`], [`implicit`] | steps of order 5, whatever the stiffness |
+//! | [`extremes`] | largest and least torques and speeds, with their times |
+//! | [`course`] | the motion from event to event, sampled |
+
+pub mod course;
+pub mod curve;
+pub mod explicit;
+pub mod extremes;
+pub mod implicit;
+pub mod matrix;
+pub mod periodic;
+pub mod rates;
+pub mod stepper;
+pub mod system;
+pub mod torque;

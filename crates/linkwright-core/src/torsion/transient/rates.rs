@@ -1,0 +1,332 @@
+//! The equations of motion:
+//!
+//! ```text
+//! J(θ) θ̈ = Σ M − c θ̇ − ½ J′(θ) θ̇² − Σ ± n (kΔ + cΔ̇ + f(Δ))        Δ = n(θ_a − θ_b)
+//! ```
+//!
+//! The state holds the angle of the first mass and those of the others less that one, so that the twist of a shaft keeps
+//! its digits however far the train has turned; likewise for the speeds. A train that is held has nothing to turn far, and
+//! its state holds the angles themselves.
+//!
+//! Source: the equation is Lagrange's for T = ½ J(θ) θ̇²; e.g. Eksergian, *Dynamical analysis of machines*,
+//! J. Franklin Inst. 209 (1930).
+
+use super::system::{Link, System};
+use super::torque::{Pull, Stretch};
+
+/// A system at one instant, with room for what the equations need.
+#[derive(Clone, Debug)]
+pub struct Rates<'a> {
+    pub system: &'a System,
+    stretch: Stretch,
+    /// Whether angles of the state are counted from that of the first mass.
+    relative: bool,
+    theta: Vec<f64>,
+    pub omega: Vec<f64>,
+    /// Angles and speeds for twists, and those of the ground.
+    aside: Vec<f64>,
+    aside_speed: Vec<f64>,
+    inertia: Vec<f64>,
+    /// J′ and J″ of each mass.
+    bends: Vec<[f64; 2]>,
+    pub acceleration: Vec<f64>,
+    /// Power of each torque, then loss in each link, then loss at each mass \[W\].
+    pub powers: Vec<f64>,
+    /// How often the equations were evaluated.
+    pub evaluations: usize,
+}
+
+impl<'a> Rates<'a> {
+    /// For a system.
+    pub fn new(system: &'a System) -> Self {
+        let n = system.len();
+        Rates {
+            system,
+            stretch: Stretch::default(),
+            relative: system.is_free(),
+            theta: vec![0.0; n],
+            omega: vec![0.0; n],
+            aside: vec![0.0; n + 1],
+            aside_speed: vec![0.0; n + 1],
+            inertia: vec![0.0; n],
+            bends: vec![[0.0; 2]; n],
+            acceleration: vec![0.0; n],
+            powers: vec![0.0; system.torques.len() + system.links.len() + n],
+            evaluations: 0,
+        }
+    }
+
+    /// Whether angles of the state are counted from that of the first mass.
+    pub fn is_relative(&self) -> bool {
+        self.relative
+    }
+
+    /// Chooses the stretch of time between two marks.
+    pub fn enter(&mut self, middle: f64) {
+        self.stretch.about(&self.system.curves, middle);
+    }
+
+    /// A state from the angles and speeds of the masses.
+    pub fn state(&self, angle: &[f64], speed: &[f64]) -> Vec<f64> {
+        let mut state = [angle, speed].concat();
+        self.to_relative(&mut state);
+        state
+    }
+
+    /// Counts the other masses from the first, in angles and speeds.
+    pub fn to_relative(&self, state: &mut [f64]) {
+        if self.relative {
+            for half in state.chunks_exact_mut(self.system.len()) {
+                let first = half[0];
+                half[1..].iter_mut().for_each(|x| *x -= first);
+            }
+        }
+    }
+
+    /// Counts all masses from the ground.
+    pub fn to_absolute(&self, state: &mut [f64]) {
+        if self.relative {
+            for half in state.chunks_exact_mut(self.system.len()) {
+                let first = half[0];
+                half[1..].iter_mut().for_each(|x| *x += first);
+            }
+        }
+    }
+
+    /// The derivative of a state.
+    #[inline(never)]
+    pub fn derivative(&mut self, t: f64, state: &[f64], rates: &mut [f64]) {
+        self.evaluations += 1;
+        self.place(state);
+        self.turn();
+        self.push(t);
+        self.twist();
+        let n = self.system.len();
+        for i in 0..n {
+            let gyration = 0.5 * self.bends[i][0] * self.omega[i] * self.omega[i];
+            self.acceleration[i] = (self.acceleration[i] - gyration) / self.inertia[i];
+        }
+        rates[..n].copy_from_slice(&state[n..]);
+        rates[n..].copy_from_slice(&self.acceleration);
+        if self.relative {
+            let first = rates[n];
+            rates[n + 1..].iter_mut().for_each(|x| *x -= first);
+        }
+    }
+
+    /// Angles and speeds of the masses.
+    fn place(&mut self, state: &[f64]) {
+        let n = self.system.len();
+        let (angles, speeds) = state.split_at(n);
+        self.aside[..n].copy_from_slice(angles);
+        self.aside_speed[..n].copy_from_slice(speeds);
+        let (mut angle, mut speed) = (0.0, 0.0);
+        if self.relative {
+            (angle, speed) = (angles[0], speeds[0]);
+            (self.aside[0], self.aside_speed[0]) = (0.0, 0.0);
+        }
+        for i in 0..n {
+            self.theta[i] = angle + self.aside[i];
+            self.omega[i] = speed + self.aside_speed[i];
+        }
+    }
+
+    /// Inertias at these angles.
+    fn turn(&mut self) {
+        self.inertia.copy_from_slice(&self.system.inertia);
+        self.bends.fill([0.0; 2]);
+        for rotor in &self.system.rotors {
+            let i = rotor.mass;
+            let n = rotor.ratio;
+            let [value, d1, d2] = self.system.tables[rotor.table].at(n * self.theta[i] + rotor.phase);
+            let square = n * n;
+            self.inertia[i] += square * value;
+            self.bends[i][0] += square * n * d1;
+            self.bends[i][1] += square * square * d2;
+        }
+    }
+
+    /// Torques from outside and damping against the ground; sums of torques are kept as accelerations.
+    fn push(&mut self, t: f64) {
+        let system = self.system;
+        let at_masses = system.torques.len() + system.links.len();
+        let losses = &mut self.powers[at_masses..];
+        for (i, loss) in losses.iter_mut().enumerate() {
+            let drag = system.damping[i] * self.omega[i];
+            self.acceleration[i] = -drag;
+            *loss = drag * self.omega[i];
+        }
+        let about = (&system.tables[..], &system.curves[..], &self.stretch);
+        for (torque, power) in system.torques.iter().zip(&mut self.powers) {
+            let i = torque.mass;
+            let pull = torque.at(about, (t, self.theta[i], self.omega[i]));
+            self.acceleration[i] += pull.torque;
+            *power = pull.torque * self.omega[i];
+        }
+    }
+
+    /// Torques of the links.
+    fn twist(&mut self) {
+        let system = self.system;
+        let n = system.len();
+        let losses = &mut self.powers[system.torques.len()..];
+        for (link, loss) in system.links.iter().zip(losses) {
+            let [a, b] = link.ends;
+            let rate = link.ratio * (self.aside_speed[a] - self.aside_speed[b]);
+            let twist = link.ratio * (self.aside[a] - self.aside[b]);
+            let elastic = link.elastic(system, twist).0;
+            let torque = link.ratio * (elastic + link.damping * rate);
+            *loss = link.damping * rate * rate;
+            if a < n {
+                self.acceleration[a] -= torque;
+            }
+            if b < n {
+                self.acceleration[b] += torque;
+            }
+        }
+    }
+
+    /// Torque in a link at its own speed, and how fast it changes, at the instant last evaluated.
+    pub fn link_torque(&self, link: &Link) -> (f64, f64) {
+        let [a, b] = link.ends;
+        let rate = link.ratio * (self.aside_speed[a] - self.aside_speed[b]);
+        let twist = link.ratio * (self.aside[a] - self.aside[b]);
+        let at = |i: usize| self.acceleration.get(i).copied().unwrap_or(0.0);
+        let bend = link.ratio * (at(a) - at(b));
+        let (elastic, slope) = link.elastic(self.system, twist);
+        (elastic + link.damping * rate, slope * rate + link.damping * bend)
+    }
+
+    /// Torque in a link from components of a state.
+    pub fn link_torque_at(&self, link: &Link, state: impl Fn(usize) -> f64) -> f64 {
+        let n = self.system.len();
+        let [a, b] = link.ends;
+        let aside = |i: usize, half: usize| {
+            if i == n || (i == 0 && self.relative) { 0.0 } else { state(i + half) }
+        };
+        let twist = link.ratio * (aside(a, 0) - aside(b, 0));
+        let rate = link.ratio * (aside(a, n) - aside(b, n));
+        link.elastic(self.system, twist).0 + link.damping * rate
+    }
+
+    /// Kinetic and potential energy of a state \[J\].
+    pub fn energies(&mut self, state: &[f64]) -> [f64; 2] {
+        self.place(state);
+        self.turn();
+        let kinetic: f64 = self.inertia.iter().zip(&self.omega).map(|(j, w)| 0.5 * j * w * w).sum();
+        let system = self.system;
+        let stored = |link: &Link| {
+            let [a, b] = link.ends;
+            let twist = link.ratio * (self.aside[a] - self.aside[b]);
+            let curved = link.curve.map_or(0.0, |curve| system.curves[curve].integral(twist));
+            0.5 * link.stiffness * twist * twist + curved
+        };
+        [kinetic, system.links.iter().map(stored).sum()]
+    }
+
+    /// Sum of all torques on each mass, less ½ J′ θ̇², and its inertia, at angles and speeds of the masses.
+    pub fn net_torques(
+        &mut self,
+        t: f64,
+        angle: &[f64],
+        speed: &[f64],
+        net: &mut [f64],
+        inertia: &mut [f64],
+    ) {
+        let state = self.state(angle, speed);
+        self.derivative(t, &state, &mut state.clone());
+        inertia.copy_from_slice(&self.inertia);
+        for ((net, a), j) in net.iter_mut().zip(&self.acceleration).zip(&self.inertia) {
+            *net = a * j;
+        }
+    }
+
+    /// Bound of the fastest swing or decay at the instant last evaluated \[rad/s\]: from the sums about each mass (Gershgorin).
+    pub fn fastest(&self) -> f64 {
+        let system = self.system;
+        let n = system.len();
+        let (mut stiffness, mut damping) = (vec![0.0; n + 1], vec![0.0; n + 1]);
+        damping[..n].copy_from_slice(&system.damping);
+        for link in &system.links {
+            let [a, b] = link.ends;
+            let square = link.ratio * link.ratio;
+            // A coupling with backlash has no stiffness yet; its steepest counts.
+            let curved = link.curve.map_or(0.0, |curve| system.curves[curve].steepest());
+            for i in [a, b] {
+                stiffness[i] += square * (link.stiffness + curved);
+                damping[i] += square * link.damping;
+            }
+        }
+        let each = (0..n).map(|i| {
+            let inverse = 2.0 / self.inertia[i];
+            (stiffness[i] * inverse).sqrt().max(damping[i] * inverse)
+        });
+        each.fold(0.0, f64::max)
+    }
+
+    /// How fast the fastest table over angle is run through in a state \[rad/s\].
+    pub fn turning(&self, state: &[f64]) -> f64 {
+        let system = self.system;
+        let speeds = &state[system.len()..];
+        let speed = |i: usize| if i > 0 && self.relative { speeds[0] + speeds[i] } else { speeds[i] };
+        let rotors = system.rotors.iter().map(|rotor| (rotor.mass, rotor.ratio));
+        let shapes = system.torques.iter().filter_map(|torque| Some((torque.mass, torque.shape?.pitch)));
+        rotors.chain(shapes).map(|(mass, pitch)| (pitch * speed(mass)).abs()).fold(0.0, f64::max)
+    }
+
+    /// Derivatives of the accelerations by all angles and speeds of the masses, row by row, at the instant last evaluated.
+    pub fn jacobian(&mut self, t: f64, by_angle: &mut [f64], by_speed: &mut [f64]) {
+        let system = self.system;
+        let n = system.len();
+        by_angle.fill(0.0);
+        by_speed.fill(0.0);
+        for i in 0..n {
+            let omega = self.omega[i];
+            let [d1, d2] = self.bends[i];
+            by_angle[i * n + i] = -0.5 * d2 * omega * omega - self.acceleration[i] * d1;
+            by_speed[i * n + i] = -d1 * omega - system.damping[i];
+        }
+        for torque in &system.torques {
+            let i = torque.mass;
+            let about = (&system.tables[..], &system.curves[..], &self.stretch);
+            let Pull { by_angle: angle, by_speed: speed, .. } =
+                torque.at(about, (t, self.theta[i], self.omega[i]));
+            by_angle[i * n + i] += angle;
+            by_speed[i * n + i] += speed;
+        }
+        for link in &system.links {
+            let [a, b] = link.ends;
+            let square = link.ratio * link.ratio;
+            let slope = link.elastic(system, link.ratio * (self.aside[a] - self.aside[b])).1;
+            couple(by_angle, n, [a, b], square * slope);
+            couple(by_speed, n, [a, b], square * link.damping);
+        }
+        for i in 0..n {
+            let inverse = 1.0 / self.inertia[i];
+            for list in [&mut *by_angle, &mut *by_speed] {
+                list[i * n..(i + 1) * n].iter_mut().for_each(|x| *x *= inverse);
+            }
+        }
+    }
+}
+
+/// A stiffness between two masses, as it acts on them.
+fn couple(matrix: &mut [f64], n: usize, [a, b]: [usize; 2], stiffness: f64) {
+    for (i, j) in [(a, b), (b, a)] {
+        if i < n {
+            matrix[i * n + i] -= stiffness;
+            if j < n {
+                matrix[i * n + j] += stiffness;
+            }
+        }
+    }
+}
+
+impl Link {
+    /// Elastic torque at a twist, and its slope.
+    #[inline(always)]
+    fn elastic(&self, system: &System, twist: f64) -> (f64, f64) {
+        let (curved, slope) = self.curve.map_or((0.0, 0.0), |curve| system.curves[curve].at(twist));
+        (self.stiffness * twist + curved, self.stiffness + slope)
+    }
+}

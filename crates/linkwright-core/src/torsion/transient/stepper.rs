@@ -1,0 +1,107 @@
+//! What a method of integration can do, and how exact it has to be.
+
+use super::rates::Rates;
+
+/// Steps through a motion. In order for each step: [`Stepper::step`], [`Stepper::accept`], if needed [`Stepper::fill`] and then
+/// [`Stepper::component`], [`Stepper::work`], [`Stepper::advance`].
+pub trait Stepper {
+    /// Starts anew at an event, with a length to try first.
+    fn begin(&mut self, rates: &mut Rates<'_>, t: f64, state: &[f64], first: f64);
+
+    /// Takes a step of at most `longest` and writes where it leads; its length, or `None` if no step keeps the accuracy.
+    fn step(
+        &mut self,
+        rates: &mut Rates<'_>,
+        at: (f64, &Vec<f64>),
+        longest: f64,
+        scale: &Scale,
+        end: &mut Vec<f64>,
+    ) -> Option<f64>;
+
+    /// Evaluates the equations at the end of the step.
+    fn accept(&mut self, rates: &mut Rates<'_>, t_end: f64, end: &[f64]);
+
+    /// Makes the polynomial between the ends of the step.
+    fn fill(&mut self, rates: &mut Rates<'_>, at: (f64, &Vec<f64>), h: f64, end: &[f64]);
+
+    /// One number of the state at a share 0…1 of the step.
+    fn component(&self, share: f64, state: &[f64], i: usize) -> f64;
+
+    /// Adds the work of each power over the step.
+    fn work(&mut self, rates: &mut Rates<'_>, at: (f64, &Vec<f64>), h: f64, to: &mut [f64]);
+
+    /// Lets the end of the step be the start of the next.
+    fn advance(&mut self);
+
+    /// Steps that were tried in vain.
+    fn rejected(&self) -> usize;
+}
+
+/// Twist below which nothing is asked for \[rad\]: the torque in a shaft of 1 MN m/rad is then known to 1 N m times the
+/// accuracy.
+const TWIST_FLOOR: f64 = 1e-6;
+
+/// A train without shafts has no swing that says how exact speeds shall be: then as if it had one this slow \[rad/s\].
+const SLOWEST: f64 = 1.0;
+
+/// Share of the largest twist or speed so far below which the accuracy is no longer relative to the number itself.
+const SMALL: f64 = 0.01;
+
+/// How large an error of each number of the state may be.
+#[derive(Clone, Copy, Debug)]
+pub struct Scale {
+    /// Relative accuracy of a step.
+    pub accuracy: f64,
+    n: usize,
+    relative: bool,
+    speed_floor: f64,
+    /// Largest twist, speed beside the first mass, and speed of the first mass so far.
+    twist: f64,
+    aside: f64,
+    speed: f64,
+}
+
+impl Scale {
+    /// For n masses whose fastest swing is about `omega`.
+    pub fn new(accuracy: f64, rates: &Rates<'_>, omega: f64) -> Self {
+        let (n, relative) = (rates.system.len(), rates.is_relative());
+        Scale {
+            accuracy,
+            n,
+            relative,
+            speed_floor: TWIST_FLOOR * omega.max(SLOWEST),
+            twist: 0.0,
+            aside: 0.0,
+            speed: 0.0,
+        }
+    }
+
+    /// Error that one number of the state, of a size, may have.
+    #[inline(always)]
+    pub fn of(&self, index: usize, size: f64) -> f64 {
+        let leads = self.relative && (index == 0 || index == self.n);
+        let size = match (leads, index < self.n) {
+            (true, true) => 1.0,
+            (false, true) => size.max(SMALL * self.twist).max(TWIST_FLOOR),
+            (true, false) => size.max(SMALL * self.speed).max(self.speed_floor),
+            (false, false) => size.max(SMALL * self.aside).max(self.speed_floor),
+        };
+        self.accuracy * size
+    }
+
+    /// Takes note of a state that was reached.
+    pub fn widen(&mut self, state: &[f64]) {
+        let first = usize::from(self.relative);
+        let largest = |list: &[f64], so_far: f64| list.iter().fold(so_far, |most, x| most.max(x.abs()));
+        self.twist = largest(&state[first..self.n], self.twist);
+        self.aside = largest(&state[self.n + first..], self.aside);
+        self.speed = self.speed.max(state[self.n].abs());
+    }
+
+    /// Size of an error against what it may be, over all numbers of the state.
+    pub fn norm(&self, error: &[f64], state: &[f64]) -> f64 {
+        let square = |(i, (e, y)): (usize, (&f64, &f64))| (e / self.of(i, y.abs())).powi(2);
+        let sum: f64 = error.iter().zip(state).enumerate().map(square).sum();
+        (sum / error.len() as f64).sqrt()
+    }
+}

@@ -1,0 +1,273 @@
+r"""Which cylinder is weak: the share of each in a measured speed, by least squares on orders.
+
+The speed of a disc has the harmonics
+
+.. math:: y_\nu = b_\nu + \sum_c x_c H_{c\nu} + e_\nu
+
+with :math:`H_{c\nu}` the response of the train to what the firing of cylinder c adds to its torque,
+:math:`b_\nu` all the rest (inertia, compression, loads) and e noise. :math:`x_c = 1` is healthy, 0 a cylinder
+that does not fire. Real and imaginary parts over their noise are the equations of a linear least-squares
+problem with real x,
+
+.. math:: \hat x = (A^T A)^{-1} A^T y, \qquad \mathrm{cov}\, \hat x = \sigma^2 (A^T A)^{-1}
+
+where σ = 1 for noise that is known, else estimated from what is left over. Cylinders with parallel columns of
+A act alike on this disc at these orders, and only their sum can be told.
+
+H is that of the elastic train. A train taken as rigid has
+:math:`H = i\nu\Omega \sum M/(-(\nu\Omega)^2 \sum J)` in its place, the same at every disc, and gives other
+x: by how much is what neglecting torsion costs.
+
+References
+----------
+.. [1] Taraza, Henein and others, Determination of the gas-pressure torque of a multicylinder engine from
+    measurements of the crankshaft's speed variation, SAE, 1998.
+.. [2] Taraza, Henein and others, Diesel engine diagnosis based on analysis of the crankshaft's speed
+    variation, SAE, 1998.
+.. [3] Golub and Van Loan, Matrix Computations, 4th ed. 2013, section 5.5: least squares by singular values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.analysis.result import Result
+from linkwright.analysis.torsion.confidence import coverage_factor
+from linkwright.analysis.torsion.cylinder_response import cylinder_response
+from linkwright.analysis.torsion.excited import Excited
+from linkwright.analysis.torsion.measured_speed import MeasuredSpeed
+from linkwright.errors import InputError, ShapeError
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+# Singular values below this share of the largest are rounding.
+_ROUNDING = 1e-10
+# Part of a cylinder in what cannot be told from which on its factor is not told.
+_OPEN = 1e-6
+# Cosine between responses from which on two cylinders are called alike.
+_ALIKE = 0.99
+# Orders that differ by a smaller share are one.
+_EQUAL = 1e-9
+
+
+@dataclass(frozen=True)
+class Diagnosis(Result):
+    """How strongly each cylinder fires.
+
+    Attributes
+    ----------
+    cylinders : tuple of str
+        Their names.
+    factor : ndarray, shape (cylinders,)
+        Firing part over that of a healthy cylinder; 1 where it cannot be told.
+    deviation : ndarray, shape (cylinders,)
+        Standard deviation of each; infinite where it cannot be told.
+    covariance : ndarray, shape (cylinders, cylinders)
+        Of the factors, as far as they can be told.
+    condition : float
+        Largest over smallest singular value; infinite where cylinders cannot be told apart.
+    misfit : float
+        What is left over for each degree of freedom, over the noise if that is known, else [rad/s]; NaN
+        without any degree of freedom.
+    freedom : int
+        Equations less factors told.
+    is_noise_known : bool
+        Whether the noise was given, or estimated.
+    warnings : tuple of str
+        What limits the diagnosis.
+    """
+
+    cylinders: tuple[str, ...]
+    factor: Floats
+    deviation: Floats
+    covariance: Floats
+    condition: float
+    misfit: float
+    freedom: int
+    is_noise_known: bool
+    warnings: tuple[str, ...]
+
+    def half_width(self, level: float = 0.95) -> Floats:
+        """Half width of the interval about each factor.
+
+        Parameters
+        ----------
+        level : float
+            Probability that it holds the truth, for each cylinder by itself.
+
+        Returns
+        -------
+        ndarray, shape (cylinders,)
+        """
+        return coverage_factor(level, None if self.is_noise_known else self.freedom) * self.deviation
+
+    def weak(self, level: float = 0.95) -> tuple[str, ...]:
+        """Cylinders that fire less than a healthy one, the weakest first.
+
+        Parameters
+        ----------
+        level : float
+            Probability that none is named in a healthy engine; shared out to the cylinders (Bonferroni).
+
+        Returns
+        -------
+        tuple of str
+            Those whose intervals, one-sided, lie below 1.
+        """
+        each = 1 - 2 * (1 - level) / len(self.cylinders)
+        below = self.factor + self.half_width(each) < 1
+        order = np.argsort(self.factor)
+        return tuple(self.cylinders[n] for n in order if below[n])
+
+    @property
+    def relative(self) -> Floats:
+        """Factors over their mean, shape (cylinders,): where the load of the engine is not known."""
+        found: Floats = self.factor / self.factor.mean()
+        return found
+
+
+def diagnosis(
+    at: Excited,
+    sources: Complexes,
+    measured: MeasuredSpeed,
+    cylinders: Sequence[str] | None = None,
+    *,
+    rigid: bool = False,
+) -> Diagnosis:
+    """Factors of the cylinders from a measured speed.
+
+    Parameters
+    ----------
+    at : Excited
+        The train at the speed of the measurement, all cylinders healthy.
+    sources : ndarray of complex, shape (cylinders, orders, discs)
+        Torque that the firing of each healthy cylinder adds, at the orders of the train's torques, which hold
+        it [N m].
+    measured : MeasuredSpeed
+        At one disc.
+    cylinders : sequence of str, optional
+        Their names; without them "1", "2", …
+    rigid : bool
+        Whether the train is taken as rigid, to see what that costs.
+
+    Returns
+    -------
+    Diagnosis
+        Factors with their uncertainty.
+
+    Raises
+    ------
+    ShapeError
+        Arrays do not fit together.
+    InputError
+        The train is at several speeds, a disc or order is not there, a held train taken as rigid, or too few
+        orders.
+
+    References
+    ----------
+    .. [1] Taraza, Henein and others, Diesel engine diagnosis, SAE, 1998.
+    """
+    names = _names(at, sources, cylinders)
+    rest = at.torques.harmonics[:, :, 0] - sources.sum(axis=0)
+    every = cylinder_response(at, np.concatenate([sources, rest[None]]), measured.disc, rigid=rigid)
+    columns = every[:, _places(at, measured)]
+    noise = np.ones(len(measured.orders)) if measured.noise is None else measured.noise
+    A = _stacked(columns[:-1] / noise).T
+    # What is sought is how far factors are from 1, so that what cannot be told stays healthy.
+    y = _stacked((measured.harmonics - columns.sum(axis=0)) / noise)
+    return _solved(A, y, names, is_known=measured.noise is not None)
+
+
+def _solved(A: Floats, y: Floats, names: tuple[str, ...], *, is_known: bool) -> Diagnosis:
+    """Least squares with what it can tell."""
+    U, s, Vt = np.linalg.svd(A, full_matrices=True)
+    # A cylinder that adds nothing has no singular value at all if equations are fewer.
+    rank = int((s > _ROUNDING * s.max(initial=0.0)).sum())
+    freedom = len(y) - rank
+    if not is_known and freedom < 1:
+        remedy = f"measure more than {len(names) / 2:.4g} orders, or give the noise"
+        raise InputError(
+            f"{len(y) // 2} orders for {len(names)} cylinders leave nothing to tell noise by: {remedy}"
+        )
+    change = Vt[:rank].T @ ((U[:, :rank].T @ y) / s[:rank])
+    left = y - A @ change
+    misfit = float(np.sqrt(left @ left / freedom)) if freedom else float("nan")
+    covariance = (Vt[:rank].T / s[:rank] ** 2) @ Vt[:rank] * (1.0 if is_known else misfit**2)
+    open_part = np.linalg.norm(Vt[rank:], axis=0) > _OPEN
+    deviation = np.where(open_part, np.inf, np.sqrt(np.diag(covariance)))
+    found = Diagnosis(
+        cylinders=names,
+        factor=np.where(open_part, 1.0, 1 + change),
+        deviation=deviation,
+        covariance=covariance,
+        condition=float(s[0] / s[-1]) if rank == len(names) else float("inf"),
+        misfit=misfit,
+        freedom=freedom,
+        is_noise_known=is_known,
+        warnings=(),
+    )
+    return Diagnosis(**{**vars(found), "warnings": tuple(_warnings(found, A, open_part))})
+
+
+def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list[str]:
+    """What limits a diagnosis."""
+    names = np.array(found.cylinders)
+    listed = []
+    if open_part.any():
+        listed.append(
+            f"cylinders {', '.join(names[open_part])} cannot be told apart by these orders at this disc"
+        )
+    size = np.linalg.norm(A, axis=0)
+    product = np.outer(size, size)
+    cosine = np.abs(A.T @ A) / np.where(product > 0, product, 1.0)
+    for a, b in np.argwhere(np.triu(cosine > _ALIKE, k=1)):
+        if not (open_part[a] and open_part[b]):
+            listed.append(f"cylinders {names[a]} and {names[b]} act alike (cosine {cosine[a, b]:.4f})")
+    blind = ~open_part & (found.half_width() > 1)
+    if blind.any():
+        listed.append(f"cylinders {', '.join(names[blind])}: not even a misfire would show against the noise")
+    # A misfit has the mean 1 and the deviation 1/√(2f); three of them are rare.
+    if found.is_noise_known and found.freedom and found.misfit > 1 + 3 / np.sqrt(2 * found.freedom):
+        listed.append(
+            f"what is left over is {found.misfit:.3g} times the noise: the train or its torques differ"
+        )
+    return listed
+
+
+def _stacked(rows: Complexes) -> Floats:
+    """Real and imaginary parts as equations, (…, 2 orders)."""
+    found: Floats = np.concatenate([rows.real, rows.imag], axis=-1)
+    return found
+
+
+def _names(at: Excited, sources: Complexes, cylinders: Sequence[str] | None) -> tuple[str, ...]:
+    """Names of the cylinders, of arrays that fit."""
+    if len(at.torques.speeds) != 1:
+        speeds = len(at.torques.speeds)
+        raise InputError(f"a diagnosis is made at one speed, and the train is at {speeds}")
+    wanted = at.torques.harmonics.shape[:2]
+    if sources.ndim != 3 or sources.shape[1:] != wanted or not len(sources):
+        raise ShapeError(
+            f"sources have the shape {sources.shape}, expected (cylinders, {wanted[0]}, {wanted[1]})"
+        )
+    names = tuple(cylinders) if cylinders is not None else tuple(str(n + 1) for n in range(len(sources)))
+    if len(names) != len(sources):
+        raise ShapeError(f"{len(names)} names for {len(sources)} cylinders")
+    return names
+
+
+def _places(at: Excited, measured: MeasuredSpeed) -> NDArray[np.intp]:
+    """Where the measured orders stand among those of the train."""
+    orders = at.torques.orders
+    place = np.abs(orders[:, None] - measured.orders).argmin(axis=0)
+    apart = np.abs(orders[place] - measured.orders) > _EQUAL * measured.orders
+    if apart.any():
+        order = measured.orders[apart][0]
+        raise InputError(f"nothing in the train has the order {order:.6g}: leave it out of the measurement")
+    found: NDArray[np.intp] = place
+    return found

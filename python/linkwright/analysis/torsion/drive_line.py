@@ -1,0 +1,220 @@
+r"""A drive line whose shafts twist: its train, and the torque of the mechanism that excites it.
+
+In a train a mechanism is a disc, and what it asks of the crank at constant speed acts on that disc as a
+torque over the turn,
+
+.. math:: M(\varphi) = -M_r(\varphi, \omega) - \tfrac12 J'(\varphi)\,\omega^2
+    = \operatorname{Re} \sum_\nu M_\nu e^{i\nu\varphi}, \qquad \varphi = \omega t
+
+The disc has the mean of the reduced inertia over the turn. This is the motion's linear part: what J(φ) − J̄
+does to the swinging itself is left out, and is small as long as either is small against its mean.
+
+Where torques follow the speed, they damp: :math:`c = -\partial M/\partial\omega`.
+
+References
+----------
+.. [1] Biezeno and Grammel, Engineering Dynamics, vol. 4, 1954: mean inertia of a crank drive, excitation by
+   its variable part.
+.. [2] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963: inertia torque of
+   reciprocating masses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.analysis.closure import require_full_turn, require_one_turn
+from linkwright.analysis.reduction import mean_laws, mean_over_turn, turn_nodes
+from linkwright.analysis.sound_loads import require_same_turns, require_sound_loads
+from linkwright.engine import Compiled, compile_machine
+from linkwright.errors import InputError
+from linkwright.machine import ConstantSpeedMotor, Machine, Train
+from linkwright.machine.drive_train import CRANK, MOTOR, STIFFNESS_KEYS, drive_train
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# Orders for which one piece between two kinks does, even if it is a whole turn: e^{iνφ} turns by 4π in it,
+# which is little for 24 nodes.
+_ORDERS_OF_A_PIECE = 2.0
+
+# Relative step of a central difference: its error is of second order, 1e-10, rounding over it likewise.
+_STEP = 1e-5
+
+
+def drive_line(machine: Machine) -> Train:
+    """The train of a machine's drive line, from the motor to the crank.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a mechanism, and a [drive] of which something twists.
+
+    Returns
+    -------
+    Train
+        Discs ``"motor"``, ``"gearbox"``, ``"wheel"``, ``"crank"``, as far as they turn on their own.
+
+    Raises
+    ------
+    InputError
+        Nothing of the drive twists, or a disc has no inertia.
+    AssemblyError
+        The mechanism does not close all round.
+    """
+    if machine.drive is None or not machine.drive.twists:
+        raise InputError(
+            f"{machine.name} has no [train], and its drive line does not twist: expected [train.discs] and "
+            f"[train.shafts], or one of {', '.join(STIFFNESS_KEYS)}"
+        )
+    return drive_train(machine.drive, mean_inertia(machine))
+
+
+def mean_inertia(machine: Machine) -> float:
+    """Mean over the turn of the mechanism's reduced inertia, without that of the drive.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    float
+        At the crank [kg m²].
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close all round.
+    """
+    compiled = _mechanism(machine)
+    phi, weights = turn_nodes(compiled)
+    return float(weights @ compiled.reductions(phi)[0])
+
+
+def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -> Complex:
+    r"""Harmonics of the torque with which a mechanism acts on its crank at constant speed.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its drive does not count.
+    speed : array_like, shape () or (speeds,)
+        Of the crank [rad/s].
+    orders : array_like, shape (n,)
+        Per turn of the crank, multiples of ½. Halves of a turn are not in a motion that repeats every turn:
+        their harmonics are zero.
+
+    Returns
+    -------
+    ndarray of complex, shape (n,) or (n, speeds)
+        M_ν, positive where the torque drives [N m]; of order 0 the mean.
+
+    Raises
+    ------
+    InputError
+        An order is negative or no multiple of ½, or a speed is not positive.
+    AssemblyError
+        The mechanism does not close all round, or does not repeat every turn.
+
+    Notes
+    -----
+    Dead centres of a friction are kinks between which the torque is integrated, so that no sample is lost to
+    a jump.
+    """
+    nu, omega = _orders(orders), _positive(speed)
+    compiled = _mechanism(machine)
+    pieces = 1 + int(nu.max(initial=0.0) / _ORDERS_OF_A_PIECE)
+    phi, weights = turn_nodes(compiled, pieces)
+    size = np.where(nu == 0, 1.0, 2.0) * (nu == np.round(nu))
+    waves = size[:, None] * weights * np.exp(-1j * np.outer(nu, phi))
+    found = -_resistance_harmonics(compiled, phi, waves, omega)
+    found[nu == 0] -= compiled.speed_load(omega)
+    return found[:, 0] if np.ndim(speed) == 0 else found
+
+
+def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
+    r"""How much motor and mechanism damp where their torques follow the speed.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, shape () or (speeds,)
+        Of the crank [rad/s].
+
+    Returns
+    -------
+    dict of str to ndarray, shape () or (speeds,)
+        −∂M/∂ω of ``"motor"`` at its own speed, and of ``"crank"``, mean over the turn [N m s/rad]. Negative
+        where a torque grows with the speed it drives. That of the motor holds the gearbox's efficiency, by
+        which its torque reaches the crank.
+
+    Raises
+    ------
+    InputError
+        A speed is not positive.
+    AssemblyError
+        The mechanism does not close all round.
+    """
+    omega = _positive(speed)
+    compiled = _mechanism(machine)
+    damping = {CRANK: mean_over_turn(compiled)[1] + _slope(lambda at: _resistance(compiled, at), omega)}
+    motor = None if machine.drive is None else machine.drive.motor
+    if machine.drive is not None and motor is not None and not isinstance(motor, ConstantSpeedMotor):
+        driven = compile_machine(machine)
+        slope = _slope(lambda at: driven.motor_torques(at)[1], omega)
+        damping[MOTOR] = -slope / machine.drive.gearbox.ratio**2
+    return {station: c.reshape(np.shape(speed)) for station, c in damping.items()}
+
+
+def _mechanism(machine: Machine) -> Compiled:
+    """The mechanism without its drive, if its turns can be told."""
+    alone = machine.with_entries({"drive": None})
+    compiled = compile_machine(alone)
+    require_same_turns(alone)
+    require_full_turn(compiled, alone)
+    require_one_turn(compiled)
+    require_sound_loads(compiled, alone)
+    return compiled
+
+
+def _resistance_harmonics(compiled: Compiled, phi: Floats, waves: Complex, omega: Floats) -> Complex:
+    """Harmonics of what resists at constant speeds, inertia included, (orders, speeds) [N m]."""
+    _, J_d1, load, dry, viscous = compiled.reductions(phi)
+    # Parts of the torque, each with its power of the speed.
+    parts, powers = np.array([load + dry, viscous, 0.5 * J_d1]), np.array([omega**0, omega, omega**2])
+    found: Complex = (waves @ parts.T) @ powers
+    return found + waves @ compiled.law_torques(phi, omega).T if compiled.has_laws else found
+
+
+def _resistance(compiled: Compiled, omega: Floats) -> Floats:
+    """Mean torque of all loads over the speed but the viscous ones [N m]."""
+    return mean_laws(compiled, omega) + compiled.speed_load(omega)
+
+
+def _slope(torque: Callable[[Floats], Floats], omega: Floats) -> Floats:
+    """Derivative by the speed, (speeds,) [N m s/rad]."""
+    low, high = omega * (1 - _STEP), omega * (1 + _STEP)
+    slope: Floats = (torque(high) - torque(low)) / (high - low)
+    return slope
+
+
+def _orders(orders: ArrayLike) -> Floats:
+    """Orders that are multiples of a half."""
+    nu = np.atleast_1d(np.asarray(orders, dtype=np.float64))
+    if nu.ndim != 1 or not np.isfinite(nu).all() or (nu < 0).any() or (2 * nu != np.round(2 * nu)).any():
+        raise InputError(f"orders: found {nu.tolist()}, expected multiples of 0.5 of 0 or more")
+    return nu
+
+
+def _positive(speed: ArrayLike) -> Floats:
+    """Speeds at which a machine turns."""
+    omega = np.atleast_1d(np.asarray(speed, dtype=np.float64))
+    if omega.ndim != 1 or not (np.isfinite(omega) & (omega > 0)).all():
+        raise InputError(f"speed: found {omega.tolist()} rad/s, expected numbers greater than 0")
+    return omega

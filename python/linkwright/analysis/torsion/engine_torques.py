@@ -1,0 +1,122 @@
+r"""Torques of an engine on its throws: gas, inertia, weight.
+
+With ψ the angle of a throw from where it points along a cylinder at its firing, the gas gives
+:math:`M_g(\psi)`; all moving parts of a throw together give about constant speed
+
+.. math:: M = -\tfrac12 J'(\varphi)\,\Omega^2 - V'(\varphi)
+
+with the inertia J and the potential energy V of the true mechanism. A throw at the angle α, a cylinder that
+fires at :math:`\varphi_f`, turn the harmonics by :math:`e^{i\nu\alpha}` and :math:`e^{-i\nu\varphi_f}`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.analysis.torsion.torques import Source
+from linkwright.machine.reciprocating.cylinder import Cylinder
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
+from linkwright.machine.reciprocating.engine_motion import piston_positions, reduced_throw
+from linkwright.machine.reciprocating.firing import firing_angles
+from linkwright.machine.reciprocating.gas_torque import GasTorque, gas_torque
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class CylinderTorques:
+    """Gas torques of all cylinders.
+
+    Attributes
+    ----------
+    orders : ndarray, shape (orders,)
+        Waves a turn, from 0.
+    firing, motored : ndarray of complex, shape (cylinders, orders, speeds)
+        M_ν of each cylinder on its throw, sound and without combustion [N m].
+    banks : tuple of GasTorque
+        Of one sound cylinder of each bank, before its phase.
+    """
+
+    orders: Floats
+    firing: Complexes
+    motored: Complexes
+    banks: tuple[GasTorque, ...]
+
+
+def cylinder_torques(engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0) -> CylinderTorques:
+    """Gas torques of the cylinders of an engine, each with its phase.
+
+    Parameters
+    ----------
+    engine : ReciprocatingEngine
+        The engine.
+    speeds : ndarray, shape (speeds,)
+        Of its crank [rad/s].
+    highest : float
+        Last order.
+
+    Returns
+    -------
+    CylinderTorques
+        By number of the cylinder.
+    """
+    banks = []
+    for positions in piston_positions(engine):
+        cylinder = Cylinder(engine.bore, engine.strokes, positions)
+        banks.append(gas_torque(engine.gas.cycle_pressure(cylinder, speeds), cylinder, highest))
+    orders = banks[0].orders
+    fires, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
+    phase = np.exp(-1j * np.outer(fires, orders))[:, :, None]
+    of_bank = [place.bank for place in engine.places]
+    firing = np.stack([each.firing.T for each in banks])[of_bank] * phase
+    motored = np.stack([each.motored.T for each in banks])[of_bank] * phase
+    return CylinderTorques(orders, firing, motored, tuple(banks))
+
+
+def engine_sources(engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0) -> list[Source]:
+    """Torques on the throws of an engine, with their mean.
+
+    Parameters
+    ----------
+    engine : ReciprocatingEngine
+        The engine.
+    speeds : ndarray, shape (speeds,)
+        Of its crank, which is the first disc of the train [rad/s].
+    highest : float
+        Last order.
+
+    Returns
+    -------
+    list of Source
+        One a throw, in order.
+    """
+    gas = cylinder_torques(engine, speeds, highest)
+    factor = np.array([engine.factor(n + 1) for n in range(engine.n_cylinders)])[:, None, None]
+    torque = gas.motored + factor * (gas.firing - gas.motored)
+    moving = _moving_parts(engine, speeds, gas.orders)
+    found = []
+    for n, angle in enumerate(engine.throws):
+        own = sum(torque[c] for c, place in enumerate(engine.places) if place.throw == n)
+        total = own + moving * np.exp(1j * gas.orders * angle)[:, None]
+        found.append(Source(n, gas.orders[1:], total[1:], total[0].real))
+    return found
+
+
+def _moving_parts(engine: ReciprocatingEngine, speeds: Floats, orders: Floats) -> Complexes:
+    """Harmonics of inertia and weight of the first throw, (orders, speeds)."""
+    samples = max(256, 8 * int(np.ceil(orders[-1])))
+    phi = 2 * np.pi * np.arange(samples) / samples
+    throw = reduced_throw(engine, phi)
+    curves = (throw.inertia_torque(1.0), throw.weight_torque)
+    inertia, weight = (np.fft.rfft(curve) * 2 / samples for curve in curves)
+    found = np.zeros((len(orders), len(speeds)), complex)
+    # A motion that repeats every turn has whole orders alone.
+    whole = np.flatnonzero(orders == np.round(orders))
+    nu = orders[whole].astype(int)
+    found[whole] = inertia[nu, None] * speeds**2 + weight[nu, None]
+    found[0] *= 0.5
+    return found

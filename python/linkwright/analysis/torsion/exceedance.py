@@ -1,0 +1,147 @@
+"""Where a curve over the speed lies above 1: ranges with their bounds and peaks, refined.
+
+The curve is known at some speeds and can be asked for at any other; many are asked for at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+# Rows of curves at any speeds, (rows, speeds).
+Curves = Callable[[Floats], Floats]
+
+# Bounds are sought until the curve is as close to 1 as this, or the speeds as close together as that.
+_CLOSE = 1e-10
+_NARROW = 1e-10
+_BOUND_ROUNDS = 100
+
+# Points to which the neighbourhood of a peak is cut in one round, and rounds: to some 10⁻⁴ of it.
+_CUTS = 8
+_PEAK_ROUNDS = 6
+
+
+class Exceedance(NamedTuple):
+    """A range of speeds in which a curve lies above 1.
+
+    Attributes
+    ----------
+    row : int
+        Of the curve.
+    low, high : float
+        Bounds [rad/s].
+    open_low, open_high : bool
+        Whether it goes on beyond the speeds looked at.
+    peak : float
+        Speed of its highest value [rad/s].
+    """
+
+    row: int
+    low: float
+    high: float
+    open_low: bool
+    open_high: bool
+    peak: float
+
+
+def exceedances(curves: Curves, speeds: Floats) -> list[Exceedance]:
+    """Ranges in which curves lie above 1.
+
+    Parameters
+    ----------
+    curves : callable
+        Speeds, (n,), to values, (rows, n); NaN counts as below.
+    speeds : ndarray, shape (n,)
+        Increasing, close enough that each peak shows at one of them [rad/s].
+
+    Returns
+    -------
+    list of Exceedance
+        By row, then by speed.
+    """
+    values = curves(speeds)
+    runs = [(row, *run) for row, above in enumerate(values > 1) for run in _runs(above)]
+    last = len(speeds) - 1
+    edges = [(row, n, n - 1) for row, n, _ in runs if n > 0]
+    edges += [(row, n, n + 1) for row, _, n in runs if n < last]
+    bounds = _bounds(curves, [(row, speeds[inside], speeds[outside]) for row, inside, outside in edges])
+    bound = dict(zip(((row, inside, outside) for row, inside, outside in edges), bounds, strict=True))
+    tops = [(row, n + int(np.argmax(values[row, n : m + 1]))) for row, n, m in runs]
+    between = [(row, speeds[max(n - 1, 0)], speeds[min(n + 1, last)]) for row, n in tops]
+    peaks = _peaks(curves, between, [(speeds[n], values[row, n]) for row, n in tops])
+    return [
+        Exceedance(
+            row,
+            float(bound.get((row, n, n - 1), speeds[n])),
+            float(bound.get((row, m, m + 1), speeds[m])),
+            n == 0,
+            m == last,
+            peak,
+        )
+        for (row, n, m), peak in zip(runs, peaks, strict=True)
+    ]
+
+
+def _runs(above: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
+    """First and last place of each run of true values."""
+    steps = np.flatnonzero(np.diff(np.concatenate([[0], above.astype(np.int8), [0]])))
+    yield from zip(steps[::2].tolist(), (steps[1::2] - 1).tolist(), strict=True)
+
+
+def _bounds(curves: Curves, edges: list[tuple[int, float, float]]) -> list[float]:
+    """Where curves pass 1 between a speed inside and one outside, all at once."""
+    if not edges:
+        return []
+    rows = np.array([row for row, _, _ in edges])
+    a, b = np.array([pair for _, *pair in edges], float).T
+    f_a, f_b = (_at(curves, rows, each[None])[0] - 1 for each in (a, b))
+    c, before = a, np.zeros(len(rows))
+    for n in range(_BOUND_ROUNDS):
+        with np.errstate(invalid="ignore"):
+            c = b - f_b * (b - a) / (f_b - f_a)
+        # Halved where a curve jumps, or is infinite.
+        c = np.where(np.isfinite(c) & (n % 3 < 2), c, 0.5 * (a + b))
+        f_c = _at(curves, rows, c[None])[0] - 1
+        if ((np.abs(f_c) < _CLOSE) | (np.abs(b - a) < _NARROW * np.abs(c))).all():
+            break
+        inside, side = f_c > 0, np.sign(f_c)
+        # An end that stays twice counts half: the Illinois form of the false position.
+        half = np.where(side == before, 0.5, 1.0)
+        f_a, f_b = np.where(inside, f_c, half * f_a), np.where(inside, half * f_b, f_c)
+        a, b, before = np.where(inside, c, a), np.where(inside, b, c), side
+    found: list[float] = c.tolist()
+    return found
+
+
+def _peaks(
+    curves: Curves, between: list[tuple[int, float, float]], known: list[tuple[float, float]]
+) -> list[float]:
+    """Speeds of the highest values between two speeds, all at once; at least as high as what is known."""
+    if not between:
+        return []
+    rows = np.array([row for row, _, _ in between])
+    low, high = np.array([pair for _, *pair in between], float).T
+    best, value = np.array(known, float).T
+    for _ in range(_PEAK_ROUNDS):
+        points = np.linspace(low, high, _CUTS + 1)
+        found = np.nan_to_num(_at(curves, rows, points), nan=-np.inf, posinf=np.inf)
+        top, pick = np.argmax(found, axis=0), np.arange(len(rows))
+        better = found[top, pick] > value
+        best = np.where(better, points[top, pick], best)
+        value = np.where(better, found[top, pick], value)
+        step = (high - low) / _CUTS
+        low, high = np.maximum(best - step, low), np.minimum(best + step, high)
+    listed: list[float] = best.tolist()
+    return listed
+
+
+def _at(curves: Curves, rows: NDArray[np.int64], points: Floats) -> Floats:
+    """Values of one row for each column of points, (cuts, columns)."""
+    values = curves(points.ravel()).reshape(-1, *points.shape)
+    found: Floats = values[rows, :, np.arange(len(rows))].T
+    return found

@@ -1,0 +1,190 @@
+"""A train made ready for forced vibration: its torques, and what it is at each speed.
+
+Mean torques go through the shafts as statics has it, and set couplings to the slope of their curve there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.analysis.torsion.engine_torques import engine_sources
+from linkwright.analysis.torsion.free import lead_speeds, train_of
+from linkwright.analysis.torsion.mechanism_torques import mechanism_sources, steady_speed
+from linkwright.analysis.torsion.torques import Source, Torques, torques_of
+from linkwright.engine.train import ReferredTrain, refer
+from linkwright.engine.train_response import Operating
+from linkwright.errors import InputError
+from linkwright.machine import Machine, Train
+from linkwright.machine.drive_train import CRANK
+from linkwright.machine.train_run import TrainRun
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+# Speeds of a drive line over its steady speed, and how many.
+_ABOUT = (0.2, 1.3)
+_POINTS = 200
+
+# Share of the largest torque on a mass below which a shaft carries rounding.
+_ROUNDING = 1e-11
+
+
+@dataclass(frozen=True)
+class Excited:
+    """A train with its torques at some speeds.
+
+    Attributes
+    ----------
+    train : Train
+        Of discs, shafts and gears.
+    referred : ReferredTrain
+        The same, referred to its first disc.
+    torques : Torques
+        On the discs.
+    mean_torques : ndarray, shape (shafts, speeds)
+        In the shafts at their own speed [N m].
+    operating : Operating
+        Stiffness and damping at each speed.
+    """
+
+    train: Train
+    referred: ReferredTrain
+    torques: Torques
+    mean_torques: Floats
+    operating: Operating
+
+    @cached_property
+    def disc_damping(self) -> Floats:
+        """Of each disc at its own speed, (discs, speeds) [N m s/rad]."""
+        own = np.array([each.damping for each in self.train.discs.values()])
+        damping: Floats = own[:, None] + self.torques.damping
+        return damping
+
+    def referred_harmonics(self) -> Complexes:
+        """Torques on the masses, (orders, masses, speeds) [N m]."""
+        return _onto_masses(self.referred, self.torques.harmonics)
+
+
+def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
+    """Make a train ready for forced vibration.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train] that something excites.
+    speeds : ndarray, shape (speeds,), optional
+        Of the first disc; without them those of [train.run] [rad/s].
+
+    Returns
+    -------
+    Excited
+        All that the response needs.
+
+    Raises
+    ------
+    InputError
+        Nothing excites the train, or it has no speeds.
+    """
+    train = train_of(machine)
+    referred = refer(train)
+    place = {name: k for k, name in enumerate(train.discs)}
+    speeds = _speeds(machine, referred.speed, place) if speeds is None else np.atleast_1d(speeds) * 1.0
+    sources, damping = _sources(machine, referred.speed, place, speeds)
+    torques = torques_of(
+        train,
+        referred.speed,
+        speeds,
+        sources,
+        damping,
+        is_free=referred.is_free,
+        has_engine=machine.train is not None and machine.train.engine is not None,
+    )
+    if not len(torques.orders):
+        remedy = "give [train.excitations], harmonics of [train.loads], or a [train.engine]"
+        raise InputError(f"nothing excites the train of {machine.name}: {remedy}")
+    mean = _mean_torques(referred, torques.mean)
+    return Excited(train, referred, torques, mean, _operating(machine.train, referred, torques, mean))
+
+
+def is_excited(machine: Machine) -> bool:
+    """Whether a machine has a train with something that excites it, and the speeds at which to look.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    """
+    train = machine.train
+    if train is None:
+        drive = machine.drive
+        return drive is not None and drive.twists and not (drive.motor is None and drive.speed is None)
+    if train.run is None:
+        return False
+    pulsates = any(each.harmonics for each in train.loads.values())
+    return bool(train.excitations) or pulsates or train.engine is not None
+
+
+def _sources(
+    machine: Machine, turning: Floats, place: dict[str, int], speeds: Floats
+) -> tuple[list[Source], Floats | None]:
+    """Torques of the engine or of the mechanism, and their damping (discs, speeds)."""
+    if machine.train is None:
+        return mechanism_sources(machine, turning, place, speeds)
+    if machine.train.engine is None:
+        return [], None
+    run = machine.train.run
+    highest = TrainRun.model_fields["orders_max"].default if run is None else run.orders_max
+    return engine_sources(machine.train.engine, speeds, highest), None
+
+
+def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:
+    """Those at which the file looks at its train; of a drive line those about its steady speed."""
+    if machine.train is None:
+        of_crank: Floats = np.linspace(*_ABOUT, _POINTS) * steady_speed(machine)
+        return of_crank / float(turning[place[CRANK]])
+    run = machine.train.run
+    if run is None:
+        remedy = 'give [train.run] speed_min and speed_max, such as "500 rpm" and "2000 rpm"'
+        raise InputError(f"{machine.name} has no speeds for forced vibration: {remedy}")
+    return np.linspace(run.speed_min, run.speed_max, run.points)
+
+
+def _onto_masses(referred: ReferredTrain, torques: Complexes) -> Complexes:
+    """Torques on discs as torques on masses, (…, masses, speeds)."""
+    found = np.zeros((len(torques), len(referred.inertia), torques.shape[-1]), torques.dtype)
+    for disc, (mass, n) in enumerate(zip(referred.mass, referred.speed, strict=True)):
+        found[:, mass] += n * torques[:, disc]
+    return found
+
+
+def _mean_torques(referred: ReferredTrain, mean: Floats) -> Floats:
+    """Torque of each shaft at its own speed under torques that do not pulsate."""
+    M = _onto_masses(referred, mean[None].astype(complex))[0].real
+    if referred.is_free:
+        # What is left over speeds the train up as a whole.
+        M = M - referred.inertia[:, None] * (M.sum(axis=0) / referred.inertia.sum())
+    # Rings of dampers turn along, without torque: the least of all solutions leaves them where they are.
+    q = np.linalg.pinv(referred.stiffness_matrix, rcond=1e-13, hermitian=True) @ M
+    held = np.concatenate([q, np.zeros_like(q[:1])])
+    first, second = referred.ends.T
+    carried: Floats = referred.stiffness[:, None] * (held[first] - held[second])
+    # What is left of the rounding of large torques is none.
+    carried[np.abs(carried) < _ROUNDING * np.abs(M).max(initial=0.0)] = 0.0
+    return carried / lead_speeds(referred)[:, None]
+
+
+def _operating(train: Train | None, referred: ReferredTrain, torques: Torques, mean: Floats) -> Operating:
+    """Stiffness about the mean torques, damping with that of the loads."""
+    stiffness = np.repeat(referred.stiffness[:, None], len(torques.speeds), axis=1)
+    lead = lead_speeds(referred)
+    for name, coupling in ({} if train is None else train.couplings).items():
+        if coupling.twist is not None:
+            s = referred.shafts.index(name)
+            stiffness[s] = lead[s] ** 2 * coupling.slope(mean[s])
+    damping = np.repeat(referred.disc_damping[:, None], len(torques.speeds), axis=1)
+    np.add.at(damping, referred.mass, referred.speed[:, None] ** 2 * torques.damping)
+    return Operating(torques.speeds, stiffness, damping)

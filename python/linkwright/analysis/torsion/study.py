@@ -1,0 +1,153 @@
+"""Everything about the torsional vibration of a train, for a report or as one object."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from linkwright.analysis.torsion.excited import Excited, excited, is_excited
+from linkwright.analysis.torsion.forced import ForcedVibration, responded
+from linkwright.analysis.torsion.free import FreeVibration, free_vibration
+from linkwright.analysis.torsion.holzer import HolzerTable, holzer_table
+from linkwright.analysis.torsion.scheme import Scheme, scheme
+from linkwright.analysis.torsion.stress import ShaftStress, shaft_stress
+from linkwright.analysis.torsion.unevenness_along import UnevennessAlong, unevenness_along
+from linkwright.analysis.torsion.verdict import Verdict, verdict
+from linkwright.machine import Machine
+from linkwright.machine.reciprocating.firing import firing_angles
+
+
+@dataclass(frozen=True)
+class TorsionStudy:
+    """Torsional vibration of a machine, as far as it has any.
+
+    Attributes
+    ----------
+    machine : Machine
+        The machine.
+    scheme : Scheme
+        Its equivalent scheme, referred to one speed.
+    free : FreeVibration
+        Natural frequencies and shapes.
+    holzer : tuple of HolzerTable
+        At the frequencies asked for.
+    excited : Excited or None
+        Its torques; None where nothing excites it.
+    forced : ForcedVibration or None
+        Its vibration under them.
+    stress : ShaftStress or None
+        Of the shafts with known sections.
+    verdict : Verdict or None
+        Whether all limits are kept.
+    along : UnevennessAlong or None
+        Unevenness over the cylinders of an engine at its speed of service.
+    """
+
+    machine: Machine
+    scheme: Scheme
+    free: FreeVibration
+    holzer: tuple[HolzerTable, ...]
+    excited: Excited | None = None
+    forced: ForcedVibration | None = None
+    stress: ShaftStress | None = None
+    verdict: Verdict | None = None
+    along: UnevennessAlong | None = None
+
+    @property
+    def findings(self) -> list[str]:
+        """What the machine does not bear, in sentences."""
+        found = [] if self.verdict is None else self.verdict.judgements
+        return [f"{each.words}." for each in found if each.state == "exceeds"]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the numbers leave out, in sentences."""
+        return list(_warnings(self))
+
+    def results(self) -> dict[str, Any]:
+        """Results by name, ready for JSON but for numbers that it does not know."""
+        free = self.free.to_dict(curves=True)
+        free["nodes"] = [[node._asdict() for node in nodes] for nodes in self.free.nodes]
+        found: dict[str, Any] = {"free": free}
+        if self.holzer:
+            found["holzer"] = [each.to_dict(curves=True) for each in self.holzer]
+        parts = {"forced": self.forced, "stress": self.stress, "verdict": self.verdict}
+        found |= {name: part.to_dict(curves=True) for name, part in parts.items() if part is not None}
+        if self.along is not None:
+            found["unevenness_along"] = self.along.to_dict(curves=True)
+        return found | {"scheme": self.scheme.to_dict(curves=True)}
+
+
+def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionStudy:
+    """Study the torsional vibration of a train or of a drive line.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train], or with a drive line that twists.
+    holzer : sequence of float
+        Frequencies of Holzer's tables [Hz].
+
+    Returns
+    -------
+    TorsionStudy
+        Free vibration; where something excites the train, forced vibration, stresses and the verdict.
+
+    Raises
+    ------
+    InputError
+        The machine has no train.
+    """
+    free = free_vibration(machine)
+    tables = tuple(holzer_table(machine, frequency) for frequency in holzer)
+    if not is_excited(machine):
+        return TorsionStudy(machine, scheme(machine), free, tables)
+    at = excited(machine)
+    forced = responded(at)
+    stress = shaft_stress(machine, forced)
+    return TorsionStudy(
+        machine,
+        scheme(machine),
+        free,
+        tables,
+        at,
+        forced,
+        stress if stress.shafts else None,
+        verdict(machine),
+        _along(machine, at, forced),
+    )
+
+
+def _along(machine: Machine, at: Excited, forced: ForcedVibration) -> UnevennessAlong | None:
+    """Unevenness over the cylinders, where there is an engine whose cylinders fire one after another."""
+    train = machine.train
+    if train is None or train.engine is None or train.run is None:
+        return None
+    angles, cycle = firing_angles(train.engine.places, train.engine.firing_order, train.engine.cycle)
+    # Two that fire at once share one rise of the speed, which then is none of either.
+    if len(np.unique(np.round(np.remainder(angles, cycle), 6))) < len(angles):
+        return None
+    firing = {str(n + 1): angle for n, angle in enumerate(angles)}
+    return unevenness_along(at, forced, firing, train.engine.strokes // 2, train.run.service)
+
+
+def _warnings(study: TorsionStudy) -> Iterator[str]:
+    """What one should know beside the numbers."""
+    forced, at = study.forced, study.excited
+    if forced is None or at is None:
+        return
+    yield from () if study.verdict is None else (f"{note}." for note in study.verdict.notes)
+    if not np.isfinite(forced.shaft_torque_max).all():
+        rows = ~np.isfinite(forced.shaft_torque_max).all(axis=0)
+        rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in forced.speeds[rows][:4])
+        yield f"Nothing damps a resonance that is met exactly, at {rpm} rpm: no amplitude there."
+    engine = study.machine.train.engine if study.machine.train is not None else None
+    if engine is not None and not study.machine.train.loads:  # type: ignore[union-attr]
+        yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
+    rest = forced.orders[~forced.together.together]
+    if len(rest):
+        listed = ", ".join(f"{order:.5g}" for order in rest[:4])
+        yield f"Orders {listed} have no common base with the others: their amplitudes are added up."

@@ -1,0 +1,190 @@
+r"""Vibratory stress that classification societies permit in propulsion shafts: IACS UR M68.
+
+With the tensile strength σ_B in N/mm², the outside diameter d in mm and λ the speed over that at rated power,
+
+.. math:: \tau_C = \frac{\sigma_B + 160}{18}\, C_K C_D C_\lambda, \qquad C_D = 0.35 + 0.93\, d^{-0.2}
+
+.. math:: C_\lambda = 3 - 2\lambda^2 \;(\lambda < 0.9), \qquad 1.38 \;(0.9 \le \lambda \le 1.05)
+
+are permitted for ever, in N/mm², as amplitude of the nominal stress: half of greatest less least, in the
+plain section, without stress concentration. Where τ_C is exceeded, the speeds are barred and passed quickly,
+and the amplitude there must stay below
+
+.. math:: \tau_T = 1.7\, \tau_C/\sqrt{C_K}
+
+About a critical speed :math:`n_c`, with λ there, at least these speeds are barred:
+
+.. math:: \frac{16\, n_c}{18 - \lambda} \le n \le \frac{(18 - \lambda)\, n_c}{16}
+
+In normal operation no speeds above λ = 0.8 may be barred. Above λ = 1.05 nothing is said.
+
+References
+----------
+.. [1] IACS, UR M68 Dimensions of propulsion shafts and their permissible torsional vibration stresses,
+    Rev. 3, 2021: M68.3 materials, M68.5 stresses, table of C_K.
+.. [2] Korean Register, Rules for the Classification of Steel Ships, part 5, chapter 4, 202 and 206: the same.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+Design = Literal[
+    "flange",
+    "shrink_fit",
+    "tapered_keyway",
+    "cylindrical_keyway",
+    "radial_hole",
+    "slot",
+    "thrust_collar",
+    "roller_bearing",
+    "propeller_shaft",
+    "stern_tube_shaft",
+]
+Steel = Literal["carbon", "alloy"]
+
+# C_K of M68: intermediate shafts, thrust shafts outside engines, propeller shafts.
+DESIGN_FACTORS: dict[Design, float] = {
+    "flange": 1.0,
+    "shrink_fit": 1.0,
+    "tapered_keyway": 0.60,
+    "cylindrical_keyway": 0.45,
+    "radial_hole": 0.50,
+    "slot": 0.30,
+    "thrust_collar": 0.85,
+    "roller_bearing": 0.85,
+    "propeller_shaft": 0.55,
+    "stern_tube_shaft": 0.80,
+}
+
+# Largest λ of which M68 speaks, and largest at which it lets speeds be barred.
+RATIO_MAX = 1.05
+RATIO_BARRED_MAX = 0.8
+
+# Strengths that count [Pa]: M68.3.
+STRENGTH_MIN = 400e6
+_STRENGTH_MAX: dict[Steel, float] = {"carbon": 600e6, "alloy": 800e6}
+_STRENGTH_MAX_PROPELLER = 600e6
+_PROPELLER: tuple[Design, ...] = ("propeller_shaft", "stern_tube_shaft")
+
+_MPA = 1e6
+_MM = 1e-3
+
+
+def counted_strength(tensile_strength: float, steel: Steel, design: Design) -> float:
+    """Tensile strength as far as it counts.
+
+    Parameters
+    ----------
+    tensile_strength : float
+        Least that the material is specified to have [Pa].
+    steel : {"carbon", "alloy"}
+        Carbon and carbon-manganese steel, or alloy steel.
+    design : str
+        A key of `DESIGN_FACTORS`.
+
+    Returns
+    -------
+    float
+        At most 600 MPa; of alloy steel outside propeller shafts at most 800 MPa [Pa].
+    """
+    highest = _STRENGTH_MAX_PROPELLER if design in _PROPELLER else _STRENGTH_MAX[steel]
+    return min(tensile_strength, highest)
+
+
+def size_factor(diameter: float) -> float:
+    """C_D.
+
+    Parameters
+    ----------
+    diameter : float
+        Outside [m].
+    """
+    return float(0.35 + 0.93 * (diameter / _MM) ** -0.2)
+
+
+def speed_factor(speed_ratio: Floats) -> Floats:
+    """C_λ.
+
+    Parameters
+    ----------
+    speed_ratio : ndarray, shape (n,)
+        λ, speed over that at rated power.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        NaN above λ = 1.05, where nothing is said.
+    """
+    ratio = np.asarray(speed_ratio, float)
+    below = np.where(ratio < 0.9, 3 - 2 * ratio**2, 1.38)
+    return np.where(ratio <= RATIO_MAX, below, np.nan)
+
+
+def continuous_stress(strength: float, diameter: float, design_factor: float, speed_ratio: Floats) -> Floats:
+    """τ_C, permitted for ever.
+
+    Parameters
+    ----------
+    strength : float
+        σ_B as it counts [Pa].
+    diameter : float
+        Outside [m].
+    design_factor : float
+        C_K.
+    speed_ratio : ndarray, shape (n,)
+        λ.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Amplitude of the nominal shear stress [Pa]; NaN where nothing is said.
+
+    References
+    ----------
+    .. [1] IACS UR M68.5.
+    """
+    factors = design_factor * size_factor(diameter) * speed_factor(speed_ratio)
+    found: Floats = (strength / _MPA + 160) / 18 * factors * _MPA
+    return found
+
+
+def transient_stress(continuous: Floats, design_factor: float) -> Floats:
+    """τ_T, permitted while barred speeds are passed.
+
+    Parameters
+    ----------
+    continuous : ndarray, shape (n,)
+        τ_C [Pa].
+    design_factor : float
+        C_K.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        [Pa].
+    """
+    found: Floats = 1.7 * continuous / np.sqrt(design_factor)
+    return found
+
+
+def barred_speeds(critical_speed: float, rated_speed: float) -> tuple[float, float]:
+    """Speeds to be barred about a critical one by the formula.
+
+    Parameters
+    ----------
+    critical_speed, rated_speed : float
+        n_c, and speed at rated power [rad/s].
+
+    Returns
+    -------
+    tuple of float
+        Lowest and highest, in the unit of n_c.
+    """
+    left = 18 - critical_speed / rated_speed
+    return 16 * critical_speed / left, left * critical_speed / 16

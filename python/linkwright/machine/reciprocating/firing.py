@@ -1,0 +1,98 @@
+r"""When each cylinder fires: from the angles of throws and banks and the firing order.
+
+A throw at the angle α behind throw 1, counted in the sense of rotation, points along a cylinder at the angle
+β from the vertical when the crank angle is :math:`\varphi = \beta - \alpha`, once a turn. In which of the
+turns of a cycle a cylinder fires follows from the order: each fires at its first dead centre after the one
+before it, and when the first fires again, just one cycle must have passed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+# Angles that differ by less are the same but for rounding of what was typed [rad].
+_EQUAL = 1e-6
+
+
+class CylinderPlace(NamedTuple):
+    """Where a cylinder is.
+
+    Attributes
+    ----------
+    throw, bank : int
+        Counted from 0.
+    along : float
+        Crank angle at which its throw points along it, 0 to 2π [rad].
+    """
+
+    throw: int
+    bank: int
+    along: float
+
+
+def cylinder_places(
+    throws: Sequence[float], banks: Sequence[float], numbering: str = "by_bank"
+) -> list[CylinderPlace]:
+    """All cylinders in the order of their numbers.
+
+    Parameters
+    ----------
+    throws : sequence of float
+        Angle of each throw behind the first, in the sense of rotation [rad].
+    banks : sequence of float
+        Angle of the cylinders of each bank from the vertical, in the sense of rotation [rad].
+    numbering : str
+        "by_bank", first all of the first bank; or "by_throw", first all of the first throw.
+
+    Returns
+    -------
+    list of CylinderPlace
+    """
+    if numbering == "by_throw":
+        pairs = [(t, b) for t in range(len(throws)) for b in range(len(banks))]
+    else:
+        pairs = [(t, b) for b in range(len(banks)) for t in range(len(throws))]
+    return [CylinderPlace(t, b, _turn(banks[b] - throws[t])) for t, b in pairs]
+
+
+def firing_angles(
+    places: Sequence[CylinderPlace], order: Sequence[int], cycle: float
+) -> tuple[list[float], float]:
+    """Crank angle at which each cylinder fires, as near as its throw points along it.
+
+    Parameters
+    ----------
+    places : sequence of CylinderPlace
+        The cylinders by number.
+    order : sequence of int
+        Their numbers, from 1, as they fire.
+    cycle : float
+        Crank angle of a working cycle [rad].
+
+    Returns
+    -------
+    angles : list of float
+        By number, of the first in the order 0 to 2π [rad].
+    found : float
+        After which the first fires again; the order fits if it is the cycle [rad].
+    """
+    along = [places[number - 1].along for number in order]
+    steps = [_turn(after - here) for here, after in zip(along, [*along[1:], along[0]], strict=True)]
+    # Where two in a row have their dead centres together, the second fires with the first or turns later.
+    together = steps.count(0.0)
+    turns = round((cycle - sum(steps)) / (2 * math.pi))
+    if together and turns % together == 0:
+        steps = [step or 2 * math.pi * (turns // together) for step in steps]
+    angles, now = [0.0] * len(places), along[0]
+    for number, step in zip(order, steps, strict=True):
+        angles[number - 1] = now
+        now += step
+    return angles, sum(steps)
+
+
+def _turn(angle: float) -> float:
+    """An angle from 0 up to a turn; what is a turn but for rounding is 0."""
+    turned = angle % (2 * math.pi)
+    return 0.0 if turned < _EQUAL or 2 * math.pi - turned < _EQUAL else turned

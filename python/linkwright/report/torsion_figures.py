@@ -1,0 +1,109 @@
+"""The figures of a study of torsional vibration, with their captions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.analysis.torsion.forced import ForcedVibration, angular_deflection
+from linkwright.analysis.torsion.study import TorsionStudy
+from linkwright.plot import (
+    heat_figure,
+    modes_figure,
+    orders_figure,
+    scheme_figure,
+    shaft_torques_figure,
+    stress_figure,
+    torsion_unevenness_figure,
+)
+from linkwright.plot.train_row import in_a_row
+from linkwright.report.captioned import Captioned
+
+
+def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
+    """The figures that a study has results for.
+
+    Parameters
+    ----------
+    study : TorsionStudy
+        What to draw.
+
+    Yields
+    ------
+    Captioned
+        In the order of the page.
+    """
+    caption = "Discs with the height of their inertia, shafts with the length of their compliance."
+    yield Captioned("scheme", "Equivalent scheme", caption, scheme_figure(study.scheme))
+    caption = "Amplitudes of the lowest modes that twist the train; the largest is one."
+    yield Captioned("mode_shapes", "Mode shapes", caption, modes_figure(study.free))
+    if study.forced is not None:
+        yield from _forced(study, study.forced)
+
+
+def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]:
+    """What the train does under its torques."""
+    caption = "Half of greatest less least torque, all orders in phase. "
+    yield Captioned("torques", "Torque of the shafts", caption, shaft_torques_figure(forced))
+    if study.stress is not None:
+        caption = "Vibratory shear stress with its concentration; dashed what the shaft bears. "
+        yield Captioned("stress", "Stress of the shafts", caption, stress_figure(study.stress))
+    yield _of_the_worst_shaft(study, forced)
+    yield _of_the_freest_disc(forced)
+    service = _service(study, forced)
+    caption = (
+        f"Along the train at {service * 30 / math.pi:.5g} rpm, and over the speed. The parts are not in "
+        "phase, so "
+        "they do not add up."
+    )
+    figure = torsion_unevenness_figure(forced, in_a_row(forced.discs, study.free.joined), service)
+    yield Captioned("unevenness", "Unevenness of rotation", caption, figure)
+    parts = _heated(study, forced)
+    if parts:
+        yield Captioned("heat", "Heat", "Mean power that damping turns to heat.", heat_figure(forced, parts))
+
+
+def _of_the_worst_shaft(study: TorsionStudy, forced: ForcedVibration) -> Captioned:
+    """Orders of the shaft that is nearest to its limit, or twisted most."""
+    size = np.nan_to_num(forced.shaft_torque_vibratory.max(axis=1), posinf=np.inf)
+    worst = int(size.argmax())
+    if study.stress is not None:
+        used = np.nan_to_num(study.stress.utilisation.max(axis=1))
+        if used.max() > 0:
+            worst = forced.shafts.index(study.stress.shafts[int(used.argmax())])
+    name = forced.shafts[worst]
+    single, total = np.abs(forced.shaft_torques[:, worst]), forced.shaft_torque_vibratory[worst]
+    figure = orders_figure(forced, single, total, "torque [kN m]", 1e-3)
+    return Captioned("orders", f"Orders in {name}", "Amplitude of each order, and all in phase.", figure)
+
+
+def _of_the_freest_disc(forced: ForcedVibration) -> Captioned:
+    """Orders of the disc that swings most."""
+    swing = np.nan_to_num(np.abs(forced.amplitudes)).max(axis=(0, 2))
+    name = forced.discs[int(swing.argmax())]
+    single, total = angular_deflection(forced, name)
+    figure = orders_figure(forced, single, total, "angle [°]", 180 / math.pi)
+    caption = (
+        "Vibration beside the steady turning: amplitude of each order, and half the span of all in phase."
+    )
+    return Captioned("amplitude", f"Amplitude of {name}", caption, figure)
+
+
+def _service(study: TorsionStudy, forced: ForcedVibration) -> float:
+    """Speed of service of a train; of a drive line the middle of its speeds."""
+    train = study.machine.train
+    if train is not None and train.run is not None:
+        return train.run.service
+    return float(forced.speeds[len(forced.speeds) // 2])
+
+
+def _heated(study: TorsionStudy, forced: ForcedVibration) -> list[str]:
+    """Dampers and couplings; without them what gets hottest."""
+    train = study.machine.train
+    named = [] if train is None else [*train.dampers, *train.couplings]
+    if not named:
+        heat = np.nan_to_num(forced.shaft_heat).max(axis=1)
+        named = [forced.shafts[s] for s in np.argsort(-heat)[:4] if heat[s] > 0]
+    return named[:6]
