@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from linkwright.plot.style import INK, LINES, SOFT, panels, styled, zero_line
+from linkwright.plot.train_row import in_a_row
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,15 +41,17 @@ def modes_figure(found: FreeVibration, modes: int = 4) -> Figure:
     for panel, k, colour in zip(axes, shown, LINES, strict=False):
         _mode(panel, found, k, colour)
     last = axes[-1]
-    last.set_xticks(range(len(found.discs)), found.discs, rotation=30 if len(found.discs) > 8 else 0)
+    names = [found.discs[d] for d in in_a_row(found.discs, found.joined)]
+    last.set_xticks(range(len(names)), names, rotation=30 if len(found.discs) > 8 else 0)
     last.set_xlabel("disc")
     return figure
 
 
 def _mode(axes: Axes, found: FreeVibration, k: int, colour: str) -> None:
     """One shape: discs as stems, shafts as lines between them."""
-    place = {name: n for n, name in enumerate(found.discs)}
-    shape = found.mode_shapes[k]
+    row = in_a_row(found.discs, found.joined)
+    place = {found.discs[d]: n for n, d in enumerate(row)}
+    shape = found.mode_shapes[k][row]
     for first, second in found.joined:
         if first in place and second in place:
             x = (place[first], place[second])

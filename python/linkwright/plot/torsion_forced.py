@@ -144,13 +144,15 @@ def orders_figure(
 
 
 @styled
-def torsion_unevenness_figure(found: ForcedVibration, speed: float) -> Figure:
+def torsion_unevenness_figure(found: ForcedVibration, row: list[int], speed: float) -> Figure:
     """Draw the unevenness of rotation along the train, and over the speed.
 
     Parameters
     ----------
     found : ForcedVibration
         What to draw.
+    row : list of int
+        Places of the discs, as they stand beside each other.
     speed : float
         Of the first disc, at which to look along the train [rad/s].
 
@@ -168,9 +170,9 @@ def torsion_unevenness_figure(found: ForcedVibration, speed: float) -> Figure:
         (found.unevenness_torsional, "torsional part", SKY),
     )
     for n, (values, words, colour) in enumerate(parts):
-        along.bar(x + 0.27 * (n - 1), values[:, at], width=0.25, color=colour, label=words)
+        along.bar(x + 0.27 * (n - 1), values[row, at], width=0.25, color=colour, label=words)
     turned = 30 if len(x) > 6 or max(map(len, found.discs)) > 9 else 0
-    along.set_xticks(x, found.discs, rotation=turned, ha="right" if turned else "center")
+    along.set_xticks(x, [found.discs[d] for d in row], rotation=turned, ha="right" if turned else "center")
     along.set_ylabel(f"δ at {_rpm(found.speeds)[at]:.0f} rpm")
     along.grid(visible=False, axis="x")
     legend_above(along)

@@ -18,6 +18,7 @@ from linkwright.plot import (
     stress_figure,
     torsion_unevenness_figure,
 )
+from linkwright.plot.train_row import in_a_row
 from linkwright.report.captioned import Captioned
 
 
@@ -57,7 +58,7 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
         "phase, so "
         "they do not add up."
     )
-    figure = torsion_unevenness_figure(forced, service)
+    figure = torsion_unevenness_figure(forced, in_a_row(forced.discs, study.free.joined), service)
     yield Captioned("unevenness", "Unevenness of rotation", caption, figure)
     parts = _heated(study, forced)
     if parts:

@@ -104,13 +104,11 @@ def _assumptions(study: TorsionStudy) -> Iterator[str]:
     yield "Loss factors η do not depend on the frequency."
     train = study.machine.train
     if train is None:
-        yield "The mechanism is a disc with the mean of its reduced inertia; what its change does acts as a torque."
+        yield "The mechanism is a disc with the mean of its inertia; what its change does acts as a torque."
         return
     if train.engine is not None:
-        yield "A throw is a disc with the mean of its inertia over the turn; what its change does acts as a torque."
-        yield (
-            "Gas pressure is that of steady running at each speed; cylinders differ by their factors alone."
-        )
+        yield "A throw is a disc with the mean of its inertia; what its change does acts as a torque."
+        yield "Gas pressure is that of steady running; cylinders differ by their factors alone."
     if train.loads:
         balanced = "what the engine gives" if train.engine is not None else "what the driver is asked for"
         yield f"Mean torques balance: the loads take {balanced}; their slope over the speed damps."

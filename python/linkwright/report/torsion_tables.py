@@ -56,14 +56,19 @@ def _judgements(found: Verdict) -> Table:
         (
             f"{each.part}: {each.what}",
             "",
-            with_unit(each.found, each.kind.unit),
-            with_unit(each.permitted, each.kind.unit),
+            _shown(each.found, each.kind.unit),
+            _shown(each.permitted, each.kind.unit),
             _rpm(each.speed),
             _STATES[each.state],
         )
         for each in found.judgements
     ]
     return Table("limits", "Limits", ("limit", "", "found", "permitted", "at rpm", "verdict"), rows)
+
+
+def _shown(value: float, unit: str) -> str:
+    """A quantity for people: stresses in MPa."""
+    return with_unit(value / 1e6, "MPa") if unit == "Pa" else with_unit(value, unit)
 
 
 def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:

@@ -29,6 +29,9 @@ Complexes = NDArray[np.complex128]
 _ABOUT = (0.2, 1.3)
 _POINTS = 200
 
+# Share of the largest torque on a mass below which a shaft carries rounding.
+_ROUNDING = 1e-11
+
 
 @dataclass(frozen=True)
 class Excited:
@@ -168,6 +171,8 @@ def _mean_torques(referred: ReferredTrain, mean: Floats) -> Floats:
     held = np.concatenate([q, np.zeros_like(q[:1])])
     first, second = referred.ends.T
     carried: Floats = referred.stiffness[:, None] * (held[first] - held[second])
+    # What is left of the rounding of large torques is none.
+    carried[np.abs(carried) < _ROUNDING * np.abs(M).max(initial=0.0)] = 0.0
     return carried / lead_speeds(referred)[:, None]
 
 

@@ -219,11 +219,19 @@ def _notes(shafts: dict[str, Shaft], speeds: Floats, listed: list[Criterion]) ->
             limit = shafts[each.part].limit
             rule = "" if limit is None else f" by {limit.kind}"
             found.append(f"{each.part}: nothing is said{rule} above {_rpm(float(speeds[silent].min()))}")
+    return [*found, *_strengths(shafts)]
+
+
+def _strengths(shafts: dict[str, Shaft]) -> list[str]:
+    """Where a rule counts a strong steel as a weaker one."""
+    counted: dict[float, list[str]] = {}
     for name, shaft in shafts.items():
         if shaft.limit is not None and shaft.limit.counted_strength != shaft.limit.tensile_strength:
-            counted = shaft.limit.counted_strength or 0.0
-            found.append(f"{name}: of the tensile strength {counted / 1e6:.4g} MPa count")
-    return found
+            counted.setdefault(shaft.limit.counted_strength or 0.0, []).append(name)
+    return [
+        f"{', '.join(names)}: the rule counts the tensile strength as {strength / 1e6:.4g} MPa"
+        for strength, names in counted.items()
+    ]
 
 
 def _lists(ranges: tuple[tuple[float, float], ...]) -> list[list[float]]:

@@ -1,0 +1,39 @@
+"""In which order the discs of a train stand beside each other in a figure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+
+def in_a_row(discs: Sequence[str], joined: Sequence[tuple[str, str]]) -> list[int]:
+    """Places of the discs along a chain, from the end that comes first in the file.
+
+    Parameters
+    ----------
+    discs : sequence of str
+        In the order of the file.
+    joined : sequence of tuple of str
+        The two ends of every shaft and gear stage; what is no disc is the ground.
+
+    Returns
+    -------
+    list of int
+        As in the file where the train branches or closes a loop.
+    """
+    about: dict[str, list[str]] = {name: [] for name in discs}
+    for a, b in joined:
+        if a in about and b in about and b not in about[a]:
+            about[a].append(b)
+            about[b].append(a)
+    ends = [name for name in discs if len(about[name]) < 2]
+    if len(ends) != 2 or any(len(each) > 2 for each in about.values()):
+        return list(range(len(discs)))
+    row, before = [ends[0]], ""
+    while len(row) < len(discs):
+        after = [name for name in about[row[-1]] if name != before]
+        if not after:
+            return list(range(len(discs)))
+        before = row[-1]
+        row.append(after[0])
+    place = {name: n for n, name in enumerate(discs)}
+    return [place[name] for name in row]
