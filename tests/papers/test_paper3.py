@@ -180,8 +180,8 @@ def test_rigid_unevenness_by_the_torques(paper: Paper3) -> None:
     total = at.torques.harmonics[:, :, 0].sum(axis=1)
     J = at.referred.inertia.sum()
     phi = np.linspace(0, 4 * np.pi, 20001)
-    # J Ω dΩ/dφ is the torque beside its mean. Damping against the ground is left out, 4 % of the inertia at order ½
-    # and less at the others.
+    # J Ω dΩ/dφ is the torque beside its mean. Damping against the ground is left out, 4 % of the inertia at
+    # order ½ and less at the others.
     swing = (np.exp(1j * np.outer(phi, at.torques.orders)) @ (total / (1j * at.torques.orders))).real
     delta = np.ptp(swing) / (J * speed**2)
     assert paper.uneven.delta_rigid == pytest.approx(delta, rel=2e-2)
