@@ -70,7 +70,7 @@ def criteria(machine: Machine, speeds: Floats | None = None) -> list[Criterion]:
     Parameters
     ----------
     machine : Machine
-        With a [train] that something excites.
+        With a [train] that something excites, or a drive line that twists.
     speeds : ndarray, shape (speeds,), optional
         Of the first disc; without them those of [train.run] [rad/s].
 
@@ -86,10 +86,11 @@ def criteria(machine: Machine, speeds: Floats | None = None) -> list[Criterion]:
     """
     at = excited(machine, speeds)
     found = responded(at)
-    assert machine.train is not None
+    # A drive line has no couplings and dampers of its own.
+    described = Train() if machine.train is None else machine.train
     shafts = at.train.shafts
-    listed = [*_stresses(machine, shafts, found), *_torques(machine.train, shafts, found)]
-    listed += _heats(machine.train, found)
+    listed = [*_stresses(machine, shafts, found), *_torques(described, shafts, found)]
+    listed += _heats(described, found)
     gears = meshed(at, found)
     for g, name in enumerate(gears.stages):
         if gears.toothed[g]:

@@ -120,7 +120,8 @@ def is_excited(machine: Machine) -> bool:
     """
     train = machine.train
     if train is None:
-        return machine.drive is not None and machine.drive.twists
+        drive = machine.drive
+        return drive is not None and drive.twists and not (drive.motor is None and drive.speed is None)
     if train.run is None:
         return False
     pulsates = any(each.harmonics for each in train.loads.values())
