@@ -5,8 +5,9 @@
 | `free` | natural frequencies, mode shapes, nodes, energy, and what changes them |
 | `drive_line` | the train of a drive line, and how its mechanism excites it |
 | `scheme` | inertias, stiffnesses and equivalent lengths, own and referred |
-| `damper_rules`, `damper_design`, `ring_on_train` | the best damper: in closed form, for a mode, for a train
-| | `holzer` | what a train needs to swing at any frequency |
+| `damper_rules`, `damper_design` | the best damper, in closed form and for a mode |
+| `ring_on_train` | the best damper for a train |
+| `holzer` | what a train needs to swing at any frequency |
 | `damped`, `campbell` | modes with damping; critical speeds and how severe they are |
 | `excited`, `torques`, `engine_torques`, `mechanism_torques` | what makes a train vibrate |
 | `synthesis` | orders added up in phase |
