@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy.integrate import quad
+from scipy.optimize import brentq
 from torsion_fields import flange_flexibility, keyed_constant, spline_constant, step_length
 
 import linkwright as lw
@@ -231,6 +232,51 @@ def test_half_the_inertia_to_each_end_keeps_low_frequencies() -> None:
     exact = 0.8603335890193797  # Root of x tan x = J_shaft/J_disc = 1, with ω = x √(k/J_shaft).
     # Half instead of the better third of the inertia: too low by less than 6 %.
     assert math.sqrt(k / (J + end)) / (exact * math.sqrt(k / J)) == pytest.approx(1.0, abs=0.06)
+
+
+@pytest.mark.parametrize("parts", [1, 4, 16])
+def test_a_shaft_with_a_density_swings_by_itself(parts: int) -> None:
+    """A plain shaft between two discs as heavy as itself, in parts: tan x = 2x/(x² − 1) (Timoshenko).
+
+    Inertia at the ends of n parts makes the frequency too low by about 0.13/n².
+    """
+    shaft = section(length=1.0)
+    J, k = shaft.inertia(7850), 79.3e9 / shaft.flexibility
+    tiny = 1e-9 * J
+    discs = [J, *[tiny] * (parts - 1), J]
+    lines = ["format = 1", 'name = "Heavy shaft"', "[train.discs]"]
+    lines += [f"d{n} = {{ inertia = {each!r} }}" for n, each in enumerate(discs)]
+    for n in range(parts):
+        lines += [f"[train.shafts.s{n}]", f'between = ["d{n}", "d{n + 1}"]', "density = 7850"]
+        lines += [f"sections = [{{ length = {1 / parts!r}, diameter = 0.1 }}]"]
+    found = lw.free_vibration(lw.loads("\n".join(lines)))
+    exact = brentq(lambda x: math.tan(x) - 2 * x / (x * x - 1), 1.1, 1.5)
+    x = 2 * math.pi * found.natural_frequencies[1] / math.sqrt(k / J)
+    assert x == pytest.approx(exact, rel=0.14 / parts**2)
+
+
+def test_a_shaft_to_the_ground_gives_half_its_inertia() -> None:
+    machine = lw.loads("""
+        format = 1
+        name = "Held"
+        [train.discs]
+        a = { inertia = 1.0 }
+        [train.shafts.s]
+        between = ["ground", "a"]
+        density = "7.85 g/cm^3"
+        sections = [{ length = "300 mm", diameter = "100 mm" }]
+    """)
+    J = 1.0 + section().inertia(7850) / 2
+    found = lw.free_vibration(machine)
+    omega = math.sqrt(79.3e9 / section().flexibility / J)
+    assert 2 * math.pi * found.natural_frequencies[0] == pytest.approx(omega, rel=1e-12)
+
+
+def test_a_density_without_sections_is_told() -> None:
+    text = FILE.replace('shear_modulus = "80 GPa"', "density = 7850\nstiffness = 1e6")
+    text = text[: text.index("sections")]
+    with pytest.raises(MachineError, match=r"the sections whose inertia it gives"):
+        lw.loads(text)
 
 
 def test_a_row_with_steps() -> None:

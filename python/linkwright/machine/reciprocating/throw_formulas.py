@@ -26,8 +26,7 @@ term is read as the journal's. Solid models of throws are the check (`docs/theor
 
 References
 ----------
-.. [1] Dynamics of torsional vibration of V-type engines of aviation ground equipment (in Ukrainian),
-    equation (17), after Seelmann.
+.. [1] Paper 3, equation (17), after Seelmann.
 .. [2] Carter, An empirical formula for crankshaft stiffness in torsion, Engineering, July 1928. Feese, Hill,
     Prevention of torsional vibration problems in reciprocating machinery, Turbomachinery Symposium 38, 2009.
 .. [3] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 3.
