@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.torsion.engine_data import EngineData
 from linkwright.analysis.torsion.forced import ForcedVibration
 from linkwright.analysis.torsion.free import FreeVibration, Node
 from linkwright.analysis.torsion.holzer import HolzerTable
@@ -39,6 +40,8 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
     """
     if study.verdict is not None and study.verdict.judgements:
         yield _judgements(study.verdict)
+    if study.engine is not None:
+        yield _engine(study.engine)
     yield from torsion_tables(study.free)
     if study.forced is not None:
         yield _shafts(study, study.forced)
@@ -64,6 +67,41 @@ def _judgements(found: Verdict) -> Table:
         for each in found.judgements
     ]
     return Table("limits", "Limits", ("limit", "", "found", "permitted", "at rpm", "verdict"), rows)
+
+
+def _engine(data: EngineData) -> Table:
+    """Discs and stiffness of throws by every formula, and the gas."""
+    rows: list[Row] = [
+        ("what turns with a throw", "J_k", with_unit(data.own_inertia, "kg m²"), ""),
+        ("disc of a throw, mean of the exact inertia", "J", with_unit(data.throw_inertia, "kg m²"), "used"),
+        _beside("disc of a throw by paper 3 (7)", data.throw_inertia_published, data.throw_inertia, "kg m²"),
+    ]
+    if data.stiffness is not None:
+        if data.stiffness_by == "given":
+            rows.append(("stiffness from throw to throw", "k", with_unit(data.stiffness, "N m/rad"), "given"))
+        for name, stiffness in data.stiffness_formulas.items():
+            word = f"stiffness by formula {name}"
+            if name == data.stiffness_by:
+                rows.append((word, "k", with_unit(stiffness, "N m/rad"), "used"))
+            else:
+                rows.append(_beside(word, stiffness, data.stiffness, "N m/rad"))
+    rows += [
+        (f"{word}, bank {n + 1}", "", with_unit(value / 1e5, "bar"), "")
+        for word, values in (
+            ("indicated mean pressure", data.mean_effective_pressure),
+            ("peak pressure", data.peak_pressure),
+        )
+        for n, value in enumerate(values)
+    ]
+    first = next(iter(data.firing.values()))
+    order = ", ".join(f"{name} at {np.degrees(at - first):.4g}°" for name, at in data.firing.items())
+    rows.append(("cylinders fire", "", order, ""))
+    return Table("engine", f"Engine, gas at {_rpm(data.speed)} rpm", ("quantity", "", "value", ""), rows)
+
+
+def _beside(word: str, value: float, used: float, unit: str) -> Row:
+    """A value that is not used, and how far it is from the one that is."""
+    return word, "", with_unit(value, unit), f"{100 * (value / used - 1):+.3g} %"
 
 
 def _shown(value: float, unit: str) -> str:

@@ -136,14 +136,16 @@ fn highest(wave: &[Complex], samples: &[f64], sign: f64) -> (f64, f64) {
     let swing = samples.iter().fold(0.0_f64, |a, x| a.max((x - wave[0][0]).abs()));
     // Tops of parabolas through three samples: where, and how high.
     let mut tops = Vec::with_capacity(8);
-    for j in 0..n {
-        let here = sign * samples[j];
-        let (before, after) = (sign * samples[(j + n - 1) % n], sign * samples[(j + 1) % n]);
+    let (mut before, mut here) = (sign * samples[n - 1], sign * samples[0]);
+    let following = samples[1..].iter().chain(&samples[..1]);
+    for (j, after) in following.enumerate() {
+        let after = sign * after;
         if here >= before && here >= after {
             let bend = before - 2.0 * here + after;
             let shift = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
             tops.push(((j as f64 + shift) * step, here - 0.25 * (before - after) * shift, here));
         }
+        (before, here) = (here, after);
     }
     tops.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut found = (0.0, f64::NEG_INFINITY);

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.analysis.torsion.engine_data import EngineData, engine_data
 from linkwright.analysis.torsion.excited import Excited, excited, is_excited
 from linkwright.analysis.torsion.forced import ForcedVibration, responded
 from linkwright.analysis.torsion.free import FreeVibration, free_vibration
@@ -45,6 +46,8 @@ class TorsionStudy:
         Whether all limits are kept.
     along : UnevennessAlong or None
         Unevenness over the cylinders of an engine at its speed of service.
+    engine : EngineData or None
+        What an engine is in the train.
     """
 
     machine: Machine
@@ -56,6 +59,7 @@ class TorsionStudy:
     stress: ShaftStress | None = None
     verdict: Verdict | None = None
     along: UnevennessAlong | None = None
+    engine: EngineData | None = None
 
     @property
     def findings(self) -> list[str]:
@@ -77,6 +81,8 @@ class TorsionStudy:
             found["holzer"] = [each.to_dict(curves=True) for each in self.holzer]
         parts = {"forced": self.forced, "stress": self.stress, "verdict": self.verdict}
         found |= {name: part.to_dict(curves=True) for name, part in parts.items() if part is not None}
+        if self.engine is not None:
+            found["engine"] = self.engine.to_dict()
         if self.along is not None:
             found["unevenness_along"] = self.along.to_dict(curves=True)
         return found | {"scheme": self.scheme.to_dict(curves=True)}
@@ -119,7 +125,16 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
         stress if stress.shafts else None,
         verdict(machine, survey(machine, at, forced)),
         _along(machine, at, forced),
+        _engine(machine),
     )
+
+
+def _engine(machine: Machine) -> EngineData | None:
+    """What an engine is, at its speed of service."""
+    train = machine.train
+    if train is None or train.engine is None or train.run is None:
+        return None
+    return engine_data(train.engine, train.run.service)
 
 
 def _along(machine: Machine, at: Excited, forced: ForcedVibration) -> UnevennessAlong | None:
