@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,9 @@ Floats = NDArray[np.float64]
 
 # Parts that share most of the energy, as far as they have a twentieth of it.
 _NAMED, _SHARE = 2, 0.05
+
+# Nodes of a mode in a row of its table.
+_NODES = 3
 
 # Columns of shapes beside each other on a terminal.
 _SHAPES = 5
@@ -74,7 +77,17 @@ def _engine(data: EngineData) -> Table:
     rows: list[Row] = [
         ("what turns with a throw", "J_k", with_unit(data.own_inertia, "kg m²"), ""),
         ("disc of a throw, mean of the exact inertia", "J", with_unit(data.throw_inertia, "kg m²"), "used"),
-        _beside("disc of a throw by paper 3 (7)", data.throw_inertia_published, data.throw_inertia, "kg m²"),
+        _beside(
+        _beside(
+            "disc of a throw as printed in paper 3, (7) and (12)",
+            data.throw_inertia_published,
+            data.throw_inertia,
+            "kg m²",
+        ),
+            data.throw_inertia_published,
+            data.throw_inertia,
+            "kg m²",
+        ),
     ]
     if data.stiffness is not None:
         if data.stiffness_by == "given":
@@ -93,9 +106,9 @@ def _engine(data: EngineData) -> Table:
         )
         for n, value in enumerate(values)
     ]
-    first = next(iter(data.firing.values()))
-    order = ", ".join(f"{name} at {np.degrees(at - first):.4g}°" for name, at in data.firing.items())
-    rows.append(("cylinders fire", "", order, ""))
+    rows.append(("cylinders fire", "", "-".join(data.firing), ""))
+    steps = sorted({f"{np.degrees(each):.5g}°" for each in data.intervals})
+    rows.append(("one after another by", "", ", ".join(steps) or "a cycle", ""))
     return Table("engine", f"Engine, gas at {_rpm(data.speed)} rpm", ("quantity", "", "value", ""), rows)
 
 
@@ -189,12 +202,18 @@ def _frequencies(found: FreeVibration) -> Table:
             f"f_{k}",
             f"{f:.6g}",
             f"{60 * f:.6g}",
-            ", ".join(map(_node, found.nodes[k])) or "–",
+            _nodes(found.nodes[k]),
         )
         for k, f in enumerate(found.natural_frequencies.tolist())
     ]
     heads = ("most energy in", "", "Hz", "1/min", "nodes")
     return Table("natural_frequencies", "Natural frequencies", heads, rows)
+
+
+def _nodes(nodes: Sequence[Node]) -> str:
+    """The first nodes of a mode; results.json has them all."""
+    told = ", ".join(map(_node, nodes[:_NODES])) or "–"
+    return f"{told}, {len(nodes)} in all" if len(nodes) > _NODES else told
 
 
 def _node(node: Node) -> str:

@@ -116,4 +116,3 @@ def engine_data(engine: ReciprocatingEngine, speed: float) -> EngineData:
         mean_effective_pressure=tuple(float(each.mean_effective_pressure[0]) for each in gas),
         peak_pressure=tuple(float(each.peak_pressure[0]) for each in gas),
     )
-

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.analysis.torsion.engine_data import EngineData, engine_data
-from linkwright.analysis.torsion.excited import Excited, excited, is_excited
+from linkwright.analysis.torsion.excited import Excited, excited, is_excited, pulsates
 from linkwright.analysis.torsion.forced import ForcedVibration, responded
 from linkwright.analysis.torsion.free import FreeVibration, free_vibration
 from linkwright.analysis.torsion.holzer import HolzerTable, holzer_table
@@ -154,6 +154,8 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     """What one should know beside the numbers."""
     forced, at = study.forced, study.excited
     if forced is None or at is None:
+        if pulsates(study.machine):
+            yield "Forced vibration needs speeds: give [train.run] speed_min and speed_max."
         return
     yield from () if study.verdict is None else (f"{note}." for note in study.verdict.notes)
     if not np.isfinite(forced.shaft_torque_max).all():
