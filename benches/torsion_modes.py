@@ -24,7 +24,8 @@ def chain(n: int) -> ReferredTrain:
     ends = np.column_stack([place[:-1], place[1:]])
     names = tuple(f"d{k}" for k in range(n))
     J, k = random.uniform(0.5, 2.0, n), random.uniform(1e4, 4e4, n - 1)
-    return ReferredTrain(names, names[1:], np.ones(n), place, ends, ends, J, k)
+    none = np.zeros(n)
+    return ReferredTrain(names, names[1:], np.ones(n), place, ends, ends, J, k, none, none[1:], none[1:])
 
 
 def _rows(n: int, repeats: int) -> list[Row]:
