@@ -78,12 +78,7 @@ def _engine(data: EngineData) -> Table:
         ("what turns with a throw", "J_k", with_unit(data.own_inertia, "kg m²"), ""),
         ("disc of a throw, mean of the exact inertia", "J", with_unit(data.throw_inertia, "kg m²"), "used"),
         _beside(
-        _beside(
             "disc of a throw as printed in paper 3, (7) and (12)",
-            data.throw_inertia_published,
-            data.throw_inertia,
-            "kg m²",
-        ),
             data.throw_inertia_published,
             data.throw_inertia,
             "kg m²",

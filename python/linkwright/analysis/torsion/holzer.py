@@ -27,7 +27,7 @@ from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.free import own_stiffness, train_of, twists_of
 from linkwright.engine.train import ReferredTrain, refer
 from linkwright.errors import FindingError, InputError
-from linkwright.machine import Machine
+from linkwright.machine import Machine, Train
 from linkwright.machine.base import suggestion
 
 Floats = NDArray[np.float64]

@@ -202,11 +202,11 @@ def _against_barring(each: BarredRange) -> str:
         return f"not to be passed from {_rpm(low)} to {_rpm(high)}"
     if each.is_passable is None:
         return "no stress is given that is permitted while passing"
-    if each.speed_min * each.ratio_max / each.speed_max <= 1.0 <= each.ratio_max:
-        return "the speed of service lies in it"
     if not each.may_be_barred:
         highest = each.ratio_permitted
         return f"speeds above {highest:.0%} of the speed of service may not be barred in normal operation"
+    if each.speed_min * each.ratio_max / each.speed_max <= 1.0 <= each.ratio_max:
+        return "the speed of service lies in it"
     return ""
 
 
