@@ -18,7 +18,7 @@ References
 ----------
 .. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963: vector sums, equilibrium
 amplitude.
-.. [2] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.5: work of the torques of an engine in a mode.
+.. [2] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.5: work of an engine's torques in a mode.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from linkwright.machine import Machine
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
-# Secant steps to a critical speed: from neighbours on a grid, and where frequencies do not change the first is exact.
+# Secant steps to a critical speed: from neighbours on a grid, or exact where frequencies do not change.
 _STEPS = 8
 
 # Speeds that differ by a smaller share are one.
@@ -160,9 +160,9 @@ def campbell(
         wanted = f"({len(listed)}, {len(modes.discs)}), a row an order, a column a disc"
         raise InputError(f"excitation: found an array of shape {np.shape(excitation)}, expected {wanted}")
     at, mode, order = _crossings(modes, speeds, omega, listed)
-    critical = _judged(
-        modes, at, mode, listed[order], excitation, order, _ratios(damping_ratios, len(omega.T))
-    )
+    ratios = _ratios(damping_ratios, omega.shape[1])
+    given = None if excitation is None else np.asarray(excitation, complex)[order]
+    critical = _judged(modes, at, mode, listed[order], given, ratios)
     return CampbellDiagram(
         speeds=speeds, frequencies=omega.T / (2 * math.pi), orders=listed, critical=tuple(sorted(critical))
     )
@@ -200,8 +200,8 @@ def _crossings(
 ) -> tuple[Floats, NDArray[np.intp], NDArray[np.intp]]:
     """Speeds at which ω_n − νΩ is zero, with mode and order."""
     gap = omega[:, :, None] - speeds[:, None, None] * orders
-    above = gap > 0
-    crossed = above[:-1] != above[1:]
+    above = np.greater(gap, 0.0)
+    crossed = np.not_equal(above[:-1], above[1:])
     # A zero at the end of a step belongs to that step, one at the lowest speed to the first.
     crossed[0] |= gap[0] == 0
     step, mode, order = np.nonzero(crossed & (omega > 0).all(axis=0)[:, None])
@@ -225,15 +225,14 @@ def _judged(
     at: Floats,
     mode: NDArray[np.intp],
     orders: Floats,
-    excitation: Complexes | None,
-    order: NDArray[np.intp],
+    given: Complexes | None,
     ratios: Floats | None,
 ) -> list[CriticalSpeed]:
-    """Critical speeds with how severe they are."""
+    """Critical speeds with how severe they are, under given torques (n, discs) or those of the machine."""
     if not len(at):
         return []
     found = modes.shapes(at, mode)
-    torques = excitation[order] if excitation is not None else modes.torques(at, orders)
+    torques = modes.torques(at, orders) if given is None else given
     work = None if torques is None else np.abs((torques * found.shapes).sum(axis=1))
     zeta = found.damping_ratios if ratios is None else ratios[mode]
     listed = []

@@ -5,9 +5,9 @@ itself as :math:`\theta e^{st}` with
 
 .. math:: (s^2 J + s C + K + iH)\,\theta = 0, \qquad s = -\sigma \pm i\omega_d
 
-Hysteresis is defined for vibration alone: H counts with the sign of :math:`\omega_d`, so that of each pair the
-solution with :math:`\omega_d > 0` is taken, and motion without vibration (real s) feels C only. Without C this
-is :math:`(K + iH)\,\theta = \omega^{*2} J\,\theta` with :math:`s = i\omega^*`.
+Hysteresis is defined for vibration alone: H counts with the sign of :math:`\omega_d`, so that of each pair
+the solution with :math:`\omega_d > 0` is taken, and motion without vibration (real s) feels C only. Without
+C this is :math:`(K + iH)\,\theta = \omega^{*2} J\,\theta` with :math:`s = i\omega^*`.
 
 The equation times :math:`\bar\theta^T` says, by its imaginary part, what each part damps,
 
@@ -184,7 +184,8 @@ def _damping(
     referred: ReferredTrain, disc_damping: Floats, shapes: Complexes, omega: Floats
 ) -> tuple[Floats, Floats]:
     """What shafts and discs add to 2σ Σ J|θ|², (modes, shafts) and (modes, discs)."""
-    square = np.abs(twists_of(referred, shapes)) ** 2 / lead_speeds(referred) ** 2
+    twists = twists_of(referred, shapes.real) + 1j * twists_of(referred, shapes.imag)
+    square = np.abs(twists) ** 2 / lead_speeds(referred) ** 2
     loss = referred.loss_factor * referred.stiffness
     hysteresis = np.divide(loss, omega[:, None], out=np.zeros(square.shape), where=omega[:, None] > 0)
     return (referred.damping + hysteresis) * square, disc_damping * np.abs(shapes) ** 2

@@ -134,7 +134,7 @@ class _OfMachine(ModesAt):
 
     def __init__(self, machine: Machine) -> None:
         self.machine = machine
-        # At the speeds that were asked for last: frequencies, shapes and torques of the same are asked in turn.
+        # At the speeds that were asked for last: frequencies, shapes and torques of the same follow.
         self._last: Excited | None = None
 
     @cached_property
@@ -144,7 +144,7 @@ class _OfMachine(ModesAt):
         return train is not None and any(each.twist is not None for each in train.couplings.values())
 
     @cached_property
-    def discs(self) -> tuple[str, ...]:  # type: ignore[override]
+    def discs(self) -> tuple[str, ...]:
         return tuple(train_of(self.machine).discs)
 
     def grid(self, ends: tuple[float, float] | None) -> Floats:
