@@ -78,6 +78,8 @@ _HOME = {
     "holzer_table": "analysis.torsion.holzer",
     "drive_line": "analysis.torsion.drive_line",
     "mechanism_harmonics": "analysis.torsion.drive_line",
+    "design_damper": "analysis.torsion.damper_design",
+    "scheme": "analysis.torsion.scheme",
     "station_damping": "analysis.torsion.drive_line",
     "study": "analysis.study",
     "steady_states": "sweep.batch",
@@ -161,11 +163,13 @@ if TYPE_CHECKING:
     from linkwright.analysis.steady_state import steady_state as steady_state
     from linkwright.analysis.step_method import step_method as step_method
     from linkwright.analysis.study import study as study
+    from linkwright.analysis.torsion.damper_design import design_damper as design_damper
     from linkwright.analysis.torsion.drive_line import drive_line as drive_line
     from linkwright.analysis.torsion.drive_line import mechanism_harmonics as mechanism_harmonics
     from linkwright.analysis.torsion.drive_line import station_damping as station_damping
     from linkwright.analysis.torsion.free import free_vibration as free_vibration
     from linkwright.analysis.torsion.holzer import holzer_table as holzer_table
+    from linkwright.analysis.torsion.scheme import scheme as scheme
     from linkwright.analysis.transient import transient as transient
     from linkwright.exchange.cam import cam_drawings as cam_drawings
     from linkwright.exchange.write import write_drawing as write_drawing

@@ -96,6 +96,14 @@ from linkwright.machine.motor import (
 from linkwright.machine.point_law import SplineLaw, TableLaw
 from linkwright.machine.polished_rod_load import PolishedRodLoad
 from linkwright.machine.pumping_unit import PumpingUnit
+from linkwright.machine.reciprocating.throw import (
+    Counterweight,
+    CrankPin,
+    CrankThrow,
+    CrankWeb,
+    Drilling,
+    Journal,
+)
 from linkwright.machine.rod_rotator import RodRotator
 from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_section import ShaftSection
@@ -118,12 +126,17 @@ __all__ = [
     "ConstantSpeedMotor",
     "ConstantTorque",
     "ConstantTorqueMotor",
+    "Counterweight",
     "Coupling",
     "Crank",
+    "CrankPin",
+    "CrankThrow",
+    "CrankWeb",
     "Crossing",
     "Damper",
     "DcMotor",
     "Disc",
+    "Drilling",
     "Drive",
     "DryFriction",
     "ElasticShaft",
@@ -139,6 +152,7 @@ __all__ = [
     "Guide",
     "InductionMotor",
     "Joint",
+    "Journal",
     "LimitedLaw",
     "LinearDriver",
     "Link",

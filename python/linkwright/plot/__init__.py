@@ -13,6 +13,7 @@
 | `motion_laws` | motion laws and their derivatives, several in one picture |
 | `cam_dynamics` | contact force, pressure and vibration of cams and followers |
 | `torsion` | mode shapes of trains |
+| `damper` | response of a train with the best damper |
 | `torsion_forced` | forced vibration of trains over their speeds |
 | `torsion_scheme` | equivalent schemes of trains, by `scheme_layout`, `scheme_page`, `scheme_words` |
 | `compare` | steady motion of several machines in one picture |
@@ -36,6 +37,7 @@ from linkwright.plot.cam_dynamics import (
     vibration_figure,
 )
 from linkwright.plot.compare import compare_figure
+from linkwright.plot.damper import damper_figure
 from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
 from linkwright.plot.linkage import coupler_figure, transmission_figure
 from linkwright.plot.motion_laws import motion_laws_figure
@@ -64,6 +66,7 @@ __all__ = [
     "contact_force_figure",
     "coupler_figure",
     "curvature_figure",
+    "damper_figure",
     "forces_figure",
     "gear_torque_figure",
     "heat_figure",

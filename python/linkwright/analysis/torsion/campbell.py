@@ -204,7 +204,7 @@ def _crossings(
     crossed = np.not_equal(above[:-1], above[1:])
     # A zero at the end of a step belongs to that step, one at the lowest speed to the first.
     crossed[0] |= gap[0] == 0
-    step, mode, order = np.nonzero(crossed & (omega > 0).all(axis=0)[:, None])
+    step, mode, order = np.nonzero(crossed & np.greater(omega.min(axis=0), 0.0)[:, None])
     low, high = speeds[step], speeds[step + 1]
     f, g = gap[step, mode, order], gap[step + 1, mode, order]
     at = low + (high - low) * f / (f - g)

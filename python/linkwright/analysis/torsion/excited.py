@@ -130,6 +130,34 @@ def prepared(machine: Machine, speeds: Floats | None = None) -> Excited:
         is_free=referred.is_free,
         has_engine=machine.train is not None and machine.train.engine is not None,
     )
+<<<<<<< HEAD
+=======
+    if not len(torques.orders):
+        remedy = "give [train.excitations], harmonics of [train.loads], or a [train.engine]"
+        raise InputError(f"nothing excites the train of {machine.name}: {remedy}")
+    return loaded(machine, train, referred, torques)
+
+
+def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Torques) -> Excited:
+    """A train under torques: mean torques of its shafts, stiffness and damping.
+
+    Parameters
+    ----------
+    machine : Machine
+        That has the train.
+    train : Train
+        Of discs, shafts and gears.
+    referred : ReferredTrain
+        The same, referred to its first disc.
+    torques : Torques
+        On the discs.
+
+    Returns
+    -------
+    Excited
+        At the speeds of the torques.
+    """
+>>>>>>> main
     mean = _mean_torques(referred, torques.mean)
     return Excited(train, referred, torques, mean, _operating(machine.train, referred, torques, mean))
 
@@ -144,7 +172,8 @@ def is_excited(machine: Machine) -> bool:
     """
     train = machine.train
     if train is None:
-        return machine.drive is not None and machine.drive.twists
+        drive = machine.drive
+        return drive is not None and drive.twists and not (drive.motor is None and drive.speed is None)
     if train.run is None:
         return False
     pulsates = any(each.harmonics for each in train.loads.values())
