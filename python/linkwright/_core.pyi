@@ -148,13 +148,8 @@ def torsion_waves(coefficients: _Floats, waves: int) -> _Floats:
 def torsion_modes(inertia: _Floats, ends: _Ints, stiffness: _Floats) -> tuple[_Floats, _Floats] | None:
     """Natural frequencies [rad/s], increasing, and mode shapes with Σ J q² = 1, one row a mode (n, n).
 
-<<<<<<< HEAD
-    Shafts join the masses of their ends (shafts, 2), −1 being the ground; without stiffness they do not. None
-    where they close a loop.
-=======
     Shafts join the masses of their ends (shafts, 2), −1 being the ground; without stiffness they do not.
     None where they close a loop.
->>>>>>> main
     """
 
 @final

@@ -130,11 +130,6 @@ def prepared(machine: Machine, speeds: Floats | None = None) -> Excited:
         is_free=referred.is_free,
         has_engine=machine.train is not None and machine.train.engine is not None,
     )
-<<<<<<< HEAD
-=======
-    if not len(torques.orders):
-        remedy = "give [train.excitations], harmonics of [train.loads], or a [train.engine]"
-        raise InputError(f"nothing excites the train of {machine.name}: {remedy}")
     return loaded(machine, train, referred, torques)
 
 
@@ -157,7 +152,6 @@ def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Tor
     Excited
         At the speeds of the torques.
     """
->>>>>>> main
     mean = _mean_torques(referred, torques.mean)
     return Excited(train, referred, torques, mean, _operating(machine.train, referred, torques, mean))
 
