@@ -112,7 +112,7 @@ class ReferredTrain:
         return found if found is not None else self._whole()
 
     def _whole(self) -> tuple[Floats, Floats]:
-        """Modes from the matrices, for trains with loops: each part by itself, which frequencies put in order."""
+        """Modes from the matrices, for trains with loops: each part by itself, then put in order."""
         n = len(self.inertia)
         pairs = self.ends[self.stiffness > 0].tolist()
         parts = parts_of(range(n), ((a, b) for a, b in pairs if HELD not in (a, b)))

@@ -49,8 +49,9 @@ impl Job for Squares<'_> {
     #[inline(always)]
     fn run<R: Real>(self) -> Vec<f64> {
         let n = self.holzer.positive();
-        let side = vec![[R::splat(0.0); 2]; self.holzer.len()];
-        let mut search = Search { holzer: self.holzer, n, width: n.next_multiple_of(R::LANES), side };
+        let width = n.next_multiple_of(R::LANES);
+        let mut search =
+            Search { holzer: self.holzer, n, width, side: self.holzer.room::<R>(), values: vec![0.0; width] };
         let mut brackets = search.brackets();
         let mut found = search.starts(&brackets);
         if !search.aberth(&mut found) {
@@ -73,19 +74,21 @@ struct Search<'a, R> {
     /// The same in whole bundles of lanes.
     width: usize,
     side: Vec<[R; 2]>,
+    /// What the last sweep found.
+    values: Vec<f64>,
 }
 
 impl<R: Real> Search<'_, R> {
     /// Counts, or p′/p, at as many places as there are lanes.
     #[inline(always)]
-    fn sweep<const SLOPE: bool>(&mut self, places: &[f64], to: &mut [f64]) {
+    fn sweep<const SLOPE: bool>(&mut self, places: &[f64]) {
         for first in (0..self.width).step_by(R::LANES) {
             let lambda = R::load(&places[first..]);
             let found = R::outline(
                 #[inline(always)]
                 || self.holzer.sweep::<R, SLOPE>(lambda, &mut self.side),
             );
-            found.store(&mut to[first..]);
+            found.store(&mut self.values[first..]);
         }
     }
 
@@ -98,14 +101,13 @@ impl<R: Real> Search<'_, R> {
             bound * x * x * (3.0 - 2.0 * x)
         };
         let places: Vec<f64> = (1..=width).map(place).collect();
-        let mut counts = vec![0.0; width];
-        self.sweep::<false>(&places, &mut counts);
+        self.sweep::<false>(&places);
         let mut brackets = vec![[0.0, bound]; width];
         let mut next = 0;
         for (nth, bracket) in brackets.iter_mut().enumerate() {
             // The zero of a free train counts, too.
             let number = (nth + self.holzer.len() - self.n) as f64;
-            while next < width && counts[next] <= number {
+            while next < width && self.values[next] <= number {
                 next += 1;
             }
             let low = if next == 0 { 0.0 } else { places[next - 1] };
@@ -115,31 +117,30 @@ impl<R: Real> Search<'_, R> {
             if !are_crowded(&brackets[..self.n]) {
                 break;
             }
-            self.halve(&mut brackets, &mut counts);
+            self.halve(&mut brackets);
         }
         brackets
     }
 
     /// Cuts every bracket in two.
     #[inline(always)]
-    fn halve(&mut self, brackets: &mut [[f64; 2]], counts: &mut [f64]) {
+    fn halve(&mut self, brackets: &mut [[f64; 2]]) {
         let middles: Vec<f64> = brackets.iter().map(between).collect();
-        self.sweep::<false>(&middles, counts);
+        self.sweep::<false>(&middles);
         for (nth, (bracket, middle)) in brackets.iter_mut().zip(middles).enumerate() {
             let number = (nth + self.holzer.len() - self.n) as f64;
-            bracket[usize::from(counts[nth] > number)] = middle;
+            bracket[usize::from(self.values[nth] > number)] = middle;
         }
     }
 
     /// Halves until nothing is left but rounding.
     #[inline(always)]
     fn close(&mut self, brackets: &mut [[f64; 2]]) {
-        let mut counts = vec![0.0; self.width];
         for _ in 0..CLOSINGS {
             if brackets[..self.n].iter().all(|[low, high]| high - low <= ROUNDING * high) {
                 break;
             }
-            self.halve(brackets, &mut counts);
+            self.halve(brackets);
         }
     }
 
@@ -160,25 +161,24 @@ impl<R: Real> Search<'_, R> {
         let n = self.n;
         // Written twice in a row, so that lanes find the others of each λ side by side.
         let mut ring = vec![0.5 * self.holzer.bound; n + self.width + R::LANES];
-        let (mut slopes, mut apart) = (vec![0.0; self.width], vec![0.0; self.width]);
         // Near, and all intervals apart by twice their radius, of which one is the other's.
         let enough = (1.0 / NEAR).max(2.0 * self.holzer.len() as f64);
         found.resize(self.width, 0.0);
         for _ in 0..STEPS {
             ring[..n].copy_from_slice(&found[..n]);
             ring[n..2 * n].copy_from_slice(&found[..n]);
-            self.sweep::<true>(&ring, &mut slopes);
+            self.sweep::<true>(&ring);
             for first in (0..self.width).step_by(R::LANES) {
-                let slope = R::load(&slopes[first..]);
+                let slope = R::load(&self.values[first..]);
                 let (next, gap) = R::outline(
                     #[inline(always)]
                     || self.step(slope, &ring[first..]),
                 );
                 next.store(&mut found[first..]);
-                (gap * slope.abs()).store(&mut apart[first..]);
+                (gap * slope.abs()).store(&mut self.values[first..]);
             }
             sort(&mut found[..n]);
-            if apart[..n].iter().all(|&each| each > enough) {
+            if self.values[..n].iter().all(|&each| each > enough) {
                 return true;
             }
         }

@@ -89,18 +89,20 @@ impl Holzer {
         self.len() - usize::from(self.is_free)
     }
 
-    /// How many λ lie below; or with `SLOPE` p′/p. `side` has room for what the side branches of each disc answer, and the slope of
-    /// that.
+    /// Room for what the side branches of each disc answer, and the slope of that.
+    pub fn room<R: Real>(&self) -> Vec<[R; 2]> {
+        let branches = self.steps.iter().any(|step| step.gathers);
+        vec![[R::splat(0.0); 2]; if branches { self.len() } else { 0 }]
+    }
+
+    /// How many λ lie below; or with `SLOPE` p′/p. `side` is its [`Holzer::room`].
     #[inline(always)]
     pub fn sweep<R: Real, const SLOPE: bool>(&self, lambda: R, side: &mut [[R; 2]]) -> R {
         let zero = R::splat(0.0);
         let fresh = State { angle: R::splat(1.0), torque: zero, angle_d1: zero, torque_d1: zero };
         let (mut at, mut found) = (fresh, zero);
-        let n = self.steps.len();
-        let (steps, side) = (&self.steps[..n], &mut side[..n]);
-        for c in (1..n).rev() {
-            let step = &steps[c];
-            at.turn::<SLOPE>(step, lambda, &mut side[c]);
+        for (c, step) in self.steps.iter().enumerate().skip(1).rev() {
+            at.turn::<SLOPE>(step, lambda, side.get_mut(c));
             let up = at.twist::<SLOPE>(step.flexibility);
             let sure = at.angle.mul_add(R::splat(NUDGE), up.angle);
             if !SLOPE {
@@ -120,7 +122,7 @@ impl Holzer {
             }
             at = fresh;
         }
-        at.turn::<SLOPE>(&steps[0], lambda, &mut side[0]);
+        at.turn::<SLOPE>(&self.steps[0], lambda, side.first_mut());
         found + if SLOPE { at.torque_d1 / at.torque } else { negative(at.angle * at.torque) }
     }
 }
@@ -150,10 +152,10 @@ struct State<R> {
 impl<R: Real> State<R> {
     /// Adds the torque that a disc takes; side branches are taken, and their place is left empty.
     #[inline(always)]
-    fn turn<const SLOPE: bool>(&mut self, step: &Step, lambda: R, side: &mut [R; 2]) {
+    fn turn<const SLOPE: bool>(&mut self, step: &Step, lambda: R, side: Option<&mut [R; 2]>) {
         let mut stiffness = lambda.mul_add(R::splat(-step.inertia), R::splat(step.ground));
         let mut slope = R::splat(-step.inertia);
-        if step.gathers {
+        if let Some(side) = side.filter(|_| step.gathers) {
             let [answer, answer_d1] = std::mem::replace(side, [R::splat(0.0); 2]);
             stiffness = stiffness + answer;
             slope = slope + answer_d1;

@@ -74,7 +74,7 @@ impl Job for Shapes<'_> {
             lambda[first..first + n].copy_from_slice(&buffer[..n]);
             straight.store(&mut buffer);
             good &= buffer[..n].iter().all(|&angle| angle <= STRAIGHT);
-            for (q, row) in twisted.shape.iter().zip(to.chunks_exact_mut(modes)) {
+            for (Sweep { shape: q, .. }, row) in twisted.sweeps.iter().zip(to.chunks_exact_mut(modes)) {
                 if n == R::LANES {
                     q.store(&mut row[first..]);
                 } else {
@@ -106,13 +106,14 @@ struct Sweep<R> {
     /// k/(k + x), k/(k + y).
     down: R,
     up: R,
+    /// θ.
+    shape: R,
 }
 
 /// Room for the shapes of as many modes as there are lanes.
 struct Twisted<'a, R> {
     train: &'a Train,
     sweeps: Vec<Sweep<R>>,
-    shape: Vec<R>,
 }
 
 /// Where a shape begins.
@@ -128,8 +129,8 @@ struct Best<R> {
 impl<'a, R: Real> Twisted<'a, R> {
     fn new(train: &'a Train) -> Self {
         let zero = R::splat(0.0);
-        let sweep = Sweep { answer: zero, later: zero, down: zero, up: zero };
-        Twisted { train, sweeps: vec![sweep; train.len()], shape: vec![zero; train.len()] }
+        let sweep = Sweep { answer: zero, later: zero, down: zero, up: zero, shape: zero };
+        Twisted { train, sweeps: vec![sweep; train.len()] }
     }
 
     /// Shapes and improved λ; also by what angle a shape may be off. Given are λ with their neighbours.
@@ -208,29 +209,29 @@ impl<'a, R: Real> Twisted<'a, R> {
     fn spread(&mut self, best: &Best<R>) -> R {
         let Train { parent, inertia, .. } = self.train;
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        for (c, q) in self.shape.iter_mut().enumerate() {
+        for (c, sweep) in self.sweeps.iter_mut().enumerate() {
             let away = (best.disc - c as f64).abs();
-            *q = away.select_lt(R::splat(0.5), one, zero);
+            sweep.shape = away.select_lt(R::splat(0.5), one, zero);
         }
         for c in (1..parent.len()).rev() {
-            let up = self.shape[c] * self.sweeps[c].up;
-            let q = &mut self.shape[parent[c]];
+            let up = self.sweeps[c].shape * self.sweeps[c].up;
+            let q = &mut self.sweeps[parent[c]].shape;
             *q = *q + up;
         }
         let (mut mass, mut largest) = (zero, zero);
         for c in 0..parent.len() {
-            let mut q = self.shape[c];
+            let mut q = self.sweeps[c].shape;
             if c > 0 {
                 // Off the way from the best disc to the root.
-                q = zero.select_lt(q.abs(), q, self.shape[parent[c]] * self.sweeps[c].down);
-                self.shape[c] = q;
+                q = zero.select_lt(q.abs(), q, self.sweeps[parent[c]].shape * self.sweeps[c].down);
+                self.sweeps[c].shape = q;
             }
             mass = (q * inertia[c]).mul_add(q, mass);
             largest = largest.abs().select_lt(q.abs(), q, largest);
         }
         let unit = mass.sqrt().recip();
         let unit = largest.select_lt(zero, -unit, unit);
-        self.shape.iter_mut().for_each(|q| *q = *q * unit);
+        self.sweeps.iter_mut().for_each(|sweep| sweep.shape = sweep.shape * unit);
         mass
     }
 }

@@ -89,6 +89,33 @@ def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
     InputError
         Nothing excites the train, or it has no speeds.
     """
+    at = prepared(machine, speeds)
+    if not len(at.torques.orders):
+        remedy = "give [train.excitations], harmonics of [train.loads], or a [train.engine]"
+        raise InputError(f"nothing excites the train of {machine.name}: {remedy}")
+    return at
+
+
+def prepared(machine: Machine, speeds: Floats | None = None) -> Excited:
+    """As `excited`, also for a train that nothing excites.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train], or with a drive line that twists.
+    speeds : ndarray, shape (speeds,), optional
+        Of the first disc; without them those of [train.run] [rad/s].
+
+    Returns
+    -------
+    Excited
+        What the train is at each speed.
+
+    Raises
+    ------
+    InputError
+        The machine has no train, or the train no speeds.
+    """
     train = train_of(machine)
     referred = refer(train)
     place = {name: k for k, name in enumerate(train.discs)}
@@ -103,9 +130,6 @@ def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
         is_free=referred.is_free,
         has_engine=machine.train is not None and machine.train.engine is not None,
     )
-    if not len(torques.orders):
-        remedy = "give [train.excitations], harmonics of [train.loads], or a [train.engine]"
-        raise InputError(f"nothing excites the train of {machine.name}: {remedy}")
     return loaded(machine, train, referred, torques)
 
 
