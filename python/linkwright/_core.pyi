@@ -10,6 +10,7 @@ __all__ = [
     "FORMAT",
     "Cam",
     "Plan",
+    "TorsionSystem",
     "cam_crossings",
     "change_point",
     "follow_group",
@@ -147,6 +148,41 @@ def torsion_waves(coefficients: _Floats, waves: int) -> _Floats:
 def torsion_modes(inertia: _Floats, ends: _Ints, stiffness: _Floats) -> tuple[_Floats, _Floats] | None:
     """Natural frequencies [rad/s], increasing, and mode shapes with Σ J q² = 1, one row a mode (n, n).
 
-    Shafts join the masses of their ends (shafts, 2), −1 being the ground; without stiffness they do not. None where they
-    close a loop.
+    Shafts join the masses of their ends (shafts, 2), −1 being the ground; without stiffness they do not.
+    None where they close a loop.
     """
+
+@final
+class TorsionSystem:
+    """A train in motion: lists described in `crates/linkwright-core/src/torsion/transient/system.rs`."""
+
+    def __new__(
+        cls,
+        inertia: _Floats,
+        damping: _Floats,
+        links: _Ints,
+        link_numbers: _Floats,
+        rotors: _Ints,
+        rotor_numbers: _Floats,
+        torques: _Ints,
+        torque_numbers: _Floats,
+        table_starts: _Ints,
+        periods: _Floats,
+        knots: _Floats,
+        curve_starts: _Ints,
+        points: _Floats,
+    ) -> TorsionSystem: ...
+    def follow(
+        self,
+        angle: _Floats,
+        speed: _Floats,
+        times: _Floats,
+        duration: float,
+        accuracy: float,
+        method: int,
+        steps_max: int,
+    ) -> tuple[int, int, list[int], list[float], _Floats, _Floats, _Floats]:
+        """End, method; steps, rejected, evaluations; time, fastest, energies; samples, extremes, work."""
+
+    def net_torques(self, t: float, angle: _Floats, speed: _Floats) -> tuple[_Floats, _Floats]:
+        """Sum of torques on each mass and its inertia at rows of angles (rows, masses)."""

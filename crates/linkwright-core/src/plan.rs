@@ -17,9 +17,9 @@ use crate::motion_law::MotionLaw;
 use crate::reduce::{Body, Load};
 use crate::table::Table;
 
-/// Number of the language in which machines and cams cross the border: kinds of rows, order of lists and of
+/// Number of the language in which machines, cams and trains cross the border: kinds of rows, order of lists and of
 /// results. It goes up with every change of these, here and in `linkwright.engine.core_format`.
-pub const FORMAT: u32 = 4;
+pub const FORMAT: u32 = 5;
 
 /// What a machine consists of.
 #[derive(Clone, Debug)]

@@ -7,6 +7,7 @@ mod arrays;
 mod cam;
 mod errors;
 mod torsion;
+mod torsion_transient;
 
 use arrays::{as_indices, below, channels, column};
 use errors::plan_error;
@@ -317,6 +318,8 @@ mod _core {
     use super::cam::{Cam, cam_crossings};
     #[pymodule_export]
     use super::torsion::{torsion_forced, torsion_modes, torsion_waves};
+    #[pymodule_export]
+    use super::torsion_transient::TorsionSystem;
     #[pymodule_export]
     use super::{
         Plan, change_point, follow_group, gaps, kinks, law_torques, motions, motor_torques, reductions,

@@ -4,11 +4,10 @@
 //! f(τ) = Σ Re c_h e^{ihτ},    h = 0, 1, … H
 //! ```
 //!
-//! Sampled at 8H places, f comes within cos(π/8) of its largest size at one of them (Bernstein's comparison: near that
-//! place f is not below ‖f‖ cos Hτ). So the extremes lie beside samples that reach nearly as far as the best, and Newton
-//! takes them from there to the last digit. Samples are taken in lanes, a wave each.
+//! Sampled at 8H places, f is nearly a parabola through three of them. Tops of these that may be the highest, as Bernstein's
+//! bounds of the derivatives have it, are taken to the last digit by Newton. Samples are taken in lanes, a wave each.
 //!
-//! Source: Zygmund, *Trigonometric Series*, chapter X, for the comparison.
+//! Source: Zygmund, *Trigonometric Series*, chapter X, for the bounds.
 
 use super::forced::Complex;
 use crate::lanes::{Job, in_lanes};
@@ -18,12 +17,15 @@ use std::f64::consts::TAU;
 /// Samples in a period of the highest harmonic.
 const FINE: usize = 8;
 
-/// Share of ‖f‖, as estimated from samples, by which a sample beside an extreme may miss it: near its top f falls no faster than
-/// ‖f‖ cos Hτ, by (1 − cos(π/8)) ‖f‖ up to the next sample, and samples know ‖f‖ to cos(π/8).
-const MISSED: f64 = 0.084;
+/// Share of ‖f‖, as samples know it, by which the top of a parabola through three of them may miss that of f: h³ max |f‴|/(9√3)
+/// with h = π/4H and |f‴| ≤ H³ ‖f‖ (Bernstein), over cos(π/8).
+const MISSED: f64 = 0.034;
 
-/// Newton's steps: it starts within a sixteenth of the shortest period.
-const STEPS: usize = 6;
+/// Newton's steps: it starts within a hundredth of the shortest period.
+const STEPS: usize = 8;
+
+/// Share of a step below which f is a parabola about its top, to rounding.
+const NEAR: f64 = 1e-4;
 
 /// Extremes of a wave, and where they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -87,8 +89,9 @@ impl Job for Sampled<'_> {
                 },
             );
             for lane in 0..R::LANES.min(waves - first) {
-                let wave: Vec<Complex> =
+                let mut wave: Vec<Complex> =
                     (0..harmonics).map(|h| coefficients[h * waves + first + lane]).collect();
+                wave.resize(harmonics.next_multiple_of(ABREAST), [0.0; 2]);
                 let of: Vec<f64> = samples.iter().skip(lane).step_by(R::LANES).copied().collect();
                 found.push(wave_extremes(&wave, &of));
             }
@@ -129,58 +132,74 @@ fn wave_extremes(wave: &[Complex], samples: &[f64]) -> Extremes {
 /// Where ±f is largest, and how much it is there.
 fn highest(wave: &[Complex], samples: &[f64], sign: f64) -> (f64, f64) {
     let n = samples.len();
-    let swing = samples.iter().fold(0.0_f64, |a, x| a.max((x - wave[0][0]).abs()));
-    let best = samples.iter().fold(f64::NEG_INFINITY, |a, x| a.max(sign * x));
     let step = TAU / n as f64;
-    let mut found = (0.0, f64::NEG_INFINITY);
+    let swing = samples.iter().fold(0.0_f64, |a, x| a.max((x - wave[0][0]).abs()));
+    // Tops of parabolas through three samples: where, and how high.
+    let mut tops = Vec::with_capacity(8);
     for j in 0..n {
         let here = sign * samples[j];
         let (before, after) = (sign * samples[(j + n - 1) % n], sign * samples[(j + 1) % n]);
-        if here >= best - MISSED * swing && here >= before && here >= after {
-            let start = j as f64 * step;
-            let (at, value) = climb(wave, start, step, sign, here);
-            if value > found.1 {
-                found = (at.rem_euclid(TAU), value);
-            }
+        if here >= before && here >= after {
+            let bend = before - 2.0 * here + after;
+            let shift = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
+            tops.push(((j as f64 + shift) * step, here - 0.25 * (before - after) * shift, here));
+        }
+    }
+    tops.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut found = (0.0, f64::NEG_INFINITY);
+    for (start, top, sample) in tops {
+        if top + MISSED * swing < found.1 {
+            break;
+        }
+        let (at, value) = climb(wave, start, step, sign, sample);
+        if value > found.1 {
+            found = (at.rem_euclid(TAU), value);
         }
     }
     found
 }
 
-/// Newton from a sample to the top beside it; the sample itself if that leads nowhere.
+/// Newton from beside a top; no less than the sample if that leads nowhere.
 fn climb(wave: &[Complex], start: f64, step: f64, sign: f64, sample: f64) -> (f64, f64) {
     let (mut at, mut best) = (start, (start, sample));
     for _ in 0..STEPS {
         let [value, d1, d2] = evaluate(wave, at);
-        if sign * value > best.1 {
-            best = (at, sign * value);
+        let shift = -d1 / d2;
+        // So near the top f is its parabola, and its top is known without another look.
+        let last = shift.abs() < NEAR * step;
+        let there = sign * if last { value + 0.5 * d1 * shift } else { value };
+        if there > best.1 {
+            best = (if last { at + shift } else { at }, there);
         }
-        let next = at - d1 / d2;
-        if !(sign * d2 < 0.0 && (next - start).abs() <= step) || next == at {
+        let inside = sign * d2 < 0.0 && (at + shift - start).abs() <= step;
+        if last || !inside {
             break;
         }
-        if (next - at).abs() < 1e-9 * step {
-            break;
-        }
-        at = next;
+        at += shift;
     }
     best
 }
 
-/// f, f′ and f″.
+/// How many harmonics are summed beside each other: one by one each would wait for the one before it.
+const ABREAST: usize = 4;
+
+/// f, f′ and f″ of a wave whose harmonics are filled up to a multiple of [`ABREAST`].
 fn evaluate(wave: &[Complex], at: f64) -> [f64; 3] {
-    let (sin, cos) = at.sin_cos();
-    let (mut s, mut c) = (0.0, 1.0);
-    let mut sum = [0.0; 3];
-    for (h, &[re, im]) in wave.iter().enumerate() {
-        let h = h as f64;
-        let (value, turned) = (re * c - im * s, re * s + im * c);
-        sum[0] += value;
-        sum[1] -= h * turned;
-        sum[2] -= h * h * value;
-        (s, c) = (s * cos + c * sin, c * cos - s * sin);
+    let turn = |h: usize| (h as f64 * at).sin_cos();
+    let (s4, c4) = turn(ABREAST);
+    let mut turns: [(f64, f64); ABREAST] = std::array::from_fn(turn);
+    let mut sums = [[0.0; 3]; ABREAST];
+    for (first, four) in wave.chunks_exact(ABREAST).enumerate() {
+        for (k, (sum, ((s, c), &[re, im]))) in sums.iter_mut().zip(turns.iter_mut().zip(four)).enumerate() {
+            let h = (ABREAST * first + k) as f64;
+            let (value, turned) = (re * *c - im * *s, re * *s + im * *c);
+            sum[0] += value;
+            sum[1] -= h * turned;
+            sum[2] -= h * h * value;
+            (*s, *c) = (*s * c4 + *c * s4, *c * c4 - *s * s4);
+        }
     }
-    sum
+    std::array::from_fn(|part| sums.iter().map(|sum| sum[part]).sum())
 }
 
 #[cfg(test)]
@@ -199,7 +218,8 @@ mod tests {
         let c: Vec<Complex> = (0..waves * harmonics).map(|_| [random(), random()]).collect();
         let found = extremes(&c, waves);
         for (w, found) in found.iter().enumerate() {
-            let wave: Vec<Complex> = (0..harmonics).map(|h| c[h * waves + w]).collect();
+            let mut wave: Vec<Complex> = (0..harmonics).map(|h| c[h * waves + w]).collect();
+            wave.resize(harmonics.next_multiple_of(ABREAST), [0.0; 2]);
             let fine = (0..100_000).map(|j| evaluate(&wave, TAU * f64::from(j) / 1e5)[0]);
             let (low, high) = fine.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
             // Fine samples miss an extreme by no more than ½ f″ (π/1e5)².

@@ -106,6 +106,28 @@ def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
     if not len(torques.orders):
         remedy = "give [train.excitations], harmonics of [train.loads], or a [train.engine]"
         raise InputError(f"nothing excites the train of {machine.name}: {remedy}")
+    return loaded(machine, train, referred, torques)
+
+
+def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Torques) -> Excited:
+    """A train under torques: mean torques of its shafts, stiffness and damping.
+
+    Parameters
+    ----------
+    machine : Machine
+        That has the train.
+    train : Train
+        Of discs, shafts and gears.
+    referred : ReferredTrain
+        The same, referred to its first disc.
+    torques : Torques
+        On the discs.
+
+    Returns
+    -------
+    Excited
+        At the speeds of the torques.
+    """
     mean = _mean_torques(referred, torques.mean)
     return Excited(train, referred, torques, mean, _operating(machine.train, referred, torques, mean))
 

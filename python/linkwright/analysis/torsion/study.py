@@ -14,6 +14,7 @@ from linkwright.analysis.torsion.free import FreeVibration, free_vibration
 from linkwright.analysis.torsion.holzer import HolzerTable, holzer_table
 from linkwright.analysis.torsion.scheme import Scheme, scheme
 from linkwright.analysis.torsion.stress import ShaftStress, shaft_stress
+from linkwright.analysis.torsion.survey import survey
 from linkwright.analysis.torsion.unevenness_along import UnevennessAlong, unevenness_along
 from linkwright.analysis.torsion.verdict import Verdict, verdict
 from linkwright.machine import Machine
@@ -116,7 +117,7 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
         at,
         forced,
         stress if stress.shafts else None,
-        verdict(machine),
+        verdict(machine, survey(machine, at, forced)),
         _along(machine, at, forced),
     )
 

@@ -1,0 +1,144 @@
+"""A curve through points, as the core takes it: cubics between them, with the slopes just before and after each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+Beyond = Literal["held", "straight"]
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Points with the slopes at both their sides; two points at one place are a step.
+
+    Attributes
+    ----------
+    x, y : ndarray, shape (points,)
+        Places, never decreasing, and values.
+    before, after : ndarray, shape (points,)
+        Slopes just before and just after each point; the first and the last go on outside.
+    """
+
+    x: Floats
+    y: Floats
+    before: Floats
+    after: Floats
+
+
+def straight(x: ArrayLike, y: ArrayLike, beyond: Beyond = "held") -> Curve:
+    """Straight lines between points.
+
+    Parameters
+    ----------
+    x, y : array_like, shape (points,)
+        Places, never decreasing, and values; equal places are a step.
+    beyond : str
+        Whether the end values are held outside, or the end lines go on.
+
+    Returns
+    -------
+    Curve
+        With a kink at each point.
+    """
+    places, values = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    width = np.diff(places)
+    chord = np.divide(np.diff(values), width, out=np.zeros_like(width), where=width > 0)
+    ends = (chord[:1], chord[-1:]) if beyond == "straight" and len(chord) else ([0.0], [0.0])
+    return Curve(places, values, np.concatenate([ends[0], chord]), np.concatenate([chord, ends[1]]))
+
+
+def smooth(x: ArrayLike, y: ArrayLike, slope: ArrayLike, beyond: Beyond = "straight") -> Curve:
+    """Cubics between points with their slopes.
+
+    Parameters
+    ----------
+    x, y, slope : array_like, shape (points,)
+        Places, increasing, values, and slopes there.
+    beyond : str
+        Whether the end values are held outside, or straight lines go on with the end slopes.
+
+    Returns
+    -------
+    Curve
+        Without kinks, but for those at ends that are held.
+    """
+    places, values, slopes = (np.asarray(each, dtype=float) for each in (x, y, slope))
+    before, after = slopes.copy(), slopes.copy()
+    if beyond == "held":
+        before[0] = after[-1] = 0.0
+    return Curve(places, values, before, after)
+
+
+def odd(x: ArrayLike, y: ArrayLike, slope: ArrayLike) -> Curve:
+    """A curve of zero and above, turned about zero: the torque of a coupling over its twist.
+
+    Parameters
+    ----------
+    x, y, slope : array_like, shape (points,)
+        From x = 0 upwards, y = 0 there.
+
+    Returns
+    -------
+    Curve
+        Straight beyond its ends.
+    """
+    places, values, slopes = (np.asarray(each, dtype=float) for each in (x, y, slope))
+    return smooth(
+        np.concatenate([-places[:0:-1], places]),
+        np.concatenate([-values[:0:-1], values]),
+        np.concatenate([slopes[:0:-1], slopes]),
+    )
+
+
+def backlash(gap: float, stiffness: float) -> Curve:
+    """No torque within a gap, and a stiffness at both its sides.
+
+    Parameters
+    ----------
+    gap : float
+        From side to side [rad].
+    stiffness : float
+        Outside the gap [N m/rad].
+
+    Returns
+    -------
+    Curve
+        Torque over twist.
+    """
+    half = 0.5 * gap
+    return straight(
+        [-1.0 - half, -half, half, 1.0 + half], [-stiffness, 0.0, 0.0, stiffness], beyond="straight"
+    )
+
+
+def switched(changes: Iterable[tuple[float, float, float]]) -> Curve:
+    """A factor over time: 1 until the first change.
+
+    Parameters
+    ----------
+    changes : iterable of tuple
+        Time [s], factor from then on, and time over which it comes to it [s]; zero for a step. A change that is still
+        on its way when the next begins stays where it is then.
+
+    Returns
+    -------
+    Curve
+        Straight lines and steps.
+    """
+    listed = sorted(changes, key=lambda change: change[0])
+    times, factors = [0.0], [1.0]
+    for n, (time, factor, over) in enumerate(listed):
+        follows = listed[n + 1][0] if n + 1 < len(listed) else np.inf
+        reached = factor
+        if time + over > follows:
+            reached = factors[-1] + (factor - factors[-1]) * (follows - time) / over
+        times += [time, min(time + over, follows)]
+        factors += [factors[-1], reached]
+    return straight(times, factors)

@@ -1,0 +1,112 @@
+"""The lists in which a train in motion crosses the border: `crates/linkwright-core/src/torsion/transient/system.rs`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright import _core
+from linkwright.engine.curve import Curve
+from linkwright.engine.periodic_table import PeriodicTable
+from linkwright.engine.train import HELD
+from linkwright.engine.train_torque import Decaying, Following, OverSpeed, Power, TrainTorque
+
+if TYPE_CHECKING:
+    from linkwright.engine.train_transient import MovingTrain
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+
+
+def encoded(train: MovingTrain) -> _core.TorsionSystem:
+    """A train in motion as the core takes it.
+
+    Parameters
+    ----------
+    train : MovingTrain
+        In terms of discs.
+
+    Returns
+    -------
+    TorsionSystem
+        In terms of masses.
+    """
+    n = train.speed
+    tables: list[PeriodicTable] = []
+    curves: list[Curve] = []
+    at_mass = np.zeros((2, train.masses))
+    for row, own in zip(at_mass, (train.inertia, train.damping), strict=True):
+        np.add.at(row, train.mass, n**2 * own)
+    # The last is that of the ground, HELD = −1.
+    masses = np.append(train.mass, HELD)
+    links = [
+        [*masses[ends], _place(curve, curves)]
+        for ends, curve in zip(train.tip.tolist(), train.curves, strict=True)
+    ]
+    rotors = [[train.mass[each.on], _place(each.table, tables)] for each in train.inertias]
+    torques = [_torque(train, each, tables, curves) for each in train.torques]
+    return _core.TorsionSystem(
+        at_mass[0],
+        at_mass[1],
+        _ints(links),
+        _floats(np.column_stack([train.lead, train.stiffness, train.shaft_damping])),
+        _ints(rotors),
+        _floats([[n[each.on], each.phase] for each in train.inertias]),
+        _ints([row for row, _ in torques]),
+        _floats([row for _, row in torques]),
+        _starts([len(table.value) for table in tables]),
+        _floats([table.period for table in tables]),
+        _end_to_end([getattr(table, name) for name in ("value", "slope", "bend") for table in tables]),
+        _starts([len(curve.x) for curve in curves]),
+        _end_to_end([getattr(curve, name) for name in ("x", "y", "before", "after") for curve in curves]),
+    )
+
+
+def _place(thing: Any, shelf: list[Any]) -> int:
+    """Where a table or curve stands among those met so far; −1 for none."""
+    if thing is None:
+        return -1
+    for place, each in enumerate(shelf):
+        if each is thing:
+            return place
+    shelf.append(thing)
+    return len(shelf) - 1
+
+
+def _torque(
+    train: MovingTrain, torque: TrainTorque, tables: list[PeriodicTable], curves: list[Curve]
+) -> tuple[list[int], list[float]]:
+    """Row of integers and row of numbers of a torque."""
+    kind, law, numbers = 0, None, [0.0] * 5
+    match torque.law:
+        case Power(speed, exponent, is_even):
+            kind, numbers = (1 if is_even else 2), [speed, exponent, 0.0, 0.0, 0.0]
+        case OverSpeed(law):
+            kind = 3
+        case Following(gain, law):
+            kind, numbers = 4, [gain, 0.0, 0.0, 0.0, 0.0]
+        case Decaying(start, end, rate, speed, phase):
+            kind, numbers = 5, [start, end, rate, speed, phase]
+    n = float(train.speed[torque.on])
+    row = [int(train.mass[torque.on]), kind, _place(torque.weight, curves), _place(torque.shape, tables)]
+    return [*row, _place(law, curves)], [n, torque.scale, torque.pitch * n, torque.phase, *numbers]
+
+
+def _starts(lengths: Sequence[int]) -> Ints:
+    """Start of each list among lists that lie end to end, and the end of the last."""
+    return np.cumsum([0, *lengths], dtype=np.int32)
+
+
+def _end_to_end(lists: Sequence[Floats]) -> Floats:
+    return np.concatenate(lists) if lists else np.empty(0)
+
+
+def _ints(rows: ArrayLike) -> Ints:
+    return np.ascontiguousarray(rows, dtype=np.int32).ravel()
+
+
+def _floats(rows: ArrayLike) -> Floats:
+    return np.ascontiguousarray(rows, dtype=np.float64).ravel()
