@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.torsion.campbell import CampbellDiagram
+from linkwright.analysis.torsion.damped import DampedVibration
 from linkwright.analysis.torsion.engine_data import EngineData
 from linkwright.analysis.torsion.forced import ForcedVibration
 from linkwright.analysis.torsion.free import FreeVibration, Node
@@ -23,6 +25,9 @@ _NAMED, _SHARE = 2, 0.05
 
 # Nodes of a mode in a row of its table.
 _NODES = 3
+
+# Critical speeds in a table.
+_CRITICAL = 12
 
 # Columns of shapes beside each other on a terminal.
 _SHAPES = 5
@@ -46,6 +51,10 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
     if study.engine is not None:
         yield _engine(study.engine)
     yield from torsion_tables(study.free)
+    if study.damped is not None:
+        yield _damped(study.damped)
+    if study.campbell is not None and study.campbell.critical:
+        yield _critical(study.campbell)
     if study.forced is not None:
         yield _shafts(study, study.forced)
         yield _discs(study, study.forced)
@@ -115,6 +124,44 @@ def _beside(word: str, value: float, used: float, unit: str) -> Row:
 def _shown(value: float, unit: str) -> str:
     """A quantity for people: stresses in MPa."""
     return with_unit(value / 1e6, "MPa") if unit == "Pa" else with_unit(value, unit)
+
+
+def _damped(found: DampedVibration) -> Table:
+    """Natural frequencies with their damping."""
+    columns = (
+        found.natural_frequencies,
+        found.damped_frequencies,
+        found.damping_ratios,
+        found.logarithmic_decrements,
+    )
+    rows: list[Row] = [
+        (f"mode {k}", "", *(_finite(value) for value in values))
+        for k, values in enumerate(zip(*(each.tolist() for each in columns), strict=True))
+    ]
+    heads = ("mode", "", "Hz", "damped Hz", "ζ", "log. decrement")
+    return Table("damped", "Modes with damping", heads, rows)
+
+
+def _critical(found: CampbellDiagram) -> Table:
+    """The most severe critical speeds, by speed."""
+    by_severity = sorted(found.critical, key=lambda each: each.resonance_amplitude or 0.0, reverse=True)
+    kept = set(by_severity[:_CRITICAL])
+    rows: list[Row] = [
+        (
+            f"order {each.order:.4g}",
+            "",
+            str(each.mode),
+            f"{each.frequency:.5g}",
+            _rpm(each.speed),
+            "–" if each.resonance_amplitude is None else f"{np.degrees(each.resonance_amplitude):.3g}",
+        )
+        for each in found.critical
+        if each in kept
+    ]
+    heads = ("order", "", "mode", "Hz", "rpm", "amplitude [°]")
+    more = len(found.critical) - len(rows)
+    title = "Critical speeds" + (f", the most severe of {len(found.critical)}" if more else "")
+    return Table("critical_speeds", title, heads, rows)
 
 
 def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
