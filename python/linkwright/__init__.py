@@ -76,6 +76,8 @@ _HOME = {
     "rod_rotator": "analysis.rod_rotator",
     "free_vibration": "analysis.torsion.free",
     "holzer_table": "analysis.torsion.holzer",
+    "damped_vibration": "analysis.torsion.damped",
+    "campbell": "analysis.torsion.campbell",
     "drive_line": "analysis.torsion.drive_line",
     "mechanism_harmonics": "analysis.torsion.drive_line",
     "design_damper": "analysis.torsion.damper_design",
@@ -163,6 +165,8 @@ if TYPE_CHECKING:
     from linkwright.analysis.steady_state import steady_state as steady_state
     from linkwright.analysis.step_method import step_method as step_method
     from linkwright.analysis.study import study as study
+    from linkwright.analysis.torsion.campbell import campbell as campbell
+    from linkwright.analysis.torsion.damped import damped_vibration as damped_vibration
     from linkwright.analysis.torsion.damper_design import design_damper as design_damper
     from linkwright.analysis.torsion.drive_line import drive_line as drive_line
     from linkwright.analysis.torsion.drive_line import mechanism_harmonics as mechanism_harmonics
