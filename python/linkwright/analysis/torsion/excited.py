@@ -144,10 +144,19 @@ def is_excited(machine: Machine) -> bool:
     if train is None:
         drive = machine.drive
         return drive is not None and drive.twists and not (drive.motor is None and drive.speed is None)
-    if train.run is None:
-        return False
-    pulsates = any(each.harmonics for each in train.loads.values())
-    return bool(train.excitations) or pulsates or train.engine is not None
+    return train.run is not None and pulsates(train)
+
+
+def pulsates(train: Train) -> bool:
+    """Whether a train has torques that pulsate.
+
+    Parameters
+    ----------
+    train : Train
+        As its file describes it.
+    """
+    waves = any(each.harmonics for each in train.loads.values())
+    return bool(train.excitations) or waves or train.engine is not None
 
 
 def _sources(
