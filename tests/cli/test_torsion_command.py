@@ -56,6 +56,18 @@ def test_json(file: str) -> None:
     assert free["nodes"][1][0].keys() == {"at", "share", "distance"}
 
 
+def test_torques_without_speeds_are_told(file: str) -> None:
+    """What pulsates but has no speeds is not passed over in silence."""
+    wave = "train.excitations.gas={ on = 'motor', harmonics = [{ order = 2, torque = 5 }] }"
+    told = json.loads(run(file, "--json", "--set", wave).stdout)
+    assert "forced" not in told["results"]
+    assert any("[train.run]" in each for each in told["warnings"])
+    speeds = ["--set", 'train.run={ speed_min = "500 rpm", speed_max = "600 rpm" }']
+    told = json.loads(run(file, "--json", "--set", wave, *speeds).stdout)
+    assert "forced" in told["results"]
+    assert not any("[train.run]" in each for each in told["warnings"])
+
+
 def test_set(file: str) -> None:
     plain = json.loads(run(file, "--json").stdout)["results"]["free"]["natural_frequencies"]
     sets = ["discs.motor.inertia=8", "discs.pinion.inertia=0.4", "discs.wheel.inertia=6.4"]

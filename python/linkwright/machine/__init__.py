@@ -19,6 +19,8 @@
 | `shaft_limit`, `propulsion_shaft`, `crankshaft_limit` | what shafts bear, given or by the rules of ships |
 | `reciprocating/` | parts of reciprocating engines |
 | `train`, `train_speeds`, `train_faults` | torsional trains, speeds of their discs, faults |
+| `coupling`, `damper`, `train_torques`, `train_run` | what else a train has: couplings, dampers, torques, its run |
+| `whole_train` | engine, couplings and dampers written out as discs and shafts |
 | `linkage` | the whole mechanism: elements of the file, and what cams and a pumping unit expand into |
 | `body`, `loads` | masses; forces and torques |
 | `formula` | formulas as texts |
@@ -33,6 +35,8 @@ from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.body import Body
 from linkwright.machine.cam import Cam, SecondFollower
 from linkwright.machine.catalogue import CatalogueMotor, motor, motors
+from linkwright.machine.coupling import Coupling as TrainCoupling
+from linkwright.machine.damper import Damper as TrainDamper
 from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
 from linkwright.machine.element import (
     Bar,
@@ -96,6 +100,12 @@ from linkwright.machine.motor import (
 from linkwright.machine.point_law import SplineLaw, TableLaw
 from linkwright.machine.polished_rod_load import PolishedRodLoad
 from linkwright.machine.pumping_unit import PumpingUnit
+from linkwright.machine.reciprocating.combustion import Combustion
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
+from linkwright.machine.reciprocating.gas_load import ConstantGasLoad, PropellerGasLoad, TableGasLoad
+from linkwright.machine.reciprocating.indicator import Indicator
+from linkwright.machine.reciprocating.rod import ArticulatedRod, Rod
+from linkwright.machine.reciprocating.swing_test import Swing, Swings, TwoPointSwing
 from linkwright.machine.reciprocating.throw import (
     Counterweight,
     CrankPin,
@@ -104,16 +114,22 @@ from linkwright.machine.reciprocating.throw import (
     Drilling,
     Journal,
 )
+from linkwright.machine.reciprocating.valves import Valves
+from linkwright.machine.reciprocating.wall_heat import HeatShare, Hohenberg, Woschni
+from linkwright.machine.reciprocating.wiebe import Wiebe
 from linkwright.machine.rod_rotator import RodRotator
 from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_section import ShaftSection
 from linkwright.machine.train import Disc, ElasticShaft, Shaft, Train, TrainGear
+from linkwright.machine.train_run import TrainRun
+from linkwright.machine.train_torques import Excitation, Harmonic, LoadHarmonic, TrainLoad
 from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 
 __all__ = [
     "FORMAT",
     "AnyLoad",
     "AnyMotor",
+    "ArticulatedRod",
     "Bar",
     "Body",
     "Brake",
@@ -122,7 +138,9 @@ __all__ = [
     "CatalogueMotor",
     "CatalogueUnit",
     "CombinedLaw",
+    "Combustion",
     "ConstantForce",
+    "ConstantGasLoad",
     "ConstantSpeedMotor",
     "ConstantTorque",
     "ConstantTorqueMotor",
@@ -140,6 +158,7 @@ __all__ = [
     "Drive",
     "DryFriction",
     "ElasticShaft",
+    "Excitation",
     "FixedPoint",
     "Flywheel",
     "FollowerTrain",
@@ -150,6 +169,10 @@ __all__ = [
     "Gearbox",
     "Gravity",
     "Guide",
+    "Harmonic",
+    "HeatShare",
+    "Hohenberg",
+    "Indicator",
     "InductionMotor",
     "Joint",
     "Journal",
@@ -157,6 +180,7 @@ __all__ = [
     "LinearDriver",
     "Link",
     "Load",
+    "LoadHarmonic",
     "Machine",
     "Mechanism",
     "ModifiedSineLaw",
@@ -167,10 +191,13 @@ __all__ = [
     "PlainLaw",
     "PolishedRodLoad",
     "PolynomialLaw",
+    "PropellerGasLoad",
     "PumpingUnit",
     "Rack",
+    "ReciprocatingEngine",
     "RigidPoint",
     "Rocker",
+    "Rod",
     "RodRotator",
     "RunUp",
     "SCurveLaw",
@@ -182,6 +209,9 @@ __all__ = [
     "SlottedLever",
     "SplineLaw",
     "Spring",
+    "Swing",
+    "Swings",
+    "TableGasLoad",
     "TableLaw",
     "TableMotor",
     "TorqueAngle",
@@ -189,9 +219,17 @@ __all__ = [
     "TorsionalDamper",
     "TorsionalSpring",
     "Train",
+    "TrainCoupling",
+    "TrainDamper",
     "TrainGear",
+    "TrainLoad",
+    "TrainRun",
     "TrapezoidalVelocityLaw",
+    "TwoPointSwing",
+    "Valves",
     "ViscousFriction",
+    "Wiebe",
+    "Woschni",
     "Yoke",
     "addresses",
     "catalogue_unit",

@@ -168,22 +168,19 @@ def is_excited(machine: Machine) -> bool:
     if train is None:
         drive = machine.drive
         return drive is not None and drive.twists and not (drive.motor is None and drive.speed is None)
-    return train.run is not None and pulsates(machine)
+    return train.run is not None and pulsates(train)
 
 
-def pulsates(machine: Machine) -> bool:
-    """Whether something of a [train] pulsates: excitations, loads, an engine.
+def pulsates(train: Train) -> bool:
+    """Whether a train has torques that pulsate.
 
     Parameters
     ----------
-    machine : Machine
-        The machine.
+    train : Train
+        As its file describes it.
     """
-    train = machine.train
-    if train is None:
-        return False
-    loads = any(each.harmonics for each in train.loads.values())
-    return bool(train.excitations) or loads or train.engine is not None
+    waves = any(each.harmonics for each in train.loads.values())
+    return bool(train.excitations) or waves or train.engine is not None
 
 
 def _sources(

@@ -176,18 +176,17 @@ def _along(machine: Machine, at: Excited, forced: ForcedVibration) -> Unevenness
 
 def _warnings(study: TorsionStudy) -> Iterator[str]:
     """What one should know beside the numbers."""
-    forced, at = study.forced, study.excited
+    forced, at, train = study.forced, study.excited, study.machine.train
     if forced is None or at is None:
-        if pulsates(study.machine):
-            yield "Forced vibration needs speeds: give [train.run] speed_min and speed_max."
+        if train is not None and pulsates(train):
+            yield "Torques pulsate, but no speeds are given: forced vibration needs [train.run]."
         return
     yield from () if study.verdict is None else (f"{note}." for note in study.verdict.notes)
     if not np.isfinite(forced.shaft_torque_max).all():
         rows = ~np.isfinite(forced.shaft_torque_max).all(axis=0)
         rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in forced.speeds[rows][:4])
         yield f"Nothing damps a resonance that is met exactly, at {rpm} rpm: no amplitude there."
-    engine = study.machine.train.engine if study.machine.train is not None else None
-    if engine is not None and not study.machine.train.loads:  # type: ignore[union-attr]
+    if train is not None and train.engine is not None and not train.loads:
         yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
     rest = forced.orders[~forced.together.together]
     if len(rest):
