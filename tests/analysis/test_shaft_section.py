@@ -128,14 +128,28 @@ def test_no_step_no_length() -> None:
 
 
 @pytest.mark.parametrize(
-    ("thickness", "circle", "bore"), [(0.125, 2.0, 0.0), (0.25, 3.0, 0.0), (0.25, 1.5, 0.6), (0.5, 2.0, 0.0)]
+    ("thickness", "circle", "bore", "fillet"),
+    [
+        (0.125, 2.0, 0.0, 0.0),
+        (0.25, 3.0, 0.0, 0.0),
+        (0.25, 1.5, 0.6, 0.0),
+        (0.5, 2.0, 0.0, 0.0),
+        (0.2, 2.0, 0.0, 0.05),
+        (0.25, 2.0, 0.0, 0.1),
+        (0.4, 2.5, 0.0, 0.2),
+    ],
 )
-def test_a_flange_against_the_field(thickness: float, circle: float, bore: float) -> None:
+def test_a_flange_against_the_field(thickness: float, circle: float, bore: float, fillet: float) -> None:
     """Within 0.015 diameters of the solid shaft; sizes over its diameter 2."""
     each = section(
-        kind="flange", diameter=2.0, length=2 * thickness, bolt_circle=2 * circle, inner_diameter=2 * bore
+        kind="flange",
+        diameter=2.0,
+        length=2 * thickness,
+        bolt_circle=2 * circle,
+        inner_diameter=2 * bore,
+        fillet=2 * fillet,
     )
-    exact = flange_flexibility(2 * thickness, circle, bore)
+    exact = flange_flexibility(2 * thickness, circle, bore, 2 * fillet)
     assert each.flexibility == pytest.approx(exact, abs=0.015 * 2 / polar(2.0))
 
 
@@ -189,6 +203,8 @@ def test_strength_of_the_weakest_place() -> None:
     """Moore: 1 − 0.2 b/d − 1.1 t/d is left by a keyway; a taper breaks where it is thin."""
     keyed = section(keyway_width=0.025, keyway_depth=0.0125)
     assert keyed.section_modulus == pytest.approx(polar(0.1) / 0.05 * (1 - 0.05 - 0.1375), rel=ROUNDING)
+    both = section(keyway_width=0.025, keyway_depth=0.0125, keyways=2)
+    assert both.section_modulus == pytest.approx(polar(0.1) / 0.05 * (1 - 0.05 - 0.1375) ** 2, rel=ROUNDING)
     taper = section(kind="taper", diameter_end=0.06, inner_diameter=0.02)
     assert taper.section_modulus == pytest.approx(polar(0.06, 0.02) / 0.03, rel=ROUNDING)
     assert section(kind="spline", root_diameter=0.08).section_modulus == pytest.approx(polar(0.08) / 0.04)
@@ -355,6 +371,7 @@ def test_sections_of_a_machine_file() -> None:
         ({"kind": "taper", "diameter_end": 0.05, "inner_diameter": 0.06}, "inner_diameter", "0.05 m"),
         ({"kind": "taper", "diameter_end": 0.05, "inner_diameter_end": 0.06}, "inner_diameter_end", "0.05 m"),
         ({"kind": "flange", "bolt_circle": 0.09}, "bolt_circle", "a circle larger than the shaft, 0.1 m"),
+        ({"kind": "flange", "bolt_circle": 0.2, "fillet": 0.03}, "fillet", "a quarter of the diameter"),
         ({"kind": "spline", "root_diameter": 0.1}, "root_diameter", "less than over the teeth, 0.1 m"),
         ({"kind": "spline", "root_diameter": 0.08, "inner_diameter": 0.09}, "inner_diameter", "0.08 m"),
         ({"keyway_width": 0.02}, "keyway_depth", "both width and depth"),

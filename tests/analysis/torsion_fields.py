@@ -33,38 +33,50 @@ def _radii(bore: float, outer: float, first: float) -> Floats:
     return np.concatenate([np.abs(1 - graded(1 - bore, first)[::-1]), 1 + graded(outer - 1, first)[1:]])
 
 
-def step_length(ratio: float, fillet: float = 0.0, bore: float = 0.0, first: float = 0.01) -> float:
-    """Length over the thinner diameter that a step to `ratio` times the diameter adds."""
-    deep = 3 * min(ratio, 4.0)
-    z = np.concatenate([-graded(deep, first)[::-1], graded(_LONG, first)[1:]])
-    points = grid(_radii(bore, ratio, first), z)
-    points = points[(points[:, 1] <= 1e-12) | (points[:, 0] <= 1 + 1e-12)]
-    if fillet:
-        t = np.linspace(0, np.pi / 2, max(12, int(2 * fillet / first)))
-        arc = np.column_stack([1 + fillet * (1 - np.cos(t)), fillet * (1 - np.sin(t))])
-        n = max(8, int(fillet / first))
-        corner = grid(np.linspace(1, 1 + fillet, n), np.linspace(0, fillet, n))
-        inside = np.hypot(corner[:, 0] - 1 - fillet, corner[:, 1] - fillet) > fillet + 0.3 * first
-        points = np.vstack([points, arc, corner[inside]])
+def _with_fillet(points: Floats, fillet: float, first: float) -> Floats:
+    """Points with those of a fillet in the corner at r = 1, z = 0."""
+    if fillet == 0:
+        return points
+    t = np.linspace(0, np.pi / 2, max(12, int(2 * fillet / first)))
+    arc = np.column_stack([1 + fillet * (1 - np.cos(t)), fillet * (1 - np.sin(t))])
+    n = max(8, int(fillet / first))
+    corner = grid(np.linspace(1, 1 + fillet, n), np.linspace(0, fillet, n))
+    inside = np.hypot(corner[:, 0] - 1 - fillet, corner[:, 1] - fillet) > fillet + 0.3 * first
+    return np.vstack([points, arc, corner[inside]])
+
+
+def _shoulder(fillet: float) -> Region:
+    """The shaft above z = 0, whatever lies below, and the fillet between them."""
 
     def region(at: Floats) -> NDArray[np.bool_]:
         r, z = at.T
         rounded = (r < 1 + fillet) & (z < fillet) & (np.hypot(r - 1 - fillet, z - fillet) > fillet)
         return (z < 0) | (r < 1) | rounded
 
-    mesh = Mesh(points, region)
+    return region
+
+
+def step_length(ratio: float, fillet: float = 0.0, bore: float = 0.0, first: float = 0.01) -> float:
+    """Length over the thinner diameter that a step to `ratio` times the diameter adds."""
+    deep = 3 * min(ratio, 4.0)
+    z = np.concatenate([-graded(deep, first)[::-1], graded(_LONG, first)[1:]])
+    points = grid(_radii(bore, ratio, first), z)
+    points = points[(points[:, 1] <= 1e-12) | (points[:, 0] <= 1 + 1e-12)]
+    mesh = Mesh(_with_fillet(points, fillet, first), _shoulder(fillet))
     z = mesh.nodes[:, 1]
     k = _stiffness(mesh, z < -deep + 1e-9, z > _LONG - 1e-9)
     return (1 / k - _LONG / _polar(1, bore) - deep / _polar(ratio, bore)) * _polar(1, bore) / 2
 
 
-def flange_flexibility(thickness: float, circle: float, bore: float = 0.0, first: float = 0.015) -> float:
+def flange_flexibility(
+    thickness: float, circle: float, bore: float = 0.0, fillet: float = 0.0, first: float = 0.015
+) -> float:
     """Twist per torque, with G = 1, from a shaft's end to the circle where its flange is held."""
     half = graded(thickness / 2, first)
     z = np.concatenate([-half, half - thickness, graded(_LONG, first)])
     points = grid(_radii(bore, circle, first), z)
     points = points[(points[:, 1] <= 1e-12) | (points[:, 0] <= 1 + 1e-12)]
-    mesh = Mesh(points, lambda at: (at[:, 1] < 0) | (at[:, 0] < 1))
+    mesh = Mesh(_with_fillet(points, fillet, first), _shoulder(fillet))
     r, z = mesh.nodes.T
     k = _stiffness(mesh, (r > circle - 1e-9) & (z < 1e-9), z > _LONG - 1e-9)
     return 1 / k - _LONG / _polar(1, bore)

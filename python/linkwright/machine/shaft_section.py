@@ -146,6 +146,9 @@ class ShaftSection(Checked):
         if self.bolt_circle is not None and self.bolt_circle <= d:
             expected = f"a circle larger than the shaft, {d:.6g} m"
             yield fault("bolt_circle", found=self.bolt_circle, expected=expected)
+        elif self.bolt_circle is not None and (self.fillet or 0.0) > min(d / 4, (self.bolt_circle - d) / 2):
+            expected = "at most a quarter of the diameter, and what fits between shaft and bolts"
+            yield fault("fillet", found=self.fillet, expected=expected)
         if self.root_diameter is not None and self.root_diameter >= d:
             expected = f"less than over the teeth, {d:.6g} m"
             yield fault("root_diameter", found=self.root_diameter, expected=expected)

@@ -58,10 +58,10 @@ impl Job for Sampled<'_> {
         let harmonics = coefficients.len() / waves;
         let quarter = (FINE / 4 * harmonics.saturating_sub(1)).max(1);
         let places = 4 * quarter;
-        let (sin, cos): (Vec<f64>, Vec<f64>) =
-            (0..places).map(|j| (TAU * j as f64 / places as f64).sin_cos()).unzip();
+        let table = turns(places, quarter, harmonics);
         let zero = R::splat(0.0);
-        let mut c = vec![(zero, zero); harmonics];
+        // Even and odd harmonics in turn: an odd number of them has one of zero at its end.
+        let mut c = vec![(zero, zero); harmonics.next_multiple_of(2)];
         let mut samples = vec![0.0; places * R::LANES];
         let mut buffer = vec![0.0; 2 * R::LANES];
         let mut found = Vec::with_capacity(waves);
@@ -76,14 +76,21 @@ impl Job for Sampled<'_> {
                         }
                         *c = (R::load(re), R::load(im));
                     }
-                    for j in 0..=quarter {
-                        let [even, odd] = parts(&c, j, &sin, &cos);
-                        // ±τ and π ± τ share their cosines and sines but for the sign.
-                        let (a, b) = (even.0 + odd.0, even.1 + odd.1);
-                        let (d, e) = (even.0 - odd.0, even.1 - odd.1);
-                        let mirrored = [(j, a - b), (places - j, a + b), (2 * quarter - j, d + e)];
-                        for (place, value) in mirrored.into_iter().chain([(2 * quarter + j, d - e)]) {
-                            value.store(&mut samples[place % places * R::LANES..][..R::LANES]);
+                    for (block, rows) in table.chunks_exact(c.len()).enumerate() {
+                        let sums = parts(&c, rows);
+                        for (b, [ce, se, co, so]) in sums.into_iter().enumerate() {
+                            let j = (BLOCK * block + b).min(quarter);
+                            // ±τ and π ± τ share their cosines and sines but for the sign.
+                            let (plus, minus) = (ce + co, ce - co);
+                            let (up, down) = (se + so, se - so);
+                            let mut keep = #[inline(always)]
+                            |place: usize, value: R| {
+                                value.store(&mut samples[place % places * R::LANES..][..R::LANES]);
+                            };
+                            keep(j, plus - up);
+                            keep(places - j, plus + up);
+                            keep(2 * quarter - j, minus + down);
+                            keep(2 * quarter + j, minus - down);
                         }
                     }
                 },
@@ -100,20 +107,36 @@ impl Job for Sampled<'_> {
     }
 }
 
-/// Sums of Re c cos hτ and Im c sin hτ over even and odd harmonics, at one of the places.
+/// Places at which sums are taken beside each other: they do not wait for one another, and registers hold them.
+const BLOCK: usize = 2;
+
+/// cos hτ and sin hτ at the places of each block, harmonic by harmonic.
+fn turns(places: usize, quarter: usize, harmonics: usize) -> Vec<[[f64; 2]; BLOCK]> {
+    let (sin, cos): (Vec<f64>, Vec<f64>) =
+        (0..places).map(|j| (TAU * j as f64 / places as f64).sin_cos()).unzip();
+    let blocks = (quarter + 1).div_ceil(BLOCK);
+    let harmonics = harmonics.next_multiple_of(2);
+    let at = |block: usize, h: usize, b: usize| (BLOCK * block + b).min(quarter) * h % places;
+    (0..blocks * harmonics)
+        .map(|row| {
+            let (block, h) = (row / harmonics, row % harmonics);
+            std::array::from_fn(|b| [cos[at(block, h, b)], sin[at(block, h, b)]])
+        })
+        .collect()
+}
+
+/// Sums of Re c cos hτ and Im c sin hτ over even, then over odd harmonics, at the places of a block.
 #[inline(always)]
-fn parts<R: Real>(c: &[(R, R)], j: usize, sin: &[f64], cos: &[f64]) -> [(R, R); 2] {
-    let zero = R::splat(0.0);
-    let mut sums = [(zero, zero); 2];
-    let mut place = 0;
-    for pair in c.chunks(2) {
-        for (sum, &(re, im)) in sums.iter_mut().zip(pair) {
-            sum.0 = re.mul_add(R::splat(cos[place]), sum.0);
-            sum.1 = im.mul_add(R::splat(sin[place]), sum.1);
-            place += j;
-            if place >= sin.len() {
-                place -= sin.len();
-            }
+fn parts<R: Real>(c: &[(R, R)], rows: &[[[f64; 2]; BLOCK]]) -> [[R; 4]; BLOCK] {
+    let mut sums = [[R::splat(0.0); 4]; BLOCK];
+    for (c, rows) in c.chunks_exact(2).zip(rows.chunks_exact(2)) {
+        let ((even_re, even_im), (odd_re, odd_im)) = (c[0], c[1]);
+        for b in 0..BLOCK {
+            let [[even_cos, even_sin], [odd_cos, odd_sin]] = [rows[0][b], rows[1][b]];
+            sums[b][0] = even_re.mul_add(R::splat(even_cos), sums[b][0]);
+            sums[b][1] = even_im.mul_add(R::splat(even_sin), sums[b][1]);
+            sums[b][2] = odd_re.mul_add(R::splat(odd_cos), sums[b][2]);
+            sums[b][3] = odd_im.mul_add(R::splat(odd_sin), sums[b][3]);
         }
     }
     sums
@@ -136,14 +159,16 @@ fn highest(wave: &[Complex], samples: &[f64], sign: f64) -> (f64, f64) {
     let swing = samples.iter().fold(0.0_f64, |a, x| a.max((x - wave[0][0]).abs()));
     // Tops of parabolas through three samples: where, and how high.
     let mut tops = Vec::with_capacity(8);
-    for j in 0..n {
-        let here = sign * samples[j];
-        let (before, after) = (sign * samples[(j + n - 1) % n], sign * samples[(j + 1) % n]);
+    let (mut before, mut here) = (sign * samples[n - 1], sign * samples[0]);
+    let following = samples[1..].iter().chain(&samples[..1]);
+    for (j, after) in following.enumerate() {
+        let after = sign * after;
         if here >= before && here >= after {
             let bend = before - 2.0 * here + after;
             let shift = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
             tops.push(((j as f64 + shift) * step, here - 0.25 * (before - after) * shift, here));
         }
+        (before, here) = (here, after);
     }
     tops.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut found = (0.0, f64::NEG_INFINITY);

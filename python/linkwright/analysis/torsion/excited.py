@@ -25,8 +25,8 @@ from linkwright.machine.train_run import TrainRun
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
-# Speeds of a drive line over its steady speed, and how many.
-_ABOUT = (0.2, 1.3)
+# Speeds of a drive line over its steady speed, and how many: where a motor works, not where it runs up.
+_ABOUT = (0.8, 1.2)
 _POINTS = 200
 
 # Share of the largest torque on a mass below which a shaft carries rounding.
@@ -168,10 +168,22 @@ def is_excited(machine: Machine) -> bool:
     if train is None:
         drive = machine.drive
         return drive is not None and drive.twists and not (drive.motor is None and drive.speed is None)
-    if train.run is None:
+    return train.run is not None and pulsates(machine)
+
+
+def pulsates(machine: Machine) -> bool:
+    """Whether something of a [train] pulsates: excitations, loads, an engine.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    """
+    train = machine.train
+    if train is None:
         return False
-    pulsates = any(each.harmonics for each in train.loads.values())
-    return bool(train.excitations) or pulsates or train.engine is not None
+    loads = any(each.harmonics for each in train.loads.values())
+    return bool(train.excitations) or loads or train.engine is not None
 
 
 def _sources(
