@@ -244,7 +244,7 @@ def _frequencies(found: FreeVibration) -> Table:
             f"f_{k}",
             f"{f:.6g}",
             f"{60 * f:.6g}",
-            _nodes(found.nodes[k]),
+            _nodes(found.nodes[k]) if f > 0 else "–",
         )
         for k, f in enumerate(found.natural_frequencies.tolist())
     ]
@@ -266,7 +266,8 @@ def _node(node: Node) -> str:
 def _energy(found: FreeVibration, k: int) -> str:
     """The shafts that twist most and the discs that swing most."""
     if found.natural_frequencies[k] == 0:
-        return "turns as a whole"
+        moving = [name for name, q in zip(found.discs, found.mode_shapes[k], strict=True) if q]
+        return "turns as a whole" if len(moving) > 1 else f"{moving[0]} turns by itself"
     parts = (
         _most(found.shafts, found.potential_shares[k]),
         _most(found.discs, found.kinetic_shares[k]),
