@@ -83,14 +83,15 @@ impl Job for Sampled<'_> {
                             // ±τ and π ± τ share their cosines and sines but for the sign.
                             let (plus, minus) = (ce + co, ce - co);
                             let (up, down) = (se + so, se - so);
-                            let mut keep = #[inline(always)]
-                            |place: usize, value: R| {
+                            let mirrored = [
+                                (j, plus - up),
+                                (places - j, plus + up),
+                                (2 * quarter - j, minus + down),
+                                (2 * quarter + j, minus - down),
+                            ];
+                            for (place, value) in mirrored {
                                 value.store(&mut samples[place % places * R::LANES..][..R::LANES]);
-                            };
-                            keep(j, plus - up);
-                            keep(places - j, plus + up);
-                            keep(2 * quarter - j, minus + down);
-                            keep(2 * quarter + j, minus - down);
+                            }
                         }
                     }
                 },
