@@ -26,6 +26,9 @@ _PLAIN, _LARGEST = 14.0, 150.0
 # Critical speeds that are told beside their points.
 _TOLD = 6
 
+# Width and height of the words beside a point, as shares of the picture.
+_WORDS = (0.11, 0.045)
+
 # Room between numbers of orders along an edge, as a share of it.
 _APART = 0.035
 
@@ -82,17 +85,30 @@ def _rays(axes: Axes, diagram: CampbellDiagram) -> None:
     (left, right), top = axes.get_xlim(), axes.get_ylim()[1]
     last = None
     for order in sorted(diagram.orders.tolist()):
-        axes.plot([left, right], [order * left / 60, order * right / 60], color=SOFT, linewidth=0.6, zorder=1)
+        axes.plot(
+            [left, right],
+            [order * left / 60, order * right / 60],
+            color=SOFT,
+            linewidth=0.5,
+            alpha=0.6,
+            zorder=1,
+        )
         x, y = (right, order * right / 60) if order * right / 60 <= top else (60 * top / order, top)
         # Along the right edge upwards, then along the upper edge to the left.
         along = y / top if x == right else 1 + (right - x) / (right - left)
         if x < left or (last is not None and along - last < _APART):
             continue
         last = along
-        place = {"ha": "left", "va": "center"} if x == right else {"ha": "center", "va": "bottom"}
-        offset = (3, 0) if x == right else (0, 2)
+        at_right = x == right
         axes.annotate(
-            f"{order:g}", (x, y), xytext=offset, textcoords="offset points", color=SOFT, fontsize=7.5, **place
+            f"{order:g}",
+            (x, y),
+            xytext=(3, 0) if at_right else (0, 2),
+            textcoords="offset points",
+            ha="left" if at_right else "center",
+            va="center" if at_right else "bottom",
+            color=SOFT,
+            fontsize=7.5,
         )
 
 
@@ -109,27 +125,38 @@ def _points(axes: Axes, diagram: CampbellDiagram) -> None:
     axes.scatter(
         x, y, s=area, facecolor=ORANGE, edgecolor=RED, linewidth=0.8, alpha=0.85, zorder=3, label=name
     )
-    if not name:
-        return
-    for n in np.argsort(-severity, kind="stable")[:_TOLD].tolist():
-        if share[n] > 0:
-            axes.annotate(
-                f"{x[n]:.4g}",
-                (x[n], y[n]),
-                xytext=(0, 3 + math.sqrt(area[n]) / 2),
-                textcoords="offset points",
-                ha="center",
-                fontsize=7.5,
-                color=INK,
-                zorder=4,
-            )
+    if name:
+        worst = [n for n in np.argsort(-severity, kind="stable").tolist() if share[n] > 0]
+        _told(axes, [(x[n], y[n], area[n], critical[n].order) for n in worst[:_TOLD]])
+
+
+def _told(axes: Axes, listed: list[tuple[float, float, float, float]]) -> None:
+    """Speed and order beside points of known area, the most severe first, where there is room."""
+    (left, right), top = axes.get_xlim(), axes.get_ylim()[1]
+    taken: list[tuple[float, float]] = []
+    for x, y, area, order in listed:
+        place = (x - left) / (right - left), y / top
+        if any(abs(place[0] - u) < _WORDS[0] and abs(place[1] - v) < _WORDS[1] for u, v in taken):
+            continue
+        taken.append(place)
+        side = "left" if place[0] < _WORDS[0] / 2 else "right" if place[0] > 1 - _WORDS[0] / 2 else "center"
+        axes.annotate(
+            f"{x:.4g} ({order:g})",
+            (x, y),
+            xytext=(0, 3 + math.sqrt(area) / 2),
+            textcoords="offset points",
+            ha=side,
+            fontsize=7.5,
+            color=INK,
+            zorder=4,
+        )
 
 
 def _severity(diagram: CampbellDiagram) -> tuple[Floats, str]:
     """How severe critical speeds are, and by what; infinite ones as twice the largest that is not."""
     for entry, name in (
-        ("resonance_amplitude", "critical, by amplitude at resonance"),
-        ("equilibrium_amplitude", "critical, by equilibrium amplitude"),
+        ("resonance_amplitude", "critical: rpm (order), by amplitude at resonance"),
+        ("equilibrium_amplitude", "critical: rpm (order), by equilibrium amplitude"),
     ):
         found = [getattr(each, entry) for each in diagram.critical]
         if all(value is not None for value in found) and any(found):

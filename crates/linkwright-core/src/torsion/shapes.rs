@@ -140,8 +140,8 @@ impl<'a, R: Real> Twisted<'a, R> {
         let gap = (lambda - R::load(padded)).min(R::load(&padded[2..]) - lambda);
         let mut angle = R::splat(0.0);
         for _ in 0..ROUNDS {
-            self.from_leaves(lambda);
-            let best = self.from_root();
+            self.sweep_up(lambda);
+            let best = self.sweep_down();
             let mass = self.spread(&best);
             let change = best.rest / mass;
             angle = best.rest.abs() / ((best.inertia * mass).sqrt() * gap);
@@ -156,7 +156,7 @@ impl<'a, R: Real> Twisted<'a, R> {
 
     /// x of every disc.
     #[inline(always)]
-    fn from_leaves(&mut self, lambda: R) {
+    fn sweep_up(&mut self, lambda: R) {
         let Train { parent, inertia, stiffness, ground } = self.train;
         for ((sweep, &J), &k) in self.sweeps.iter_mut().zip(inertia).zip(ground) {
             sweep.answer = lambda.mul_add(R::splat(-J), R::splat(k));
@@ -174,7 +174,7 @@ impl<'a, R: Real> Twisted<'a, R> {
 
     /// y of every disc, in place of x, and where both fit best.
     #[inline(always)]
-    fn from_root(&mut self) -> Best<R> {
+    fn sweep_down(&mut self) -> Best<R> {
         let Train { parent, inertia, stiffness, .. } = self.train;
         let zero = R::splat(0.0);
         let rest = self.sweeps[0].answer;

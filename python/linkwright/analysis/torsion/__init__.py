@@ -8,7 +8,8 @@
 | `damper_rules`, `damper_design` | the best damper, in closed form and for a mode |
 | `ring_on_train` | the best damper for a train |
 | `holzer` | what a train needs to swing at any frequency |
-| `damped`, `campbell` | modes with damping; critical speeds and how severe they are |
+| `damped`, `damped_modes` | modes with damping, and what damps them |
+| `campbell`, `modes_over_speed` | critical speeds and how severe they are |
 | `excited`, `torques`, `engine_torques`, `mechanism_torques` | what makes a train vibrate |
 | `synthesis` | orders added up in phase |
 | `study` | all of these as one |
