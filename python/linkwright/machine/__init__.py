@@ -19,6 +19,7 @@
 | `shaft_limit`, `propulsion_shaft`, `crankshaft_limit` | what shafts bear, given or by the rules of ships |
 | `reciprocating/` | parts of reciprocating engines |
 | `train`, `train_speeds`, `train_faults` | torsional trains, speeds of their discs, faults |
+| `train_transient`, `train_event` | manoeuvres of trains, what happens in them |
 | `linkage` | the whole mechanism: elements of the file, and what cams and a pumping unit expand into |
 | `body`, `loads` | masses; forces and torques |
 | `formula` | formulas as texts |
@@ -100,12 +101,25 @@ from linkwright.machine.rod_rotator import RodRotator
 from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_section import ShaftSection
 from linkwright.machine.train import Disc, ElasticShaft, Shaft, Train, TrainGear
+from linkwright.machine.train_event import (
+    AnyTrainEvent,
+    FuelSwitch,
+    LoadStep,
+    Misfire,
+    MotorSwitch,
+    ShortCircuit,
+    SpeedCourse,
+    TorqueCourse,
+    TorqueStep,
+)
+from linkwright.machine.train_transient import TrainMotor, TrainTransient
 from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 
 __all__ = [
     "FORMAT",
     "AnyLoad",
     "AnyMotor",
+    "AnyTrainEvent",
     "Bar",
     "Body",
     "Brake",
@@ -132,6 +146,7 @@ __all__ = [
     "FollowerTrain",
     "ForcePosition",
     "FormulaLoad",
+    "FuelSwitch",
     "GasSpring",
     "Gear",
     "Gearbox",
@@ -143,12 +158,15 @@ __all__ = [
     "LinearDriver",
     "Link",
     "Load",
+    "LoadStep",
     "Machine",
     "Mechanism",
+    "Misfire",
     "ModifiedSineLaw",
     "ModifiedTrapezoidLaw",
     "MotionSection",
     "Motor",
+    "MotorSwitch",
     "OptimalLaw",
     "PlainLaw",
     "PolishedRodLoad",
@@ -164,18 +182,24 @@ __all__ = [
     "Shaft",
     "ShaftLimit",
     "ShaftSection",
+    "ShortCircuit",
     "Slider",
     "SlottedLever",
+    "SpeedCourse",
     "SplineLaw",
     "Spring",
     "TableLaw",
     "TableMotor",
     "TorqueAngle",
+    "TorqueCourse",
     "TorqueSpeed",
+    "TorqueStep",
     "TorsionalDamper",
     "TorsionalSpring",
     "Train",
     "TrainGear",
+    "TrainMotor",
+    "TrainTransient",
     "TrapezoidalVelocityLaw",
     "ViscousFriction",
     "Yoke",
