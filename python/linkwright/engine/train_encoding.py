@@ -37,8 +37,8 @@ def encoded(train: MovingTrain) -> _core.TorsionSystem:
     n = train.speed
     tables: list[PeriodicTable] = []
     curves: list[Curve] = []
-    at_mass = np.zeros((2, train.masses))
-    for row, own in zip(at_mass, (train.inertia, train.damping), strict=True):
+    at_mass = np.zeros((3, train.masses))
+    for row, own in zip(at_mass, (train.inertia, train.damping, train.swing_damping), strict=True):
         np.add.at(row, train.mass, n**2 * own)
     # The last is that of the ground, HELD = −1.
     masses = np.append(train.mass, HELD)
@@ -51,6 +51,7 @@ def encoded(train: MovingTrain) -> _core.TorsionSystem:
     return _core.TorsionSystem(
         at_mass[0],
         at_mass[1],
+        at_mass[2],
         _ints(links),
         _floats(np.column_stack([train.lead, train.stiffness, train.shaft_damping])),
         _ints(rotors),
