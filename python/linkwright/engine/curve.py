@@ -1,4 +1,4 @@
-"""A curve through points, as the core takes it: cubics between them, with the slopes just before and after each."""
+"""A curve through points, as the core takes it: cubics between them, with slopes before and after each."""
 
 from __future__ import annotations
 
@@ -124,8 +124,8 @@ def switched(changes: Iterable[tuple[float, float, float]], start: float = 1.0) 
     Parameters
     ----------
     changes : iterable of tuple
-        Time [s], factor from then on, and time over which it comes to it [s]; zero for a step. A change that is still
-        on its way when the next begins stays where it is then.
+        Time [s], factor from then on, and time over which it comes to it [s]; zero for a step. A change that
+        is still on its way when the next begins stays where it is then.
     start : float
         Factor until the first change.
 

@@ -33,8 +33,8 @@ def motor_curve(motor: InductionMotor | DcMotor | TableMotor | ConstantTorqueMot
     Returns
     -------
     Curve
-        Torque [N m] over speed [rad/s]. That of an induction motor is held below rest and beyond twice its synchronous
-        speed.
+        Torque [N m] over speed [rad/s]. That of an induction motor is held below rest and beyond twice its
+        synchronous speed.
     """
     match motor:
         case ConstantTorqueMotor():

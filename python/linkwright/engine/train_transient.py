@@ -1,15 +1,16 @@
 r"""A train in motion in the core's terms: discs with inertias that change with the angle, shafts, torques.
 
-.. math:: J(\theta)\,\ddot\theta + \tfrac12 J'(\theta)\,\dot\theta^2 + c\,\dot\theta + d\,(\dot\theta - \omega)
-    + \sum M_\mathrm{shaft} = \sum M
+.. math:: J(\theta)\,\ddot\theta + \tfrac12 J'(\theta)\,\dot\theta^2 + c\,\dot\theta
+    + d\,(\dot\theta - \omega) + \sum M_\mathrm{shaft} = \sum M
 
 with the speed ω of the train as a whole, the mean over its inertia.
 
 Everything is said of the discs at their own speeds; discs behind rigid gears move as one mass, as in
 `linkwright.engine.train`.
 
-Hysteresis has no meaning in time: what loses the same share of its energy whatever the frequency is no law of the instant.
-A shaft of the loss factor η becomes a viscous one that loses as much at one frequency, :math:`c = \eta k/\omega`.
+Hysteresis has no meaning in time: what loses the same share of its energy whatever the frequency is no law
+of the instant. A shaft of the loss factor η becomes a viscous one that loses as much at one frequency,
+:math:`c = \eta k/\omega`.
 
 References
 ----------
@@ -100,8 +101,8 @@ def variable_inertia(
         off = float(np.abs(table.slope[:: len(table.slope) // len(J)] - given).max())
         if not off <= _SLOPES_AGREE * float(np.abs(given).max() or J.mean()):
             raise InputError(
-                f"slope of an inertia: differs by {off:.3g} kg m²/rad from that of its {len(J)} samples; sample "
-                "the turn more finely"
+                f"slope of an inertia: differs by {off:.3g} kg m²/rad from that of its {len(J)} samples; "
+                "sample the turn more finely"
             )
     return VariableInertia(on, table, phase)
 
@@ -166,8 +167,8 @@ class MovingTrain:
     mass : ndarray of int, shape (discs,)
         Discs of one number move as one.
     inertia, damping, swing_damping : ndarray, shape (discs,)
-        Constant part of the inertia [kg m²], damping against the ground, and damping that resists only what goes
-        beyond the speed of the train as a whole [N m s/rad].
+        Constant part of the inertia [kg m²], damping against the ground, and damping that resists only what
+        goes beyond the speed of the train as a whole [N m s/rad].
     shafts : tuple of str
         Names of what twists.
     tip : ndarray of int, shape (shafts, 2)
@@ -276,15 +277,19 @@ class MovingTrain:
         Moved
             Samples beyond the time reached are NaN.
         """
-        lists = [np.ascontiguousarray(each, dtype=np.float64) for each in (angle, speed, times)]
-        end_time, kind = float(lists[2][-1]), _METHODS.index(method)
-        found = self.system.follow(*lists, start, end_time, accuracy, kind, steps_max)
-        end, used, counts, scalars, samples, extremes, work = found
+        at, turning, sampled = (
+            np.ascontiguousarray(each, dtype=np.float64) for each in (angle, speed, times)
+        )
+        kind = _METHODS.index(method)
+        found = self.system.follow(at, turning, sampled, start, float(sampled[-1]), accuracy, kind, steps_max)
+        end, used, (steps, rejected, evaluations), scalars, samples, extremes, work = found
         n, m = self.masses, len(self.shafts)
         return Moved(
-            end,
-            _METHODS[used],
-            *counts,
+            end=end,
+            method=_METHODS[used],
+            steps=steps,
+            rejected=rejected,
+            evaluations=evaluations,
             time=scalars[0],
             fastest=scalars[1],
             energies=(scalars[2], scalars[3], scalars[4], scalars[5]),
@@ -378,4 +383,6 @@ def viscous(stiffness: ArrayLike, loss_factor: ArrayLike, omega: ArrayLike) -> F
     ndarray
         Of the same shape [N m s/rad].
     """
-    return np.asarray(stiffness, dtype=float) * np.asarray(loss_factor, dtype=float) / np.asarray(omega)
+    k, eta = np.asarray(stiffness, dtype=float), np.asarray(loss_factor, dtype=float)
+    damping: Floats = k * eta / np.asarray(omega, dtype=float)
+    return damping

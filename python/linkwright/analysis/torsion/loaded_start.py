@@ -4,8 +4,8 @@ In steady running mean torques and the mean acceleration of the whole balance on
 
 .. math:: \bar M_i(\theta) = \bar J_i\,\frac{\sum\bar M}{\sum\bar J}
 
-over two turns. The twists that do so are found by Newton's method, whatever the curves of couplings are. Without them a
-motion would begin with the shock of torques that set in at once.
+over two turns. The twists that do so are found by Newton's method, whatever the curves of couplings are.
+Without them a motion would begin with the shock of torques that set in at once.
 """
 
 from __future__ import annotations
@@ -21,15 +21,16 @@ Floats = NDArray[np.float64]
 # Angles of two turns: some twenty a wave of order 24.
 _ANGLES = 1024
 
-# A time before the start [s]: laws over time are what they are there, and nothing has set in that begins with it.
+# A time before the start [s]: laws over time are what they are there, and nothing has set in that begins
+# with it.
 BEFORE = -1.0
 
 # Twist by which stiffnesses are found [rad], and Newton's steps.
 _STEP = 1e-7
 _STEPS = 60
 
-# Share of a coupling's steepest slope that it has at least, so that a gap is crossed: Newton then comes closer a
-# thousandfold in each step at the worst.
+# Share of a coupling's steepest slope that it has at least, so that a gap is crossed: Newton then comes
+# closer a thousandfold in each step at the worst.
 _FLOOR = 1e-3
 
 # Share of the torques that may be left, and of the stiffest shaft's torque per angle: rounding of two turns.

@@ -1,7 +1,8 @@
 r"""An engine in motion: the inertia of its throws over the angle, torques of gas and weight.
 
-Nothing is linear here: a throw at the angle φ + α has the inertia J(φ + α), and its swinging changes both. What
-linear vibration calls inertia torque, :math:`-\tfrac12 J'\Omega^2`, is part of the motion's own equation.
+Nothing is linear here: a throw at the angle φ + α has the inertia J(φ + α), and its swinging changes both.
+What linear vibration calls inertia torque, :math:`-\tfrac12 J'\Omega^2`, is part of the motion's own
+equation.
 
 A cylinder gives the torque of its gas without combustion, and on top of it, with a weight over time, what the
 combustion adds. Both are taken at one speed.
@@ -69,7 +70,8 @@ def engine_motion_torques(
     Returns
     -------
     list of TrainTorque
-        ``"gas_N"`` of each cylinder without combustion, ``"combustion_N"`` on top of it, ``"weight_N"`` of each throw.
+        ``"gas_N"`` of each cylinder without combustion, ``"combustion_N"`` on top of it, ``"weight_N"`` of
+        each throw.
     """
     fires, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
     motored, added = _gas_tables(engine, speed, highest)

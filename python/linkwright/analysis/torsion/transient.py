@@ -2,13 +2,15 @@ r"""Motion of a train in time: start, stop, resonance passed, step of load, misf
 
 .. math:: J(\theta)\,\ddot\theta + \tfrac12 J'(\theta)\,\dot\theta^2 + \sum M_\mathrm{shaft} = \sum M
 
-with the inertia of every throw and mechanism as it changes with the angle, and couplings of any curve. Steps are chosen by
-their error; none goes over a switch.
+with the inertia of every throw and mechanism as it changes with the angle, and couplings of any curve. Steps
+are chosen by their error; none goes over a switch.
 
 References
 ----------
-.. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5, and II, IV.8: DOP853 and RADAU5.
-.. [2] Eksergian, Dynamical analysis of machines, J. Franklin Inst. 209 (1930): inertia that changes with the angle.
+.. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5, and II, IV.8: DOP853 and
+RADAU5.
+.. [2] Eksergian, Dynamical analysis of machines, J. Franklin Inst. 209 (1930): inertia that changes with the
+angle.
 """
 
 from __future__ import annotations
@@ -22,19 +24,20 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.loaded_start import loaded_angles
 from linkwright.analysis.torsion.moving_train import moving_train
-from linkwright.engine.train_transient import MovingTrain, Moved
+from linkwright.engine.train_transient import Moved, MovingTrain
 from linkwright.errors import ConvergenceError, InputError
 from linkwright.machine import Machine
 from linkwright.machine.train_transient import SAMPLES_MAX, TrainTransient
 
 Floats = NDArray[np.float64]
 
-# Samples of a motion where nothing is said, and their greatest distance [s]: order 24 at 2500 rpm is a kilohertz.
+# Samples of a motion where nothing is said, and their greatest distance [s]: order 24 at 2500 rpm is a
+# kilohertz.
 _SAMPLES = 4000
 _SAMPLE_TIME = 5e-4
 
-# Time in which a running train swings in before its manoeuvre [s]: modes of some hundred hertz with a damping of one per
-# cent are down to a thousandth.
+# Time in which a running train swings in before its manoeuvre [s]: modes of some hundred hertz with a
+# damping of one per cent are down to a thousandth.
 _SETTLE = 1.0
 
 
@@ -172,13 +175,14 @@ def follow_train(
     loaded : bool
         Whether shafts are twisted by the mean torques at the start, in addition to the angles given.
     settle : float
-        Time before the start in which it swings in, unrecorded: laws over time hold what they are at zero [s].
+        Time before the start in which it swings in, unrecorded: laws over time hold what they are at zero
+        [s].
     sample_time : float, optional
         Between samples [s].
     accuracy : float
         Relative, of a step.
     method : str
-        "explicit" steps of order 8 follow every swing; "implicit" ones of order 5 let die out those that are faster
+        "explicit" steps of order 8 follow every swing; "implicit" ones of order 5 let die out those faster
         than a step; "auto" takes these where stability would ask the others for more than 200 000 steps.
     steps_max : int
         Steps after which it is given up.

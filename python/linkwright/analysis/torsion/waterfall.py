@@ -1,18 +1,20 @@
-r"""Amplitudes over speed and order: the short-time Fourier transform of a motion over the angle of one of its discs.
+r"""Amplitudes over speed and order: the short-time Fourier transform of a motion over the angle of one of
+its discs.
 
-A motion that speeds up is no periodic one, but over a few turns it nearly is. A window of N turns slides over it, and in
-each the signal x is taken over the angle φ of the disc, not over time, so that orders stay where they are while the speed
-changes,
+A motion that speeds up is no periodic one, but over a few turns it nearly is. A window of N turns slides
+over it, and in each the signal x is taken over the angle φ of the disc, not over time, so that orders stay
+where they are while the speed changes,
 
-.. math:: A_\nu = \frac{2}{\int w\,d\varphi} \left|\int w(\varphi)\,\bigl(x - \bar x\bigr)\,e^{-i\nu\varphi}\,d\varphi\right|
+.. math:: A_\nu = \frac{2}{\int w\,d\varphi} \left|\int w(\varphi)\,\bigl(x - \bar
+x\bigr)\,e^{-i\nu\varphi}\,d\varphi\right|
 
 with Hann's window w. It tells apart orders that differ by 2/N; a line between two orders is not an amplitude.
 
 References
 ----------
 .. [1] Harris, On the use of windows for harmonic analysis, Proc. IEEE 66 (1978) 51-83: Hann's window.
-.. [2] Fyfe and Munck, Analysis of computed order tracking, Mech. Syst. Signal Process. 11 (1997) 187-205: resampling over
-the angle.
+.. [2] Fyfe and Munck, Analysis of computed order tracking, Mech. Syst. Signal Process. 11 (1997) 187-205:
+resampling over the angle.
 """
 
 from __future__ import annotations
@@ -107,7 +109,8 @@ def waterfall(
     Raises
     ------
     InputError
-        The disc does not turn forward all the time or not far enough, or samples are too few for the highest order.
+        The disc does not turn forward all the time or not far enough, or samples are too few for the highest
+        order.
     """
     t, phi, x = (np.asarray(each, dtype=float) for each in (time, angle, signal))
     _require(t, phi, x, highest, step, turns)
@@ -116,7 +119,7 @@ def waterfall(
     hop = window / _HOPS
     starts = phi[0] + hop * np.arange(int((phi[-1] - phi[0] - window) / hop + 1e-9) + 1)
     share = (np.arange(n) + 0.5) / n
-    orders = step * np.arange(1, round(highest / step) + 1)
+    orders: Floats = step * np.arange(1.0, round(highest / step) + 1)
     weight = 1 - np.cos(2 * np.pi * share)
     waves = np.exp(-1j * window * np.outer(share, orders)) * weight[:, None] * (2 / weight.sum())
     places = starts[:, None] + window * share
@@ -136,7 +139,8 @@ def _require(t: Floats, phi: Floats, x: Floats, highest: float, step: float, tur
     """Refuse what no waterfall can be made of."""
     if not (t.ndim == 1 and t.shape == phi.shape == x.shape and len(t) > 3):
         raise InputError(
-            f"time, angle and signal have shapes {t.shape}, {phi.shape}, {x.shape}: expected lists of one length"
+            f"time, angle and signal have shapes {t.shape}, {phi.shape}, {x.shape}: expected lists of one "
+            "length"
         )
     if not (0 < step <= highest < np.inf):
         raise InputError(f"orders up to {highest:g} in steps of {step:g}: expected 0 < step ≤ highest")
@@ -156,8 +160,8 @@ def _require(t: Floats, phi: Floats, x: Floats, highest: float, step: float, tur
     if advance.max() * highest > 0.5 * np.pi:
         most = 0.5 * np.pi / advance.max()
         raise InputError(
-            f"highest: found order {highest:g}, expected {most:.3g} at most with these samples; sample the motion more "
-            "finely: sample_time"
+            f"highest: found order {highest:g}, expected {most:.3g} at most with these samples; sample the "
+            "motion more finely: sample_time"
         )
 
 
