@@ -121,7 +121,7 @@ def version(package: str) -> str | None:
 
 def facts() -> dict[str, Any]:
     """What the numbers depend on: processor, cores, load, versions."""
-    names = ("linkwright", "numpy", "scipy", "exudyn", "pylinkage", "numba")
+    names = ("linkwright", "numpy", "scipy", "exudyn", "pylinkage", "numba", "opentorsion")
     return {
         "processor": _processor(),
         "cores": len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count(),

@@ -27,6 +27,8 @@ CASES = (
     "cam_one",
     "cams_many",
     "torsion_modes",
+    "torsion_forced",
+    "torsion_engine",
     "start_up",
 )
 

@@ -63,8 +63,7 @@ def chain(n: int) -> lw.Machine:
 
 def peer(machine: lw.Machine, speeds: np.ndarray, torques: np.ndarray) -> np.ndarray:
     """The same by openTorsion, (orders, discs, speeds)."""
-    from opentorsion.assembly import Assembly
-    from opentorsion.elements import Disk, Shaft
+    from opentorsion import Assembly, Disk, Shaft
 
     assert machine.train is not None
     discs = [Disk(i, I=each.inertia, c=each.damping) for i, each in enumerate(machine.train.discs.values())]

@@ -94,10 +94,21 @@ def _default(field: FieldInfo) -> str:
         return "its defaults" if model_of(field.annotation) else "none"
     if field.default in (None, "", (), PydanticUndefined):
         return "–"
+    if isinstance(field.default, BaseModel):
+        return "its defaults"
+    if isinstance(field.default, tuple):
+        return _list(field.default)
     if isinstance(field.default, bool):
         return f"`{str(field.default).lower()}`"
     is_number = isinstance(field.default, int | float)
     return f"`{field.default:.6g}`" if is_number else f'`"{field.default}"`'
+
+
+def _list(default: tuple[Any, ...]) -> str:
+    """A list that holds if the key is left out."""
+    if isinstance(default[0], BaseModel):
+        return "one that is usual"
+    return f"`[{', '.join(f'{each:.6g}' for each in default)}]`"
 
 
 def _kind(field: FieldInfo) -> str:

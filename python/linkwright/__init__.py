@@ -76,8 +76,20 @@ _HOME = {
     "rod_rotator": "analysis.rod_rotator",
     "free_vibration": "analysis.torsion.free",
     "holzer_table": "analysis.torsion.holzer",
+    "forced_vibration": "analysis.torsion.forced",
+    "torsion_study": "analysis.torsion.study",
+    "shaft_stress": "analysis.torsion.stress",
+    "barred_ranges": "analysis.torsion.barred_range",
+    "mesh_torques": "analysis.torsion.mesh_torque",
+    "engine_diagnosis": "analysis.torsion.engine_diagnosis",
+    "measured_speed": "analysis.torsion.measured_speed",
+    "engine_data": "analysis.torsion.engine_data",
+    "damped_vibration": "analysis.torsion.damped",
+    "campbell": "analysis.torsion.campbell",
     "drive_line": "analysis.torsion.drive_line",
     "mechanism_harmonics": "analysis.torsion.drive_line",
+    "design_damper": "analysis.torsion.damper_design",
+    "scheme": "analysis.torsion.scheme",
     "station_damping": "analysis.torsion.drive_line",
     "study": "analysis.study",
     "steady_states": "sweep.batch",
@@ -161,11 +173,23 @@ if TYPE_CHECKING:
     from linkwright.analysis.steady_state import steady_state as steady_state
     from linkwright.analysis.step_method import step_method as step_method
     from linkwright.analysis.study import study as study
+    from linkwright.analysis.torsion.barred_range import barred_ranges as barred_ranges
+    from linkwright.analysis.torsion.campbell import campbell as campbell
+    from linkwright.analysis.torsion.damped import damped_vibration as damped_vibration
+    from linkwright.analysis.torsion.damper_design import design_damper as design_damper
     from linkwright.analysis.torsion.drive_line import drive_line as drive_line
     from linkwright.analysis.torsion.drive_line import mechanism_harmonics as mechanism_harmonics
     from linkwright.analysis.torsion.drive_line import station_damping as station_damping
+    from linkwright.analysis.torsion.engine_data import engine_data as engine_data
+    from linkwright.analysis.torsion.engine_diagnosis import engine_diagnosis as engine_diagnosis
+    from linkwright.analysis.torsion.forced import forced_vibration as forced_vibration
     from linkwright.analysis.torsion.free import free_vibration as free_vibration
     from linkwright.analysis.torsion.holzer import holzer_table as holzer_table
+    from linkwright.analysis.torsion.measured_speed import measured_speed as measured_speed
+    from linkwright.analysis.torsion.mesh_torque import mesh_torques as mesh_torques
+    from linkwright.analysis.torsion.scheme import scheme as scheme
+    from linkwright.analysis.torsion.stress import shaft_stress as shaft_stress
+    from linkwright.analysis.torsion.study import torsion_study as torsion_study
     from linkwright.analysis.transient import transient as transient
     from linkwright.exchange.cam import cam_drawings as cam_drawings
     from linkwright.exchange.write import write_drawing as write_drawing

@@ -145,8 +145,12 @@ def torsion_forced(
 def torsion_waves(coefficients: _Floats, waves: int) -> _Floats:
     """Greatest value, its place, least, its place (4, waves) of sums of harmonics (harmonics, waves)."""
 
-def torsion_modes(parent: _Ints, inertia: _Floats, stiffness: _Floats) -> tuple[_Floats, _Floats]:
-    """Natural frequencies [rad/s], increasing, and mode shapes with Σ J q² = 1, one row a mode (n, n)."""
+def torsion_modes(inertia: _Floats, ends: _Ints, stiffness: _Floats) -> tuple[_Floats, _Floats] | None:
+    """Natural frequencies [rad/s], increasing, and mode shapes with Σ J q² = 1, one row a mode (n, n).
+
+    Shafts join the masses of their ends (shafts, 2), −1 being the ground; without stiffness they do not.
+    None where they close a loop.
+    """
 
 @final
 class TorsionSystem:

@@ -78,6 +78,8 @@ class Kind:
     @property
     def forms(self) -> str:
         """How a value of this kind may be written."""
+        if self is COUNT:
+            return f"such as {self.example}"
         if not self.unit:
             return f'as a plain number or a text such as "{self.example}"'
         return f'such as "{self.example}" or a number in {self.unit_word}'
@@ -149,6 +151,8 @@ TORSIONAL_DAMPING = Kind(
 )
 TEMPERATURE = Kind("an absolute temperature", "K", "kelvins", "330 K", _K)
 RATIO = Kind("a ratio", "", "", "90 %", _ONE)
+# What is counted, such as teeth, or set by its author, such as an exponent: no share of anything.
+COUNT = Kind("a number", "", "", "4", _ONE)
 # Derivatives of a follower's lift, or of its swing, by the angle of the cam.
 LIFT_D1 = Kind("a length per cam angle", "m/rad", "metres per radian", "20 mm/rad", _M_RAD)
 LIFT_D2 = Kind(
@@ -387,6 +391,26 @@ def to_text(value: float, kind: Kind) -> str:
     '0.2 m'
     """
     return f"{float(value)!r} {kind.unit}".removesuffix(" ").replace(".0 ", " ")
+
+
+def worded(value: float, kind: Kind) -> str:
+    """Write an SI value for a message, with its unit: angles in degrees, all else in SI.
+
+    Parameters
+    ----------
+    value : float
+        The value in the SI unit of ``kind``.
+    kind : Kind
+        The quantity that it is.
+
+    Returns
+    -------
+    str
+        With six digits, such as ``"30 deg"``.
+    """
+    if kind is ANGLE:
+        return f"{math.degrees(value):.6g} deg"
+    return f"{value:.6g} {kind.unit}".removesuffix(" ")
 
 
 def _split(text: str, kind: Kind) -> tuple[str, str]:

@@ -131,6 +131,16 @@ def test_limit_of_m68_falls_with_the_speed() -> None:
     assert found.barred == pytest.approx((min(low, wanted[0]), max(high, wanted[1])))
 
 
+def test_critical_speed_is_that_of_the_order_that_stresses_most() -> None:
+    """Order 2.05 has its resonance in the range too, and a hundredth of the torque."""
+    text = TRAIN.format(
+        limit='stress_permitted = "10 MPa"', damping=C, low=20, high=100, points=60, rated=100
+    ).replace("{ order = 2, torque = 80 }", "{ order = 2, torque = 80 }, { order = 2.05, torque = 0.8 }")
+    (found,) = barred_ranges(lw.loads(text))
+    assert found.speed_min < CRITICAL * 2 / 2.05
+    assert (found.order, found.critical_speed) == (2.0, pytest.approx(CRITICAL))
+
+
 @pytest.mark.parametrize(("rated", "may"), [(120, True), (60, False)])
 def test_speeds_near_service_may_not_be_barred(rated: float, may: bool) -> None:
     limit = 'kind = "iacs_m68", tensile_strength = "400 MPa", design_factor = 0.2'
@@ -170,7 +180,8 @@ def test_exceedances_of_curves() -> None:
         calls.append(len(x))
         return np.array([5 - (x - 4) ** 2, np.where(x > math.e, 2.0, 0.0), np.where(x > 6, np.nan, x / 5)])
 
-    parabola, jump, hole = exceedances(curves, np.linspace(0.5, 9.5, 10))
+    speeds = np.linspace(0.5, 9.5, 10)
+    parabola, jump, hole = exceedances(curves, speeds, curves(speeds))
     assert (parabola.low, parabola.high) == pytest.approx((2, 6), rel=1e-9)
     assert parabola.peak == pytest.approx(4, abs=1e-3)
     assert jump.low == pytest.approx(math.e, rel=1e-9)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from linkwright.machine.reciprocating import cycle_mesh, speed_points
 from linkwright.machine.reciprocating.burnt_gas import GAS_CONSTANT, STOICHIOMETRIC, heat_ratio
 from linkwright.machine.reciprocating.closed_cycle import ClosedTrace
 from linkwright.machine.reciprocating.combustion import Combustion
+from linkwright.machine.reciprocating.cycle_pressure import peak
 from linkwright.machine.reciprocating.gas_torque import GasTorque, gas_torque
 from linkwright.machine.reciprocating.wall_heat import GasState, Hohenberg, Woschni
 from linkwright.machine.reciprocating.wiebe import Wiebe
@@ -229,6 +231,13 @@ def test_wanted_peak_pressure() -> None:
     assert fine.max(axis=1) == pytest.approx(np.full(3, 13e6), rel=1e-3)
 
 
+def test_peak_between_points() -> None:
+    """Of a parabola it is exact on uneven points."""
+    phi = np.array([0.0, 0.2, 0.5, 0.6, 1.0])
+    rows = np.array([7 - 3 * (phi - 0.43) ** 2, 7 - 3 * (phi - 0.3) ** 2])
+    assert peak(phi, rows) == pytest.approx([7.0, 7.0], rel=1e-14)
+
+
 def test_more_heat_gives_as_much_more_pressure() -> None:
     """With one exponent and no convection the pressure is linear in the heat."""
     one, two, three = (traces(diesel(heat=q, isentropic_exponent=1.35))[1] for q in (1e3, 3e3, 5e3))
@@ -350,6 +359,10 @@ def test_heat_transfer_coefficients() -> None:
     assert Woschni(kind="woschni").coefficient(state)[0, 0] == pytest.approx(later, rel=0.15)
     exact = later / 130 * (3.26 * 100**0.8) * 1800**-0.02
     assert Woschni(kind="woschni").coefficient(state)[0, 0] == pytest.approx(exact, rel=1e-12)
+    # Below the motored pressure, nothing is left that stirs the gas.
+    late = replace(state, pressure=4e6 * one)
+    calm = 3.26 * 0.15**-0.2 * 4000**0.8 * 1800**-0.55 * (2.28 * 9) ** 0.8
+    assert Woschni(kind="woschni").coefficient(late)[0, 0] == pytest.approx(calm, rel=1e-12)
     plain = 130 * (4e-4) ** -0.06 * 100**0.8 * 1800**-0.4 * 10.4**0.8
     assert Hohenberg(kind="hohenberg").coefficient(state)[0, 0] == pytest.approx(plain, rel=1e-12)
 

@@ -88,6 +88,18 @@ def test_intervals_hold_the_truth_as_often_as_stated(known: bool) -> None:
     assert all(one.weak()[0] == "3" for one in found)
 
 
+def test_few_degrees_of_freedom_widen_the_intervals() -> None:
+    """Four orders for six cylinders leave two, whose interval is 4.3 deviations wide, not 1.96."""
+    generator = np.random.default_rng(7)
+    at, each, exact = healthy(), firing.sources(), seen(noise=None)
+    few = MeasuredSpeed(exact.disc, exact.orders[:4], exact.harmonics[:4])
+    found = [diagnosis(at, each, noisy(few, generator)) for _ in range(400)]
+    assert found[0].freedom == 2
+    held = [np.abs(one.factor - WEAK) <= one.half_width(0.95) for one in found]
+    # As above; with 1.96 the share would be 81 %.
+    np.testing.assert_allclose(np.mean(held, axis=0), 0.95, atol=0.045)
+
+
 def test_healthy_cylinders_are_seldom_called_weak() -> None:
     """A healthy engine in at most 5 % of the cases: 400 trials, deviation 1.1 %, four of them."""
     generator = np.random.default_rng(11)

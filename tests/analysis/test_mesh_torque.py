@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.mesh_torque import MeshTorque, mesh_torques
+from linkwright.analysis.torsion.carried import carried
+from linkwright.analysis.torsion.excited import excited, loaded
+from linkwright.analysis.torsion.mesh_torque import MeshTorque, mesh_torques, meshed
 
 TRAIN = """
 format = 1
@@ -135,9 +139,13 @@ harmonics = [{ order = 1, torque = 100 }]
     assert found.torques[0, 3, 0] == pytest.approx(4 * 100 * (6 / 16) / (1 + 1 / 4 + 7 / 16), rel=1e-12)
 
 
-def test_a_train_that_speeds_up_needs_torque_for_it() -> None:
-    """Without a load the mean torque of a motor is not there: nothing passes the stage."""
-    text = TRAIN.format(mesh="", load=900.0)
-    start, end = text.index("[train.loads.mill]"), text.index("[train.excitations.motor]")
-    found = mesh_torques(lw.loads(text[:start] + text[end:]))
-    np.testing.assert_allclose(found.mean, 0.0, atol=1e-9)
+def test_a_train_that_speeds_up_passes_on_what_the_rest_needs() -> None:
+    """100 N m on the motor that nothing takes off: the stage passes the share of what lies behind it."""
+    machine = lw.loads(TRAIN.format(mesh="", load=900.0))
+    at = excited(machine)
+    mean = np.zeros_like(at.torques.mean)
+    mean[0] = 100.0
+    driven = loaded(machine, at.train, at.referred, replace(at.torques, mean=mean))
+    found = meshed(driven, carried(driven))
+    before, behind = 2 + 0.3, (4 + 30) / 3**2
+    np.testing.assert_allclose(found.mean[0], 100 * behind / (before + behind), rtol=1e-9)

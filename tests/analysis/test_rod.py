@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy.integrate import solve_ivp
 
+from linkwright.errors import InputError
 from linkwright.machine.reciprocating import pendulum
 from linkwright.machine.reciprocating.rod import ArticulatedRod, Rod
 
@@ -124,6 +125,11 @@ def test_two_point_formula_inverts_the_pendulums(a: float, b: float, factor: flo
     assert found == pytest.approx(b, rel=1e-11)
 
 
+def test_two_pendulums_as_long_as_the_edges_are_apart() -> None:
+    with pytest.raises(InputError, match="any centre of mass would do"):
+        pendulum.two_point_centre(0.25, 0.25, 0.25)
+
+
 def test_share_alone_is_two_point_masses_in_the_heads() -> None:
     for entries in ({"distribution": 0.7}, {"inertia_small_end": 0.7 * MASS * LENGTH**2}):
         found = rod(**entries)
@@ -195,6 +201,12 @@ def test_texts_with_units_and_articulated_rods() -> None:
             {"two_point_swing": {"big_end": {"period": 1.1}, "small_end": {"period": 0.9}}},
             "two_point_swing",
             "both longer or both shorter than the 0.25 m",
+        ),
+        (
+            # Both threads are 0.25 m long at a period of 2π √(0.25/9.81) = 1.00303 s.
+            {"two_point_swing": {"big_end": {"period": 1.004}, "small_end": {"period": 1.005}}},
+            "two_point_swing",
+            "that differ from the 0.25 m between the edges",
         ),
         (
             {"two_point_swing": {"big_end": {"period": 0.6}, "small_end": {"period": 0.3}}},

@@ -187,6 +187,36 @@ def test_a_ring_of_shafts() -> None:
     assert q @ q.T == pytest.approx(np.diag((q**2).sum(axis=1)), abs=1e-12)
 
 
+@pytest.mark.parametrize("loop", [False, True])
+def test_rings_of_viscous_dampers_turn_alone(loop: bool) -> None:
+    """No stiffness holds them: a zero frequency each, and the rest as if they were not there."""
+    discs = {f"d{j}": 0.5 + j for j in range(4)}
+    shafts: list[Shaft] = [(f"d{j}", f"d{j + 1}", 50.0 * (j + 1)) for j in range(3)]
+    shafts += [("d3", "d1", 70.0)] if loop else []
+    dampers = """
+        [train.dampers.first]
+        on = "d0"
+        ring_inertia = 0.2
+        damping = 3.0
+        [train.dampers.second]
+        on = "d2"
+        ring_inertia = 0.4
+        damping = 1.0
+    """
+    found = lw.free_vibration(lw.loads(text(discs, shafts) + dampers))
+    plain = train(discs, shafts)
+    assert found.natural_frequencies[:3].tolist() == [0.0, 0.0, 0.0]
+    assert found.natural_frequencies[3:] == pytest.approx(plain.natural_frequencies[1:], rel=ROUNDING)
+    whole, first, second = found.mode_shapes[:3]
+    assert whole.tolist() == [1.0, 1.0, 1.0, 1.0, 0.0, 0.0]
+    assert first.tolist() == [0.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+    assert second.tolist() == [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    assert found.mode_shapes[3:, :4] == pytest.approx(plain.mode_shapes[1:], abs=1e-9)
+    assert not found.mode_shapes[3:, 4:].any()
+    assert found.potential_shares[3:].sum(axis=1) == pytest.approx(np.ones(3))
+    assert not found.potential_shares[:3].any()
+
+
 def test_equal_branches_are_orthogonal() -> None:
     """A hub with three equal branches: a pair of modes in which the hub is at rest."""
     discs = {"hub": 1.0, "a": 2.0, "b": 2.0, "c": 2.0}

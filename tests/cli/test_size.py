@@ -98,3 +98,17 @@ def test_papers_of_the_cam_drive(tmp_path: Path) -> None:
     assert "reproduced to rounding" in shown
     assert "not reproduced" not in shown
     assert "continuous jerk" in shown
+
+
+def test_papers_of_the_engine(tmp_path: Path) -> None:
+    done = run("papers", "3", "--json", "--out", tmp_path)
+    assert done.exit_code == 0
+    found = json.loads(done.stdout)["results"]["paper3"]
+    assert len(found["exact"]["natural_frequencies"]) == 3
+    figures = ("scheme", "modes", "disc", "formulas", "amplitude", "unevenness", "cylinders", "delta", "weak")
+    names = {f"{name}.{end}" for name in figures for end in ("svg", "png")}
+    assert {path.name for path in tmp_path.iterdir()} == names | {"papers3.html"}
+    shown = run("papers", "3").stdout
+    # Square brackets of a formula are no markup.
+    assert "[m_1 +" in shown
+    assert "cannot be read" in shown

@@ -56,6 +56,18 @@ def test_json(file: str) -> None:
     assert free["nodes"][1][0].keys() == {"at", "share", "distance"}
 
 
+def test_torques_without_speeds_are_told(file: str) -> None:
+    """What pulsates but has no speeds is not passed over in silence."""
+    wave = "train.excitations.gas={ on = 'motor', harmonics = [{ order = 2, torque = 5 }] }"
+    told = json.loads(run(file, "--json", "--set", wave).stdout)
+    assert "forced" not in told["results"]
+    assert any("[train.run]" in each for each in told["warnings"])
+    speeds = ["--set", 'train.run={ speed_min = "500 rpm", speed_max = "600 rpm" }']
+    told = json.loads(run(file, "--json", "--set", wave, *speeds).stdout)
+    assert "forced" in told["results"]
+    assert not any("[train.run]" in each for each in told["warnings"])
+
+
 def test_set(file: str) -> None:
     plain = json.loads(run(file, "--json").stdout)["results"]["free"]["natural_frequencies"]
     sets = ["discs.motor.inertia=8", "discs.pinion.inertia=0.4", "discs.wheel.inertia=6.4"]
@@ -83,6 +95,90 @@ def test_out(file: str, tmp_path: Path) -> None:
         assert (out / f"{name}.png").stat().st_size > 5000
     parts = json.loads(result.stdout)["results"]["scheme"]["connections"]
     assert [each["name"] for each in parts] == ["fast", "slow", "stage"]
+
+
+def test_drive_study_with_stiffness(tmp_path: Path) -> None:
+    text = (Path(__file__).parents[2] / "machines" / "roller_two_carts.toml").read_text(encoding="utf-8")
+    path = tmp_path / "drive.toml"
+    path.write_text(text, encoding="utf-8")
+    rigid = run(str(path))
+    assert rigid.exit_code == 2
+    assert "drive.crankshaft.stiffness" in rigid.stderr
+    path.write_text(text + '[drive.crankshaft]\nstiffness = "1.2 MN m/rad"\n', encoding="utf-8")
+    result = run(str(path), "--json")
+    # At some speeds the teeth lose contact, which is a finding.
+    assert result.exit_code == (1 if json.loads(result.stdout)["findings"] else 0)
+    free = json.loads(result.stdout)["results"]["free"]
+    assert free["discs"] == ["motor", "gearbox", "crank"]
+    motor, gearbox, crank = (each["inertia"] for each in discs_of(path))
+    whole = motor * 9.8**2 + gearbox
+    omega = np.sqrt(1.2e6 * (whole + crank) / (whole * crank))
+    assert free["natural_frequencies"] == pytest.approx([0, omega / (2 * np.pi)], rel=1e-9)
+
+
+@pytest.mark.parametrize(("speed", "parts"), [("", {"free", "scheme"}), ("speed = 9\n", {"forced"})])
+def test_drive_study_without_motor(tmp_path: Path, speed: str, parts: set[str]) -> None:
+    path = tmp_path / "drive.toml"
+    text = 'format = 1\nname = "x"\n[drive]\n' + speed + "[drive.flywheel]\ninertia = 3\n"
+    text += 'beside = "gearbox"\n[drive.crankshaft]\nstiffness = 1e5\n[mechanism.cranks.A]\nradius = 0.1\n'
+    text += '[mechanism.sliders.S]\ncrank = "A"\nrod = 0.4\n[bodies]\nS = { mass = 50 }\n'
+    path.write_text(text, encoding="utf-8")
+    result = run(str(path), "--json")
+    assert result.exit_code == 0
+    assert parts <= json.loads(result.stdout)["results"].keys()
+
+
+def discs_of(path: Path) -> list[dict[str, float]]:
+    from linkwright.analysis.torsion.drive_line import drive_line
+    from linkwright.files import read
+
+    return [{"inertia": disc.inertia} for disc in drive_line(read(path)).discs.values()]
+
+
+def test_two_trains_in_a_file(tmp_path: Path) -> None:
+    path = tmp_path / "both.toml"
+    path.write_text(TRAIN + "[drive.crankshaft]\nstiffness = 1e6\n", encoding="utf-8")
+    result = run(str(path))
+    assert result.exit_code == 2
+    assert "drive.crankshaft" in result.stderr
+    assert "one train" in result.stderr
+
+
+def test_damper(file: str, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    words = ["damper", file, "--on", "motor", "--ring-inertia", "0.2 kg m^2", "--mode", "1"]
+    result = run(*words, "--json", "--out", str(out))
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)["results"]["damper"]
+    assert (found["on"], found["kind"], found["mode"]) == ("motor", "viscous", 1)
+    mu = found["mass_ratio"]
+    assert mu == pytest.approx(0.2 / found["modal_inertia"])
+    assert found["magnification"] == pytest.approx(1 + 2 / mu)
+    assert (out / "damper.json").read_text(encoding="utf-8") == result.stdout
+    assert (out / "damper.svg").read_text(encoding="utf-8").startswith("<svg")
+    # The written damper is a part of a machine file.
+    machine = loads(TRAIN + (out / "damper.toml").read_text(encoding="utf-8"))
+    assert machine.train is not None
+    assert machine.train.dampers["damper"].damping == pytest.approx(found["damping_best"], rel=1e-5)
+    told = run(*words, "--kind", "rubber", "--loss-factor", "0.2")
+    assert told.exit_code == 0
+    for part in ("by the mode", "best for the", "loss factor", 'kind = "tuned"', "loss_factor = 0.2"):
+        assert part in told.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "part"),
+    [
+        (["--on", "x", "--ring-inertia", "0.2"], 'found "x"'),
+        (["--on", "motor", "--ring-inertia", "2 m"], "--ring-inertia"),
+        (["--on", "motor", "--ring-inertia", "0.2", "--mode", "9"], "mode: found 9"),
+        (["--on", "motor", "--ring-inertia", "-1"], "ring_inertia: found -1"),
+    ],
+)
+def test_wrong_damper(file: str, words: list[str], part: str) -> None:
+    result = run("damper", file, *words)
+    assert result.exit_code == 2
+    assert part in result.stderr
 
 
 def test_wrong_train(file: str) -> None:

@@ -1,26 +1,36 @@
 //! Torsional trains at the border.
 
+use linkwright_core::torsion::forest::Forest;
 use linkwright_core::torsion::{Train, forced, modes, waves};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray1};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadwriteArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::{Curve, Floats, Ints, Table};
 
-/// Natural frequencies, and mode shapes row by row.
+/// Natural frequencies, and mode shapes row by row; `None` where shafts close a loop.
 #[pyfunction]
 pub(crate) fn torsion_modes<'py>(
     py: Python<'py>,
-    parent: Ints<'_>,
     inertia: Floats<'_>,
+    ends: PyReadonlyArray2<'_, i32>,
     stiffness: Floats<'_>,
-) -> PyResult<(Curve<'py>, Table<'py>)> {
-    let train = tree(&parent, &inertia, stiffness.as_slice()?)?;
-    let n = train.len();
-    let shapes = PyArray2::<f64>::zeros(py, [n, n], false);
-    let found = py.detach(|| modes::modes(&train));
+) -> PyResult<Option<(Curve<'py>, Table<'py>)>> {
+    let (inertia, stiffness) = (inertia.as_slice()?, stiffness.as_slice()?);
+    let (ends, _) = ends.as_slice()?.as_chunks();
+    let parts = match Forest::new(inertia, ends, stiffness) {
+        Forest::Trees(parts) => parts,
+        Forest::Loops => return Ok(None),
+        Forest::Wrong => {
+            return Err(PyValueError::new_err("no train: inertias are positive, stiffnesses not negative"));
+        }
+    };
+    let found = py.detach(|| modes::modes_of_parts(&parts));
+    let omega = PyArray1::from_slice(py, &found.omega);
+    // The core has a row a disc.
+    let shapes = PyArray2::<f64>::zeros(py, [inertia.len(); 2], true);
     shapes.readwrite().as_slice_mut()?.copy_from_slice(&found.shapes);
-    Ok((PyArray1::from_vec(py, found.omega), shapes))
+    Ok(Some((omega, shapes)))
 }
 
 /// A train, its discs in an order in which each hangs on an earlier one.

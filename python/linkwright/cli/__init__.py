@@ -19,6 +19,8 @@ from linkwright.cli.cam import CAM, cam
 from linkwright.cli.cam_file import cam_file
 from linkwright.cli.check import check
 from linkwright.cli.common import reports_errors
+from linkwright.cli.damper import TORSION
+from linkwright.cli.damper import torsion as torsion_group
 from linkwright.cli.default_command import group_with_default
 from linkwright.cli.forces import forces
 from linkwright.cli.motion import motion
@@ -36,7 +38,6 @@ COMMANDS: tuple[Callable[..., Any], ...] = (
     check,
     motion,
     forces,
-    torsion,
     balance,
     size,
     papers,
@@ -48,10 +49,11 @@ COMMANDS: tuple[Callable[..., Any], ...] = (
 GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = (
     (synthesise, SYNTHESISE),
     (cam, CAM),
+    (torsion_group, TORSION),
 )
 
 # Group → its command for a first word that names none of its commands, such as a file.
-_DEFAULTS: dict[str, Callable[..., Any]] = {"cam": cam_file}
+_DEFAULTS: dict[str, Callable[..., Any]] = {"cam": cam_file, "torsion": torsion}
 
 
 def _version(wanted: bool) -> None:

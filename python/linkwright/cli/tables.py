@@ -93,9 +93,10 @@ def _drawn(table: Table) -> RenderableType:
     )
     drawn.add_column(table.heads[0])
     drawn.add_column(table.heads[1], style="cyan", no_wrap=True)
-    for head in table.heads[2:]:
-        # A narrow terminal may break the words in front, never a number.
-        drawn.add_column(fill(head, _HEAD), no_wrap=True)
+    for n, head in enumerate(table.heads[2:], start=2):
+        # A narrow terminal may break words and lists of them, never a number.
+        listed = any(", " in row[n] for row in table.rows)
+        drawn.add_column(fill(head, _HEAD), no_wrap=not listed)
     for row in table.rows:
         drawn.add_row(*row)
     return drawn

@@ -108,51 +108,32 @@ class ReferredTrain:
 
     def modes(self) -> tuple[Floats, Floats]:
         """Natural frequencies [rad/s], increasing, and shapes of the masses, a row each, with Σ J q² = 1."""
-        tree = self._tree()
-        if tree is None:
-            return self._whole()
-        order, parent, stiffness = tree
-        omega, shapes = _core.torsion_modes(parent, self.inertia[order], stiffness)
-        return omega, shapes[:, np.argsort(order)]
-
-    def _tree(self) -> tuple[Ints, Ints, Floats] | None:
-        """Masses in an order in which each hangs on an earlier one, and by how much; None with loops."""
-        joined = self._joined()
-        held = {b: k for (a, b), k in joined.items() if a == HELD}
-        about: dict[int, dict[int, float]] = {n: {} for n in range(len(self.inertia))}
-        for (a, b), k in joined.items():
-            if a != HELD:
-                about[a][b] = about[b][a] = k
-        if len(held) > 1 or len(joined) - len(held) != len(about) - 1:
-            return None
-        root = next(iter(held), 0)
-        rows = [(root, root, held.get(root, 0.0))]
-        place = {root: 0}
-        for at, _, _ in rows:
-            for below, k in about[at].items():
-                if below not in place:
-                    place[below] = len(rows)
-                    rows.append((below, at, k))
-        order, above, stiffness = zip(*rows, strict=True)
-        parent = [place[each] for each in above]
-        return np.array(order, np.int32), np.array(parent, np.int32), np.array(stiffness, float)
-
-    def _joined(self) -> dict[tuple[int, int], float]:
-        """Stiffness between masses, of shafts in parallel together, without what joins a mass with itself."""
-        found: dict[tuple[int, int], float] = {}
-        for (a, b), k in zip(self.ends.tolist(), self.stiffness.tolist(), strict=True):
-            if a != b:
-                pair = (min(a, b), max(a, b))
-                found[pair] = found.get(pair, 0.0) + k
-        return found
+        found = _core.torsion_modes(self.inertia, self.ends, self.stiffness)
+        return found if found is not None else self._whole()
 
     def _whole(self) -> tuple[Floats, Floats]:
-        """Modes from the matrices, for trains with loops."""
-        scale = 1.0 / np.sqrt(self.inertia)
-        square, vectors = np.linalg.eigh(scale[:, None] * self.stiffness_matrix * scale)
+        """Modes from the matrices, for trains with loops: each part by itself, then put in order."""
+        n = len(self.inertia)
+        pairs = self.ends[self.stiffness > 0].tolist()
+        parts = parts_of(range(n), ((a, b) for a, b in pairs if HELD not in (a, b)))
+        held = {end for pair in pairs if HELD in pair for end in pair}
+        omega, shapes, row = np.empty(n), np.zeros((n, n)), 0
+        for part in parts:
+            rows = slice(row, row + len(part))
+            omega[rows], shapes[rows, part] = self._part(part, held.isdisjoint(part))
+            row += len(part)
+        order = np.argsort(omega, kind="stable")
+        return omega[order], shapes[order]
+
+    def _part(self, masses: list[int], is_free: bool) -> tuple[Floats, Floats]:
+        """Modes of masses that hang together."""
+        J = self.inertia[masses]
+        scale = 1.0 / np.sqrt(J)
+        K = self.stiffness_matrix[np.ix_(masses, masses)]
+        square, vectors = np.linalg.eigh(scale[:, None] * K * scale)
         omega, shapes = np.sqrt(np.maximum(square, 0.0)), (scale[:, None] * vectors).T
-        if self.is_free:
-            omega[0], shapes[0] = 0.0, 1.0 / np.sqrt(self.inertia.sum())
+        if is_free:
+            omega[0], shapes[0] = 0.0, 1.0 / np.sqrt(J.sum())
         return omega, shapes
 
 

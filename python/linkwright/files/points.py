@@ -11,7 +11,7 @@ import csv
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,38 @@ _KINDS = ("spline", "table")
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 
 
-def with_points(tables: dict[str, Any], folder: Path) -> None:
+@dataclass(frozen=True, slots=True)
+class Column:
+    """Where the values of a list are from.
+
+    Attributes
+    ----------
+    place : tuple of str
+        Keys down to the list.
+    path : Path
+        The file of points.
+    head : int
+        Its line with the names of the columns.
+    lines : tuple of int
+        The line of each value.
+    """
+
+    place: tuple[str, ...]
+    path: Path
+    head: int
+    lines: tuple[int, ...]
+
+    def holds(self, key: tuple[str, ...]) -> bool:
+        """Whether an entry is the list, or one of its values."""
+        return key[: len(self.place)] == self.place
+
+    def line(self, key: tuple[str, ...]) -> int:
+        """The line of an entry that it holds."""
+        below = key[len(self.place) :]
+        return self.lines[int(below[0])] if below and below[0].isdigit() else self.head
+
+
+def with_points(tables: dict[str, Any], folder: Path) -> list[Column]:
     """Put the points of all files that are named into the tables.
 
     Parameters
@@ -34,15 +65,24 @@ def with_points(tables: dict[str, Any], folder: Path) -> None:
     folder : Path
         Where the machine file is.
 
+    Returns
+    -------
+    list of Column
+        All lists that came from a file.
+
     Raises
     ------
     MachineFileError
-        A file cannot be read or has no points.
+        A file cannot be read, which is a problem of the machine file; or it has no points.
     """
+    columns: list[Column] = []
     for place, table in _tables(tables, ()):
         if table.get("kind") in _KINDS and isinstance(table.get("file"), str):
             path = folder / table.pop("file")
-            table.update(_columns(path, ".".join((*place, "file"))))
+            lists, lines = _columns(path, ".".join((*place, "file")))
+            table.update(lists)
+            columns += [Column((*place, name), path, lines[0], tuple(lines[1:])) for name in lists]
+    return columns
 
 
 def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], dict[str, Any]]]:
@@ -54,8 +94,8 @@ def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...]
         yield from _tables(below, (*place, str(key)))
 
 
-def _columns(path: Path, key: str) -> dict[str, list[str]]:
-    """The columns of a file by name, each entry with its unit."""
+def _columns(path: Path, key: str) -> tuple[dict[str, list[str]], list[int]]:
+    """The columns of a file by name, each entry with its unit; the number of each line, head first."""
     lines = _lines(path, key)
     heads = [_HEAD.fullmatch(cell) for cell in lines[0][1]] if lines else []
     if len(lines) < 2 or not all(heads):
@@ -68,11 +108,12 @@ def _columns(path: Path, key: str) -> dict[str, list[str]]:
     for line, row in lines[1:]:
         for problem in _row_problems(key, names, row):
             raise MachineFileError([replace(problem, path=str(path), line=line)])
-    return {
+    columns = {
         head[1]: [_with_unit(row[i].strip(), head[2]) for _, row in lines[1:]]
         for i, head in enumerate(heads)
         if head is not None
     }
+    return columns, [line for line, _ in lines]
 
 
 def _lines(path: Path, key: str) -> list[tuple[int, list[str]]]:

@@ -15,7 +15,7 @@ from pydantic import BaseModel
 from linkwright.errors import MachineError, MachineFileError, Problem
 from linkwright.files.lines import key_lines, line_of
 from linkwright.files.overrides import Override, apply, parse_all
-from linkwright.files.points import with_points
+from linkwright.files.points import Column, with_points
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.text import split
 from linkwright.units import show
@@ -145,11 +145,12 @@ def loads_as(model: type[Model], text: str, overrides: Overrides = (), *, path: 
     tables = _tables(text, path)
     _check_format(tables, path, text)
     places = [(apply(tables, change), change) for change in parse_all(overrides)]
-    with_points(tables, Path(path).parent)
+    columns: list[Column] = []
     try:
+        columns = with_points(tables, Path(path).parent)
         return model.model_validate(tables)
     except MachineError as error:
-        raise MachineFileError(_located(error.problems, text, path, places)) from None
+        raise MachineFileError(_located(error.problems, text, path, places, columns)) from None
 
 
 def _text(path: Path) -> str:
@@ -238,11 +239,32 @@ def _check_format(tables: dict[str, Any], path: str, text: str) -> None:
     raise MachineFileError([Problem("format", show(version), expected, remedy, path, line)])
 
 
-def _located(problems: Sequence[Problem], text: str, path: str, places: Places) -> list[Problem]:
+def _located(
+    problems: Sequence[Problem], text: str, path: str, places: Places, columns: Sequence[Column]
+) -> list[Problem]:
     """The problems in the order of the file, each with its line or with the override that brought it in."""
     lines = key_lines(text)
-    found = [_placed(each, lines, path, places) for each in problems]
-    return sorted(found, key=lambda each: (each.line is None, each.line or 0))
+    in_columns, others = _of_columns(problems, columns)
+    # A file of points that is no such file has its place already.
+    found = [each if each.path else _placed(each, lines, path, places) for each in others]
+    return [*sorted(found, key=lambda each: (each.line is None, each.line or 0)), *in_columns]
+
+
+def _of_columns(
+    problems: Sequence[Problem], columns: Sequence[Column]
+) -> tuple[list[Problem], list[Problem]]:
+    """Problems of lists from files of points, each kind of them once a column; and all others."""
+    others: list[Problem] = []
+    first: dict[tuple[object, ...], Problem] = {}
+    for each in problems:
+        key = split(each.key) if each.key else ()
+        column = next((one for one in columns if one.holds(key)), None)
+        if column is None:
+            others.append(each)
+        else:
+            placed = replace(each, path=str(column.path), line=column.line(key))
+            first.setdefault((column.place, each.expected, each.remedy), placed)
+    return list(first.values()), others
 
 
 def _placed(

@@ -20,6 +20,8 @@
 | `reciprocating/` | parts of reciprocating engines |
 | `train`, `train_speeds`, `train_faults` | torsional trains, speeds of their discs, faults |
 | `train_transient`, `train_event` | manoeuvres of trains, what happens in them |
+| `coupling`, `damper`, `train_torques`, `train_run` | couplings, dampers, torques on a train, its run |
+| `whole_train` | engine, couplings and dampers written out as discs and shafts |
 | `linkage` | the whole mechanism: elements of the file, and what cams and a pumping unit expand into |
 | `body`, `loads` | masses; forces and torques |
 | `formula` | formulas as texts |
@@ -34,6 +36,8 @@ from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.body import Body
 from linkwright.machine.cam import Cam, SecondFollower
 from linkwright.machine.catalogue import CatalogueMotor, motor, motors
+from linkwright.machine.coupling import Coupling as TrainCoupling
+from linkwright.machine.damper import Damper as TrainDamper
 from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
 from linkwright.machine.element import (
     Bar,
@@ -97,6 +101,23 @@ from linkwright.machine.motor import (
 from linkwright.machine.point_law import SplineLaw, TableLaw
 from linkwright.machine.polished_rod_load import PolishedRodLoad
 from linkwright.machine.pumping_unit import PumpingUnit
+from linkwright.machine.reciprocating.combustion import Combustion
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
+from linkwright.machine.reciprocating.gas_load import ConstantGasLoad, PropellerGasLoad, TableGasLoad
+from linkwright.machine.reciprocating.indicator import Indicator
+from linkwright.machine.reciprocating.rod import ArticulatedRod, Rod
+from linkwright.machine.reciprocating.swing_test import Swing, Swings, TwoPointSwing
+from linkwright.machine.reciprocating.throw import (
+    Counterweight,
+    CrankPin,
+    CrankThrow,
+    CrankWeb,
+    Drilling,
+    Journal,
+)
+from linkwright.machine.reciprocating.valves import Valves
+from linkwright.machine.reciprocating.wall_heat import HeatShare, Hohenberg, Woschni
+from linkwright.machine.reciprocating.wiebe import Wiebe
 from linkwright.machine.rod_rotator import RodRotator
 from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_section import ShaftSection
@@ -112,6 +133,8 @@ from linkwright.machine.train_event import (
     TorqueCourse,
     TorqueStep,
 )
+from linkwright.machine.train_run import TrainRun
+from linkwright.machine.train_torques import Excitation, Harmonic, LoadHarmonic, TrainLoad
 from linkwright.machine.train_transient import TrainMotor, TrainTransient
 from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 
@@ -120,6 +143,7 @@ __all__ = [
     "AnyLoad",
     "AnyMotor",
     "AnyTrainEvent",
+    "ArticulatedRod",
     "Bar",
     "Body",
     "Brake",
@@ -128,19 +152,27 @@ __all__ = [
     "CatalogueMotor",
     "CatalogueUnit",
     "CombinedLaw",
+    "Combustion",
     "ConstantForce",
+    "ConstantGasLoad",
     "ConstantSpeedMotor",
     "ConstantTorque",
     "ConstantTorqueMotor",
+    "Counterweight",
     "Coupling",
     "Crank",
+    "CrankPin",
+    "CrankThrow",
+    "CrankWeb",
     "Crossing",
     "Damper",
     "DcMotor",
     "Disc",
+    "Drilling",
     "Drive",
     "DryFriction",
     "ElasticShaft",
+    "Excitation",
     "FixedPoint",
     "Flywheel",
     "FollowerTrain",
@@ -152,12 +184,18 @@ __all__ = [
     "Gearbox",
     "Gravity",
     "Guide",
+    "Harmonic",
+    "HeatShare",
+    "Hohenberg",
+    "Indicator",
     "InductionMotor",
     "Joint",
+    "Journal",
     "LimitedLaw",
     "LinearDriver",
     "Link",
     "Load",
+    "LoadHarmonic",
     "LoadStep",
     "Machine",
     "Mechanism",
@@ -171,10 +209,13 @@ __all__ = [
     "PlainLaw",
     "PolishedRodLoad",
     "PolynomialLaw",
+    "PropellerGasLoad",
     "PumpingUnit",
     "Rack",
+    "ReciprocatingEngine",
     "RigidPoint",
     "Rocker",
+    "Rod",
     "RodRotator",
     "RunUp",
     "SCurveLaw",
@@ -188,6 +229,9 @@ __all__ = [
     "SpeedCourse",
     "SplineLaw",
     "Spring",
+    "Swing",
+    "Swings",
+    "TableGasLoad",
     "TableLaw",
     "TableMotor",
     "TorqueAngle",
@@ -197,11 +241,19 @@ __all__ = [
     "TorsionalDamper",
     "TorsionalSpring",
     "Train",
+    "TrainCoupling",
+    "TrainDamper",
     "TrainGear",
+    "TrainLoad",
     "TrainMotor",
+    "TrainRun",
     "TrainTransient",
     "TrapezoidalVelocityLaw",
+    "TwoPointSwing",
+    "Valves",
     "ViscousFriction",
+    "Wiebe",
+    "Woschni",
     "Yoke",
     "addresses",
     "catalogue_unit",

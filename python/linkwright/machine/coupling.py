@@ -15,7 +15,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, fault
-from linkwright.machine.curve import curve_faults
+from linkwright.machine.curve import curve_faults, not_rising
 from linkwright.machine.train_base import Damping, LossFactor, PositiveStiffness, PositiveTorque
 from linkwright.units import POWER, Angles, Torques, positive
 
@@ -66,7 +66,7 @@ class Coupling(Checked):
                 yield fault(name, 0, found=points[0], expected="0, where the coupling is at rest")
         for n, (before, here) in enumerate(pairwise(self.torque or ()), start=1):
             if here <= before:
-                yield fault("torque", n, found=here, expected=f"more than {before:.6g}, the value before it")
+                yield not_rising(self, "torque", n, before, here)
 
     def slope(self, torque: Floats | float = 0.0) -> Floats:
         """Stiffness at a mean torque.

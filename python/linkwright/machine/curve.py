@@ -9,6 +9,8 @@ from pydantic import BaseModel
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import fault
+from linkwright.machine.schema_walk import annotation_at, mark_of
+from linkwright.units import worded
 
 
 def curve_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iterator[InitErrorDetails]:
@@ -33,8 +35,27 @@ def curve_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iter
         yield fault(argument, found=_values(len(points)), expected="at least 2 values")
     for place, (before, here) in enumerate(pairwise(points), start=1):
         if here <= before:
-            yield fault(argument, place, found=here, expected=f"more than {before:.6g}, the value before it")
+            yield not_rising(owner, argument, place, before, here)
     yield from _length_faults(owner, argument, values)
+
+
+def not_rising(owner: BaseModel, name: str, place: int, before: float, here: float) -> InitErrorDetails:
+    """The fault of a value that should be more than the one before it.
+
+    Parameters
+    ----------
+    owner : BaseModel
+        The description that holds the points.
+    name : str
+        Field with the values.
+    place : int
+        Of the value in its list.
+    before, here : float
+        The one before it, and itself, in SI.
+    """
+    mark = mark_of(annotation_at(type(owner), (name,)))
+    least = f"{before:.6g}" if mark is None else worded(before, mark.kind)
+    return fault(name, place, found=here, expected=f"more than {least}, the value before it")
 
 
 def unread_file(found: str) -> InitErrorDetails:

@@ -42,6 +42,5 @@ class Damper(Checked):
                     name, found=getattr(self, name), expected="no spring in a viscous damper", remedy=remedy
                 )
             if not self.damping:
-                yield fault(
-                    "damping", found=self.damping, expected="the damping of a viscous damper, above 0"
-                )
+                found = self.damping if "damping" in self.model_fields_set else None
+                yield fault("damping", found=found, expected="the damping of a viscous damper, above 0")

@@ -27,11 +27,11 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, Description, fault
 from linkwright.machine.formula_faults import constant_faults, text_faults
-from linkwright.units import LENGTH, RATIO, Angle, AnyQuantity, Length, Quantity, positive
+from linkwright.units import COUNT, LENGTH, Angle, AnyQuantity, Length, Quantity, positive
 
 PositiveLength = Annotated[float, positive(LENGTH)]
-PositiveNumber = Annotated[float, positive(RATIO)]
-Number = Annotated[float, Quantity(RATIO)]
+PositiveNumber = Annotated[float, positive(COUNT)]
+Number = Annotated[float, Quantity(COUNT)]
 
 # Sine of the angle between two directions below which they are parallel.
 _PARALLEL = 1e-9

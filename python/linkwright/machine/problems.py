@@ -51,7 +51,18 @@ def _problem(error: ErrorDetails, model: type[BaseModel], data: object) -> Probl
             return _wrong_kind((*place, "kind"), model, data)
         case "missing":
             return Problem(join(place), "nothing", words_of(annotation_at(model, place, data)))
-    return Problem(join(place), show(error["input"]), words_of(annotation_at(model, place, data)))
+    expected = words_of(annotation_at(model, place, data)) + _bound(error["type"], context)
+    return Problem(join(place), show(error["input"]), expected)
+
+
+def _bound(kind: str, context: dict[str, Any]) -> str:
+    """The limit that a whole number goes beyond, in words."""
+    match kind:
+        case "greater_than_equal":
+            return f", at least {context['ge']}"
+        case "less_than_equal":
+            return f", at most {context['le']}"
+    return ""
 
 
 def _place(location: Iterable[str | int], model: type[BaseModel], data: object) -> tuple[str, ...]:

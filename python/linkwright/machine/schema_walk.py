@@ -72,6 +72,9 @@ def words_of(annotation: Any) -> str:
         inner = get_args(lists[0])[0]
         if any(_is_model(_bare(each)) for each in _branches(inner)):
             return "a list of tables"
+        entry = mark_of(inner)
+        if entry is not None:
+            return f"a list of {len(get_args(lists[0]))} {entry.kind.noun}s"
         return "a list of whole numbers" if _bare(inner) is int else "a list of two names"
     if bool in bare:
         return "true or false"

@@ -10,13 +10,13 @@ A section twists under a torque $M$ by $e M$. Its *flexibility* is that without 
 | `taper` | a cone, solid or hollow | the integral |
 | `flange` | from the shaft out to a circle of bolts | $(1/d^2 - 1/D_b^2)/(\pi L) + 0.1\,d/I_p$ |
 | `hub` | a shaft inside a shrunk or keyed hub | a third of $L/I_p$ |
-| `spline` | a splined length | $L/I_p$ of a circle a fifth of the teeth's height above their roots |
+| `spline` | a splined length | $L/I_p$ of a circle 0.22 of the teeth's height above their roots |
 
 The flange is a plate under a torque [1]_, whose middle yields where the shaft enters, by 0.1 d of the solid
 shaft; this keeps to the equation of torsion of bodies of revolution within 0.012 d for plates from 0.12 d
 to 0.5 d thick. The third of a hub is a rule for fits that slip a little at their edge [2]_; perfectly
 bonded, a shaft twists in a hub as 0.15 d do. Splines of 6 to 10 straight teeth have their circle at 0.19 to
-0.25 of the height.
+0.25 of the height, by Prandtl's membrane equation.
 
 A keyway of width b and depth t takes the part $g = 3.38\,(b/d)^{0.336} (t/d)^{1.34}$ of the solid shaft's
 $I_p$, two of them $2g(1 - g/4)$: fitted to Prandtl's membrane equation within 0.4 % of $I_p$, for b/d of
@@ -54,7 +54,7 @@ Share = Annotated[float, Quantity(RATIO, FRACTION)]
 # Share of a shaft's length inside a hub that twists as if it were free [2].
 HUB_SHARE = 1 / 3
 # Share of the height of a spline's teeth, above their roots, where the circle of equal stiffness is.
-_TOOTH_SHARE = 0.2
+_TOOTH_SHARE = 0.22
 # Entry of a shaft into a flange, as a length over the diameter.
 _ENTRY = 0.1
 
@@ -146,6 +146,9 @@ class ShaftSection(Checked):
         if self.bolt_circle is not None and self.bolt_circle <= d:
             expected = f"a circle larger than the shaft, {d:.6g} m"
             yield fault("bolt_circle", found=self.bolt_circle, expected=expected)
+        elif self.bolt_circle is not None and (self.fillet or 0.0) > min(d / 4, (self.bolt_circle - d) / 2):
+            expected = "at most a quarter of the diameter, and what fits between shaft and bolts"
+            yield fault("fillet", found=self.fillet, expected=expected)
         if self.root_diameter is not None and self.root_diameter >= d:
             expected = f"less than over the teeth, {d:.6g} m"
             yield fault("root_diameter", found=self.root_diameter, expected=expected)

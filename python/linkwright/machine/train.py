@@ -29,7 +29,7 @@ from linkwright.machine.element import PositiveNumber
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_row import fillet_faults, flexibilities, place
-from linkwright.machine.shaft_section import Modulus, ShaftSection
+from linkwright.machine.shaft_section import Density, Modulus, ShaftSection
 from linkwright.machine.train_base import GROUND, Damping, LossFactor, PositiveStiffness
 from linkwright.machine.train_run import TrainRun
 from linkwright.machine.train_torques import Excitation, TrainLoad
@@ -101,6 +101,16 @@ class Shaft(ElasticShaft):
     between: tuple[str, str] = Field(
         description='The two discs that it joins; one end may be "ground", which is held.'
     )
+    density: Density | None = Field(
+        None,
+        description="Of the sections. With it, their own inertia counts with the discs at the two ends.",
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from super()._faults()
+        if self.density is not None and self.sections is None:
+            expected = "the sections whose inertia it gives"
+            yield fault("density", found=self.density, expected=expected, remedy="leave density out")
 
 
 class TrainGear(Checked):

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from pydantic_core import InitErrorDetails
 
+from linkwright.errors import AssemblyError, InputError
 from linkwright.machine.base import close_match, fault, suggestion
 from linkwright.machine.plain import keys, look
 from linkwright.machine.train import GROUND, Train
@@ -53,7 +54,15 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
         return
     yield from _parts_faults(train, discs)
     if isinstance(train, Train):
-        yield from map(_loop_fault, speeds(whole_train(train))[1])
+        try:
+            whole = whole_train(train)
+        except AssemblyError as error:
+            yield _short_rod(error)
+            return
+        except (InputError, ArithmeticError) as error:
+            yield _no_throw(error)
+            return
+        yield from map(_loop_fault, speeds(whole)[1])
         yield from transient_faults(train, (*discs, *train.dampers))
 
 
@@ -109,7 +118,10 @@ def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
 def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
     """Dampers, loads and torques on what is no disc, and a driver that is none."""
     driver = look(train, "driver")
-    if isinstance(driver, str) and driver not in discs:
+    if isinstance(driver, str) and look(train, "engine") is not None:
+        remedy = "leave it out; a machine that drives beside the engine is an excitation or a load"
+        yield fault("train", "driver", found=driver, expected="none beside [train.engine]", remedy=remedy)
+    elif isinstance(driver, str) and driver not in discs:
         remedy = close_match(driver, discs) or suggestion(driver, discs)
         yield fault("train", "driver", found=driver, expected="the name of a disc", remedy=remedy)
     for table in _ON:
@@ -129,7 +141,7 @@ def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDeta
     parts = parts_of(discs, pairs)
     if len(parts) > 1:
         found = "; ".join(_listed(part) for part in parts[:4]) + ("; …" if len(parts) > 4 else "")
-        remedy = "join them by shafts or gears, or describe each as a train of its own file"
+        remedy = "join them by shafts, couplings or gears, or describe each as a train of its own file"
         expected = "one train that hangs together"
         yield fault("train", found=f"{len(parts)} parts: {found}", expected=expected, remedy=remedy)
 
@@ -137,6 +149,21 @@ def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDeta
 def _listed(names: Sequence[str]) -> str:
     """Names in a row, not too many."""
     return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+
+
+def _short_rod(error: AssemblyError) -> InitErrorDetails:
+    """A rod of an engine that does not reach its piston."""
+    found, remedy = str(error).split(": ", 1)
+    expected = "rods that reach their pistons at every crank angle"
+    return fault("train", "engine", "rod", found=found, expected=expected, remedy=remedy)
+
+
+def _no_throw(error: InputError | ArithmeticError) -> InitErrorDetails:
+    """A throw of an engine that has no inertia, or no stiffness."""
+    why = str(error) if isinstance(error, InputError) else "check the units of its sizes"
+    found = "sizes of which no throw can be made"
+    expected = "a throw with inertia and stiffness above 0"
+    return fault("train", "engine", "throw", found=found, expected=expected, remedy=why)
 
 
 def _loop_fault(wrong: Contradiction) -> InitErrorDetails:

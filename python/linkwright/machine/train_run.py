@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from typing import Annotated
 
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, fault
-from linkwright.machine.element import PositiveNumber
 from linkwright.machine.train_base import PositiveSpeed
+from linkwright.units import COUNT, Bound, Quantity
+
+# As far as gas torques are computed.
+_HIGHEST = 48.0
+_ORDER = Bound(
+    f" above 0 and up to {_HIGHEST:.0f},",
+    {"exclusiveMinimum": 0, "maximum": _HIGHEST},
+    lambda value: 0 < value <= _HIGHEST,
+)
 
 
 class TrainRun(Checked):
@@ -21,11 +31,14 @@ class TrainRun(Checked):
     speed_rated: PositiveSpeed | None = Field(
         None, description="Speed of service, at which waveforms are shown. Without it, the highest."
     )
-    orders_max: PositiveNumber = Field(24.0, le=48, description="Highest order of gas and inertia torques.")
+    orders_max: Annotated[float, Quantity(COUNT, _ORDER)] = Field(
+        24.0, description="Highest order of gas and inertia torques."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.speed_max <= self.speed_min:
-            expected = f"more than speed_min, {self.speed_min:.6g} rad/s"
+            least = f"{self.speed_min:.6g} rad/s or {self.speed_min * 30 / math.pi:.6g} rpm"
+            expected = f"more than speed_min, {least}"
             yield fault("speed_max", found=self.speed_max, expected=expected)
 
     @property

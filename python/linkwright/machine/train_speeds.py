@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from typing import NamedTuple, TypeVar
 
 from linkwright.machine.train import GROUND, Train
+
+Node = TypeVar("Node", bound=Hashable)
 
 # Ratios that differ by less are the same but for rounding of what was typed.
 _EQUAL = 1e-9
@@ -48,19 +50,19 @@ class Joint(NamedTuple):
     ratio: float
 
 
-def parts_of(names: Iterable[str], pairs: Iterable[tuple[str, str]]) -> list[list[str]]:
+def parts_of(names: Iterable[Node], pairs: Iterable[tuple[Node, Node]]) -> list[list[Node]]:
     """The connected parts of a graph.
 
     Parameters
     ----------
-    names : iterable of str
+    names : iterable of str or int
         The nodes.
-    pairs : iterable of tuple of str
+    pairs : iterable of tuple
         The edges between them.
 
     Returns
     -------
-    list of list of str
+    list of list of str or int
         Each part in the order of its names.
     """
     part = {name: [name] for name in names}

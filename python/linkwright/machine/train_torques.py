@@ -15,7 +15,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Annotated
 
 from pydantic import Field
@@ -35,7 +35,7 @@ class LoadHarmonic(Description):
     phase: Angle = Field(0.0, description="Lead of its greatest resistance before angle 0 of the disc.")
 
 
-class TrainLoad(Description):
+class TrainLoad(Checked):
     """What a disc drives: a propeller, a pump, a generator, a brake."""
 
     on: str = Field(description="The disc that drives it.")
@@ -48,6 +48,9 @@ class TrainLoad(Description):
         1.0, description="Damping of its vibration over the slope of its torque; propellers often 1 to 1.5."
     )
     harmonics: tuple[LoadHarmonic, ...] = Field((), description="Pulsation over its turn.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from _listed_twice([each.order for each in self.harmonics])
 
     def resistance(self, speed: float) -> float:
         """Mean torque at a speed of its disc above zero [N m]."""
@@ -79,14 +82,18 @@ class Excitation(Checked):
             yield fault("harmonics", found="an empty list", expected="a list of at least one order")
         if self.exponent and self.speed is None:
             yield fault("speed", expected="the speed at which the amplitudes hold, as they change with it")
-        seen: set[float] = set()
-        for n, each in enumerate(self.harmonics):
-            if each.order in seen:
-                yield fault(
-                    "harmonics", n, "order", found=each.order, expected="an order not yet in the list"
-                )
-            seen.add(each.order)
+        yield from _listed_twice([each.order for each in self.harmonics])
 
     def factor(self, speed: float) -> float:
         """Amplitudes at a speed over those given."""
         return 1.0 if self.speed is None else float((speed / self.speed) ** self.exponent)
+
+
+def _listed_twice(orders: Sequence[float]) -> Iterator[InitErrorDetails]:
+    """Orders that a list of harmonics has already."""
+    for n, order in enumerate(orders):
+        if order in orders[:n]:
+            remedy = "add the two up, each with its phase"
+            yield fault(
+                "harmonics", n, "order", found=order, expected="an order not yet in the list", remedy=remedy
+            )

@@ -1,18 +1,20 @@
-"""A train with all that stands for discs and shafts written out: engine, couplings, dampers.
+"""A train with all that stands for discs and shafts written out: engine, couplings, dampers, heavy shafts.
 
 An engine is a disc a throw, with the mean of its inertia over the turn, and shafts between them. A coupling
 is a shaft with the slope of its curve without torque; a damper is a disc, its ring, on a shaft without
-stiffness or with that of its spring.
+stiffness or with that of its spring. A shaft with a density gives its own inertia to the discs at its ends.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import pairwise
 
 from linkwright.machine.coupling import Coupling
 from linkwright.machine.damper import Damper
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.reciprocating.engine_motion import mean_throw_inertia, throw_stiffness
+from linkwright.machine.shaft_row import end_inertias
 from linkwright.machine.train import Disc, Shaft, Train
 
 
@@ -30,7 +32,8 @@ def whole_train(train: Train) -> Train:
         Of the same vibration: discs, then rings of dampers; shafts, then couplings, then what holds the
         rings.
     """
-    if not (train.couplings or train.dampers or train.engine):
+    heavy = any(each.density is not None for each in train.shafts.values())
+    if not (train.couplings or train.dampers or train.engine or heavy):
         return train
     throws, cranks = ({}, {}) if train.engine is None else _crankshaft(train.engine)
     rings = {name: Disc(inertia=each.ring_inertia) for name, each in train.dampers.items()}
@@ -38,8 +41,8 @@ def whole_train(train: Train) -> Train:
     held = {name: _spring(name, each) for name, each in train.dampers.items()}
     return train.model_copy(
         update={
-            "discs": {**throws, **train.discs, **rings},
-            "shafts": {**cranks, **train.shafts, **couplings, **held},
+            "discs": _loaded({**throws, **train.discs, **rings}, train.shafts),
+            "shafts": {**cranks, **_light(train.shafts), **couplings, **held},
             "engine": None,
             "couplings": {},
             "dampers": {},
@@ -68,6 +71,25 @@ def _crankshaft(engine: ReciprocatingEngine) -> tuple[dict[str, Disc], dict[str,
         for name, pair in zip(crank_names(n), pairwise(names), strict=True)
     }
     return dict.fromkeys(names, disc), shafts
+
+
+def _loaded(discs: dict[str, Disc], shafts: Mapping[str, Shaft]) -> dict[str, Disc]:
+    """Discs with the inertia of the shafts between them."""
+    for shaft in shafts.values():
+        if shaft.density is None or shaft.sections is None:
+            continue
+        for name, J in zip(shaft.between, end_inertias(shaft.sections, shaft.density), strict=True):
+            if name in discs:
+                discs[name] = discs[name].model_copy(update={"inertia": discs[name].inertia + J})
+    return discs
+
+
+def _light(shafts: Mapping[str, Shaft]) -> dict[str, Shaft]:
+    """Shafts whose inertia is counted with the discs."""
+    return {
+        name: each if each.density is None else each.model_copy(update={"density": None})
+        for name, each in shafts.items()
+    }
 
 
 def _coupling(coupling: Coupling) -> Shaft:

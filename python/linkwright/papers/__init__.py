@@ -21,8 +21,8 @@
 | `paper2_conclusions`, `paper2_figures`, `paper2_page` | what its numbers say; its figures; its page |
 | `paper3` | paper 3 computed anew: its formulas on a V-12 with articulated rods |
 | `paper3_engine` | the V-12, and what another inertia or stiffness does to its frequencies |
-| `paper3_inertia`, `paper3_swing`, `paper3_throw` | (1) to (12), (13) to (15), (16) and (17) |
-| `paper3_uneven` | unevenness along the shaft, rigid and with torsion, with weak cylinders |
+| `paper3_inertia`, `paper3_swing`, `paper3_throw` | (1) to (12); (13) to (15); (16) and (17) |
+| `paper3_uneven`, `paper3_weak` | unevenness along the shaft, rigid and not; which cylinder is weak |
 | `paper3_rows`, `paper3_table` | every formula with its verdict; what it does to the frequencies as a table |
 | `paper3_conclusions`, `paper3_figures`, `paper3_page` | what its numbers say; its figures; its page |
 | `paper4` | paper 4 computed anew: the rotator in both regimes |

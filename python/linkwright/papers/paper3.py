@@ -19,6 +19,7 @@ from linkwright.papers.paper3_rows import rows_of
 from linkwright.papers.paper3_swing import SwingChecks, swing_checks
 from linkwright.papers.paper3_throw import ThrowChecks, throw_checks
 from linkwright.papers.paper3_uneven import UnevennessChecks, unevenness_checks
+from linkwright.papers.paper3_weak import WeakChecks, weak_checks
 from linkwright.papers.published import printed_values
 from linkwright.papers.row import Row
 
@@ -41,6 +42,8 @@ class Paper3:
         (16), (17).
     uneven : UnevennessChecks
         Unevenness along the shaft.
+    weak : WeakChecks
+        Which cylinder is weak, by the elastic and by a rigid train.
     rows : tuple of Row
         Every formula with its verdict.
     """
@@ -51,6 +54,7 @@ class Paper3:
     swing: SwingChecks
     throw: ThrowChecks
     uneven: UnevennessChecks
+    weak: WeakChecks
     rows: tuple[Row, ...] = ()
 
     @property
@@ -70,7 +74,7 @@ class Paper3:
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        uneven = self.uneven
+        uneven, weak = self.uneven, self.weak
         return {
             "machine": self.trial.machine.name,
             "exact": {
@@ -83,10 +87,20 @@ class Paper3:
             "stiffness": self.throw.stiffness,
             "unevenness": {
                 "speed": uneven.speed,
-                "rigid": uneven.rigid,
-                "torsional": dict(zip(uneven.discs, uneven.sound.tolist(), strict=True)),
-                "weak_rigid": uneven.weak_rigid.tolist(),
-                "weak": uneven.weak.tolist(),
+                "discs": uneven.discs,
+                "N": uneven.N.tolist(),
+                "N_rigid": uneven.N_rigid,
+                "delta": uneven.delta.tolist(),
+                "delta_rigid": uneven.delta_rigid,
+                "delta_weak": uneven.weak.tolist(),
+                "delta_weak_rigid": uneven.weak_rigid.tolist(),
+            },
+            "diagnosis": {
+                "weak_cylinder": weak.cylinder,
+                "discs": weak.discs,
+                "factors": weak.elastic.tolist(),
+                "factors_rigid": weak.rigid.tolist(),
+                "factors_rigid_against_sound": weak.against_sound.tolist(),
             },
             "rows": [vars(row) for row in self.rows],
             "conclusions": conclusions(self),
@@ -122,6 +136,7 @@ def paper3() -> Paper3:
         inertia_checks(trial, printed),
         swing_checks(trial.engine.rod, printed, chosen["bore_radius"]),
         throw_checks(trial),
-        unevenness_checks(trial.machine, chosen["weak"]),
+        unevenness_checks(trial, chosen["weak"]),
+        weak_checks(trial, chosen["weak_cylinder"], chosen["weak"], ("front", "flywheel", "generator")),
     )
     return replace(found, rows=rows_of(found))

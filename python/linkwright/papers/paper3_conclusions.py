@@ -31,7 +31,9 @@ def conclusions(paper: Paper3) -> list[str]:
         _about_swing(paper),
         _about_throw(paper),
         _about_unevenness(paper),
+        _about_delta(paper),
         _about_weak(paper),
+        _about_diagnosis(paper),
     ]
 
 
@@ -71,10 +73,8 @@ def _about_share(paper: Paper3) -> str:
     least = of[f"(9), both rods with k = {low:.2f}"]
     return (
         f"With I_w about the small end, as (1) needs it, the master rod has k = {paper.inertia.share:.2f}. "
-        "The "
-        f"range {low:g}…{high:g} printed as usual fits the small end's share 1 − k. Used in (9), {low:g} "
-        "takes "
-        f"{share(least.deviation)} off the disc and moves the first mode of the crankshaft by "
+        f"The range {low:g}…{high:g} printed as usual fits the small end's share 1 − k. Used in (9), {low:g} "
+        f"takes {share(least.deviation)} off the disc and moves the first mode of the crankshaft by "
         f"{share(least.changes[1])}."
     ).replace("takes −", "takes ")
 
@@ -104,26 +104,45 @@ def _about_throw(paper: Paper3) -> str:
 
 def _about_unevenness(paper: Paper3) -> str:
     found = paper.uneven
-    wheel = found.discs.index("flywheel")
+    free, wheel, last = (found.N[at] for at in (0, found.flywheel, -1))
+    rigid = found.N_rigid
     return (
-        f"At {_rpm(found.speed)} the sound engine would turn with δ = {found.rigid:.4f} everywhere if "
-        f"nothing twisted. With torsion δ is {found.sound[0]:.4f} at the free end, {found.sound[wheel]:.4f} "
-        f"at the flywheel and {found.sound[-1]:.5f} behind the coupling: {found.sound[0] / found.rigid:.0f} "
-        f"times, {found.sound[wheel] / found.rigid:.0f} times and {found.sound[-1] / found.rigid:.2f} times "
-        "the rigid value."
+        f"At {_rpm(found.speed)} the sound engine would turn with N = {rigid:.4f} everywhere if nothing "
+        f"twisted. With torsion N is {free:.4f} at the free end, {wheel:.4f} at the flywheel and {last:.5f} "
+        f"behind the coupling: {free / rigid:.0f} times, {wheel / rigid:.0f} times and {last / rigid:.2f} "
+        "times as much."
+    )
+
+
+def _about_delta(paper: Paper3) -> str:
+    found, weak = paper.uneven, paper.published["chosen"]["weak"]
+    free, wheel = found.rise[:, 0] - 1, found.rise[:, found.flywheel] - 1
+    return (
+        f"A cylinder at {100 * weak:.0f} % would raise the unevenness δ over the whole cycle by "
+        f"{share(found.rise_rigid.min() - 1)} to {share(found.rise_rigid.max() - 1)} if nothing twisted. "
+        f"With torsion it changes δ by {share(free.min())} to {share(free.max())} at the free end, where "
+        f"{int((free < 0).sum())} of {len(free)} weak cylinders make it smaller, and by "
+        f"{share(wheel.min())} to {share(wheel.max())} at the flywheel."
     )
 
 
 def _about_weak(paper: Paper3) -> str:
-    found, weak = paper.uneven, paper.published["chosen"]["weak"]
-    wheel = found.discs.index("flywheel")
-    falls = int((found.rise[:, 0] < 1).sum())
+    found, factor = paper.weak, paper.published["chosen"]["weak"]
+    at, order = found.cylinder - 1, f"{paper.trial.order:g}"
+    off = float(abs(found.elastic[:2, at] - factor).max())
+    free, wheel, last = found.against_sound[:, at]
     return (
-        f"A cylinder at {100 * weak:.0f} % would raise δ by {share(found.rise_rigid.min() - 1)} to "
-        f"{share(found.rise_rigid.max() - 1)} if nothing twisted. With torsion it changes δ by "
-        f"{share(found.rise[:, 0].min() - 1)} to {share(found.rise[:, 0].max() - 1)} at the free end, where "
-        f"{falls} of {len(found.weak)} weak cylinders make it smaller, and by "
-        f"{share(found.rise[:, wheel].min() - 1)} to {share(found.rise[:, wheel].max() - 1)} at the "
-        "flywheel. The paper's conclusion holds: whoever judges cylinders by the unevenness and neglects "
-        "torsion takes the sound engine for a bad one, and cannot see a weak cylinder."
+        f"Cylinder {found.cylinder} at {factor:g}, told from the orders below {order}: the elastic train "
+        f"finds it to {off:.0e} from either end of the crankshaft. The train taken as rigid makes "
+        f"{found.rigid[0].min():.1f} to {found.rigid[0].max():.1f} of all cylinders from the free end. "
+        "Compared with the engine as it was sound, it points at the weak cylinder from both ends, but "
+        f"takes {factor:g} for {free:.2f} and {wheel:.2f}, and from behind the coupling it sees {last:.2f}."
+    ).replace(" -", " −")
+
+
+def _about_diagnosis(paper: Paper3) -> str:
+    return (
+        "The paper's conclusion holds: whoever judges cylinders by the unevenness and neglects torsion "
+        "takes a sound engine for a bad one, may see a weak cylinder make it better, and is told a wrong "
+        "share by the orders."
     )

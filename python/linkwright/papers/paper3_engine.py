@@ -119,6 +119,13 @@ class TrialEngine:
         """Firings a turn, the order that all cylinders excite together."""
         return 2 * self.engine.n_cylinders / self.engine.strokes
 
+    @property
+    def service(self) -> float:
+        """Speed of service [rad/s]."""
+        assert self.machine.train is not None
+        assert self.machine.train.run is not None
+        return self.machine.train.run.service
+
     def critical(self, frequency: float) -> float:
         """Speed at which the order of the firing meets a frequency [rad/s]."""
         return 2 * math.pi * frequency / self.order

@@ -1,8 +1,9 @@
-"""Figures to paper 3: the train and its modes, discs and what formulas make of them, unevenness."""
+"""Figures to paper 3: the train and its modes, discs and what formulas make of them, vibration."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +18,7 @@ from linkwright.plot.style import (
     LINES,
     ORANGE,
     RED,
+    SKY,
     SOFT,
     legend_above,
     level,
@@ -54,6 +56,8 @@ def figures(paper: Paper3) -> dict[str, Figure]:
         "formulas": _formulas(paper),
         "amplitude": _amplitude(paper),
         "unevenness": _unevenness(paper),
+        "cylinders": _cylinders(paper),
+        "delta": _delta(paper),
         "weak": _weak(paper),
     }
 
@@ -86,9 +90,8 @@ def _disc(paper: Paper3) -> Figure:
     trial = paper.trial
     phi = np.linspace(0, 2 * np.pi, 721)
     figure, (axes,) = panels(1, height=2.9)
-    axes.plot(
-        np.degrees(phi), reduced_throw(trial.engine, phi).inertia_reduced, color=BLUE, label="exact J(φ)"
-    )
+    exact = reduced_throw(trial.engine, phi).inertia_reduced
+    axes.plot(np.degrees(phi), exact, color=BLUE, label="exact J(φ)")
     level(axes, trial.inertia, "its mean", INK)
     for shift, colour in zip(paper.inertia.shifts[:2], (RED, GREEN), strict=True):
         axes.axhline(shift.value, color=colour, linewidth=1.2, label=shift.name)
@@ -137,38 +140,88 @@ def _amplitude(paper: Paper3) -> Figure:
 
 @styled
 def _unevenness(paper: Paper3) -> Figure:
-    """δ along the shaft, rigid and with torsion, sound and with any one cylinder weak."""
+    """N and δ along the shaft, rigid and with torsion, and δ with any one cylinder weak."""
     found, x = paper.uneven, np.arange(len(paper.uneven.discs))
     figure, (axes,) = panels(1, height=3.1)
-    weak = f"one cylinder at {100 * paper.published['chosen']['weak']:.0f} %"
     least, most = found.weak.min(axis=0), found.weak.max(axis=0)
-    axes.fill_between(x, least, most, color=BLUE, alpha=0.25, label=f"{weak}, any of them")
-    axes.plot(x, found.sound, "o-", color=BLUE, markersize=4, label="sound, with torsion")
-    axes.plot(x, np.full(len(x), found.weak_rigid.max()), "--", color=RED, label=f"{weak}, rigid")
-    axes.plot(x, np.full(len(x), found.rigid), color=RED, label="sound, rigid")
+    axes.fill_between(x, least, most, color=SKY, alpha=0.4, label=f"δ, {_weakness(paper)}")
+    for torsional, rigid, colour, name in (
+        (found.delta, found.delta_rigid, BLUE, "δ"),
+        (found.N, found.N_rigid, RED, "N"),
+    ):
+        axes.plot(x, torsional, "o-", color=colour, markersize=4, label=name)
+        axes.plot(x, np.full(len(x), rigid), "--", color=colour, label=f"{name}, rigid")
     axes.set_yscale("log")
-    axes.set_ylabel("unevenness δ")
+    axes.set_ylabel("unevenness")
     _shaft_axis(axes, found.discs)
     axes.legend(loc="lower left", ncols=2)
     return figure
 
 
+def _weakness(paper: Paper3) -> str:
+    """A weak cylinder in words."""
+    return f"one cylinder at {100 * paper.published['chosen']['weak']:.0f} %"
+
+
+def _cylinder_axis(axes: Axes, numbers: Sequence[str]) -> None:
+    """Let x be cylinders."""
+    axes.set_xticks(range(len(numbers)), numbers)
+    axes.set_xlabel("cylinder")
+
+
 @styled
-def _weak(paper: Paper3) -> Figure:
-    """What each weak cylinder does to δ, rigid and as it is seen at three places."""
+def _cylinders(paper: Paper3) -> Figure:
+    """N of each cylinder over the mean of all, sound engine."""
     found = paper.uneven
-    wheel = found.discs.index("flywheel")
-    numbers = np.arange(1, len(found.weak) + 1)
+    along = found.sound
+    figure, (axes,) = panels(1, height=2.9)
+    for values, colour, mark, label in (
+        (along.share_rigid[0], RED, "s--", "rigid, everywhere"),
+        (along.share[found.places[0]], BLUE, "o-", "free end, with torsion"),
+        (along.share[found.places[found.flywheel]], GREEN, "^-", "flywheel, with torsion"),
+    ):
+        axes.plot(values / values.mean(), mark, color=colour, markersize=5, linewidth=1.0, label=label)
+    axes.set_ylim(0, None)
+    axes.set_ylabel("$N_i/N$ of the sound engine")
+    _cylinder_axis(axes, along.cylinders)
+    axes.set_xlabel("cylinder, in the order of firing")
+    legend_above(axes)
+    return figure
+
+
+@styled
+def _delta(paper: Paper3) -> Figure:
+    """What each weak cylinder does to δ, rigid and as it is seen at both ends of the crankshaft."""
+    found = paper.uneven
     figure, (axes,) = panels(1, height=2.9)
     for values, colour, mark, label in (
         (found.rise_rigid, RED, "s", "rigid, everywhere"),
         (found.rise[:, 0], BLUE, "o", "free end, with torsion"),
-        (found.rise[:, wheel], GREEN, "^", "flywheel, with torsion"),
+        (found.rise[:, found.flywheel], GREEN, "^", "flywheel, with torsion"),
     ):
-        axes.plot(numbers, 100 * (values - 1), mark, color=colour, markersize=5, label=label)
+        axes.plot(100 * (values - 1), mark, color=colour, markersize=5, label=label)
     axes.axhline(0, color=SOFT, linewidth=0.8)
-    axes.set_xticks(numbers)
-    axes.set_xlabel("weak cylinder")
+    _cylinder_axis(axes, [str(n + 1) for n in range(len(found.weak))])
+    axes.set_xlabel(f"the weak cylinder, {_weakness(paper).removeprefix('one cylinder ')}")
     axes.set_ylabel("change of δ [%]")
+    legend_above(axes)
+    return figure
+
+
+@styled
+def _weak(paper: Paper3) -> Figure:
+    """Shares of the combustion that come out where one is weak; rigid ones against the sound engine."""
+    found = paper.weak
+    figure, (axes,) = panels(1, height=2.9)
+    for values, colour, mark, label in (
+        (found.elastic[0], INK, "o", "elastic"),
+        (found.against_sound[0], BLUE, "x", "rigid, free end"),
+        (found.against_sound[1], GREEN, "+", "rigid, flywheel"),
+        (found.against_sound[2], RED, "1", "rigid, behind the coupling"),
+    ):
+        axes.plot(values, mark, color=colour, markersize=6, label=label)
+    axes.axhline(1, color=SOFT, linewidth=0.8)
+    _cylinder_axis(axes, [str(n + 1) for n in range(len(found.elastic[0]))])
+    axes.set_ylabel("share of the combustion")
     legend_above(axes)
     return figure

@@ -21,7 +21,9 @@ _CAPTIONS = {
     "formulas": "What the formulas make of the critical speed",
     "amplitude": "Forced vibration along the shaft at the speed of service",
     "unevenness": "Unevenness along the shaft at the speed of service",
-    "weak": "What a weak cylinder does to the unevenness",
+    "cylinders": "Unevenness cylinder by cylinder: what would be told of a sound engine",
+    "delta": "What a weak cylinder does to the unevenness of the whole cycle",
+    "weak": "Which cylinder is weak, told from the orders of the speed",
 }
 
 

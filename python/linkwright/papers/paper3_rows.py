@@ -26,11 +26,11 @@ def rows_of(paper: Paper3) -> tuple[Row, ...]:
 
 
 def share(value: float) -> str:
-    """A deviation with its sign, in percent of two digits."""
+    """A deviation with its sign, in percent of two digits, not to be parted at the end of a line."""
     if value == 0:
-        return "0 %"
+        return "0\N{NO-BREAK SPACE}%"
     text = f"{100 * value:+.2g}" if abs(value) < 0.1 else f"{100 * value:+.0f}"
-    return f"{text} %".replace("-", "−")
+    return f"{text}\N{NO-BREAK SPACE}%".replace("-", "−")
 
 
 def judged(deviation: float, because: str = "") -> tuple[str, str]:
@@ -60,7 +60,7 @@ def _rod(paper: Paper3) -> list[Row]:
     """(1) to (3)."""
     found, rod = paper.inertia, paper.trial.engine.rod
     centre = "mass and I_w are kept, the centre of mass is not"
-    speed = "the third harmonic and those above it are left out"
+    speed = "terms of the order (R/L)³ are left out"
     return [
         Row(
             "(1), (2) rod as two masses",
@@ -83,7 +83,7 @@ def _disc(paper: Paper3) -> list[Row]:
     """(4) to (9), with the master rod alone."""
     found, (low, high) = paper.inertia, paper.published["printed"]["k"]
     fourth = "the series of the mean ends with its second term"
-    centre_low, centre_high = (1 - math.sqrt(each) for each in (high, low))
+    centre_low, centre_high = (1 - math.sqrt(each) for each in (low, high))
     return [
         Row(
             "(4)–(7) disc of equal mean energy",

@@ -13,6 +13,8 @@
 | `motion_laws` | motion laws and their derivatives, several in one picture |
 | `cam_dynamics` | contact force, pressure and vibration of cams and followers |
 | `torsion` | mode shapes of trains |
+| `campbell` | Campbell's diagram of a train |
+| `damper` | response of a train with the best damper |
 | `torsion_forced` | forced vibration of trains over their speeds |
 | `torsion_scheme` | equivalent schemes of trains, by `scheme_layout`, `scheme_page`, `scheme_words` |
 | `compare` | steady motion of several machines in one picture |
@@ -35,7 +37,9 @@ from linkwright.plot.cam_dynamics import (
     residual_figure,
     vibration_figure,
 )
+from linkwright.plot.campbell import campbell_figure
 from linkwright.plot.compare import compare_figure
+from linkwright.plot.damper import damper_figure
 from linkwright.plot.forces import cases_figure, forces_figure, hodograph_figure, polar_figure
 from linkwright.plot.linkage import coupler_figure, transmission_figure
 from linkwright.plot.motion_laws import motion_laws_figure
@@ -59,11 +63,13 @@ __all__ = [
     "attempt_figure",
     "cam_figure",
     "cam_force_figure",
+    "campbell_figure",
     "cases_figure",
     "compare_figure",
     "contact_force_figure",
     "coupler_figure",
     "curvature_figure",
+    "damper_figure",
     "forces_figure",
     "gear_torque_figure",
     "heat_figure",

@@ -92,7 +92,8 @@ class _Pen:
         y, middle = self.levels[span.row][0], 0.5 * (span.start + span.stop)
         self._elastic(span, y)
         if span.part.name in self.laid.broken:
-            self._break(middle, y)
+            # A spring has the middle of its line for itself.
+            self._break(middle if span.part.kind == "shaft" else 0.5 * (middle + span.stop), y)
         if span.to_ground:
             self._ground(span.stop, y, 1 if span.stop > span.start else -1)
         words = self.laid.parts[span.part.name]

@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.analysis.torsion.forced import ForcedVibration, angular_deflection
 from linkwright.analysis.torsion.study import TorsionStudy
 from linkwright.plot import (
+    campbell_figure,
     heat_figure,
     modes_figure,
     orders_figure,
@@ -45,10 +46,13 @@ def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
 
 def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]:
     """What the train does under its torques."""
-    caption = "Half of greatest less least torque, all orders in phase. "
+    if study.campbell is not None:
+        caption = "Natural frequencies over the speed, rays of the orders, and where they meet."
+        yield Captioned("campbell", "Critical speeds", caption, campbell_figure(study.campbell))
+    caption = "Half of greatest less least torque, all orders in phase."
     yield Captioned("torques", "Torque of the shafts", caption, shaft_torques_figure(forced))
     if study.stress is not None:
-        caption = "Vibratory shear stress with its concentration; dashed what the shaft bears. "
+        caption = "Vibratory shear stress with its concentration; dashed what the shaft bears."
         yield Captioned("stress", "Stress of the shafts", caption, stress_figure(study.stress))
     yield _of_the_worst_shaft(study, forced)
     yield _of_the_freest_disc(forced)

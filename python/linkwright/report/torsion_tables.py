@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.torsion.campbell import CampbellDiagram
+from linkwright.analysis.torsion.damped import DampedVibration
+from linkwright.analysis.torsion.engine_data import EngineData
 from linkwright.analysis.torsion.forced import ForcedVibration
 from linkwright.analysis.torsion.free import FreeVibration, Node
 from linkwright.analysis.torsion.holzer import HolzerTable
@@ -19,6 +22,12 @@ Floats = NDArray[np.float64]
 
 # Parts that share most of the energy, as far as they have a twentieth of it.
 _NAMED, _SHARE = 2, 0.05
+
+# Nodes of a mode in a row of its table.
+_NODES = 3
+
+# Critical speeds in a table.
+_CRITICAL = 12
 
 # Columns of shapes beside each other on a terminal.
 _SHAPES = 5
@@ -39,7 +48,13 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
     """
     if study.verdict is not None and study.verdict.judgements:
         yield _judgements(study.verdict)
+    if study.engine is not None:
+        yield _engine(study.engine)
     yield from torsion_tables(study.free)
+    if study.damped is not None:
+        yield _damped(study.damped)
+    if study.campbell is not None and study.campbell.critical:
+        yield _critical(study.campbell)
     if study.forced is not None:
         yield _shafts(study, study.forced)
         yield _discs(study, study.forced)
@@ -66,9 +81,87 @@ def _judgements(found: Verdict) -> Table:
     return Table("limits", "Limits", ("limit", "", "found", "permitted", "at rpm", "verdict"), rows)
 
 
+def _engine(data: EngineData) -> Table:
+    """Discs and stiffness of throws by every formula, and the gas."""
+    rows: list[Row] = [
+        ("what turns with a throw", "J_k", with_unit(data.own_inertia, "kg m²"), ""),
+        ("disc of a throw, mean of the exact inertia", "J", with_unit(data.throw_inertia, "kg m²"), "used"),
+        _beside(
+            "disc of a throw as printed in paper 3, (7) and (12)",
+            data.throw_inertia_published,
+            data.throw_inertia,
+            "kg m²",
+        ),
+    ]
+    if data.stiffness is not None:
+        if data.stiffness_by == "given":
+            rows.append(("stiffness from throw to throw", "k", with_unit(data.stiffness, "N m/rad"), "given"))
+        for name, stiffness in data.stiffness_formulas.items():
+            word = f"stiffness by formula {name}"
+            if name == data.stiffness_by:
+                rows.append((word, "k", with_unit(stiffness, "N m/rad"), "used"))
+            else:
+                rows.append(_beside(word, stiffness, data.stiffness, "N m/rad"))
+    rows += [
+        (f"{word}, bank {n + 1}", "", with_unit(value / 1e5, "bar"), "")
+        for word, values in (
+            ("indicated mean pressure", data.mean_effective_pressure),
+            ("peak pressure", data.peak_pressure),
+        )
+        for n, value in enumerate(values)
+    ]
+    rows.append(("cylinders fire", "", "-".join(data.firing), ""))
+    steps = sorted({f"{np.degrees(each):.5g}°" for each in data.intervals})
+    rows.append(("one after another by", "", ", ".join(steps) or "a cycle", ""))
+    return Table("engine", f"Engine, gas at {_rpm(data.speed)} rpm", ("quantity", "", "value", ""), rows)
+
+
+def _beside(word: str, value: float, used: float, unit: str) -> Row:
+    """A value that is not used, and how far it is from the one that is."""
+    return word, "", with_unit(value, unit), f"{100 * (value / used - 1):+.3g} %"
+
+
 def _shown(value: float, unit: str) -> str:
     """A quantity for people: stresses in MPa."""
     return with_unit(value / 1e6, "MPa") if unit == "Pa" else with_unit(value, unit)
+
+
+def _damped(found: DampedVibration) -> Table:
+    """Natural frequencies with their damping."""
+    columns = (
+        found.natural_frequencies,
+        found.damped_frequencies,
+        found.damping_ratios,
+        found.logarithmic_decrements,
+    )
+    rows: list[Row] = [
+        (f"mode {k}", "", *(_finite(value) for value in values))
+        for k, values in enumerate(zip(*(each.tolist() for each in columns), strict=True))
+    ]
+    heads = ("mode", "", "Hz", "damped Hz", "ζ", "log. decrement")
+    return Table("damped", "Modes with damping", heads, rows)
+
+
+def _critical(found: CampbellDiagram) -> Table:
+    """The most severe critical speeds, by speed."""
+    by_severity = sorted(found.critical, key=lambda each: each.resonance_amplitude or 0.0, reverse=True)
+    kept = set(by_severity[:_CRITICAL])
+    rows: list[Row] = [
+        (
+            f"order {each.order:.4g}",
+            "",
+            str(each.mode),
+            f"{each.frequency:.5g}",
+            _rpm(each.speed),
+            "–" if each.resonance_amplitude is None else f"{np.degrees(each.resonance_amplitude):.3g}",
+        )
+        for each in found.critical
+        if each in kept
+    ]
+    heads = ("order", "", "mode", "Hz", "rpm", "amplitude [°]")
+    more = len(found.critical) - len(rows)
+    title = "Critical speeds" + (f", the most severe of {len(found.critical)}" if more else "")
+    return Table("critical_speeds", title, heads, rows)
 
 
 def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
@@ -151,12 +244,18 @@ def _frequencies(found: FreeVibration) -> Table:
             f"f_{k}",
             f"{f:.6g}",
             f"{60 * f:.6g}",
-            ", ".join(map(_node, found.nodes[k])) or "–",
+            _nodes(found.nodes[k]) if f > 0 else "–",
         )
         for k, f in enumerate(found.natural_frequencies.tolist())
     ]
     heads = ("most energy in", "", "Hz", "1/min", "nodes")
     return Table("natural_frequencies", "Natural frequencies", heads, rows)
+
+
+def _nodes(nodes: Sequence[Node]) -> str:
+    """The first nodes of a mode; results.json has them all."""
+    told = ", ".join(map(_node, nodes[:_NODES])) or "–"
+    return f"{told}, {len(nodes)} in all" if len(nodes) > _NODES else told
 
 
 def _node(node: Node) -> str:
@@ -167,7 +266,8 @@ def _node(node: Node) -> str:
 def _energy(found: FreeVibration, k: int) -> str:
     """The shafts that twist most and the discs that swing most."""
     if found.natural_frequencies[k] == 0:
-        return "turns as a whole"
+        moving = [name for name, q in zip(found.discs, found.mode_shapes[k], strict=True) if q]
+        return "turns as a whole" if len(moving) > 1 else f"{moving[0]} turns by itself"
     parts = (
         _most(found.shafts, found.potential_shares[k]),
         _most(found.discs, found.kinetic_shares[k]),

@@ -1,287 +1,80 @@
 //! Natural frequencies and mode shapes of a train.
 //!
-//! All frequencies at once, a lane each: bisection by the count of [`Train::sweep`] until they lie apart, then Newton on
-//! the characteristic polynomial, whose zeros are all real, kept inside the bracket that the count proves. A mode shape follows from the disc where the two sweeps, from the leaves and from the root, fit together
-//! best: from there outwards all its ratios are stable. Where frequencies coincide, as in trains with equal branches, or a
-//! shape does not balance, all shapes are found by Jacobi's rotations instead, which keep them orthogonal.
-//!
-//! Source: Fernando, *On computing an eigenvector of a tridiagonal matrix*, SIAM J. Matrix Anal. Appl. 18 (1997)
-//! 1013–1034, for the fit of two sweeps; Golub and Van Loan, *Matrix Computations*, section 8.5, for Jacobi.
+//! All frequencies and then all shapes at once, in lanes. Where frequencies coincide, as in trains with equal branches, or a
+//! shape is not good, all shapes are found by rotations, which keep them orthogonal; of the frequencies those are kept that
+//! were found first, which shafts of any stiffness leave their digits.
 
-use super::{Train, nudged};
-use crate::lanes::{Job, in_lanes};
-use crate::real::Real;
+use super::forest::Part;
+use super::holzer::Holzer;
+use super::{Train, frequencies, rotations, shapes};
 
-/// Frequencies ω \[rad/s\], increasing, and shapes, one row a mode, each with Σ J q² = 1.
+/// Frequencies ω \[rad/s\], increasing, and shapes, a row a disc, a column a mode, each with Σ J q² = 1.
 #[derive(Clone, Debug)]
 pub struct Modes {
     pub omega: Vec<f64>,
     pub shapes: Vec<f64>,
 }
 
-/// Bisections before Newton: they part frequencies that differ by a thousandth of the highest.
-const PARTED: usize = 12;
-
-/// Steps at most; bisection alone, from the highest frequency to rounding of the lowest, needs some 80.
-const STEPS: usize = 200;
-
-/// A step of Newton shorter than this share leaves an error of its square over the distance to the next λ, which is below
-/// rounding for any that [`EQUAL`] tells apart.
-const QUADRATIC: f64 = 1e-11;
-
-/// A bracket of this share is closed.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
-
-/// Squared frequencies closer than this share of themselves count as equal: their shapes would not be orthogonal.
+/// λ closer than this share of themselves count as equal: which shapes they have is up to rounding.
 const EQUAL: f64 = 1e-7;
 
-/// Share of the torques that may be left over in a shape.
-const BALANCED: f64 = 1e-11;
+/// Closer than this, shapes are made orthogonal to one another: each is off by rounding over that share, within the two.
+const CLOSE: f64 = 1e-2;
 
 /// Natural frequencies and mode shapes.
 pub fn modes(train: &Train) -> Modes {
     let n = train.len();
-    let lambda = in_lanes(Frequencies { train });
-    let omega: Vec<f64> = lambda.iter().map(|x| x.sqrt()).collect();
-    if lambda.windows(2).any(|pair| pair[1] - pair[0] < EQUAL * pair[1]) {
-        // Newton closes in on a multiple frequency slowly: the rotations know it better.
-        return jacobi(train);
+    let mut lambda = frequencies::squares(&Holzer::new(train));
+    let mut q = vec![0.0; n * n];
+    let apart = lambda.windows(2).all(|pair| pair[1] - pair[0] > EQUAL * pair[1]);
+    if apart && shapes::shapes(train, &mut lambda, &mut q) {
+        part_shapes(train, &lambda, &mut q);
+    } else {
+        rotations::shapes(train, &mut q);
+    }
+    Modes { omega: lambda.into_iter().map(f64::sqrt).collect(), shapes: q }
+}
+
+/// Of a train that may have fallen apart: discs in their own order, frequencies of all parts together.
+pub fn modes_of_parts(parts: &[Part]) -> Modes {
+    let found: Vec<Modes> = parts.iter().map(|part| modes(&part.train)).collect();
+    let n = parts.iter().map(|part| part.discs.len()).sum();
+    let mut columns: Vec<(f64, usize, usize)> = Vec::with_capacity(n);
+    for (nth, each) in found.iter().enumerate() {
+        columns.extend(each.omega.iter().enumerate().map(|(mode, &omega)| (omega, nth, mode)));
+    }
+    if parts.len() > 1 {
+        columns.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
     let mut shapes = vec![0.0; n * n];
-    let mut sweeps = vec![[0.0; 3]; n];
-    for (shape, &lambda) in shapes.chunks_exact_mut(n).zip(&lambda) {
-        train.shape(lambda, &mut sweeps, shape);
-        if !train.balances(lambda, shape) {
-            // What was counted stays exact beside shafts of any stiffness; of the rotations only the shapes are wanted.
-            return Modes { omega, ..jacobi(train) };
-        }
-    }
-    Modes { omega, shapes }
-}
-
-impl Train {
-    /// An upper bound of all λ: twice the stiffness about a disc over its inertia (Gershgorin).
-    fn bound(&self) -> f64 {
-        let mut about = self.stiffness.clone();
-        for c in 1..self.len() {
-            about[self.parent[c]] += self.stiffness[c];
-        }
-        about.iter().zip(&self.inertia).map(|(k, J)| 2.0 * k / J).fold(0.0, f64::max)
-    }
-
-    /// The shape of a mode: discs in order, Σ J q² = 1, the largest positive.
-    fn shape(&self, lambda: f64, sweeps: &mut [[f64; 3]], shape: &mut [f64]) {
-        let n = self.len();
-        // What each disc and all that hangs on it answers; what the rest answers at the disc that it hangs on.
-        for (sweep, J) in sweeps.iter_mut().zip(&self.inertia) {
-            sweep[0] = -lambda * J;
-        }
-        for c in (1..n).rev() {
-            let (k, x) = (self.stiffness[c], sweeps[c][0]);
-            sweeps[self.parent[c]][0] += k * x / nudged(k + x, k);
-        }
-        // Whole: all that acts on the disc, zero in a mode.
-        sweeps[0][2] = sweeps[0][0] + self.stiffness[0];
-        let mut best = 0;
-        for c in 1..n {
-            let (k, x) = (self.stiffness[c], sweeps[c][0]);
-            let rest = sweeps[self.parent[c]][2] - k * x / nudged(k + x, k);
-            sweeps[c][1] = rest;
-            sweeps[c][2] = x + k * rest / nudged(k + rest, k);
-            let fits = |i: usize| (sweeps[i][2] / self.inertia[i]).abs();
-            if fits(c) < fits(best) || fits(best).is_nan() {
-                best = c;
-            }
-        }
-        shape.fill(0.0);
-        shape[best] = 1.0;
-        let mut at = best;
-        while at > 0 {
-            let k = self.stiffness[at];
-            let up = self.parent[at];
-            shape[up] = shape[at] * k / nudged(k + sweeps[at][1], k);
-            at = up;
-        }
-        for c in 1..n {
-            if shape[c] == 0.0 {
-                let k = self.stiffness[c];
-                shape[c] = shape[self.parent[c]] * k / nudged(k + sweeps[c][0], k);
-            }
-        }
-        self.normalise(shape);
-    }
-
-    /// Whether all torques of a shape balance but for rounding. They do not where a disc between tuned branches is at rest: its
-    /// amplitude is rounding alone, and the branches beyond it follow from that.
-    fn balances(&self, lambda: f64, shape: &[f64]) -> bool {
-        let mut torque: Vec<[f64; 2]> =
-            shape.iter().zip(&self.inertia).map(|(q, J)| [-lambda * J * q, lambda * J * q.abs()]).collect();
-        torque[0][0] += self.stiffness[0] * shape[0];
-        torque[0][1] += self.stiffness[0] * shape[0].abs();
-        for c in 1..self.len() {
-            let (k, up) = (self.stiffness[c], self.parent[c]);
-            let twist = k * (shape[c] - shape[up]);
-            torque[c][0] += twist;
-            torque[up][0] -= twist;
-            torque[c][1] += k * (shape[c].abs() + shape[up].abs());
-        }
-        let largest = |part: usize| torque.iter().map(|each| each[part].abs()).fold(0.0, f64::max);
-        largest(0) <= BALANCED * largest(1)
-    }
-
-    fn normalise(&self, shape: &mut [f64]) {
-        let largest = shape.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(1.0);
-        let mass: f64 = shape.iter().zip(&self.inertia).map(|(q, J)| J * (q / largest).powi(2)).sum();
-        let factor = 1.0 / (largest * mass.sqrt());
-        shape.iter_mut().for_each(|q| *q *= factor);
-    }
-}
-
-/// All λ = ω², increasing.
-struct Frequencies<'a> {
-    train: &'a Train,
-}
-
-impl Job for Frequencies<'_> {
-    type Output = Vec<f64>;
-
-    #[inline(always)]
-    fn run<R: Real>(self) -> Vec<f64> {
-        let n = self.train.len();
-        let free = self.train.stiffness[0] == 0.0;
-        let mut lambda = vec![0.0; n + R::LANES];
-        let mut x = vec![[R::splat(0.0); 2]; n];
-        let mut numbers = vec![0.0; R::LANES];
-        // A free train has one λ of zero exactly.
-        for first in (usize::from(free)..n).step_by(R::LANES) {
-            for (lane, number) in numbers.iter_mut().enumerate() {
-                *number = (first + lane).min(n - 1) as f64 + 0.5;
-            }
-            let number = R::load(&numbers);
-            let found = R::outline(
-                #[inline(always)]
-                || self.bracket(number, &mut x),
-            );
-            found.store(&mut lambda[first..]);
-        }
-        lambda.truncate(n);
-        lambda
-    }
-}
-
-impl Frequencies<'_> {
-    /// The λ with so many below it, half counted.
-    #[inline(always)]
-    fn bracket<R: Real>(&self, number: R, x: &mut [[R; 2]]) -> R {
-        let mut low = R::splat(0.0);
-        let mut high = R::splat(self.train.bound() * (1.0 + 1e-12));
-        for _ in 0..PARTED {
-            let middle = between(low, high);
-            let (below, _) = self.train.sweep::<R, false>(middle, x);
-            low = below.select_lt(number, middle, low);
-            high = below.select_lt(number, high, middle);
-        }
-        let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let (mut at, mut open) = (between(low, high), one);
-        for _ in 0..STEPS {
-            let (below, slope) = self.train.sweep::<R, true>(at, x);
-            low = below.select_lt(number, at, low);
-            high = below.select_lt(number, high, at);
-            let (newton, middle) = (at - slope.recip(), between(low, high));
-            // Inside the bracket, or halve it: a comparison with NaN is false, which halves too.
-            let inside = low.select_lt(newton, newton.select_lt(high, one, zero), zero);
-            let next = zero.select_lt(inside, newton, middle);
-            let left =
-                zero.select_lt(inside, (newton - at).abs() - next * QUADRATIC, high - low - next * ROUNDING);
-            // A lane that has arrived stays: where a pivot vanishes, another step would lead away.
-            at = zero.select_lt(open, next, at);
-            open = zero.select_lt(left, open, zero);
-            if open.max_lane() <= 0.0 {
-                break;
-            }
-        }
-        at
-    }
-}
-
-/// Where a bracket is cut: in the middle, or, while it reaches down to nearly nothing, at a thousandth of its top. Beside
-/// a shaft as good as rigid the others' λ are smaller by many orders.
-#[inline(always)]
-fn between<R: Real>(low: R, high: R) -> R {
-    low.select_lt(high * 1e-6, high * 1e-3, (low + high) * 0.5)
-}
-
-/// All modes by rotations of J^(−1/2) K J^(−1/2), for trains whose frequencies coincide.
-fn jacobi(train: &Train) -> Modes {
-    let n = train.len();
-    let root: Vec<f64> = train.inertia.iter().map(|J| J.sqrt()).collect();
-    let mut a = vec![0.0; n * n];
-    let mut v = vec![0.0; n * n];
-    a[0] = train.stiffness[0];
-    for i in 0..n {
-        v[i * n + i] = 1.0;
-    }
-    for c in 1..n {
-        let (k, p) = (train.stiffness[c], train.parent[c]);
-        a[c * n + c] += k;
-        a[p * n + p] += k;
-        a[c * n + p] -= k;
-        a[p * n + c] -= k;
-    }
-    for i in 0..n {
-        for j in 0..n {
-            a[i * n + j] /= root[i] * root[j];
-        }
-    }
-    while rotate_all(&mut a, &mut v, n) {}
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&i, &j| a[i * n + i].total_cmp(&a[j * n + j]));
-    let free = train.stiffness[0] == 0.0;
-    let mut shapes = Vec::with_capacity(n * n);
-    for &m in &order {
-        let start = shapes.len();
-        shapes.extend((0..n).map(|i| v[i * n + m] / root[i]));
-        train.normalise(&mut shapes[start..]);
-    }
-    let omega = order
-        .iter()
-        .enumerate()
-        .map(|(nth, &m)| if nth == 0 && free { 0.0 } else { a[m * n + m].max(0.0).sqrt() })
-        .collect();
-    Modes { omega, shapes }
-}
-
-/// One sweep of rotations over all pairs; whether any was needed.
-fn rotate_all(a: &mut [f64], v: &mut [f64], n: usize) -> bool {
-    let mut rotated = false;
-    for p in 0..n {
-        for q in p + 1..n {
-            let off = a[p * n + q];
-            let (app, aqq) = (a[p * n + p], a[q * n + q]);
-            if off.abs() <= 0.5 * f64::EPSILON * (app * aqq).abs().sqrt() || off == 0.0 {
+    for (nth, (part, each)) in parts.iter().zip(&found).enumerate() {
+        for (&disc, row) in part.discs.iter().zip(each.shapes.chunks_exact(each.omega.len())) {
+            let to = &mut shapes[disc * n..][..n];
+            if parts.len() == 1 {
+                to.copy_from_slice(row);
                 continue;
             }
-            rotated = true;
-            let theta = (aqq - app) / (2.0 * off);
-            let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-            let c = 1.0 / t.hypot(1.0);
-            let s = t * c;
-            for i in 0..n {
-                let (x, y) = (a[i * n + p], a[i * n + q]);
-                (a[i * n + p], a[i * n + q]) = (c * x - s * y, s * x + c * y);
+            for (to, column) in to.iter_mut().zip(&columns).filter(|(_, column)| column.1 == nth) {
+                *to = row[column.2];
             }
-            for i in 0..n {
-                let (x, y) = (a[p * n + i], a[q * n + i]);
-                (a[p * n + i], a[q * n + i]) = (c * x - s * y, s * x + c * y);
-                let (x, y) = (v[i * n + p], v[i * n + q]);
-                (v[i * n + p], v[i * n + q]) = (c * x - s * y, s * x + c * y);
-            }
-            (a[p * n + q], a[q * n + p]) = (0.0, 0.0);
         }
     }
-    rotated
+    Modes { omega: columns.into_iter().map(|column| column.0).collect(), shapes }
 }
 
+/// Makes shapes of neighbours that are close orthogonal, each to those before it.
+fn part_shapes(train: &Train, lambda: &[f64], q: &mut [f64]) {
+    let n = lambda.len();
+    for mode in 1..n {
+        for other in (0..mode).rev() {
+            if lambda[other + 1] - lambda[other] > CLOSE * lambda[other + 1] {
+                break;
+            }
+            let mass: f64 = (0..n).map(|d| train.inertia[d] * q[d * n + mode] * q[d * n + other]).sum();
+            (0..n).for_each(|d| q[d * n + mode] -= mass * q[d * n + other]);
+        }
+    }
+}
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -290,18 +83,19 @@ mod tests {
     fn laws(train: &Train, tolerance: f64) {
         let n = train.len();
         let found = modes(train);
-        let mut trace = train.stiffness[0] / train.inertia[0];
+        let mut trace: f64 = (0..n).map(|c| train.ground[c] / train.inertia[c]).sum();
         for c in 1..n {
             trace += train.stiffness[c] * (1.0 / train.inertia[c] + 1.0 / train.inertia[train.parent[c]]);
         }
         let sum: f64 = found.omega.iter().map(|w| w * w).sum();
-        assert!((sum - trace).abs() < tolerance * trace, "the sum of squares {sum} is the trace {trace}");
+        assert!((sum - trace).abs() <= tolerance * trace, "the sum of squares {sum} is the trace {trace}");
+        let column = |mode: usize| found.shapes.iter().skip(mode).step_by(n);
         for i in 0..n {
             for j in 0..n {
-                let (a, b) = (&found.shapes[i * n..][..n], &found.shapes[j * n..][..n]);
-                let mass: f64 = (0..n).map(|k| train.inertia[k] * a[k] * b[k]).sum();
+                let mass: f64 =
+                    column(i).zip(column(j)).zip(&train.inertia).map(|((a, b), J)| J * a * b).sum();
                 let wanted = if i == j { 1.0 } else { 0.0 };
-                assert!((mass - wanted).abs() < tolerance * 1e3, "modes {i} and {j}: {mass}");
+                assert!((mass - wanted).abs() < tolerance, "modes {i} and {j}: {mass}");
             }
         }
     }
@@ -340,6 +134,73 @@ mod tests {
         }
     }
 
+    /// The plain count of negative pivots.
+    fn below(train: &Train, lambda: f64) -> usize {
+        let mut x: Vec<f64> = train.inertia.iter().zip(&train.ground).map(|(J, k)| k - lambda * J).collect();
+        let mut count = 0;
+        for c in (1..train.len()).rev() {
+            let pivot = train.stiffness[c] + x[c];
+            count += usize::from(pivot < 0.0);
+            x[train.parent[c]] += train.stiffness[c] * x[c] / pivot;
+        }
+        count + usize::from(x[0] < 0.0)
+    }
+
+    /// Trees of parts that differ by up to six orders.
+    fn trees() -> impl Iterator<Item = Train> {
+        let mut state = 7u64;
+        let mut random = move || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        (0..300).map(move |nth| {
+            let n = 1 + nth % 40;
+            let spread = 1.0 + 5.0 * random();
+            let mut number = || 10f64.powf(spread * (random() - 0.5));
+            let parent: Vec<usize> =
+                (0..n).map(|c: usize| c.saturating_sub(1 + (3.0 * number()) as usize % 4)).collect();
+            let (inertia, mut stiffness): (Vec<f64>, Vec<f64>) = (0..n).map(|_| (number(), number())).unzip();
+            if nth % 3 > 0 {
+                stiffness[0] = 0.0;
+            }
+            Train::new(&parent, &inertia, &stiffness).expect("a tree")
+        })
+    }
+
+    #[test]
+    fn frequencies_lie_where_the_plain_count_changes() {
+        for train in trees() {
+            let found = modes(&train);
+            for (mode, omega) in found.omega.iter().enumerate().skip(usize::from(train.is_free())) {
+                // The count itself is good to some roundings a disc.
+                let off = 1e-14;
+                let (low, high) = (omega * omega * (1.0 - off), omega * omega * (1.0 + off));
+                assert!(below(&train, low) <= mode && mode < below(&train, high), "mode {mode} of {train:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn all_discs_are_in_equilibrium() {
+        for train in trees() {
+            let (n, found) = (train.len(), modes(&train));
+            for (mode, omega) in found.omega.iter().enumerate() {
+                let q: Vec<f64> = found.shapes.iter().skip(mode).step_by(n).copied().collect();
+                let (mut left, mut size) = (vec![0.0; n], 0.0f64);
+                for c in 0..n {
+                    let (k, p) = (train.stiffness[c], train.parent[c]);
+                    let (held, swung) = (train.ground[c] * q[c], omega * omega * train.inertia[c] * q[c]);
+                    left[c] += held - swung + k * (q[c] - q[p]);
+                    left[p] -= k * (q[c] - q[p]);
+                    size = size.max(held.abs()).max(swung.abs()).max(k * (q[c].abs() + q[p].abs()));
+                }
+                let worst = left.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+                assert!(worst <= 1e-14 * n as f64 * size, "mode {mode}: {worst} of {size}, {train:?}");
+            }
+            laws(&train, 1e-12);
+        }
+    }
+
     #[test]
     fn branches_and_supports_keep_the_laws() {
         let uneven = Train::new(
@@ -355,5 +216,29 @@ mod tests {
         laws(&star, 1e-13);
         let omega = modes(&star).omega;
         assert!((omega[1] - 8.0f64.sqrt()).abs() < 1e-14 && (omega[2] - omega[1]).abs() < 1e-14, "{omega:?}");
+    }
+
+    #[test]
+    fn rotations_find_the_same_shapes() {
+        for train in trees() {
+            let n = train.len();
+            let found = modes(&train);
+            let mut q = vec![0.0; n * n];
+            rotations::shapes(&train, &mut q);
+            let gap = |mode: usize| {
+                let beside = [mode.wrapping_sub(1), mode + 1];
+                let square = |mode: usize| found.omega.get(mode).map(|omega| omega * omega);
+                let own = square(mode).unwrap_or(0.0);
+                let other = beside.into_iter().filter_map(square).map(|other| (other - own).abs());
+                other.fold(f64::INFINITY, f64::min).min(own) / own.max(1e-300)
+            };
+            for mode in usize::from(train.is_free())..n {
+                for disc in 0..n {
+                    let (a, b) = (found.shapes[disc * n + mode], q[disc * n + mode]);
+                    let off = (a - b).abs() * train.inertia[disc].sqrt() * gap(mode);
+                    assert!(off < 1e-11, "mode {mode}, disc {disc}: {a} and {b} of {train:?}");
+                }
+            }
+        }
     }
 }

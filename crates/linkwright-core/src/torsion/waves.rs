@@ -4,11 +4,10 @@
 //! f(τ) = Σ Re c_h e^{ihτ},    h = 0, 1, … H
 //! ```
 //!
-//! Sampled at 8H places, f comes within cos(π/8) of its largest size at one of them (Bernstein's comparison: near that
-//! place f is not below ‖f‖ cos Hτ). So the extremes lie beside samples that reach nearly as far as the best, and Newton
-//! takes them from there to the last digit. Samples are taken in lanes, a wave each.
+//! Sampled at 8H places, f is nearly a parabola through three of them. Tops of these that may be the highest, as Bernstein's
+//! bounds of the derivatives have it, are taken to the last digit by Newton. Samples are taken in lanes, a wave each.
 //!
-//! Source: Zygmund, *Trigonometric Series*, chapter X, for the comparison.
+//! Source: Zygmund, *Trigonometric Series*, chapter X, for the bounds.
 
 use super::forced::Complex;
 use crate::lanes::{Job, in_lanes};
@@ -18,12 +17,15 @@ use std::f64::consts::TAU;
 /// Samples in a period of the highest harmonic.
 const FINE: usize = 8;
 
-/// Share of ‖f‖, as estimated from samples, by which a sample beside an extreme may miss it: near its top f falls no faster than
-/// ‖f‖ cos Hτ, by (1 − cos(π/8)) ‖f‖ up to the next sample, and samples know ‖f‖ to cos(π/8).
-const MISSED: f64 = 0.084;
+/// Share of ‖f‖, as samples know it, by which the top of a parabola through three of them may miss that of f: h³ max |f‴|/(9√3)
+/// with h = π/4H and |f‴| ≤ H³ ‖f‖ (Bernstein), over cos(π/8).
+const MISSED: f64 = 0.034;
 
-/// Newton's steps: it starts within a sixteenth of the shortest period.
-const STEPS: usize = 6;
+/// Newton's steps: it starts within a hundredth of the shortest period.
+const STEPS: usize = 8;
+
+/// Share of a step below which f is a parabola about its top, to rounding.
+const NEAR: f64 = 1e-4;
 
 /// Extremes of a wave, and where they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,10 +58,10 @@ impl Job for Sampled<'_> {
         let harmonics = coefficients.len() / waves;
         let quarter = (FINE / 4 * harmonics.saturating_sub(1)).max(1);
         let places = 4 * quarter;
-        let (sin, cos): (Vec<f64>, Vec<f64>) =
-            (0..places).map(|j| (TAU * j as f64 / places as f64).sin_cos()).unzip();
+        let table = turns(places, quarter, harmonics);
         let zero = R::splat(0.0);
-        let mut c = vec![(zero, zero); harmonics];
+        // Even and odd harmonics in turn: an odd number of them has one of zero at its end.
+        let mut c = vec![(zero, zero); harmonics.next_multiple_of(2)];
         let mut samples = vec![0.0; places * R::LANES];
         let mut buffer = vec![0.0; 2 * R::LANES];
         let mut found = Vec::with_capacity(waves);
@@ -74,21 +76,30 @@ impl Job for Sampled<'_> {
                         }
                         *c = (R::load(re), R::load(im));
                     }
-                    for j in 0..=quarter {
-                        let [even, odd] = parts(&c, j, &sin, &cos);
-                        // ±τ and π ± τ share their cosines and sines but for the sign.
-                        let (a, b) = (even.0 + odd.0, even.1 + odd.1);
-                        let (d, e) = (even.0 - odd.0, even.1 - odd.1);
-                        let mirrored = [(j, a - b), (places - j, a + b), (2 * quarter - j, d + e)];
-                        for (place, value) in mirrored.into_iter().chain([(2 * quarter + j, d - e)]) {
-                            value.store(&mut samples[place % places * R::LANES..][..R::LANES]);
+                    for (block, rows) in table.chunks_exact(c.len()).enumerate() {
+                        let sums = parts(&c, rows);
+                        for (b, [ce, se, co, so]) in sums.into_iter().enumerate() {
+                            let j = (BLOCK * block + b).min(quarter);
+                            // ±τ and π ± τ share their cosines and sines but for the sign.
+                            let (plus, minus) = (ce + co, ce - co);
+                            let (up, down) = (se + so, se - so);
+                            let mirrored = [
+                                (j, plus - up),
+                                (places - j, plus + up),
+                                (2 * quarter - j, minus + down),
+                                (2 * quarter + j, minus - down),
+                            ];
+                            for (place, value) in mirrored {
+                                value.store(&mut samples[place % places * R::LANES..][..R::LANES]);
+                            }
                         }
                     }
                 },
             );
             for lane in 0..R::LANES.min(waves - first) {
-                let wave: Vec<Complex> =
+                let mut wave: Vec<Complex> =
                     (0..harmonics).map(|h| coefficients[h * waves + first + lane]).collect();
+                wave.resize(harmonics.next_multiple_of(ABREAST), [0.0; 2]);
                 let of: Vec<f64> = samples.iter().skip(lane).step_by(R::LANES).copied().collect();
                 found.push(wave_extremes(&wave, &of));
             }
@@ -97,20 +108,36 @@ impl Job for Sampled<'_> {
     }
 }
 
-/// Sums of Re c cos hτ and Im c sin hτ over even and odd harmonics, at one of the places.
+/// Places at which sums are taken beside each other: they do not wait for one another, and registers hold them.
+const BLOCK: usize = 2;
+
+/// cos hτ and sin hτ at the places of each block, harmonic by harmonic.
+fn turns(places: usize, quarter: usize, harmonics: usize) -> Vec<[[f64; 2]; BLOCK]> {
+    let (sin, cos): (Vec<f64>, Vec<f64>) =
+        (0..places).map(|j| (TAU * j as f64 / places as f64).sin_cos()).unzip();
+    let blocks = (quarter + 1).div_ceil(BLOCK);
+    let harmonics = harmonics.next_multiple_of(2);
+    let at = |block: usize, h: usize, b: usize| (BLOCK * block + b).min(quarter) * h % places;
+    (0..blocks * harmonics)
+        .map(|row| {
+            let (block, h) = (row / harmonics, row % harmonics);
+            std::array::from_fn(|b| [cos[at(block, h, b)], sin[at(block, h, b)]])
+        })
+        .collect()
+}
+
+/// Sums of Re c cos hτ and Im c sin hτ over even, then over odd harmonics, at the places of a block.
 #[inline(always)]
-fn parts<R: Real>(c: &[(R, R)], j: usize, sin: &[f64], cos: &[f64]) -> [(R, R); 2] {
-    let zero = R::splat(0.0);
-    let mut sums = [(zero, zero); 2];
-    let mut place = 0;
-    for pair in c.chunks(2) {
-        for (sum, &(re, im)) in sums.iter_mut().zip(pair) {
-            sum.0 = re.mul_add(R::splat(cos[place]), sum.0);
-            sum.1 = im.mul_add(R::splat(sin[place]), sum.1);
-            place += j;
-            if place >= sin.len() {
-                place -= sin.len();
-            }
+fn parts<R: Real>(c: &[(R, R)], rows: &[[[f64; 2]; BLOCK]]) -> [[R; 4]; BLOCK] {
+    let mut sums = [[R::splat(0.0); 4]; BLOCK];
+    for (c, rows) in c.chunks_exact(2).zip(rows.chunks_exact(2)) {
+        let ((even_re, even_im), (odd_re, odd_im)) = (c[0], c[1]);
+        for b in 0..BLOCK {
+            let [[even_cos, even_sin], [odd_cos, odd_sin]] = [rows[0][b], rows[1][b]];
+            sums[b][0] = even_re.mul_add(R::splat(even_cos), sums[b][0]);
+            sums[b][1] = even_im.mul_add(R::splat(even_sin), sums[b][1]);
+            sums[b][2] = odd_re.mul_add(R::splat(odd_cos), sums[b][2]);
+            sums[b][3] = odd_im.mul_add(R::splat(odd_sin), sums[b][3]);
         }
     }
     sums
@@ -129,58 +156,76 @@ fn wave_extremes(wave: &[Complex], samples: &[f64]) -> Extremes {
 /// Where ±f is largest, and how much it is there.
 fn highest(wave: &[Complex], samples: &[f64], sign: f64) -> (f64, f64) {
     let n = samples.len();
-    let swing = samples.iter().fold(0.0_f64, |a, x| a.max((x - wave[0][0]).abs()));
-    let best = samples.iter().fold(f64::NEG_INFINITY, |a, x| a.max(sign * x));
     let step = TAU / n as f64;
+    let swing = samples.iter().fold(0.0_f64, |a, x| a.max((x - wave[0][0]).abs()));
+    // Tops of parabolas through three samples: where, and how high.
+    let mut tops = Vec::with_capacity(8);
+    let (mut before, mut here) = (sign * samples[n - 1], sign * samples[0]);
+    let following = samples[1..].iter().chain(&samples[..1]);
+    for (j, after) in following.enumerate() {
+        let after = sign * after;
+        if here >= before && here >= after {
+            let bend = before - 2.0 * here + after;
+            let shift = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
+            tops.push(((j as f64 + shift) * step, here - 0.25 * (before - after) * shift, here));
+        }
+        (before, here) = (here, after);
+    }
+    tops.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut found = (0.0, f64::NEG_INFINITY);
-    for j in 0..n {
-        let here = sign * samples[j];
-        let (before, after) = (sign * samples[(j + n - 1) % n], sign * samples[(j + 1) % n]);
-        if here >= best - MISSED * swing && here >= before && here >= after {
-            let start = j as f64 * step;
-            let (at, value) = climb(wave, start, step, sign, here);
-            if value > found.1 {
-                found = (at.rem_euclid(TAU), value);
-            }
+    for (start, top, sample) in tops {
+        if top + MISSED * swing < found.1 {
+            break;
+        }
+        let (at, value) = climb(wave, start, step, sign, sample);
+        if value > found.1 {
+            found = (at.rem_euclid(TAU), value);
         }
     }
     found
 }
 
-/// Newton from a sample to the top beside it; the sample itself if that leads nowhere.
+/// Newton from beside a top; no less than the sample if that leads nowhere.
 fn climb(wave: &[Complex], start: f64, step: f64, sign: f64, sample: f64) -> (f64, f64) {
     let (mut at, mut best) = (start, (start, sample));
     for _ in 0..STEPS {
         let [value, d1, d2] = evaluate(wave, at);
-        if sign * value > best.1 {
-            best = (at, sign * value);
+        let shift = -d1 / d2;
+        // So near the top f is its parabola, and its top is known without another look.
+        let last = shift.abs() < NEAR * step;
+        let there = sign * if last { value + 0.5 * d1 * shift } else { value };
+        if there > best.1 {
+            best = (if last { at + shift } else { at }, there);
         }
-        let next = at - d1 / d2;
-        if !(sign * d2 < 0.0 && (next - start).abs() <= step) || next == at {
+        let inside = sign * d2 < 0.0 && (at + shift - start).abs() <= step;
+        if last || !inside {
             break;
         }
-        if (next - at).abs() < 1e-9 * step {
-            break;
-        }
-        at = next;
+        at += shift;
     }
     best
 }
 
-/// f, f′ and f″.
+/// How many harmonics are summed beside each other: one by one each would wait for the one before it.
+const ABREAST: usize = 4;
+
+/// f, f′ and f″ of a wave whose harmonics are filled up to a multiple of [`ABREAST`].
 fn evaluate(wave: &[Complex], at: f64) -> [f64; 3] {
-    let (sin, cos) = at.sin_cos();
-    let (mut s, mut c) = (0.0, 1.0);
-    let mut sum = [0.0; 3];
-    for (h, &[re, im]) in wave.iter().enumerate() {
-        let h = h as f64;
-        let (value, turned) = (re * c - im * s, re * s + im * c);
-        sum[0] += value;
-        sum[1] -= h * turned;
-        sum[2] -= h * h * value;
-        (s, c) = (s * cos + c * sin, c * cos - s * sin);
+    let turn = |h: usize| (h as f64 * at).sin_cos();
+    let (s4, c4) = turn(ABREAST);
+    let mut turns: [(f64, f64); ABREAST] = std::array::from_fn(turn);
+    let mut sums = [[0.0; 3]; ABREAST];
+    for (first, four) in wave.chunks_exact(ABREAST).enumerate() {
+        for (k, (sum, ((s, c), &[re, im]))) in sums.iter_mut().zip(turns.iter_mut().zip(four)).enumerate() {
+            let h = (ABREAST * first + k) as f64;
+            let (value, turned) = (re * *c - im * *s, re * *s + im * *c);
+            sum[0] += value;
+            sum[1] -= h * turned;
+            sum[2] -= h * h * value;
+            (*s, *c) = (*s * c4 + *c * s4, *c * c4 - *s * s4);
+        }
     }
-    sum
+    std::array::from_fn(|part| sums.iter().map(|sum| sum[part]).sum())
 }
 
 #[cfg(test)]
@@ -199,7 +244,8 @@ mod tests {
         let c: Vec<Complex> = (0..waves * harmonics).map(|_| [random(), random()]).collect();
         let found = extremes(&c, waves);
         for (w, found) in found.iter().enumerate() {
-            let wave: Vec<Complex> = (0..harmonics).map(|h| c[h * waves + w]).collect();
+            let mut wave: Vec<Complex> = (0..harmonics).map(|h| c[h * waves + w]).collect();
+            wave.resize(harmonics.next_multiple_of(ABREAST), [0.0; 2]);
             let fine = (0..100_000).map(|j| evaluate(&wave, TAU * f64::from(j) / 1e5)[0]);
             let (low, high) = fine.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
             // Fine samples miss an extreme by no more than ½ f″ (π/1e5)².

@@ -21,11 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
-from linkwright.analysis.torsion.exceedance import Exceedance, exceedances
-from linkwright.analysis.torsion.excited import Excited, excited
-from linkwright.analysis.torsion.forced import forced_vibration
-from linkwright.analysis.torsion.resonance import Resonance, resonances, with_resonances
-from linkwright.analysis.torsion.stress import ShaftStress, service_speed, shaft_stress
+from linkwright.analysis.torsion.criteria import PASSING_STRESS, VIBRATORY_STRESS, Criterion
+from linkwright.analysis.torsion.exceedance import Exceedance
+from linkwright.analysis.torsion.resonance import Resonance
+from linkwright.analysis.torsion.survey import Survey, survey
 from linkwright.machine import Machine
 from linkwright.machine.propulsion_shaft import barred_speeds
 
@@ -52,7 +51,7 @@ class BarredRange(Result):
         Lowest and highest speed of each part in which the stress is above what is permitted while passing
         [rad/s].
     critical_speed, order : float or None
-        The resonance in the range next to the worst speed [rad/s], and its order.
+        Of the resonances in the range that which stresses the shaft most [rad/s], and its order.
     class_min, class_max : float or None
         What is barred about it by the formula of the societies [rad/s].
     ratio_max : float
@@ -104,7 +103,7 @@ def barred_ranges(machine: Machine) -> tuple[BarredRange, ...]:
     Parameters
     ----------
     machine : Machine
-        With a [train] that something excites, speeds in [train.run], and limits of shafts.
+        With a train that something excites, speeds at which to look, and limits of shafts.
 
     Returns
     -------
@@ -120,20 +119,33 @@ def barred_ranges(machine: Machine) -> tuple[BarredRange, ...]:
     ----------
     .. [1] IACS, UR M68, 2021, M68.5.
     """
-    at = excited(machine)
-    speeds = with_resonances(at)
+    return surveyed_ranges(survey(machine))
 
-    def stress(at_speeds: Floats) -> ShaftStress:
-        return shaft_stress(machine, forced_vibration(machine, at_speeds))
 
-    above = exceedances(lambda each: _over(stress(each), "continuous"), speeds)
+def surveyed_ranges(seen: Survey) -> tuple[BarredRange, ...]:
+    """Barred ranges of a train that has been looked at.
+
+    Parameters
+    ----------
+    seen : Survey
+        The train.
+
+    Returns
+    -------
+    tuple of BarredRange
+        As `barred_ranges`.
+    """
+    rows = [(each.part, each.what) for each in seen.criteria]
+    above = [each for each in seen.exceeded if rows[each.row][1] == VIBRATORY_STRESS]
     if not above:
         return ()
-    passing = exceedances(lambda each: _over(stress(each), "transient"), speeds)
-    peaks = stress(np.array([each.peak for each in above]))
-    rated = service_speed(machine, speeds)
-    critical = resonances(at)
-    return tuple(_range(at, each, n, peaks, rated, critical, passing) for n, each in enumerate(above))
+    peaks = seen.criteria_at(np.array([each.peak for each in above]))
+    found = []
+    for column, each in enumerate(above):
+        row = rows.index((rows[each.row][0], PASSING_STRESS))
+        passing = [other for other in seen.exceeded if other.row == row]
+        found.append(_range(seen, each, column, (peaks[each.row], peaks[row]), passing))
+    return tuple(found)
 
 
 def together(ranges: Iterable[BarredRange]) -> list[tuple[float, float]]:
@@ -158,47 +170,53 @@ def together(ranges: Iterable[BarredRange]) -> list[tuple[float, float]]:
     return found
 
 
-def _over(stress: ShaftStress, limit: str) -> Floats:
-    """Stress over what is permitted; 0 where nothing is said, infinite at a resonance without damping."""
-    permitted = getattr(stress, limit)
-    found = np.where(np.isfinite(stress.vibratory), stress.vibratory / permitted, np.inf)
-    return np.where(np.isnan(permitted), 0.0, found)
-
-
 def _range(
-    at: Excited,
+    seen: Survey,
     above: Exceedance,
     column: int,
-    peaks: ShaftStress,
-    rated: float,
-    critical: tuple[Resonance, ...],
+    peaks: tuple[Criterion, Criterion],
     passing: list[Exceedance],
 ) -> BarredRange:
     """One range with its numbers."""
-    inside = [each for each in critical if above.low <= each.speed <= above.high]
-    nearest = min(inside, key=lambda each: abs(each.speed - above.peak), default=None)
-    formula = (None, None) if nearest is None else barred_speeds(nearest.speed, rated)
-    name, row = peaks.shafts[above.row], above.row
-    limit = at.train.shafts[name].limit
+    for_ever, transient = peaks
+    nearest = _critical(seen, above, for_ever.part)
+    formula = (None, None) if nearest is None else barred_speeds(nearest.speed, seen.service)
+    limit = seen.at.train.shafts[for_ever.part].limit
     return BarredRange(
-        shaft=name,
+        shaft=for_ever.part,
         speed_min=above.low,
         speed_max=above.high,
         open_min=above.open_low,
         open_max=above.open_high,
         worst_speed=above.peak,
-        worst_stress=float(peaks.vibratory[row, column]),
-        continuous=float(peaks.continuous[row, column]),
-        transient=float(peaks.transient[row, column]),
+        worst_stress=float(for_ever.found[column]),
+        continuous=float(for_ever.permitted[column]),
+        transient=float(transient.permitted[column]),
         not_passable=tuple(
             (max(each.low, above.low), min(each.high, above.high))
             for each in passing
-            if each.row == row and each.low < above.high and each.high > above.low
+            if each.low < above.high and each.high > above.low
         ),
         critical_speed=None if nearest is None else nearest.speed,
         order=None if nearest is None else nearest.order,
         class_min=formula[0],
         class_max=formula[1],
-        ratio_max=above.high / rated,
+        ratio_max=above.high / seen.service,
         ratio_permitted=np.inf if limit is None else limit.barred_ratio_max,
     )
+
+
+def _critical(seen: Survey, above: Exceedance, shaft: str) -> Resonance | None:
+    """Of the resonances in a range that of the order which stresses the shaft most; None without any."""
+    inside = [each for each in seen.resonances if above.low <= each.speed <= above.high]
+    if not inside:
+        return None
+    at = seen.carried_at(np.array([each.speed for each in inside]))
+    row = at.shafts.index(shaft)
+    place = {order: n for n, order in enumerate(at.orders.tolist())}
+    # A resonance without damping is infinite, and the worst.
+    size = [
+        np.nan_to_num(np.abs(at.shaft_torques[place[one.order], row, n]), nan=np.inf)
+        for n, one in enumerate(inside)
+    ]
+    return inside[int(np.argmax(size))]

@@ -2,7 +2,7 @@
 
 | part | what | permitted by |
 | --- | --- | --- |
-| shaft | vibratory stress, greatest stress, torque, vibratory torque | its `limit` |
+| shaft | vibratory stress for ever and while passing, greatest stress, torques | its `limit` |
 | coupling | torque, vibratory torque, heat | its own entries |
 | damper | heat | `heat_permitted` |
 | gear stage | drop of the torque below its mean | the mean: beyond it teeth part |
@@ -16,10 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.torsion.excited import excited
-from linkwright.analysis.torsion.forced import ForcedVibration, responded
-from linkwright.analysis.torsion.mesh_torque import meshed
-from linkwright.analysis.torsion.stress import shaft_stress
+from linkwright.analysis.torsion.carried import Carried
+from linkwright.analysis.torsion.excited import Excited
+from linkwright.analysis.torsion.mesh_torque import MeshTorque, meshed
+from linkwright.analysis.torsion.stress import ShaftStress, shaft_stress
 from linkwright.machine import Machine, Shaft, Train
 from linkwright.machine.coupling import Coupling
 from linkwright.machine.damper import Damper
@@ -29,6 +29,7 @@ from linkwright.units import POWER, PRESSURE, TORQUE, Kind
 Floats = NDArray[np.float64]
 
 VIBRATORY_STRESS = "vibratory stress"
+PASSING_STRESS = "vibratory stress while passing"
 CONTACT = "drop of torque below its mean"
 
 
@@ -64,62 +65,50 @@ class Criterion(NamedTuple):
         return np.where(np.isnan(self.permitted), 0.0, ratio)
 
 
-def criteria(machine: Machine, speeds: Floats | None = None) -> list[Criterion]:
+def criteria(machine: Machine, at: Excited, found: Carried, service: float | None = None) -> list[Criterion]:
     """All that limits of a train ask for.
 
     Parameters
     ----------
     machine : Machine
-        With a [train] that something excites.
-    speeds : ndarray, shape (speeds,), optional
-        Of the first disc; without them those of [train.run] [rad/s].
+        With a train that something excites.
+    at : Excited
+        The train under its torques, at some speeds.
+    found : Carried
+        What its shafts carry there.
+    service : float, optional
+        Speed of the first disc that λ = 1 stands for, as of `service_speed` [rad/s].
 
     Returns
     -------
     list of Criterion
         Shafts, couplings, dampers, gear stages; the same in number and order at any speeds.
-
-    Raises
-    ------
-    InputError
-        Nothing excites the train, or it has no speeds.
     """
-    at = excited(machine, speeds)
-    found = responded(at)
-    assert machine.train is not None
     shafts = at.train.shafts
-    listed = [*_stresses(machine, shafts, found), *_torques(machine.train, shafts, found)]
+    stress = shaft_stress(machine, found, service)
+    listed = [*_stresses(stress, shafts), *_torques(machine.train, shafts, found)]
     listed += _heats(machine.train, found)
-    gears = meshed(at, found)
-    for g, name in enumerate(gears.stages):
-        if gears.toothed[g]:
-            # No mean torque holds teeth together that carry none but by rounding.
-            mean = np.abs(gears.mean[g])
-            mean = np.where(mean > 1e-12 * np.abs(gears.greatest[g]), mean, 0.0)
-            # A stage of a loop has no torque that statics knows.
-            mean = np.where(np.isnan(gears.drop[g]), np.nan, mean)
-            listed.append(Criterion(name, CONTACT, TORQUE, gears.drop[g], mean))
-    return listed
+    return [*listed, *_contacts(meshed(at, found))] if at.train.gears else listed
 
 
-def _stresses(machine: Machine, shafts: dict[str, Shaft], found: ForcedVibration) -> Iterator[Criterion]:
+def _stresses(stress: ShaftStress, shafts: dict[str, Shaft]) -> Iterator[Criterion]:
     """Of shafts with a limit."""
-    stress = shaft_stress(machine, found)
     for row, name in enumerate(stress.shafts):
-        limit = shafts[name].limit
+        limit, vibratory = shafts[name].limit, stress.vibratory[row]
         if limit is None:
             continue
         if limit.kind != "given" or limit.stress_permitted is not None:
-            yield Criterion(name, VIBRATORY_STRESS, PRESSURE, stress.vibratory[row], stress.continuous[row])
+            yield Criterion(name, VIBRATORY_STRESS, PRESSURE, vibratory, stress.continuous[row])
+            yield Criterion(name, PASSING_STRESS, PRESSURE, vibratory, stress.transient[row])
         if limit.stress_greatest is not None:
             permitted = np.full(len(stress.speeds), limit.stress_greatest)
             yield Criterion(name, "greatest stress", PRESSURE, stress.greatest[row], permitted)
 
 
-def _torques(train: Train, shafts: dict[str, Shaft], found: ForcedVibration) -> Iterator[Criterion]:
+def _torques(train: Train | None, shafts: dict[str, Shaft], found: Carried) -> Iterator[Criterion]:
     """Of shafts and couplings."""
     limits = {name: shaft.limit for name, shaft in shafts.items() if shaft.limit is not None}
-    bearing: dict[str, ShaftLimit | Coupling] = {**limits, **train.couplings}
+    bearing: dict[str, ShaftLimit | Coupling] = {**limits, **(train.couplings if train else {})}
     for name, limit in bearing.items():
         row = found.shafts.index(name)
         for what, permitted, torque in (
@@ -130,10 +119,22 @@ def _torques(train: Train, shafts: dict[str, Shaft], found: ForcedVibration) -> 
                 yield Criterion(name, what, TORQUE, torque[row], np.full(len(found.speeds), permitted))
 
 
-def _heats(train: Train, found: ForcedVibration) -> Iterator[Criterion]:
+def _heats(train: Train | None, found: Carried) -> Iterator[Criterion]:
     """Of couplings and dampers."""
-    heated: dict[str, Coupling | Damper] = {**train.couplings, **train.dampers}
+    heated: dict[str, Coupling | Damper] = {**train.couplings, **train.dampers} if train else {}
     for name, each in heated.items():
         if each.heat_permitted is not None:
             heat = found.shaft_heat[found.shafts.index(name)]
             yield Criterion(name, "heat", POWER, heat, np.full(len(heat), each.heat_permitted))
+
+
+def _contacts(gears: MeshTorque) -> Iterator[Criterion]:
+    """Of toothed gear stages."""
+    for g, name in enumerate(gears.stages):
+        if gears.toothed[g]:
+            # No mean torque holds teeth together that carry none but by rounding.
+            mean = np.abs(gears.mean[g])
+            mean = np.where(mean > 1e-12 * np.abs(gears.greatest[g]), mean, 0.0)
+            # A stage of a loop has no torque that statics knows.
+            mean = np.where(np.isnan(gears.drop[g]), np.nan, mean)
+            yield Criterion(name, CONTACT, TORQUE, gears.drop[g], mean)

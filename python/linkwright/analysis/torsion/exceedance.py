@@ -49,7 +49,7 @@ class Exceedance(NamedTuple):
     peak: float
 
 
-def exceedances(curves: Curves, speeds: Floats) -> list[Exceedance]:
+def exceedances(curves: Curves, speeds: Floats, values: Floats) -> list[Exceedance]:
     """Ranges in which curves lie above 1.
 
     Parameters
@@ -58,13 +58,14 @@ def exceedances(curves: Curves, speeds: Floats) -> list[Exceedance]:
         Speeds, (n,), to values, (rows, n); NaN counts as below.
     speeds : ndarray, shape (n,)
         Increasing, close enough that each peak shows at one of them [rad/s].
+    values : ndarray, shape (rows, n)
+        Of the curves there.
 
     Returns
     -------
     list of Exceedance
         By row, then by speed.
     """
-    values = curves(speeds)
     runs = [(row, *run) for row, above in enumerate(values > 1) for run in _runs(above)]
     last = len(speeds) - 1
     edges = [(row, n, n - 1) for row, n, _ in runs if n > 0]

@@ -25,8 +25,8 @@ from linkwright.machine.train_run import TrainRun
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
-# Speeds of a drive line over its steady speed, and how many.
-_ABOUT = (0.2, 1.3)
+# Speeds of a drive line over its steady speed, and how many: where a motor works, not where it runs up.
+_ABOUT = (0.8, 1.2)
 _POINTS = 200
 
 # Share of the largest torque on a mass below which a shaft carries rounding.
@@ -89,6 +89,33 @@ def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
     InputError
         Nothing excites the train, or it has no speeds.
     """
+    at = prepared(machine, speeds)
+    if not len(at.torques.orders):
+        remedy = "give [train.excitations], harmonics of [train.loads], or a [train.engine]"
+        raise InputError(f"nothing excites the train of {machine.name}: {remedy}")
+    return at
+
+
+def prepared(machine: Machine, speeds: Floats | None = None) -> Excited:
+    """As `excited`, also for a train that nothing excites.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train], or with a drive line that twists.
+    speeds : ndarray, shape (speeds,), optional
+        Of the first disc; without them those of [train.run] [rad/s].
+
+    Returns
+    -------
+    Excited
+        What the train is at each speed.
+
+    Raises
+    ------
+    InputError
+        The machine has no train, or the train no speeds.
+    """
     train = train_of(machine)
     referred = refer(train)
     place = {name: k for k, name in enumerate(train.discs)}
@@ -103,9 +130,28 @@ def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
         is_free=referred.is_free,
         has_engine=machine.train is not None and machine.train.engine is not None,
     )
-    if not len(torques.orders):
-        remedy = "give [train.excitations], harmonics of [train.loads], or a [train.engine]"
-        raise InputError(f"nothing excites the train of {machine.name}: {remedy}")
+    return loaded(machine, train, referred, torques)
+
+
+def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Torques) -> Excited:
+    """A train under torques: mean torques of its shafts, stiffness and damping.
+
+    Parameters
+    ----------
+    machine : Machine
+        That has the train.
+    train : Train
+        Of discs, shafts and gears.
+    referred : ReferredTrain
+        The same, referred to its first disc.
+    torques : Torques
+        On the discs.
+
+    Returns
+    -------
+    Excited
+        At the speeds of the torques.
+    """
     mean = _mean_torques(referred, torques.mean)
     return Excited(train, referred, torques, mean, _operating(machine.train, referred, torques, mean))
 
@@ -120,11 +166,21 @@ def is_excited(machine: Machine) -> bool:
     """
     train = machine.train
     if train is None:
-        return machine.drive is not None and machine.drive.twists
-    if train.run is None:
-        return False
-    pulsates = any(each.harmonics for each in train.loads.values())
-    return bool(train.excitations) or pulsates or train.engine is not None
+        drive = machine.drive
+        return drive is not None and drive.twists and not (drive.motor is None and drive.speed is None)
+    return train.run is not None and pulsates(train)
+
+
+def pulsates(train: Train) -> bool:
+    """Whether a train has torques that pulsate.
+
+    Parameters
+    ----------
+    train : Train
+        As its file describes it.
+    """
+    waves = any(each.harmonics for each in train.loads.values())
+    return bool(train.excitations) or waves or train.engine is not None
 
 
 def _sources(

@@ -26,11 +26,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.result import Result
+from linkwright.analysis.torsion.carried import Carried, carried_by, responses
 from linkwright.analysis.torsion.excited import Excited, excited
-from linkwright.analysis.torsion.free import lead_speeds
-from linkwright.analysis.torsion.synthesis import Orders, orders_together, span
-from linkwright.engine.train_response import respond
+from linkwright.analysis.torsion.synthesis import Orders, span
 from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
@@ -38,8 +36,8 @@ Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
-class ForcedVibration(Result):
-    """Forced vibration of a train over its speeds.
+class ForcedVibration(Carried):
+    """Forced vibration of a train over its speeds, with all that its shafts carry.
 
     Attributes
     ----------
@@ -57,46 +55,21 @@ class ForcedVibration(Result):
         What the shafts carry [N m].
     torque_greatest, torque_least : ndarray, shape (shafts, speeds)
         Of mean and vibration together [N m].
-    unevenness, unevenness_rigid, unevenness_torsional : ndarray, shape (discs, speeds)
-        δ; of the train as a whole; of the rest.
     shaft_heat : ndarray, shape (shafts, speeds)
         Mean power that each shaft, coupling or damper turns to heat [W].
+    unevenness, unevenness_rigid, unevenness_torsional : ndarray, shape (discs, speeds)
+        δ; of the train as a whole; of the rest.
     disc_heat : ndarray, shape (discs, speeds)
         Mean power that damping of the discs takes [W].
     power : ndarray, shape (speeds,)
         Mean power of the pulsating torques, which is the sum of all heat [W].
     """
 
-    speeds: Floats
-    orders: Floats
-    discs: tuple[str, ...]
-    shafts: tuple[str, ...]
-    amplitudes: Complexes
-    shaft_torques: Complexes
-    mean_torques: Floats
-    torque_greatest: Floats
-    torque_least: Floats
     unevenness: Floats
     unevenness_rigid: Floats
     unevenness_torsional: Floats
-    shaft_heat: Floats
     disc_heat: Floats
     power: Floats
-
-    @property
-    def shaft_torque_max(self) -> Floats:
-        """Largest torque either way, mean and vibration together, shape (shafts, speeds) [N m]."""
-        return np.maximum(self.torque_greatest, -self.torque_least)
-
-    @property
-    def shaft_torque_vibratory(self) -> Floats:
-        """Half of greatest less least torque, shape (shafts, speeds) [N m]."""
-        return 0.5 * (self.torque_greatest - self.torque_least)
-
-    @property
-    def together(self) -> Orders:
-        """How the orders add up."""
-        return orders_together(self.orders)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Curves over the speeds by name of shaft and disc.
@@ -175,56 +148,19 @@ def responded(at: Excited) -> ForcedVibration:
     ForcedVibration
         As `forced_vibration`.
     """
-    referred, torques = at.referred, at.torques
-    orders = torques.orders
-    q = respond(referred, at.operating, orders, at.referred_harmonics())
-    theta = referred.speed[:, None] * q[:, referred.mass]
-    omega = orders[:, None, None] * torques.speeds
-    elastic, damping = _twisting(at, q, omega)
-    shaft_torques = elastic + damping
-    mean = at.mean_torques
-    together = orders_together(orders)
-    greatest, least = span(together, shaft_torques, mean)
-    total, rigid, torsional = _unevenness(at, together, q)
-    shaft_heat, disc_heat = _heat(at, q, omega)
-    power = 0.5 * (torques.harmonics * (1j * omega * theta).conj()).real.sum(axis=(0, 1))
+    q = responses(at)
+    shafts = carried_by(at, q)
+    total, rigid, torsional = _unevenness(at, shafts.together, q)
+    omega = shafts.orders[:, None, None] * shafts.speeds
+    theta = shafts.amplitudes
     return ForcedVibration(
-        speeds=torques.speeds,
-        orders=orders,
-        discs=referred.discs,
-        shafts=referred.shafts,
-        amplitudes=theta,
-        shaft_torques=shaft_torques,
-        mean_torques=mean,
-        torque_greatest=greatest,
-        torque_least=least,
+        **vars(shafts),
         unevenness=total,
         unevenness_rigid=rigid,
         unevenness_torsional=torsional,
-        shaft_heat=shaft_heat,
-        disc_heat=disc_heat,
-        power=power,
+        disc_heat=0.5 * (omega**2 * at.disc_damping * np.abs(theta) ** 2).sum(axis=0),
+        power=0.5 * (at.torques.harmonics * (1j * omega * theta).conj()).real.sum(axis=(0, 1)),
     )
-
-
-def _differences(at: Excited, q: Complexes) -> Complexes:
-    """q of the first less that of the second end of each shaft, (orders, shafts, speeds)."""
-    # The ground is a last mass that stands still, HELD = −1.
-    held = np.concatenate([q, np.zeros_like(q[:, :1])], axis=1)
-    first, second = at.referred.ends.T
-    found: Complexes = held[:, first] - held[:, second]
-    return found
-
-
-def _twisting(at: Excited, q: Complexes, omega: Floats) -> tuple[Complexes, Complexes]:
-    """Elastic and damping torque of each shaft at its own speed."""
-    referred = at.referred
-    lead = lead_speeds(referred)[:, None]
-    twist = _differences(at, q) / lead
-    k = at.operating.stiffness
-    elastic = k * twist
-    damping = 1j * (referred.loss_factor[:, None] * k + omega * referred.damping[:, None]) * twist
-    return elastic, damping
 
 
 def _unevenness(at: Excited, orders: Orders, q: Complexes) -> tuple[Floats, Floats, Floats]:
@@ -243,17 +179,6 @@ def _unevenness(at: Excited, orders: Orders, q: Complexes) -> tuple[Floats, Floa
     total, rigid, torsional = found
     mass = referred.mass
     return total[mass], np.repeat(rigid, len(mass), axis=0), torsional[mass]
-
-
-def _heat(at: Excited, q: Complexes, omega: Floats) -> tuple[Floats, Floats]:
-    """Mean power that shafts and discs turn to heat."""
-    referred = at.referred
-    twist = np.abs(_differences(at, q)) ** 2
-    k, c = at.operating.stiffness, referred.damping[:, None]
-    shafts = 0.5 * ((omega**2 * c + omega * referred.loss_factor[:, None] * k) * twist).sum(axis=0)
-    swing = np.abs(q[:, referred.mass] * referred.speed[:, None]) ** 2
-    discs = 0.5 * (omega**2 * at.disc_damping * swing).sum(axis=0)
-    return shafts, discs
 
 
 def angular_deflection(found: ForcedVibration, disc: str) -> tuple[Floats, Floats]:

@@ -27,7 +27,7 @@ from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.free import own_stiffness, train_of, twists_of
 from linkwright.engine.train import ReferredTrain, refer
 from linkwright.errors import FindingError, InputError
-from linkwright.machine import Machine
+from linkwright.machine import Machine, Train
 from linkwright.machine.base import suggestion
 
 Floats = NDArray[np.float64]
@@ -110,7 +110,7 @@ def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) 
     train = train_of(machine)
     if not 0 <= frequency < math.inf:
         raise InputError(f"frequency: found {frequency:g} Hz, expected a number of 0 or more")
-    end = list(train.discs)[-1] if end is None else end
+    end = _last(train) if end is None else end
     if end not in train.discs:
         remedy = suggestion(end, train.discs)
         raise InputError(
@@ -136,6 +136,12 @@ def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) 
         end=end,
         residual_torque=residual / float(referred.speed[last]),
     )
+
+
+def _last(train: Train) -> str:
+    """The last disc of a file; rings that only a fluid holds do not count, none follows from them."""
+    loose = {end for shaft in train.shafts.values() if shaft.stiffness == 0 for end in shaft.between[1:]}
+    return [name for name in train.discs if name not in loose][-1]
 
 
 def _state(referred: ReferredTrain, square: float, end: int) -> tuple[Floats, float]:

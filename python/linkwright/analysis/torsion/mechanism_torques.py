@@ -55,11 +55,14 @@ def mechanism_sources(
 
 
 def steady_speed(machine: Machine) -> float:
-    """Mean speed of the crank in rigid steady motion [rad/s].
+    """Mean speed of the crank in rigid steady motion; without a motor its design speed [rad/s].
 
     Parameters
     ----------
     machine : Machine
         The machine.
     """
+    drive = machine.drive
+    if drive is not None and drive.motor is None and drive.speed is not None:
+        return drive.speed
     return steady_state(machine).speed_mean_time

@@ -28,8 +28,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
+from linkwright.analysis.torsion.carried import Carried, carried
 from linkwright.analysis.torsion.excited import Excited, excited
-from linkwright.analysis.torsion.forced import ForcedVibration, responded
 from linkwright.analysis.torsion.free import lead_speeds
 from linkwright.analysis.torsion.synthesis import span
 from linkwright.machine import Machine
@@ -108,17 +108,17 @@ def mesh_torques(machine: Machine, speeds: Floats | None = None) -> MeshTorque:
         Nothing excites the train, or it has no speeds.
     """
     at = excited(machine, speeds)
-    return meshed(at, responded(at))
+    return meshed(at, carried(at))
 
 
-def meshed(at: Excited, found: ForcedVibration) -> MeshTorque:
+def meshed(at: Excited, found: Carried) -> MeshTorque:
     """Torques of the gear stages of a train of which the vibration is there.
 
     Parameters
     ----------
     at : Excited
         The train.
-    found : ForcedVibration
+    found : Carried
         Its vibration.
 
     Returns
@@ -157,13 +157,13 @@ def _mean_outside(at: Excited, J: Floats) -> Floats:
 def _stage_torques(at: Excited, outside: Complexes | Floats, shafts: Complexes) -> Complexes:
     """Torque of each stage at its first disc, (…, stages, speeds)."""
     referred, gears = at.referred, at.train.gears
-    carried = lead_speeds(referred)[:, None] * shafts
+    flow = lead_speeds(referred)[:, None] * shafts
     # The ground is a last disc.
     net = np.zeros((len(outside), len(referred.discs) + 1, outside.shape[-1]), complex)
     net[:, :-1] = referred.speed[:, None] * outside
     for s, (first, second) in enumerate(referred.tip.tolist()):
-        net[:, first] -= carried[:, s]
-        net[:, second] += carried[:, s]
+        net[:, first] -= flow[:, s]
+        net[:, second] += flow[:, s]
     found = np.empty((len(outside), len(gears), outside.shape[-1]), complex)
     rigid = [name for name, each in gears.items() if each.stiffness is None]
     passed = _passed(at, rigid, net[:, :-1])

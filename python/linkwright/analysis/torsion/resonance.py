@@ -12,9 +12,6 @@ from linkwright.analysis.torsion.excited import Excited
 
 Floats = NDArray[np.float64]
 
-# Speeds that differ by a smaller share count once.
-_EQUAL = 1e-9
-
 # Share of the largest ω² below which a motion is without stiffness.
 _FREE = 1e-13
 
@@ -59,24 +56,6 @@ def resonances(at: Excited) -> tuple[Resonance, ...]:
             gap = omega[:, mode] - order * speeds
             found += [Resonance(speed, order, mode) for speed in _zeros(speeds, gap)]
     return tuple(sorted(found))
-
-
-def with_resonances(at: Excited) -> Floats:
-    """Speeds of a train with those of its resonances between them.
-
-    Parameters
-    ----------
-    at : Excited
-        The train.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Increasing [rad/s].
-    """
-    every = np.sort(np.concatenate([at.torques.speeds, [each.speed for each in resonances(at)]]))
-    found: Floats = every[np.diff(every, prepend=-1.0) > _EQUAL * every]
-    return found
 
 
 def _frequencies(at: Excited) -> Floats:

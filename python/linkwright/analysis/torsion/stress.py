@@ -23,10 +23,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
-from linkwright.analysis.torsion.forced import ForcedVibration, forced_vibration
+from linkwright.analysis.torsion.carried import Carried, carried
+from linkwright.analysis.torsion.excited import excited
 from linkwright.analysis.torsion.free import train_of
+from linkwright.analysis.torsion.mechanism_torques import steady_speed
 from linkwright.machine import Machine, Shaft
+from linkwright.machine.drive_train import CRANK
 from linkwright.machine.shaft_limit import ShaftLimit, StressedSection
+from linkwright.machine.train_speeds import speeds as turning
 
 Floats = NDArray[np.float64]
 
@@ -67,15 +71,17 @@ class ShaftStress(Result):
         return self.vibratory / self.continuous
 
 
-def shaft_stress(machine: Machine, found: ForcedVibration | None = None) -> ShaftStress:
+def shaft_stress(machine: Machine, found: Carried | None = None, service: float | None = None) -> ShaftStress:
     """Stresses in the shafts of a train over its speeds.
 
     Parameters
     ----------
     machine : Machine
         With a [train] that something excites.
-    found : ForcedVibration, optional
-        Its vibration, if that is there already.
+    found : Carried, optional
+        What its shafts carry, as `forced_vibration` tells, if that is there already.
+    service : float, optional
+        Speed of the first disc that λ = 1 stands for; without it that of `service_speed` [rad/s].
 
     Returns
     -------
@@ -91,13 +97,13 @@ def shaft_stress(machine: Machine, found: ForcedVibration | None = None) -> Shaf
     ----------
     .. [1] IACS, UR M68, 2021, M68.5.
     """
-    found = forced_vibration(machine) if found is None else found
+    found = carried(excited(machine)) if found is None else found
     known = stressed(train_of(machine).shafts)
     rows = [found.shafts.index(name) for name in known]
     W = np.array([section.section_modulus for section, _ in known.values()])
     K = np.array([limit.concentration for _, limit in known.values()])
     factor = (K / W)[:, None]
-    ratio = found.speeds / service_speed(machine, found.speeds)
+    ratio = found.speeds / (service_speed(machine, found.speeds) if service is None else service)
     permitted = [limit.permitted_stress(ratio, section.diameter) for section, limit in known.values()]
     both = np.array(permitted).reshape(len(known), 2, len(ratio))
     return ShaftStress(
@@ -137,14 +143,18 @@ def service_speed(machine: Machine, speeds: Floats) -> float:
     Parameters
     ----------
     machine : Machine
-        With a train.
+        With a train, or a drive line that twists.
     speeds : ndarray, shape (speeds,)
         At which it is looked at [rad/s].
 
     Returns
     -------
     float
-        `speed_rated` of [train.run], without it the highest speed [rad/s].
+        Of the first disc: `speed_rated` of [train.run]; of a drive line its steady speed; else the highest
+        speed [rad/s].
     """
-    run = machine.train.run if machine.train is not None else None
+    if machine.train is None:
+        train = train_of(machine)
+        return steady_speed(machine) / abs(turning(train)[0][CRANK])
+    run = machine.train.run
     return float(speeds.max()) if run is None else run.service

@@ -8,12 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.analysis.torsion.excited import Excited, excited, is_excited
+from linkwright.analysis.torsion.campbell import CampbellDiagram, campbell
+from linkwright.analysis.torsion.damped import DampedVibration, damped_vibration
+from linkwright.analysis.torsion.engine_data import EngineData, engine_data
+from linkwright.analysis.torsion.excited import Excited, excited, is_excited, pulsates
 from linkwright.analysis.torsion.forced import ForcedVibration, responded
-from linkwright.analysis.torsion.free import FreeVibration, free_vibration
+from linkwright.analysis.torsion.free import FreeVibration, free_vibration, train_of
 from linkwright.analysis.torsion.holzer import HolzerTable, holzer_table
 from linkwright.analysis.torsion.scheme import Scheme, scheme
 from linkwright.analysis.torsion.stress import ShaftStress, shaft_stress
+from linkwright.analysis.torsion.survey import survey
 from linkwright.analysis.torsion.unevenness_along import UnevennessAlong, unevenness_along
 from linkwright.analysis.torsion.verdict import Verdict, verdict
 from linkwright.machine import Machine
@@ -34,6 +38,8 @@ class TorsionStudy:
         Natural frequencies and shapes.
     holzer : tuple of HolzerTable
         At the frequencies asked for.
+    damped : DampedVibration or None
+        The same with damping; None where nothing damps it.
     excited : Excited or None
         Its torques; None where nothing excites it.
     forced : ForcedVibration or None
@@ -44,17 +50,24 @@ class TorsionStudy:
         Whether all limits are kept.
     along : UnevennessAlong or None
         Unevenness over the cylinders of an engine at its speed of service.
+    engine : EngineData or None
+        What an engine is in the train.
+    campbell : CampbellDiagram or None
+        Critical speeds.
     """
 
     machine: Machine
     scheme: Scheme
     free: FreeVibration
     holzer: tuple[HolzerTable, ...]
+    damped: DampedVibration | None = None
     excited: Excited | None = None
     forced: ForcedVibration | None = None
     stress: ShaftStress | None = None
     verdict: Verdict | None = None
     along: UnevennessAlong | None = None
+    engine: EngineData | None = None
+    campbell: CampbellDiagram | None = None
 
     @property
     def findings(self) -> list[str]:
@@ -74,8 +87,14 @@ class TorsionStudy:
         found: dict[str, Any] = {"free": free}
         if self.holzer:
             found["holzer"] = [each.to_dict(curves=True) for each in self.holzer]
+        if self.damped is not None:
+            found["damped"] = self.damped.to_dict(curves=True)
         parts = {"forced": self.forced, "stress": self.stress, "verdict": self.verdict}
         found |= {name: part.to_dict(curves=True) for name, part in parts.items() if part is not None}
+        if self.campbell is not None:
+            found["campbell"] = self.campbell.to_dict()
+        if self.engine is not None:
+            found["engine"] = self.engine.to_dict()
         if self.along is not None:
             found["unevenness_along"] = self.along.to_dict(curves=True)
         return found | {"scheme": self.scheme.to_dict(curves=True)}
@@ -103,8 +122,9 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
     """
     free = free_vibration(machine)
     tables = tuple(holzer_table(machine, frequency) for frequency in holzer)
+    damped = damped_vibration(machine) if _is_damped(machine) else None
     if not is_excited(machine):
-        return TorsionStudy(machine, scheme(machine), free, tables)
+        return TorsionStudy(machine, scheme(machine), free, tables, damped)
     at = excited(machine)
     forced = responded(at)
     stress = shaft_stress(machine, forced)
@@ -113,12 +133,32 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
         scheme(machine),
         free,
         tables,
+        damped,
         at,
         forced,
         stress if stress.shafts else None,
-        verdict(machine),
+        verdict(machine, survey(machine, at, forced)),
         _along(machine, at, forced),
+        _engine(machine),
+        campbell(machine, speed_range=(at.torques.speeds[0], at.torques.speeds[-1])),
     )
+
+
+def _is_damped(machine: Machine) -> bool:
+    """Whether anything of a train damps its vibration."""
+    train = train_of(machine)
+    loads = any(load.exponent > 0 and load.damping_factor > 0 for load in train.loads.values())
+    shafts = any(each.damping or each.loss_factor for each in train.shafts.values())
+    gears = any(each.damping or each.loss_factor for each in train.gears.values())
+    return loads or shafts or gears or any(each.damping for each in train.discs.values())
+
+
+def _engine(machine: Machine) -> EngineData | None:
+    """What an engine is, at its speed of service."""
+    train = machine.train
+    if train is None or train.engine is None or train.run is None:
+        return None
+    return engine_data(train.engine, train.run.service)
 
 
 def _along(machine: Machine, at: Excited, forced: ForcedVibration) -> UnevennessAlong | None:
@@ -136,16 +176,17 @@ def _along(machine: Machine, at: Excited, forced: ForcedVibration) -> Unevenness
 
 def _warnings(study: TorsionStudy) -> Iterator[str]:
     """What one should know beside the numbers."""
-    forced, at = study.forced, study.excited
+    forced, at, train = study.forced, study.excited, study.machine.train
     if forced is None or at is None:
+        if train is not None and pulsates(train):
+            yield "Torques pulsate, but no speeds are given: forced vibration needs [train.run]."
         return
     yield from () if study.verdict is None else (f"{note}." for note in study.verdict.notes)
     if not np.isfinite(forced.shaft_torque_max).all():
         rows = ~np.isfinite(forced.shaft_torque_max).all(axis=0)
         rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in forced.speeds[rows][:4])
         yield f"Nothing damps a resonance that is met exactly, at {rpm} rpm: no amplitude there."
-    engine = study.machine.train.engine if study.machine.train is not None else None
-    if engine is not None and not study.machine.train.loads:  # type: ignore[union-attr]
+    if train is not None and train.engine is not None and not train.loads:
         yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
     rest = forced.orders[~forced.together.together]
     if len(rest):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import lcm
 
 import numpy as np
@@ -60,6 +60,13 @@ def orders_together(values: Floats) -> Orders:
     values : ndarray, shape (orders,)
         Waves a turn, above zero.
     """
+    return _together(tuple(values.tolist()))
+
+
+@lru_cache(maxsize=32)
+def _together(listed: tuple[float, ...]) -> Orders:
+    """The same once for all speeds at which a train is looked at."""
+    values = np.array(listed)
     # Orders behind a gear stage go by its ratio, which need be no fraction: they are counted by the lowest.
     units = [1.0, values.min()] if len(values) else [1.0]
     return max((_counted(values, unit) for unit in units), key=lambda each: each.together.sum())

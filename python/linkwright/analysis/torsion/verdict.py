@@ -8,6 +8,7 @@ it does.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -15,12 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
-from linkwright.analysis.torsion.barred_range import BarredRange, barred_ranges
-from linkwright.analysis.torsion.criteria import CONTACT, VIBRATORY_STRESS, Criterion, criteria
-from linkwright.analysis.torsion.exceedance import Exceedance, exceedances
-from linkwright.analysis.torsion.excited import excited
-from linkwright.analysis.torsion.resonance import with_resonances
-from linkwright.machine import Machine, Shaft
+from linkwright.analysis.torsion.barred_range import BarredRange, surveyed_ranges
+from linkwright.analysis.torsion.criteria import CONTACT, PASSING_STRESS, VIBRATORY_STRESS, Criterion
+from linkwright.analysis.torsion.exceedance import Exceedance
+from linkwright.analysis.torsion.survey import Survey, survey
+from linkwright.machine import Machine
 from linkwright.units import PRESSURE, Kind
 
 Floats = NDArray[np.float64]
@@ -135,13 +135,15 @@ class Verdict(Result):
         return {"state": self.state, "judgements": rows, "barred": barred, "notes": list(self.notes)}
 
 
-def verdict(machine: Machine) -> Verdict:
+def verdict(machine: Machine, seen: Survey | None = None) -> Verdict:
     """Whether a train bears its vibration.
 
     Parameters
     ----------
     machine : Machine
-        With a [train] that something excites, and speeds in [train.run].
+        With a train that something excites, and speeds at which to look.
+    seen : Survey, optional
+        The train looked at closely, if that is there already.
 
     Returns
     -------
@@ -154,35 +156,34 @@ def verdict(machine: Machine) -> Verdict:
     InputError
         Nothing excites the train, or it has no speeds.
     """
-    at = excited(machine)
-    speeds = with_resonances(at)
-    listed = criteria(machine, speeds)
-    over = _exceeded(machine, speeds, listed)
-    if over:
-        # Peaks lie beside resonances, a little.
-        speeds = np.union1d(speeds, [each.peak for each in over])
-        listed = criteria(machine, speeds)
-    barred = barred_ranges(machine) if any(listed[each.row].what == VIBRATORY_STRESS for each in over) else ()
-    rows = [
-        _judged(each, speeds, [one for one in over if one.row == n], barred)
-        for n, each in enumerate(listed)
-        if not np.isnan(each.permitted).all()
-    ]
-    return Verdict(tuple(rows), barred, tuple(_notes(at.train.shafts, speeds, listed)))
+    seen = survey(machine) if seen is None else seen
+    barred = surveyed_ranges(seen)
+    peaks = np.array([each.peak for each in seen.exceeded])
+    beside = seen.criteria_at(peaks) if len(peaks) else seen.criteria
+    rows = []
+    for n, each in enumerate(seen.criteria):
+        over = [column for column, one in enumerate(seen.exceeded) if one.row == n]
+        if each.what != PASSING_STRESS and not np.isnan(each.permitted).all():
+            # Peaks lie beside resonances, a little.
+            worst = _worst(each, seen.speeds) if not over else _worst(beside[n], peaks, over)
+            rows.append(_judged(each, worst, [seen.exceeded[column] for column in over], barred))
+    return Verdict(tuple(rows), barred, tuple(_notes(seen)))
 
 
-def _exceeded(machine: Machine, speeds: Floats, listed: list[Criterion]) -> list[Exceedance]:
-    """Ranges of speeds in which criteria are not kept."""
-    if all((each.ratio <= 1).all() for each in listed):
-        return []
-    return exceedances(lambda at: np.array([each.ratio for each in criteria(machine, at)]), speeds)
+def _worst(each: Criterion, speeds: Floats, places: list[int] | None = None) -> tuple[float, float, float]:
+    """Found, permitted and speed where found over permitted is largest, of some places."""
+    at = np.arange(len(speeds)) if places is None else np.array(places)
+    n = int(at[np.argmax(each.ratio[at])])
+    return float(each.found[n]), float(each.permitted[n]), float(speeds[n])
 
 
 def _judged(
-    each: Criterion, speeds: Floats, over: list[Exceedance], barred: tuple[BarredRange, ...]
+    each: Criterion,
+    worst: tuple[float, float, float],
+    over: list[Exceedance],
+    barred: tuple[BarredRange, ...],
 ) -> Judgement:
-    """One criterion at its worst speed."""
-    worst = int(np.argmax(each.ratio))
+    """One criterion with what follows."""
     state: State = "exceeds" if over else "ok"
     reason = "teeth lose contact" if over and each.what == CONTACT else ""
     ranges = tuple((one.low, one.high) for one in over)
@@ -191,8 +192,7 @@ def _judged(
         reason = next(filter(None, map(_against_barring, mine)), "")
         if not reason:
             state, ranges = "bar", tuple(one.barred for one in mine)
-    at = (float(each.found[worst]), float(each.permitted[worst]), float(speeds[worst]))
-    return Judgement(each.part, each.what, each.kind, *at, state, ranges, reason)
+    return Judgement(each.part, each.what, each.kind, *worst, state, ranges, reason)
 
 
 def _against_barring(each: BarredRange) -> str:
@@ -205,33 +205,31 @@ def _against_barring(each: BarredRange) -> str:
     if not each.may_be_barred:
         highest = each.ratio_permitted
         return f"speeds above {highest:.0%} of the speed of service may not be barred in normal operation"
+    if each.speed_min * each.ratio_max / each.speed_max <= 1.0 <= each.ratio_max:
+        return "the speed of service lies in it"
     return ""
 
 
-def _notes(shafts: dict[str, Shaft], speeds: Floats, listed: list[Criterion]) -> list[str]:
-    """What was not judged."""
-    found = []
-    for each in listed:
+def _notes(seen: Survey) -> Iterator[str]:
+    """What was not judged, parts of which the same is said together."""
+    said: dict[str, list[str]] = {}
+    for each in seen.criteria:
         silent = np.isnan(each.permitted)
         if each.what == CONTACT and silent.all():
-            found.append(f"{each.part}: in a loop of rigid stages, whose torques statics does not tell")
-        elif silent.any():
-            limit = shafts[each.part].limit
+            text = "in a loop of rigid stages, whose torques statics does not tell"
+        elif each.what == VIBRATORY_STRESS and silent.any():
+            limit = seen.at.train.shafts[each.part].limit
             rule = "" if limit is None else f" by {limit.kind}"
-            found.append(f"{each.part}: nothing is said{rule} above {_rpm(float(speeds[silent].min()))}")
-    return [*found, *_strengths(shafts)]
-
-
-def _strengths(shafts: dict[str, Shaft]) -> list[str]:
-    """Where a rule counts a strong steel as a weaker one."""
-    counted: dict[float, list[str]] = {}
-    for name, shaft in shafts.items():
+            text = f"nothing is said{rule} above {_rpm(float(seen.speeds[silent].min()))}"
+        else:
+            continue
+        said.setdefault(text, []).append(each.part)
+    for name, shaft in seen.at.train.shafts.items():
         if shaft.limit is not None and shaft.limit.counted_strength != shaft.limit.tensile_strength:
-            counted.setdefault(shaft.limit.counted_strength or 0.0, []).append(name)
-    return [
-        f"{', '.join(names)}: the rule counts the tensile strength as {strength / 1e6:.4g} MPa"
-        for strength, names in counted.items()
-    ]
+            counted = (shaft.limit.counted_strength or 0.0) / 1e6
+            text = f"the rule counts the tensile strength as {counted:.4g} MPa"
+            said.setdefault(text, []).append(name)
+    yield from (f"{', '.join(parts)}: {text}" for text, parts in said.items())
 
 
 def _lists(ranges: tuple[tuple[float, float], ...]) -> list[list[float]]:

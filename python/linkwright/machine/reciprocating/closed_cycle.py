@@ -30,7 +30,7 @@ from linkwright.machine.reciprocating.wall_heat import GasState, WallHeat
 Array = NDArray[np.float64]
 
 # The iterates contract by an order of magnitude each, so what is left is ten times less.
-_TOLERANCE = 1e-10
+_TOLERANCE = 1e-8
 _ITERATIONS = 60
 # Rich mixtures burn with up to a quarter more fuel than the air suffices for.
 _RICHEST = 1.25

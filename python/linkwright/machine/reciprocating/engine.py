@@ -81,6 +81,13 @@ class ReciprocatingEngine(Checked):
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from self._angle_faults()
         yield from self._part_faults()
+        if self.n_cylinders:
+            yield from self._number_faults()
+        for each in self.gas.cycle_faults(self.strokes):
+            yield InitErrorDetails(type=each["type"], loc=("gas", *each.get("loc", ())), input=each["input"])
+
+    def _number_faults(self) -> Iterator[InitErrorDetails]:
+        """Numbers of cylinders that it has not, and an order that does not fit its cycle."""
         wrong = [*self._order_faults()]
         yield from wrong
         if not wrong:
@@ -88,8 +95,6 @@ class ReciprocatingEngine(Checked):
         for number in self.factors:
             if number not in map(str, range(1, self.n_cylinders + 1)):
                 yield fault("factors", number, found=number, expected=self._numbers())
-        for each in self.gas.cycle_faults(self.strokes):
-            yield InitErrorDetails(type=each["type"], loc=("gas", *each.get("loc", ())), input=each["input"])
 
     def _angle_faults(self) -> Iterator[InitErrorDetails]:
         """Throws that do not start at zero, or no banks."""
@@ -102,11 +107,15 @@ class ReciprocatingEngine(Checked):
 
     def _part_faults(self) -> Iterator[InitErrorDetails]:
         """Parts that are missing, or contradict each other."""
-        if (self.rods == "articulated") != (self.articulated is not None):
-            found = None if self.articulated is None else f"rods {self.rods}"
-            yield fault("articulated", found=found, expected='this table with rods = "articulated" alone')
+        if self.rods == "articulated" and self.articulated is None:
+            expected = "the table of the rods that turn on the master rods"
+            yield fault("articulated", expected=expected, remedy='or give other rods than "articulated"')
+        elif self.rods != "articulated" and self.articulated is not None:
+            expected = f'no such table for rods = "{self.rods}"'
+            remedy = 'make it rods = "articulated", or leave the table out'
+            yield fault("articulated", found="a table", expected=expected, remedy=remedy)
         if self.rods == "articulated" and len(self.banks) < 2:
-            yield fault("banks", found=f"{len(self.banks)} bank", expected="two banks for articulated rods")
+            yield fault("banks", found=f"{len(self.banks)} bank", expected="at least 2 for articulated rods")
         if self.throw is None:
             for name, what in (
                 ("crank_radius", "the radius"),

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
+from linkwright.machine.reciprocating.mean_inertia import mean_inertia
 from linkwright.machine.reciprocating.running_gear import RunningGear, throw_motion
 from linkwright.machine.reciprocating.throw_compliance import compliance
 from linkwright.machine.reciprocating.throw_inertia import throw_inertia
@@ -89,8 +90,7 @@ def own_inertia(engine: ReciprocatingEngine) -> float:
 
 def mean_throw_inertia(engine: ReciprocatingEngine) -> float:
     """Mean over the turn of the inertia of a throw with its rods and pistons [kg m²]."""
-    turn = 2 * math.pi * np.arange(_SAMPLES) / _SAMPLES
-    return float(reduced_throw(engine, turn).inertia_reduced.mean())
+    return mean_inertia(engine.radius, running_gears(engine), own_inertia(engine)).mean
 
 
 def throw_stiffness(engine: ReciprocatingEngine) -> float:

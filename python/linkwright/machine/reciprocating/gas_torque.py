@@ -54,8 +54,8 @@ class GasTorque:
         The same of a cylinder that misfires: it compresses and expands without combustion.
     mean_effective_pressure : ndarray, shape (n,)
         Indicated, of a sound cylinder [Pa].
-    peak_pressure : ndarray, shape (n,)
-        Greatest pressure of a sound cylinder [Pa].
+    pressure : CyclePressure
+        What it is from.
     """
 
     speeds: Array
@@ -63,7 +63,12 @@ class GasTorque:
     firing: Complex
     motored: Complex
     mean_effective_pressure: Array
-    peak_pressure: Array
+    pressure: CyclePressure
+
+    @property
+    def peak_pressure(self) -> Array:
+        """Greatest pressure of a sound cylinder, shape (n,) [Pa]."""
+        return self.pressure.peak_pressure
 
     def of(self, factor: float) -> Complex:
         """Harmonics of a cylinder whose combustion is weaker or stronger.
@@ -153,12 +158,12 @@ def gas_torque(pressure: CyclePressure, cylinder: Cylinder, highest: float = 24.
     # No product of matrices: one so small is shared out to threads that wait longer than they work.
     of_traces = np.einsum("tp,op->to", pressure.traces - pressure.crankcase_pressure, turns * lever)
     # Shares sum to one, so the pressure under the piston is taken off the traces.
-    firing = pressure.firing @ of_traces
+    firing = np.einsum("nt,to->no", pressure.firing, of_traces)
     return GasTorque(
         pressure.speeds,
         orders,
         firing,
-        pressure.motored @ of_traces,
+        np.einsum("nt,to->no", pressure.motored, of_traces),
         np.asarray(firing[:, 0].real * (cylinder.cycle / cylinder.swept_volume)),
-        pressure.peak_pressure,
+        pressure,
     )

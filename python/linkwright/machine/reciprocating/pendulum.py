@@ -34,6 +34,8 @@ from __future__ import annotations
 
 import math
 
+from linkwright.errors import InputError
+
 # The paper's rounding of g (60/π)² [cm/min²], and its g [cm/s²].
 PRINTED_LENGTH = 358000.0
 PRINTED_GRAVITY = 981.0
@@ -147,10 +149,17 @@ def two_point_centre(length_big_end: float, length_small_end: float, distance: f
 
     Raises
     ------
-    ZeroDivisionError
+    InputError
         Both pendulums are as long as the edges are apart, on average: any centre of mass would do.
     """
-    return distance * (length_big_end - distance) / (length_big_end + length_small_end - 2.0 * distance)
+    excess = length_big_end + length_small_end - 2.0 * distance
+    if excess == 0.0:
+        raise InputError(
+            f"length_small_end: found {length_small_end:.6g} m, which with the other pendulum of "
+            f"{length_big_end:.6g} m makes twice the distance of the edges: any centre of mass would do; "
+            "find it by weighing"
+        )
+    return distance * (length_big_end - distance) / excess
 
 
 def printed_inertia_about_edge(weight: float, edge: float, swings_per_minute: float) -> float:

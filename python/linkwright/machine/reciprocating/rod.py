@@ -55,6 +55,9 @@ PositiveInertia = Annotated[float, positive(INERTIA)]
 _WAYS = ("inertia", "inertia_small_end", "distribution", "swing", "two_point_swing")
 # How far the heads reach beyond their axes at most, in lengths of the rod: big ends are about 0.3 large.
 _OVERHANG = 0.5
+# Share of the distance between the edges by which two pendulums together must differ from twice that to tell
+# the centre of mass: there an error of 0.1 % in the swings already moves it by a fifth of its distance.
+_TELLING = 0.01
 
 
 class RodBody(NamedTuple):
@@ -131,6 +134,11 @@ class Rod(Checked):
             remedy = (
                 "no centre of mass between the edges fits: count again, or weigh the rod and give one swing"
             )
+            yield fault("two_point_swing", found=found, expected=expected, remedy=remedy)
+        elif abs(big + small - 2 * apart) < _TELLING * apart:
+            found = f"pendulums of {big:.6g} m in the big end and {small:.6g} m in the small end"
+            expected = f"pendulums that differ from the {apart:.6g} m between the edges"
+            remedy = "so close to it they do not tell the centre of mass: weigh the rod and give one swing"
             yield fault("two_point_swing", found=found, expected=expected, remedy=remedy)
 
     def _body_faults(self) -> Iterator[InitErrorDetails]:

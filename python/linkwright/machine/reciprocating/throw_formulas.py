@@ -20,20 +20,17 @@ and $k \to \infty$ where the bearings have play (*free*). Empirical formulas are
     \text{Zimanenko:}\quad & \frac{L_1 + 0.6 h D_1/L_1}{D_1^4 - d_1^4}
         + \frac{0.8L_2 + 0.2 D_1 B/R}{D_2^4 - d_2^4} + \frac{R \sqrt{R/D_2}}{h B^3}
 
-Carter's and Ker Wilson's coefficients are as consultants restate them, Zimanenko's as textbooks do; they
-were not compared with the originals. Solid models of throws are the check
-(`docs/theory/crank_stiffness.md`).
+The coefficients of the empirical formulas are those commonly quoted, Carter's and Ker Wilson's for instance
+by consultants [2]_; none could be compared with its print, and for Zimanenko's the diameter in its second
+term is read as the journal's. Solid models of throws are the check (`docs/theory/crank_stiffness.md`).
 
 References
 ----------
-.. [1] Dynamics of torsional vibration of V-type engines of aviation ground equipment (in Ukrainian),
-    equation (17), after Seelmann.
-.. [2] Carter, An empirical formula for crankshaft stiffness in torsion, Engineering, 13 July 1928; after
-Feese,
-    Hill, Prevention of torsional vibration problems in reciprocating machinery, 38th Turbomachinery
-    Symposium, 2009.
-.. [3] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 3; after the
-same. .. [4] Zimanenko, in Soviet textbooks on the dynamics of automobile and tractor engines.
+.. [1] Paper 3, equation (17), after Seelmann.
+.. [2] Carter, An empirical formula for crankshaft stiffness in torsion, Engineering, July 1928. Feese, Hill,
+    Prevention of torsional vibration problems in reciprocating machinery, Turbomachinery Symposium 38, 2009.
+.. [3] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 3.
+.. [4] Zimanenko, in Soviet textbooks on the dynamics of automobile and tractor engines.
 """
 
 from __future__ import annotations

@@ -21,8 +21,7 @@ It takes drillings as parallel to the shaft, and every bore as concentric.
 
 References
 ----------
-.. [1] Dynamics of torsional vibration of V-type engines of aviation ground equipment (in Ukrainian),
-    equation (16); the print is damaged, its last terms are read with the diameter of each drilling.
+.. [1] Paper 3, equation (16). Its print is damaged; the last terms are read with the diameters of drillings.
 .. [2] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 2.
 """
 

@@ -1,0 +1,122 @@
+"""``linkwright torsion damper FILE``: the best damper for a mode of a train."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.errors import InputError
+
+if TYPE_CHECKING:
+    from linkwright.analysis.torsion.damper_design import DamperDesign
+
+
+class Kind(StrEnum):
+    """What holds the ring."""
+
+    viscous = "viscous"
+    tuned = "tuned"
+    rubber = "rubber"
+
+
+On = Annotated[
+    str, typer.Option("--on", metavar="DISC", help="The disc that carries it.", show_default=False)
+]
+Ring = Annotated[
+    str,
+    typer.Option(
+        "--ring-inertia", metavar="J", help='Of its ring, such as "0.4 kg m^2".', show_default=False
+    ),
+]
+Mode = Annotated[int, typer.Option("--mode", metavar="N", help="Number of the mode, as f_N in the table.")]
+Kinds = Annotated[
+    Kind, typer.Option("--kind", help="Held by a fluid, by a spring and a fluid, or by rubber.")
+]
+Loss = Annotated[
+    float | None,
+    typer.Option("--loss-factor", metavar="ETA", help="Of the rubber at hand.", show_default=False),
+]
+Folder = Annotated[
+    Path | None,
+    typer.Option(
+        "--out",
+        metavar="DIR",
+        help="Write damper.json, damper.toml and the response as SVG and PNG there.",
+        show_default=False,
+    ),
+]
+
+
+def torsion() -> None:
+    """Torsional vibration: `linkwright torsion FILE` looks at a train; or one of these commands.
+
+    With FILE: --set PATH=VALUE, --json, --holzer HZ, --out DIR.
+    """
+
+
+def damper(
+    file: File,
+    on: On,
+    ring_inertia: Ring,
+    mode: Mode = 1,
+    kind: Kinds = Kind.viscous,
+    loss_factor: Loss = None,
+    set: Sets = None,
+    json: Json = False,
+    out: Folder = None,
+) -> None:
+    """The best damper for a mode: damping, and stiffness, that leave least of its resonance."""
+    from linkwright.analysis.torsion.damper_design import design_damper
+    from linkwright.cli.tables import print_tables
+    from linkwright.files.read import read
+    from linkwright.report.damper_tables import damper_lines, damper_table
+    from linkwright.units import INERTIA
+
+    machine = read(file, set or [])
+    ring = option_value("--ring-inertia", ring_inertia, INERTIA)
+    found = design_damper(machine, on, ring, mode=mode, kind=kind.value, loss_factor=loss_factor)
+    shown = _object(machine.name, found)
+    if json:
+        typer.echo(shown, nl=False)
+    else:
+        print_tables("", [damper_table(found)], ())
+        typer.echo("\n" + damper_lines(found), nl=False)
+    if out is not None:
+        _write(found, shown, out, quiet=json)
+
+
+# In the order of the help.
+TORSION = (damper,)
+
+
+def _object(name: str, found: DamperDesign) -> str:
+    """One JSON object."""
+    from json import dumps
+
+    from linkwright.analysis.result import finite
+
+    results: dict[str, Any] = {"damper": found.to_dict(curves=True)}
+    told: dict[str, Any] = {"machine": name, "results": finite(results), "findings": [], "warnings": []}
+    return dumps(told, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def _write(found: DamperDesign, shown: str, folder: Path, *, quiet: bool) -> None:
+    """Results and figure; says where they are."""
+    from linkwright.plot import damper_figure, svg
+    from linkwright.report.damper_tables import damper_lines
+
+    figure = damper_figure(found)
+    texts = {"damper.json": shown, "damper.toml": damper_lines(found), "damper.svg": svg(figure)}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in texts.items():
+            (folder / name).write_text(text, encoding="utf-8")
+        figure.savefig(folder / "damper.png", dpi=150)
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
+    listed = "\n".join(f"  {folder / name}" for name in (*texts, "damper.png"))
+    typer.echo(f"Written:\n{listed}", err=quiet)
