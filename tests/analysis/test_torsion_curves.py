@@ -1,4 +1,4 @@
-"""Tables over angle and curves that trains in motion are made of, and waterfalls, against SciPy and closed forms."""
+"""Tables over angle, curves and waterfalls of trains in motion, against SciPy and closed forms."""
 
 from __future__ import annotations
 

@@ -104,7 +104,7 @@ def vars_of(train: MovingTrain) -> dict[str, object]:
 
 
 def test_one_throw_follows_its_energy() -> None:
-    """J(θ) ω² stays, so the speed is known at every angle: with the inertia itself, not with a table of it."""
+    """J(θ) ω² stays, so the speed is known at every angle: by the inertia itself, not by a table of it."""
     J = 1.0 + 0.35 * np.cos(2 * TURN) + 0.1 * np.sin(TURN)
     train = chain([0.0], [], inertias=[variable_inertia(0, J, -0.7 * np.sin(2 * TURN) + 0.1 * np.cos(TURN))])
     found = follow_train(train, duration=2.0, speed=40.0, accuracy=1e-11)
@@ -118,7 +118,7 @@ def test_one_throw_follows_its_energy() -> None:
 
 
 def test_resonance_passed_as_by_scipy() -> None:
-    """A disc with J(θ) and order 2 over its angle runs up through its resonance: SciPy's integrators, written out anew."""
+    """A disc with J(θ) and order 2 runs up through its resonance: SciPy on equations written out anew."""
     gain, M2, k, c, J2 = 30.0, 60.0, 2.5e4, 4.0, 1.6
     inertia = 0.5 + 0.06 * np.cos(2 * TURN)
     torques = [
@@ -224,7 +224,7 @@ def test_hysteresis_as_viscous_damping() -> None:
 
 
 def test_two_phase_short_circuit_from_flux_linkages() -> None:
-    """Two phases hold their flux linkage while the rotor turns: torque as its product with the current, per unit."""
+    """Phases hold their flux linkage while the rotor turns: torque as its product with the current."""
     x, omega, M = 0.16, 2 * np.pi * 50, 900.0
     three, two = (
         short_circuit("x", 1, torque=M, reactance=x, speed=omega, decay=np.inf, phases=phases)
@@ -285,7 +285,7 @@ def test_stiff_shafts_take_implicit_steps() -> None:
 
 
 def test_loaded_start_is_quiet() -> None:
-    """Under constant torques a loaded start has nothing to swing, over a soft curve, a gap, and a damper's fluid."""
+    """Under constant torques a loaded start has nothing to swing: over a soft curve, a gap, a fluid."""
     x = np.linspace(0, 0.2, 9)
     curve = odd(x, 2e3 * x + 4e5 * x**3, 2e3 + 1.2e6 * x**2)
     torques = [TrainTorque("engine", 0, 900.0), TrainTorque("load", 3, -900.0)]

@@ -1,4 +1,4 @@
-"""A curve through points, as the core takes it: cubics between them, with the slopes just before and after each."""
+"""A curve through points, as the core takes it: cubics between them, with slopes before and after each."""
 
 from __future__ import annotations
 

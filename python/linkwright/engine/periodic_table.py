@@ -14,8 +14,8 @@ trigonometric
 References
 ----------
 .. [1] Trefethen, Spectral Methods in MATLAB, 2000, chapter 3: differentiation by the discrete Fourier
-transform. .. [2] de Boor, A Practical Guide to Splines, 1978, chapter IV: cubic splines by the slopes at
-their knots.
+transform.
+.. [2] de Boor, A Practical Guide to Splines, 1978, chapter IV: cubic splines by the slopes at their knots.
 """
 
 from __future__ import annotations

@@ -8,8 +8,8 @@ over the angle.
 The torque of a generator in a short circuit follows from the flux that stays in its windings. In per unit of
 its apparent power over its speed, without load before, and for the worst instant of switching,
 
-.. math:: M_3 = \frac{1}{x''}\sin\omega t, \qquad M_2 = \frac{1}{x''}\left(\sin\omega t - \tfrac12\sin
-2\omega t\right)
+.. math:: M_3 = \frac{1}{x''}\sin\omega t, \qquad
+    M_2 = \frac{1}{x''}\left(\sin\omega t - \tfrac12\sin 2\omega t\right)
 
 for three phases and for two, with the subtransient reactance :math:`x''`, both decaying. The greatest of M_2
 is :math:`\tfrac34\sqrt3/x''`, at a third of a period.
@@ -194,7 +194,7 @@ def short_circuit(
     """
     size = -torque / reactance
     first = Decaying(start, end, 1.0 / decay, speed)
-    listed = (TrainTorque(name, on, size, first),)
-    if phases == 2:
-        listed += (TrainTorque(name, on, -0.5 * size, replace(first, speed=2 * speed)),)
-    return listed
+    simple = TrainTorque(name, on, size, first)
+    if phases == 3:
+        return (simple,)
+    return simple, TrainTorque(name, on, -0.5 * size, replace(first, speed=2 * speed))

@@ -1,8 +1,7 @@
 r"""A train in motion in the core's terms: discs with inertias that change with the angle, shafts, torques.
 
-.. math:: J(\theta)\,\ddot\theta + \tfrac12 J'(\theta)\,\dot\theta^2 + c\,\dot\theta + d\,(\dot\theta -
-\omega)
-    + \sum M_\mathrm{shaft} = \sum M
+.. math:: J(\theta)\,\ddot\theta + \tfrac12 J'(\theta)\,\dot\theta^2 + c\,\dot\theta
+    + d\,(\dot\theta - \omega) + \sum M_\mathrm{shaft} = \sum M
 
 with the speed ω of the train as a whole, the mean over its inertia.
 
@@ -103,8 +102,7 @@ def variable_inertia(
         if not off <= _SLOPES_AGREE * float(np.abs(given).max() or J.mean()):
             raise InputError(
                 f"slope of an inertia: differs by {off:.3g} kg m²/rad from that of its {len(J)} samples; "
-                "sample "
-                "the turn more finely"
+                "sample the turn more finely"
             )
     return VariableInertia(on, table, phase)
 
@@ -279,15 +277,19 @@ class MovingTrain:
         Moved
             Samples beyond the time reached are NaN.
         """
-        lists = [np.ascontiguousarray(each, dtype=np.float64) for each in (angle, speed, times)]
-        end_time, kind = float(lists[2][-1]), _METHODS.index(method)
-        found = self.system.follow(*lists, start, end_time, accuracy, kind, steps_max)
-        end, used, counts, scalars, samples, extremes, work = found
+        at, turning, sampled = (
+            np.ascontiguousarray(each, dtype=np.float64) for each in (angle, speed, times)
+        )
+        kind = _METHODS.index(method)
+        found = self.system.follow(at, turning, sampled, start, float(sampled[-1]), accuracy, kind, steps_max)
+        end, used, (steps, rejected, evaluations), scalars, samples, extremes, work = found
         n, m = self.masses, len(self.shafts)
         return Moved(
-            end,
-            _METHODS[used],
-            *counts,
+            end=end,
+            method=_METHODS[used],
+            steps=steps,
+            rejected=rejected,
+            evaluations=evaluations,
             time=scalars[0],
             fastest=scalars[1],
             energies=(scalars[2], scalars[3], scalars[4], scalars[5]),
@@ -381,4 +383,6 @@ def viscous(stiffness: ArrayLike, loss_factor: ArrayLike, omega: ArrayLike) -> F
     ndarray
         Of the same shape [N m s/rad].
     """
-    return np.asarray(stiffness, dtype=float) * np.asarray(loss_factor, dtype=float) / np.asarray(omega)
+    k, eta = np.asarray(stiffness, dtype=float), np.asarray(loss_factor, dtype=float)
+    damping: Floats = k * eta / np.asarray(omega, dtype=float)
+    return damping

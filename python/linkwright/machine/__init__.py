@@ -19,9 +19,9 @@
 | `shaft_limit`, `propulsion_shaft`, `crankshaft_limit` | what shafts bear, given or by the rules of ships |
 | `reciprocating/` | parts of reciprocating engines |
 | `train`, `train_speeds`, `train_faults` | torsional trains, speeds of their discs, faults |
-| `coupling`, `damper`, `train_torques`, `train_run` | what else a train has: couplings, dampers, torques,
-its run | | `whole_train` | engine, couplings and dampers written out as discs and shafts |
 | `train_transient`, `train_event` | manoeuvres of trains, what happens in them |
+| `coupling`, `damper`, `train_torques`, `train_run` | couplings, dampers, torques on a train, its run |
+| `whole_train` | engine, couplings and dampers written out as discs and shafts |
 | `linkage` | the whole mechanism: elements of the file, and what cams and a pumping unit expand into |
 | `body`, `loads` | masses; forces and torques |
 | `formula` | formulas as texts |

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
@@ -53,9 +53,9 @@ class TrainTransient(Checked):
     angle: Angle = Field(0.0, description="Of the first disc at the start.")
     balanced: bool = Field(
         True,
-        description="Whether mean torques balance at the speed of the start, as in steady running: loads follow an "
-        "engine, a train without engine and motor is driven as much as it needs. From rest they are as "
-        "given.",
+        description="Whether mean torques balance at the speed of the start, as in steady running: loads "
+        "follow an engine, a train without engine and motor is driven as much as it needs. From rest they "
+        "are as given.",
     )
     loaded: bool = Field(
         True,
@@ -63,14 +63,14 @@ class TrainTransient(Checked):
     )
     settle: Instant | None = Field(
         None,
-        description="Time before the start in which it swings in, unrecorded. Without it, 1 s for a motion that starts in "
-        "balance and loaded, else none.",
+        description="Time before the start in which it swings in, unrecorded. Without it, 1 s for a motion "
+        "that starts in balance and loaded, else none.",
     )
     fuel: Share = Field(1.0, description="Share of the combustion in all cylinders at the start.")
     gas_speed: PositiveSpeed | None = Field(
         None,
-        description="At which the gas torques over the crank angle are taken. Without it, the speed of the start, or "
-        "that of service.",
+        description="At which the gas torques over the crank angle are taken. Without it, the speed of the "
+        "start, or that of service.",
     )
     motors: dict[Name, TrainMotor] = Field(default_factory=dict, description="Motors by name.")
     events: tuple[AnyTrainEvent, ...] = Field((), description="What happens on the way.")
@@ -79,8 +79,8 @@ class TrainTransient(Checked):
     )
     loss_mode: Annotated[int, Field(ge=1)] | None = Field(
         None,
-        description="Mode of vibration in which viscous damping loses what hysteresis would. Without it, for each shaft "
-        "the lowest mode of whose energy it stores a twentieth or more.",
+        description="Mode of vibration in which viscous damping loses what hysteresis would. Without it, for "
+        "each shaft the lowest mode of whose energy it stores a twentieth or more.",
     )
     accuracy: Annotated[float, Field(ge=1e-13, le=1e-3)] = Field(1e-8, description="Relative, of a step.")
     method: Literal["auto", "explicit", "implicit"] = Field(
@@ -131,9 +131,9 @@ def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitError
                 yield from _unknown(event.on, discs, "disc", "events", n, "on")
 
 
-def _unknown(name: str, known: object, word: str, *place: str | int) -> Iterator[InitErrorDetails]:
+def _unknown(name: str, known: Iterable[str], word: str, *place: str | int) -> Iterator[InitErrorDetails]:
     """The fault of a name that is not known."""
-    listed = tuple(known)  # type: ignore[call-overload]
+    listed = tuple(known)
     if name not in listed:
         remedy = close_match(name, listed) or suggestion(name, listed) or f"there is no {word}"
         yield fault("train", "transient", *place, found=name, expected=f"the name of a {word}", remedy=remedy)

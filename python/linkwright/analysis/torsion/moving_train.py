@@ -119,9 +119,8 @@ def _shaft_damping(referred: ReferredTrain, manoeuvre: TrainTransient) -> tuple[
     low, high = (float(each) / (2 * np.pi) for each in (omega[lossy].min(), omega[lossy].max()))
     span = f"{low:.4g} Hz" if low == high else f"{low:.4g} to {high:.4g} Hz"
     note = (
-        f"hysteresis of shafts counts as the viscous damping that loses as much at {span}, {where}: it "
-        "damps less "
-        "below, more above"
+        f"hysteresis of shafts counts as the viscous damping that loses as much at {span}, {where}: "
+        "it damps less below, more above"
     )
     return own + viscous(referred.stiffness / lead**2, referred.loss_factor, omega), [note]
 
@@ -160,9 +159,8 @@ def _engine(train: Train, manoeuvre: TrainTransient) -> list[TrainTorque]:
     speed = manoeuvre.gas_speed or manoeuvre.speed or service
     if not speed:
         raise InputError(
-            "train.transient.gas_speed: found nothing, expected the speed at which the gas torques are "
-            "taken, as the "
-            "motion starts at rest and [train.run] gives no speed of service"
+            "train.transient.gas_speed: found nothing, expected the speed at which gas torques are taken, as "
+            "the motion starts at rest and [train.run] gives no speed of service"
         )
     run = train.run
     highest = TrainRun.model_fields["orders_max"].default if run is None else run.orders_max
@@ -184,8 +182,8 @@ def _outside(whole: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> 
             if isinstance(event, MotorSwitch) and event.motor == name
         ]
         weight = switched(changes, float(motor.on_at_start))
-        law = OverSpeed(motor_curve(motor.motor))
-        yield TrainTorque(name, place[motor.on], 1.0, law, weight=weight)
+        torque = OverSpeed(motor_curve(motor.motor))
+        yield TrainTorque(name, place[motor.on], 1.0, torque, weight=weight)
 
 
 def _load(name: str, load: TrainLoad, manoeuvre: TrainTransient, on: int) -> Iterator[TrainTorque]:
@@ -193,8 +191,7 @@ def _load(name: str, load: TrainLoad, manoeuvre: TrainTransient, on: int) -> Ite
     if load.exponent < 0 and not manoeuvre.speed:
         raise InputError(
             f"train.loads.{name}.exponent: found {load.exponent:g}, expected 0 or more in a motion from "
-            "rest, where the "
-            "load would grow beyond bounds"
+            "rest, where the load would grow beyond bounds"
         )
     steps = [
         (event.time, event.factor, event.over)
@@ -211,7 +208,7 @@ def _load(name: str, load: TrainLoad, manoeuvre: TrainTransient, on: int) -> Ite
 def _shapes(
     harmonics: Sequence[Harmonic] | Sequence[LoadHarmonic], mean: float
 ) -> list[tuple[PeriodicTable, float, float]]:
-    """Tables with pitch and phase of orders: together if they repeat together within some turns, else each alone."""
+    """Tables with pitch and phase: one for orders that repeat together within some turns, else one each."""
     orders = np.array([each.order for each in harmonics])
     sizes = [each.torque if isinstance(each, Harmonic) else each.share for each in harmonics]
     phases = [each.phase for each in harmonics]
@@ -238,8 +235,8 @@ def _events(manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainT
             case TorqueCourse():
                 yield TrainTorque(name, place[event.on], weight=straight(event.times, event.torque))
             case SpeedCourse():
-                law = Following(event.gain, straight(event.times, event.speed))
-                yield TrainTorque(name, place[event.on], 1.0, law)
+                lead = Following(event.gain, straight(event.times, event.speed))
+                yield TrainTorque(name, place[event.on], 1.0, lead)
             case ShortCircuit():
                 yield from short_circuit(
                     name,
@@ -265,7 +262,10 @@ def _balanced(
     if train.engine is None and not manoeuvre.motors:
         driver = place[train.driver or next(iter(train.discs))]
         drive = TrainTorque("driver", driver, -left / float(found.speed[driver]))
-        note = f"{found.discs[driver]} is driven by a constant {drive.scale:.5g} N m, what the loads need at the start"
+        note = (
+            f"{found.discs[driver]} is driven by a constant {drive.scale:.5g} N m, what the loads need at "
+            "the start"
+        )
         return replace(found, torques=(*found.torques, drive), notes=(*found.notes, note))
     needed = sum(
         float(found.speed[place[load.on]])

@@ -8,8 +8,9 @@ are chosen by their error; none goes over a switch.
 References
 ----------
 .. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5, and II, IV.8: DOP853 and
-RADAU5. .. [2] Eksergian, Dynamical analysis of machines, J. Franklin Inst. 209 (1930): inertia that changes
-with the angle.
+RADAU5.
+.. [2] Eksergian, Dynamical analysis of machines, J. Franklin Inst. 209 (1930): inertia that changes with the
+angle.
 """
 
 from __future__ import annotations
@@ -181,7 +182,7 @@ def follow_train(
     accuracy : float
         Relative, of a step.
     method : str
-        "explicit" steps of order 8 follow every swing; "implicit" ones of order 5 let die out those that are faster
+        "explicit" steps of order 8 follow every swing; "implicit" ones of order 5 let die out those faster
         than a step; "auto" takes these where stability would ask the others for more than 200 000 steps.
     steps_max : int
         Steps after which it is given up.

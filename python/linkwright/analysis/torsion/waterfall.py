@@ -119,7 +119,7 @@ def waterfall(
     hop = window / _HOPS
     starts = phi[0] + hop * np.arange(int((phi[-1] - phi[0] - window) / hop + 1e-9) + 1)
     share = (np.arange(n) + 0.5) / n
-    orders = step * np.arange(1, round(highest / step) + 1)
+    orders: Floats = step * np.arange(1.0, round(highest / step) + 1)
     weight = 1 - np.cos(2 * np.pi * share)
     waves = np.exp(-1j * window * np.outer(share, orders)) * weight[:, None] * (2 / weight.sum())
     places = starts[:, None] + window * share
@@ -161,8 +161,7 @@ def _require(t: Floats, phi: Floats, x: Floats, highest: float, step: float, tur
         most = 0.5 * np.pi / advance.max()
         raise InputError(
             f"highest: found order {highest:g}, expected {most:.3g} at most with these samples; sample the "
-            "motion more "
-            "finely: sample_time"
+            "motion more finely: sample_time"
         )
 
 
