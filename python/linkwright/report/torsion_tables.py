@@ -123,6 +123,8 @@ def _beside(word: str, value: float, used: float, unit: str) -> Row:
 
 def _shown(value: float, unit: str) -> str:
     """A quantity for people: stresses in MPa."""
+    if np.isinf(value):
+        return "no bound"
     return with_unit(value / 1e6, "MPa") if unit == "Pa" else with_unit(value, unit)
 
 
@@ -153,7 +155,7 @@ def _critical(found: CampbellDiagram) -> Table:
             str(each.mode),
             f"{each.frequency:.5g}",
             _rpm(each.speed),
-            "–" if each.resonance_amplitude is None else f"{np.degrees(each.resonance_amplitude):.3g}",
+            _amplitude(each.resonance_amplitude),
         )
         for each in found.critical
         if each in kept
@@ -164,9 +166,16 @@ def _critical(found: CampbellDiagram) -> Table:
     return Table("critical_speeds", title, heads, rows)
 
 
+def _amplitude(theta: float | None) -> str:
+    """Degrees, where an amplitude was found."""
+    if theta is None:
+        return "–"
+    return number(np.degrees(theta), 3) if np.isfinite(theta) else "∞"
+
+
 def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
     """Torques of every shaft at their worst, and in service."""
-    at = _service(study, forced)
+    at = service_place(study, forced)
     rows: list[Row] = []
     for s, name in enumerate(forced.shafts):
         vibratory = forced.shaft_torque_vibratory[s]
@@ -188,7 +197,7 @@ def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
 
 def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
     """Unevenness along the train in service."""
-    at = _service(study, forced)
+    at = service_place(study, forced)
     parts = [forced.unevenness, forced.unevenness_rigid, forced.unevenness_torsional]
     columns = [[_finite(value, 3) for value in part[:, at].tolist()] for part in parts]
     heads = ["disc", "", "δ", "as a whole", "torsional"]
@@ -202,8 +211,21 @@ def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
     return Table("unevenness", title, tuple(heads), rows)
 
 
-def _service(study: TorsionStudy, forced: ForcedVibration) -> int:
-    """Place of the speed of service; of a drive line that of the middle."""
+def service_place(study: TorsionStudy, forced: ForcedVibration) -> int:
+    """Where tables and figures look at the train in service.
+
+    Parameters
+    ----------
+    study : TorsionStudy
+        The study.
+    forced : ForcedVibration
+        Its vibration.
+
+    Returns
+    -------
+    int
+        Place of the speed next to that of service; of a drive line the middle of its speeds.
+    """
     run = study.machine.train.run if study.machine.train is not None else None
     if run is None:
         return len(forced.speeds) // 2

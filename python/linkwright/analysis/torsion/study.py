@@ -186,6 +186,10 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
         rows = ~np.isfinite(forced.shaft_torque_max).all(axis=0)
         rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in forced.speeds[rows][:4])
         yield f"Nothing damps a resonance that is met exactly, at {rpm} rpm: no amplitude there."
+    run = None if train is None else train.run
+    if run is not None and not run.speed_min <= run.service <= run.speed_max:
+        near = min(max(run.service, run.speed_min), run.speed_max) * 30 / np.pi
+        yield f"The speed of service is not among those looked at: what is told of it is at {near:.5g} rpm."
     if train is not None and train.engine is not None and not train.loads:
         yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
     rest = forced.orders[~forced.together.together]

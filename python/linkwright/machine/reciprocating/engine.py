@@ -81,6 +81,7 @@ class ReciprocatingEngine(Checked):
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from self._angle_faults()
         yield from self._part_faults()
+        yield from self._limit_fault()
         if self.n_cylinders:
             yield from self._number_faults()
         for each in self.gas.cycle_faults(self.strokes):
@@ -129,6 +130,13 @@ class ReciprocatingEngine(Checked):
             yield fault(
                 "crank_radius", found=self.crank_radius, expected=expected, remedy="give one of the two"
             )
+
+    def _limit_fault(self) -> Iterator[InitErrorDetails]:
+        """A limit of stress without the section where it counts."""
+        limit = self.crank_limit
+        if limit is not None and limit.needs_section and not limit.has_section:
+            expected = "the diameter where the stress counts, or [train.engine.throw] with its pin"
+            yield fault("limit", "diameter", expected=expected)
 
     def _order_faults(self) -> Iterator[InitErrorDetails]:
         """A firing order that is no permutation of the cylinders."""
