@@ -8,7 +8,9 @@ import pytest
 
 import linkwright as lw
 from linkwright.analysis.torsion.engine_torques import cylinder_torques, engine_sources
+from linkwright.analysis.torsion.excited import excited
 from linkwright.analysis.torsion.forced import forced_vibration
+from linkwright.analysis.torsion.survey import between
 from linkwright.errors import MachineError
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.reciprocating.engine_motion import mean_throw_inertia, reduced_throw
@@ -100,6 +102,31 @@ def test_parallel_twin_fires_every_turn() -> None:
     assert firing_angles(twin.places, twin.firing_order, twin.cycle) == ([0.0, 2 * math.pi], 4 * math.pi)
 
 
+def test_two_strokes_on_one_throw_angle_fire_together() -> None:
+    twin = engine(
+        strokes=2, throws=[0.0, 0.0], banks=[0.0], firing_order=[1, 2], gas={**V12["gas"], "valves": {}}
+    )
+    assert firing_angles(twin.places, twin.firing_order, twin.cycle) == ([0.0, 0.0], 2 * math.pi)
+    # Which of the two comes first in the order has no meaning.
+    alone, other = (source.harmonics for source in engine_sources(twin, SPEEDS))
+    np.testing.assert_allclose(alone, other, rtol=1e-12)
+
+
+def test_order_is_not_made_to_fit_by_turning_back() -> None:
+    # Backwards through the dead centres takes two turns; the twins at 0° cannot take one of them back.
+    with pytest.raises(MachineError, match=r"comes round after 2 turns"):
+        machine(
+            engine={
+                **V12,
+                "strokes": 2,
+                "throws": [a * DEG for a in (0, 0, 120, 240)],
+                "banks": [0.0],
+                "firing_order": [1, 2, 3, 4],
+                "gas": {**V12["gas"], "valves": {}},
+            }
+        )
+
+
 def test_two_strokes_fire_every_turn() -> None:
     two = single(strokes=2, gas={**V12["gas"], "valves": {}})
     assert firing_angles(two.places, two.firing_order, two.cycle)[1] == pytest.approx(2 * math.pi)
@@ -172,6 +199,30 @@ def test_loads_take_what_the_engine_gives() -> None:
     np.testing.assert_allclose(found.mean_torques[0], mean / 6, rtol=1e-6)
 
 
+def test_engine_without_a_load_speeds_all_up_rings_too() -> None:
+    ring = {"on": "flywheel", "ring_inertia": 0.8, "damping": 30.0}
+    at = excited(machine(loads={}, dampers={"ring": ring}), SPEEDS)
+    J = at.referred.inertia
+    faster = at.torques.mean.sum(axis=0) / J.sum()
+    of = dict(zip(at.referred.shafts, at.mean_torques, strict=True))
+    # What each shaft speeds up: flywheel and ring, of which the fluid takes the ring.
+    np.testing.assert_allclose(of["out"], (6.0 + 0.8) * faster, rtol=1e-9)
+    np.testing.assert_allclose(of["ring"], 0.8 * faster, rtol=1e-9)
+
+
+def test_ring_of_a_balanced_train_takes_nothing() -> None:
+    ring = {"on": "flywheel", "ring_inertia": 0.8, "damping": 30.0}
+    at = excited(machine(dampers={"ring": ring}), SPEEDS)
+    assert not at.mean_torques[at.referred.shafts.index("ring")].any()
+
+
+def test_survey_of_few_speeds_computes_those_between() -> None:
+    few = machine(run={"speed_min": 50.0, "speed_max": 170.0, "points": 3})
+    here = np.array([93.0])
+    found, exact = between(few, excited(few), here), excited(few, here)
+    np.testing.assert_allclose(found.torques.harmonics, exact.torques.harmonics, rtol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("entries", "key"),
     [
@@ -181,6 +232,7 @@ def test_loads_take_what_the_engine_gives() -> None:
         ({"articulated": ARTICULATED["articulated"]}, "articulated"),
         ({"throw_inertia": None}, "throw_inertia"),
         ({"stiffness": None}, "stiffness"),
+        ({"limit": {"stress_permitted": 4e7}}, "limit.diameter"),
         ({"factors": {"13": 0.5}}, "factors.13"),
         ({"gas": {**V12["gas"], "valves": {"exhaust_opens": 0.1}}}, "gas"),
     ],

@@ -11,7 +11,7 @@ import linkwright as lw
 from linkwright.analysis.torsion.excited import excited
 from linkwright.analysis.torsion.forced import angular_deflection, forced_vibration
 from linkwright.analysis.torsion.synthesis import coefficients, orders_together, span, waveform
-from linkwright.errors import InputError
+from linkwright.errors import InputError, MachineError
 
 
 def machine(**train: Any) -> lw.Machine:
@@ -221,6 +221,14 @@ def test_resonance_without_damping_is_no_number() -> None:
     found = forced_vibration(held, np.array([8.0, 9.0]))
     assert not np.isfinite(found.shaft_torque_max[0, 0])
     assert np.isfinite(found.shaft_torque_max[0, 1])
+
+
+@pytest.mark.parametrize("table", ["loads", "excitations"])
+def test_exponents_beyond_all_laws_are_refused(table: str) -> None:
+    entry: dict[str, Any] = {"on": "a", "speed": 1e-4, "exponent": 400.0}
+    entry |= {"torque": 1.0} if table == "loads" else {"harmonics": [{"order": 1, "torque": 1.0}]}
+    with pytest.raises(MachineError, match=f"train.{table}.x.exponent"):
+        machine(discs={"a": {"inertia": 1.0}}, **{table: {"x": entry}})
 
 
 def test_mean_torques_balance() -> None:

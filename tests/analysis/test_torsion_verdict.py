@@ -231,3 +231,30 @@ def test_goes_to_json() -> None:
     assert again["state"] == "exceeds"
     assert {each["unit"] for each in again["judgements"]} == {"Pa", "N m", "W"}
     assert again["barred"][0]["shaft"] == "slow"
+
+
+def test_resonance_without_damping_has_no_bound() -> None:
+    # ω² = 2k/J = 256² is met by the second order at 128 rad/s, to the last digit.
+    subject = lw.loads("""
+format = 1
+name = "Undamped"
+[train.discs]
+a = { inertia = 1 }
+b = { inertia = 1 }
+[train.shafts.s]
+between = ["a", "b"]
+stiffness = 32768
+limit = { torque_permitted = 100 }
+[train.excitations.e]
+on = "a"
+harmonics = [{ order = 2, torque = 10 }]
+[train.run]
+speed_min = 64
+speed_max = 192
+points = 3
+""")
+    found = verdict(subject)
+    (one,) = found.judgements
+    assert (one.state, one.found, one.speed) == ("exceeds", math.inf, 128.0)
+    assert "torque without bound" in one.words
+    json.dumps(finite(found.to_dict()), allow_nan=False)

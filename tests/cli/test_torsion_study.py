@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -91,6 +92,42 @@ def test_speeds_are_asked_for(tmp_path: Path) -> None:
     assert found.exit_code == 0
     # Without speeds there is free vibration alone, and the reader is told what to give.
     assert "[train.run]" in found.stdout
+
+
+RUN = """
+[train.excitations.e]
+on = "a"
+harmonics = [{ order = 2, torque = 10 }]
+[train.run]
+speed_min = 64
+speed_max = 192
+points = 3
+"""
+ONE_DISC = 'format = 1\nname = "One"\n[train.discs]\na = { inertia = 1 }\n' + RUN
+UNDAMPED = (
+    'format = 1\nname = "Two"\n[train.discs]\na = { inertia = 1 }\nb = { inertia = 1 }\n[train.shafts.s]\n'
+    'between = ["a", "b"]\nstiffness = 32768\n' + RUN + "speed_rated = 128\n"
+)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("text", [ONE_DISC, UNDAMPED])
+def test_page_of_a_train_without_shafts_and_of_one_without_bounds(text: str, tmp_path: Path) -> None:
+    file = tmp_path / "train.toml"
+    file.write_text(text, encoding="utf-8")
+    found = run(str(file), "--out", str(tmp_path))
+    assert found.exit_code == 0, found.output
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert ('id="figure-torques"' in page) == ("train.shafts" in text)
+    assert not re.search(r">[^<]*\b(nan|inf)\b[^<]*<", page)
+    assert not re.search(r"\b(nan|inf)\b", found.stdout)
+
+
+def test_speed_of_service_that_is_not_looked_at_is_told(tmp_path: Path) -> None:
+    file = tmp_path / "train.toml"
+    file.write_text(UNDAMPED.replace("speed_rated = 128", "speed_rated = 300"), encoding="utf-8")
+    told = json.loads(run(str(file), "--json").stdout)
+    assert any("speed of service" in each and "1833.5 rpm" in each for each in told["warnings"])
 
 
 @pytest.mark.parametrize(

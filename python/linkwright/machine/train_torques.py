@@ -22,9 +22,23 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, Description, fault
-from linkwright.machine.element import Number, PositiveNumber
+from linkwright.machine.element import PositiveNumber
 from linkwright.machine.train_base import PositiveSpeed, PositiveTorque
-from linkwright.units import RATIO, TORQUE, Angle, not_negative
+from linkwright.units import COUNT, RATIO, TORQUE, Angle, Bound, Quantity, not_negative
+
+# Beyond any law of a torque over the speed; powers of it stay numbers.
+_STEEPEST = 10.0
+Exponent = Annotated[
+    float,
+    Quantity(
+        COUNT,
+        Bound(
+            f" between −{_STEEPEST:.0f} and {_STEEPEST:.0f},",
+            {"minimum": -_STEEPEST, "maximum": _STEEPEST},
+            lambda value: abs(value) <= _STEEPEST,
+        ),
+    ),
+]
 
 
 class LoadHarmonic(Description):
@@ -32,7 +46,7 @@ class LoadHarmonic(Description):
 
     order: PositiveNumber = Field(description="Waves a turn of its disc; of a propeller, its blades.")
     share: Annotated[float, not_negative(RATIO)] = Field(description="Amplitude over the mean torque.")
-    phase: Angle = Field(0.0, description="Lead of its greatest resistance before angle 0 of the disc.")
+    phase: Angle = Field(0.0, description="β of the resistance cos(νφ + β), φ the angle of the disc.")
 
 
 class TrainLoad(Checked):
@@ -41,7 +55,7 @@ class TrainLoad(Checked):
     on: str = Field(description="The disc that drives it.")
     torque: PositiveTorque = Field(description="Mean resistance at the speed given.")
     speed: PositiveSpeed = Field(description="Of the disc, at which the torque is given.")
-    exponent: Number = Field(
+    exponent: Exponent = Field(
         2.0, description="Of the torque over the speed: 2 for a propeller, 0 for constant torque."
     )
     damping_factor: Annotated[float, not_negative(RATIO)] = Field(
@@ -66,7 +80,7 @@ class Harmonic(Description):
 
     order: PositiveNumber = Field(description="Waves a turn of its disc.")
     torque: Annotated[float, not_negative(TORQUE)] = Field(description="Amplitude.")
-    phase: Angle = Field(0.0, description="Lead of the greatest torque before angle 0 of the disc.")
+    phase: Angle = Field(0.0, description="β of cos(νφ + β), φ the angle of the disc.")
 
 
 class Excitation(Checked):
@@ -75,7 +89,7 @@ class Excitation(Checked):
     on: str = Field(description="The disc that it acts on.")
     harmonics: tuple[Harmonic, ...] = Field(description="Its orders.")
     speed: PositiveSpeed | None = Field(None, description="At which the amplitudes hold, if they change.")
-    exponent: Number = Field(0.0, description="Of the amplitudes over the speed: 2 for inertia torques.")
+    exponent: Exponent = Field(0.0, description="Of the amplitudes over the speed: 2 for inertia torques.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if not self.harmonics:

@@ -21,6 +21,7 @@ from linkwright.plot import (
 )
 from linkwright.plot.train_row import in_a_row
 from linkwright.report.captioned import Captioned
+from linkwright.report.torsion_tables import service_place
 
 
 def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
@@ -49,22 +50,23 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
     if study.campbell is not None:
         caption = "Natural frequencies over the speed, rays of the orders, and where they meet."
         yield Captioned("campbell", "Critical speeds", caption, campbell_figure(study.campbell))
-    caption = "Half of greatest less least torque, all orders in phase."
-    yield Captioned("torques", "Torque of the shafts", caption, shaft_torques_figure(forced))
+    if forced.shafts:
+        caption = "Half of greatest less least torque, all orders in phase."
+        yield Captioned("torques", "Torque of the shafts", caption, shaft_torques_figure(forced))
     if study.stress is not None:
         caption = "Vibratory shear stress with its concentration; dashed what the shaft bears."
         barred = () if study.verdict is None else study.verdict.barred
         caption += " Shaded are speeds to be barred." if barred else ""
         yield Captioned("stress", "Stress of the shafts", caption, stress_figure(study.stress, barred))
-    yield _of_the_worst_shaft(study, forced)
+    if forced.shafts:
+        yield _of_the_worst_shaft(study, forced)
     yield _of_the_freest_disc(forced)
-    service = _service(study, forced)
+    shown = float(forced.speeds[service_place(study, forced)])
     caption = (
-        f"Along the train at {service * 30 / math.pi:.5g} rpm, and over the speed. The parts are not in "
-        "phase, so "
-        "they do not add up."
+        f"Along the train at {shown * 30 / math.pi:.5g} rpm, and over the speed. The parts are not in "
+        "phase, so they do not add up."
     )
-    figure = torsion_unevenness_figure(forced, in_a_row(forced.discs, study.free.joined), service)
+    figure = torsion_unevenness_figure(forced, in_a_row(forced.discs, study.free.joined), shown)
     yield Captioned("unevenness", "Unevenness of rotation", caption, figure)
     parts = _heated(study, forced)
     if parts:
@@ -95,14 +97,6 @@ def _of_the_freest_disc(forced: ForcedVibration) -> Captioned:
         "Vibration beside the steady turning: amplitude of each order, and half the span of all in phase."
     )
     return Captioned("amplitude", f"Amplitude of {name}", caption, figure)
-
-
-def _service(study: TorsionStudy, forced: ForcedVibration) -> float:
-    """Speed of service of a train; of a drive line the middle of its speeds."""
-    train = study.machine.train
-    if train is not None and train.run is not None:
-        return train.run.service
-    return float(forced.speeds[len(forced.speeds) // 2])
 
 
 def _heated(study: TorsionStudy, forced: ForcedVibration) -> list[str]:

@@ -52,7 +52,7 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
         yield _engine(study.engine)
     yield from torsion_tables(study.free)
     if study.damped is not None:
-        yield _damped(study.damped)
+        yield _damped(study, study.damped)
     if study.campbell is not None and study.campbell.critical:
         yield _critical(study.campbell)
     if study.forced is not None:
@@ -123,10 +123,12 @@ def _beside(word: str, value: float, used: float, unit: str) -> Row:
 
 def _shown(value: float, unit: str) -> str:
     """A quantity for people: stresses in MPa."""
+    if np.isinf(value):
+        return "no bound"
     return with_unit(value / 1e6, "MPa") if unit == "Pa" else with_unit(value, unit)
 
 
-def _damped(found: DampedVibration) -> Table:
+def _damped(study: TorsionStudy, found: DampedVibration) -> Table:
     """Natural frequencies with their damping."""
     columns = (
         found.natural_frequencies,
@@ -135,11 +137,18 @@ def _damped(found: DampedVibration) -> Table:
         found.logarithmic_decrements,
     )
     rows: list[Row] = [
-        (f"mode {k}", "", *(_finite(value) for value in values))
-        for k, values in enumerate(zip(*(each.tolist() for each in columns), strict=True))
+        (_kind(values[0], values[1]), "", *(_finite(value) for value in values))
+        for values in zip(*(each.tolist() for each in columns), strict=True)
     ]
-    heads = ("mode", "", "Hz", "damped Hz", "ζ", "log. decrement")
-    return Table("damped", "Modes with damping", heads, rows)
+    heads = ("motion", "", "Hz", "damped Hz", "ζ", "log. decrement")
+    run = study.machine.train.run if study.machine.train is not None else None
+    at = f" at {_rpm(run.service)} rpm, loads and mean torques counted" if run and study.forced else ""
+    return Table("damped", f"Modes with damping{at}", heads, rows)
+
+
+def _kind(natural: float, damped: float) -> str:
+    """What a mode with damping does."""
+    return "turns as a whole" if natural == 0 else "vibrates" if damped > 0 else "creeps back"
 
 
 def _critical(found: CampbellDiagram) -> Table:
@@ -153,7 +162,7 @@ def _critical(found: CampbellDiagram) -> Table:
             str(each.mode),
             f"{each.frequency:.5g}",
             _rpm(each.speed),
-            "–" if each.resonance_amplitude is None else f"{np.degrees(each.resonance_amplitude):.3g}",
+            _amplitude(each.resonance_amplitude),
         )
         for each in found.critical
         if each in kept
@@ -164,31 +173,37 @@ def _critical(found: CampbellDiagram) -> Table:
     return Table("critical_speeds", title, heads, rows)
 
 
+def _amplitude(theta: float | None) -> str:
+    """Degrees, where an amplitude was found."""
+    if theta is None:
+        return "–"
+    return number(np.degrees(theta), 3) if np.isfinite(theta) else "∞"
+
+
 def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
     """Torques of every shaft at their worst, and in service."""
-    at = _service(study, forced)
+    at, peaks = service_place(study, forced), study.peaks
+    assert peaks is not None
     rows: list[Row] = []
     for s, name in enumerate(forced.shafts):
-        vibratory = forced.shaft_torque_vibratory[s]
-        worst = int(np.nan_to_num(vibratory, nan=-1.0, posinf=np.finfo(float).max).argmax())
         numbers = (
-            vibratory[worst],
+            float(peaks.vibratory[s]),
             forced.mean_torques[s, at],
-            vibratory[at],
+            forced.shaft_torque_vibratory[s, at],
             forced.shaft_torque_max[s, at],
             forced.shaft_heat[s, at],
         )
         cells = [_finite(value) for value in numbers]
-        rows.append((name, "", cells[0], _rpm(forced.speeds[worst]), *cells[1:]))
+        rows.append((name, "", cells[0], _rpm(float(peaks.speed[s])), *cells[1:]))
     service = _rpm(forced.speeds[at])
     heads = ("shaft", "", "vibratory", "at rpm", "mean", "vibratory", "greatest", "heat")
-    title = f"Torques [N m]: largest over the speeds; then at {service} rpm, with heat [W]"
+    title = f"Torques [N m]: largest over speeds and resonances; then at {service} rpm, with heat [W]"
     return Table("shaft_torques", title, heads, rows)
 
 
 def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
     """Unevenness along the train in service."""
-    at = _service(study, forced)
+    at = service_place(study, forced)
     parts = [forced.unevenness, forced.unevenness_rigid, forced.unevenness_torsional]
     columns = [[_finite(value, 3) for value in part[:, at].tolist()] for part in parts]
     heads = ["disc", "", "δ", "as a whole", "torsional"]
@@ -202,8 +217,21 @@ def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
     return Table("unevenness", title, tuple(heads), rows)
 
 
-def _service(study: TorsionStudy, forced: ForcedVibration) -> int:
-    """Place of the speed of service; of a drive line that of the middle."""
+def service_place(study: TorsionStudy, forced: ForcedVibration) -> int:
+    """Where tables and figures look at the train in service.
+
+    Parameters
+    ----------
+    study : TorsionStudy
+        The study.
+    forced : ForcedVibration
+        Its vibration.
+
+    Returns
+    -------
+    int
+        Place of the speed next to that of service; of a drive line the middle of its speeds.
+    """
     run = study.machine.train.run if study.machine.train is not None else None
     if run is None:
         return len(forced.speeds) // 2

@@ -171,9 +171,10 @@ def between(machine: Machine, at: Excited, speeds: Floats) -> Excited:
     Returns
     -------
     Excited
-        At these. Torques of the file itself are exact.
+        At these. Torques of the file itself are exact, as are all where fewer than four speeds are known.
     """
-    if machine.train is not None and machine.train.engine is None:
+    exact = machine.train is not None and machine.train.engine is None
+    if exact or len(at.torques.speeds) < _ABOUT:
         return excited(machine, speeds)
     about, weights = _about(at.torques.speeds, speeds)
 
@@ -193,13 +194,12 @@ def between(machine: Machine, at: Excited, speeds: Floats) -> Excited:
 
 def _about(known: Floats, wanted: Floats) -> tuple[NDArray[np.intp], Floats]:
     """Places of four known speeds about each wanted one, and what they count, (4, wanted): Lagrange's."""
-    points = min(_ABOUT, len(known))
-    first = np.clip(np.searchsorted(known, wanted) - points // 2, 0, len(known) - points)
-    about = first + np.arange(points)[:, None]
+    first = np.clip(np.searchsorted(known, wanted) - _ABOUT // 2, 0, len(known) - _ABOUT)
+    about = first + np.arange(_ABOUT)[:, None]
     x = known[about]
     weights = np.ones_like(x)
-    for n in range(points):
-        for k in range(points):
+    for n in range(_ABOUT):
+        for k in range(_ABOUT):
             if k != n:
                 weights[n] *= (wanted - x[k]) / (x[n] - x[k])
     return about, weights

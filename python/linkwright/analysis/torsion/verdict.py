@@ -42,7 +42,7 @@ class Judgement:
     kind : Kind
         The quantity.
     found, permitted : float
-        Where found over permitted is largest, SI.
+        Where found over permitted is largest, SI; infinite at a resonance that nothing damps.
     speed : float
         There, of the first disc [rad/s].
     state : {"ok", "bar", "exceeds"}
@@ -174,7 +174,9 @@ def _worst(each: Criterion, speeds: Floats, places: list[int] | None = None) -> 
     """Found, permitted and speed where found over permitted is largest, of some places."""
     at = np.arange(len(speeds)) if places is None else np.array(places)
     n = int(at[np.argmax(each.ratio[at])])
-    return float(each.found[n]), float(each.permitted[n]), float(speeds[n])
+    # Orders without any bound have no sum either: NaN.
+    found = float(each.found[n]) if math.isfinite(each.found[n]) else math.inf
+    return found, float(each.permitted[n]), float(speeds[n])
 
 
 def _judged(
@@ -239,6 +241,8 @@ def _lists(ranges: tuple[tuple[float, float], ...]) -> list[list[float]]:
 
 def _shown(value: float, kind: Kind) -> str:
     """A quantity for people: stresses in MPa, all else SI, four digits."""
+    if math.isinf(value):
+        return "without bound, as nothing damps a resonance,"
     if kind is PRESSURE:
         return f"{value / 1e6:.4g} MPa"
     return f"{value:.4g} {kind.unit}"

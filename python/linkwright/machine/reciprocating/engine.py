@@ -81,6 +81,7 @@ class ReciprocatingEngine(Checked):
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from self._angle_faults()
         yield from self._part_faults()
+        yield from self._limit_fault()
         if self.n_cylinders:
             yield from self._number_faults()
         for each in self.gas.cycle_faults(self.strokes):
@@ -104,6 +105,11 @@ class ReciprocatingEngine(Checked):
             yield fault("throws", 0, found=self.throws[0], expected="0, from which the others are counted")
         if not self.banks:
             yield fault("banks", found="an empty list", expected="an angle for each bank of cylinders")
+        for name, angles in (("throws", self.throws), ("banks", self.banks)):
+            for n, angle in enumerate(angles):
+                if abs(angle) > 2 * math.pi + _EQUAL:
+                    remedy = f'a number without unit is radians; give degrees as "{angle:.6g} deg"'
+                    yield fault(name, n, found=angle, expected="an angle up to a turn", remedy=remedy)
 
     def _part_faults(self) -> Iterator[InitErrorDetails]:
         """Parts that are missing, or contradict each other."""
@@ -129,6 +135,13 @@ class ReciprocatingEngine(Checked):
             yield fault(
                 "crank_radius", found=self.crank_radius, expected=expected, remedy="give one of the two"
             )
+
+    def _limit_fault(self) -> Iterator[InitErrorDetails]:
+        """A limit of stress without the section where it counts."""
+        limit = self.crank_limit
+        if limit is not None and limit.needs_section and not limit.has_section:
+            expected = "the diameter where the stress counts, or [train.engine.throw] with its pin"
+            yield fault("limit", "diameter", expected=expected)
 
     def _order_faults(self) -> Iterator[InitErrorDetails]:
         """A firing order that is no permutation of the cylinders."""

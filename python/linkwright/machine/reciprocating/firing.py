@@ -83,7 +83,10 @@ def firing_angles(
     # Where two in a row have their dead centres together, the second fires with the first or turns later.
     together = steps.count(0.0)
     turns = round((cycle - sum(steps)) / (2 * math.pi))
-    if together and turns % together == 0:
+    if turns == 1 and together == len(steps):
+        # All fire at once, every turn.
+        steps[-1] = 2 * math.pi
+    elif together and turns > 0 and turns % together == 0:
         steps = [step or 2 * math.pi * (turns // together) for step in steps]
     angles, now = [0.0] * len(places), along[0]
     for number, step in zip(order, steps, strict=True):
