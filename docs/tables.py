@@ -98,7 +98,9 @@ def _default(field: FieldInfo) -> str:
         return "its defaults"
     if isinstance(field.default, tuple):
         return _list(field.default)
-    is_number = isinstance(field.default, int | float) and not isinstance(field.default, bool)
+    if isinstance(field.default, bool):
+        return f"`{str(field.default).lower()}`"
+    is_number = isinstance(field.default, int | float)
     return f"`{field.default:.6g}`" if is_number else f'`"{field.default}"`'
 
 

@@ -9,8 +9,8 @@ import pytest
 
 import linkwright as lw
 
-# Friswell, Penny, Garvey, Lees, Dynamics of Rotating Machines, 2010, chapter 9, as openTorsion's own tests quote
-# it (github.com/Aalto-Arotor/openTorsion, tests.py): natural frequencies in Hz.
+# Friswell, Penny, Garvey, Lees, Dynamics of Rotating Machines, 2010, chapter 9, as openTorsion's own tests
+# quote it (github.com/Aalto-Arotor/openTorsion, tests.py): natural frequencies in Hz.
 FRISWELL = {
     # Example 9.7.1: three cylinders, flywheel and load.
     "9.7.1": (
@@ -96,9 +96,9 @@ def test_natural_frequencies_of_friswell(name: str) -> None:
     assert found == pytest.approx(printed, abs=half)
 
 
-# Ewins, Modal Testing: Theory, Practice and Application, 2nd ed. 2000, chapter 2, the model of three masses 0.5,
-# 1.0, 1.5 kg, each tied to the ground and to both others by 1000 N/m; hysteresis of 0.3 in the first spring alone.
-# Here they are discs.
+# Ewins, Modal Testing: Theory, Practice and Application, 2nd ed. 2000, chapter 2, the model of three masses
+# 0.5, 1.0, 1.5 kg, each tied to the ground and to both others by 1000 N/m; hysteresis of 0.3 in the first
+# spring alone. Here they are discs.
 EWINS = """
 format = 1
 name = "Three masses"

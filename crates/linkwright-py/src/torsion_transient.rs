@@ -35,6 +35,7 @@ impl TorsionSystem {
     fn new(
         inertia: Floats<'_>,
         damping: Floats<'_>,
+        swing_damping: Floats<'_>,
         links: Ints<'_>,
         link_numbers: Floats<'_>,
         rotors: Ints<'_>,
@@ -48,7 +49,7 @@ impl TorsionSystem {
         points: Floats<'_>,
     ) -> PyResult<Self> {
         let code = Encoded {
-            masses: [inertia.as_slice()?, damping.as_slice()?],
+            masses: [inertia.as_slice()?, damping.as_slice()?, swing_damping.as_slice()?],
             links: links.as_slice()?,
             link_numbers: link_numbers.as_slice()?,
             rotors: rotors.as_slice()?,
@@ -70,6 +71,7 @@ impl TorsionSystem {
         angle: Floats<'_>,
         speed: Floats<'_>,
         times: Floats<'_>,
+        start: f64,
         duration: f64,
         accuracy: f64,
         method: u8,
@@ -84,7 +86,7 @@ impl TorsionSystem {
         let (angle, speed, times) = (angle.as_slice()?, speed.as_slice()?, times.as_slice()?);
         self.fits("angle", angle.len(), self.0.len())?;
         self.fits("speed", speed.len(), self.0.len())?;
-        let request = Request { angle, speed, times, duration, accuracy, method, steps_max };
+        let request = Request { angle, speed, times, start, duration, accuracy, method, steps_max };
         let found = py.detach(|| course::follow(&self.0, &request));
         let rows = found.samples.len() / times.len().max(1);
         let samples = PyArray2::<f64>::zeros(py, [rows, times.len()], false);

@@ -1,4 +1,4 @@
-"""A curve through points, as the core takes it: cubics between them, with the slopes just before and after each."""
+"""A curve through points, as the core takes it: cubics between them, with slopes before and after each."""
 
 from __future__ import annotations
 
@@ -118,14 +118,16 @@ def backlash(gap: float, stiffness: float) -> Curve:
     )
 
 
-def switched(changes: Iterable[tuple[float, float, float]]) -> Curve:
-    """A factor over time: 1 until the first change.
+def switched(changes: Iterable[tuple[float, float, float]], start: float = 1.0) -> Curve:
+    """A factor over time that changes now and then.
 
     Parameters
     ----------
     changes : iterable of tuple
-        Time [s], factor from then on, and time over which it comes to it [s]; zero for a step. A change that is still
-        on its way when the next begins stays where it is then.
+        Time [s], factor from then on, and time over which it comes to it [s]; zero for a step. A change that
+        is still on its way when the next begins stays where it is then.
+    start : float
+        Factor until the first change.
 
     Returns
     -------
@@ -133,7 +135,7 @@ def switched(changes: Iterable[tuple[float, float, float]]) -> Curve:
         Straight lines and steps.
     """
     listed = sorted(changes, key=lambda change: change[0])
-    times, factors = [0.0], [1.0]
+    times, factors = [0.0], [start]
     for n, (time, factor, over) in enumerate(listed):
         follows = listed[n + 1][0] if n + 1 < len(listed) else np.inf
         reached = factor
@@ -142,3 +144,31 @@ def switched(changes: Iterable[tuple[float, float, float]]) -> Curve:
         times += [time, min(time + over, follows)]
         factors += [factors[-1], reached]
     return straight(times, factors)
+
+
+def product(first: Curve, second: Curve) -> Curve:
+    """The product of two factors over time, where one of both is level.
+
+    Parameters
+    ----------
+    first, second : Curve
+        Straight lines and steps, their ends held.
+
+    Returns
+    -------
+    Curve
+        Straight lines and steps.
+    """
+    places = np.union1d(first.x, second.x)
+    left, right = (_at(first, places, side) * _at(second, places, side) for side in ("left", "right"))
+    return straight(np.repeat(places, 2), np.column_stack([left, right]).ravel())
+
+
+def _at(curve: Curve, places: Floats, side: Literal["left", "right"]) -> Floats:
+    """Values of straight lines and steps at one side of places, the ends held."""
+    place = np.searchsorted(curve.x, places, side=side)
+    a, b = np.clip(place - 1, 0, None), np.clip(place, None, len(curve.x) - 1)
+    width = curve.x[b] - curve.x[a]
+    share = np.divide(places - curve.x[a], width, out=np.zeros_like(places), where=width > 0)
+    found: Floats = curve.y[a] + np.clip(share, 0.0, 1.0) * (curve.y[b] - curve.y[a])
+    return found

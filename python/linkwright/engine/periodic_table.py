@@ -1,17 +1,20 @@
 r"""A function that repeats with an angle, as the core takes it: value, slope and bend at even knots.
 
-Between the knots the core runs quintics through all three, so that the slope it uses is that of the very function whose
-value it uses. Three ways lead to the knots:
+Between the knots the core runs quintics through all three, so that the slope it uses is that of the very
+function whose value it uses. Three ways lead to the knots:
 
-- *smooth*: the trigonometric polynomial through even samples, exact for anything that has fewer waves than half the
+- *smooth*: the trigonometric polynomial through even samples, exact for anything that has fewer waves than
+half the
   samples; for inertias of mechanisms, whose harmonics fall geometrically;
-- *spline*: the periodic cubic spline through even samples; for torques with kinks, about which a trigonometric
+- *spline*: the periodic cubic spline through even samples; for torques with kinks, about which a
+trigonometric
   polynomial would swing;
 - *waves*: given harmonics.
 
 References
 ----------
-.. [1] Trefethen, Spectral Methods in MATLAB, 2000, chapter 3: differentiation by the discrete Fourier transform.
+.. [1] Trefethen, Spectral Methods in MATLAB, 2000, chapter 3: differentiation by the discrete Fourier
+transform.
 .. [2] de Boor, A Practical Guide to Splines, 1978, chapter IV: cubic splines by the slopes at their knots.
 """
 
@@ -52,7 +55,8 @@ class PeriodicTable:
     @property
     def mean(self) -> float:
         """Mean value over a period: of the function that the core uses, exactly."""
-        # The integral of a quintic is h(y₀ + y₁)/2 + h²(s₀ − s₁)/10 + …; the differences cancel over the period.
+        # The integral of a quintic is h(y₀ + y₁)/2 + h²(s₀ − s₁)/10 + …; the differences cancel over the
+        # period.
         h = self.period / len(self.value)
         return float(self.value.mean() + h * h / 60 * self.bend.mean())
 

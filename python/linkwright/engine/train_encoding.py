@@ -1,4 +1,7 @@
-"""The lists in which a train in motion crosses the border: `crates/linkwright-core/src/torsion/transient/system.rs`."""
+"""The lists in which a train in motion crosses the border.
+
+Their meaning: `crates/linkwright-core/src/torsion/transient/system.rs`.
+"""
 
 from __future__ import annotations
 
@@ -37,8 +40,8 @@ def encoded(train: MovingTrain) -> _core.TorsionSystem:
     n = train.speed
     tables: list[PeriodicTable] = []
     curves: list[Curve] = []
-    at_mass = np.zeros((2, train.masses))
-    for row, own in zip(at_mass, (train.inertia, train.damping), strict=True):
+    at_mass = np.zeros((3, train.masses))
+    for row, own in zip(at_mass, (train.inertia, train.damping, train.swing_damping), strict=True):
         np.add.at(row, train.mass, n**2 * own)
     # The last is that of the ground, HELD = −1.
     masses = np.append(train.mass, HELD)
@@ -51,6 +54,7 @@ def encoded(train: MovingTrain) -> _core.TorsionSystem:
     return _core.TorsionSystem(
         at_mass[0],
         at_mass[1],
+        at_mass[2],
         _ints(links),
         _floats(np.column_stack([train.lead, train.stiffness, train.shaft_damping])),
         _ints(rotors),
@@ -80,19 +84,21 @@ def _torque(
     train: MovingTrain, torque: TrainTorque, tables: list[PeriodicTable], curves: list[Curve]
 ) -> tuple[list[int], list[float]]:
     """Row of integers and row of numbers of a torque."""
-    kind, law, numbers = 0, None, [0.0] * 5
+    kind, numbers = 0, [0.0] * 5
+    curve: Curve | None = None
     match torque.law:
         case Power(speed, exponent, is_even):
             kind, numbers = (1 if is_even else 2), [speed, exponent, 0.0, 0.0, 0.0]
-        case OverSpeed(law):
-            kind = 3
-        case Following(gain, law):
+        case OverSpeed(over_speed):
+            kind, curve = 3, over_speed
+        case Following(gain, over_time):
+            curve = over_time
             kind, numbers = 4, [gain, 0.0, 0.0, 0.0, 0.0]
         case Decaying(start, end, rate, speed, phase):
             kind, numbers = 5, [start, end, rate, speed, phase]
     n = float(train.speed[torque.on])
     row = [int(train.mass[torque.on]), kind, _place(torque.weight, curves), _place(torque.shape, tables)]
-    return [*row, _place(law, curves)], [n, torque.scale, torque.pitch * n, torque.phase, *numbers]
+    return [*row, _place(curve, curves)], [n, torque.scale, torque.pitch * n, torque.phase, *numbers]
 
 
 def _starts(lengths: Sequence[int]) -> Ints:

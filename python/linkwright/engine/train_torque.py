@@ -2,20 +2,22 @@ r"""Torques on the discs of a train from outside, for its motion in time.
 
 .. math:: M = s\,w(t)\,g(\omega, t)\,f(p\theta + \beta)
 
-with θ and ω of the disc: a scale, a weight over time that events switch, a law of speed or time, a shape over the angle.
+with θ and ω of the disc: a scale, a weight over time that events switch, a law of speed or time, a shape
+over the angle.
 
-The torque of a generator in a short circuit follows from the flux that stays in its windings. In per unit of its
-apparent power over its speed, without load before, and for the worst instant of switching,
+The torque of a generator in a short circuit follows from the flux that stays in its windings. In per unit of
+its apparent power over its speed, without load before, and for the worst instant of switching,
 
-.. math:: M_3 = \frac{1}{x''}\sin\omega t, \qquad M_2 = \frac{1}{x''}\left(\sin\omega t - \tfrac12\sin 2\omega t\right)
+.. math:: M_3 = \frac{1}{x''}\sin\omega t, \qquad
+    M_2 = \frac{1}{x''}\left(\sin\omega t - \tfrac12\sin 2\omega t\right)
 
-for three phases and for two, with the subtransient reactance :math:`x''`, both decaying. The greatest of M_2 is
-:math:`\tfrac34\sqrt3/x''`, at a third of a period.
+for three phases and for two, with the subtransient reactance :math:`x''`, both decaying. The greatest of M_2
+is :math:`\tfrac34\sqrt3/x''`, at a third of a period.
 
 References
 ----------
-.. [1] Concordia, Synchronous Machines: Theory and Performance, 1951, chapter 7: torque in short circuits from constant
-flux linkages.
+.. [1] Concordia, Synchronous Machines: Theory and Performance, 1951, chapter 7: torque in short circuits
+from constant flux linkages.
 """
 
 from __future__ import annotations
@@ -187,12 +189,12 @@ def short_circuit(
 
     Notes
     -----
-    All of the torque decays with one time constant, that of its part of mains frequency; the part of double frequency
-    lasts longer in truth, but passes most trains unfelt.
+    All of the torque decays with one time constant, that of its part of mains frequency; the part of double
+    frequency lasts longer in truth, but passes most trains unfelt.
     """
     size = -torque / reactance
     first = Decaying(start, end, 1.0 / decay, speed)
-    listed = (TrainTorque(name, on, size, first),)
-    if phases == 2:
-        listed += (TrainTorque(name, on, -0.5 * size, replace(first, speed=2 * speed)),)
-    return listed
+    simple = TrainTorque(name, on, size, first)
+    if phases == 3:
+        return (simple,)
+    return simple, TrainTorque(name, on, -0.5 * size, replace(first, speed=2 * speed))

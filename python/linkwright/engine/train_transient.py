@@ -1,12 +1,16 @@
 r"""A train in motion in the core's terms: discs with inertias that change with the angle, shafts, torques.
 
-.. math:: J(\theta)\,\ddot\theta + \tfrac12 J'(\theta)\,\dot\theta^2 + c\,\dot\theta + \sum M_\mathrm{shaft} = \sum M
+.. math:: J(\theta)\,\ddot\theta + \tfrac12 J'(\theta)\,\dot\theta^2 + c\,\dot\theta
+    + d\,(\dot\theta - \omega) + \sum M_\mathrm{shaft} = \sum M
+
+with the speed ω of the train as a whole, the mean over its inertia.
 
 Everything is said of the discs at their own speeds; discs behind rigid gears move as one mass, as in
 `linkwright.engine.train`.
 
-Hysteresis has no meaning in time: what loses the same share of its energy whatever the frequency is no law of the instant.
-A shaft of the loss factor η becomes a viscous one that loses as much at one frequency, :math:`c = \eta k/\omega`.
+Hysteresis has no meaning in time: what loses the same share of its energy whatever the frequency is no law
+of the instant. A shaft of the loss factor η becomes a viscous one that loses as much at one frequency,
+:math:`c = \eta k/\omega`.
 
 References
 ----------
@@ -97,8 +101,8 @@ def variable_inertia(
         off = float(np.abs(table.slope[:: len(table.slope) // len(J)] - given).max())
         if not off <= _SLOPES_AGREE * float(np.abs(given).max() or J.mean()):
             raise InputError(
-                f"slope of an inertia: differs by {off:.3g} kg m²/rad from that of its {len(J)} samples; sample "
-                "the turn more finely"
+                f"slope of an inertia: differs by {off:.3g} kg m²/rad from that of its {len(J)} samples; "
+                "sample the turn more finely"
             )
     return VariableInertia(on, table, phase)
 
@@ -162,8 +166,9 @@ class MovingTrain:
         n, speed of each disc over that of the first, without its sense.
     mass : ndarray of int, shape (discs,)
         Discs of one number move as one.
-    inertia, damping : ndarray, shape (discs,)
-        Constant part of the inertia [kg m²], and damping against the ground [N m s/rad].
+    inertia, damping, swing_damping : ndarray, shape (discs,)
+        Constant part of the inertia [kg m²], damping against the ground, and damping that resists only what
+        goes beyond the speed of the train as a whole [N m s/rad].
     shafts : tuple of str
         Names of what twists.
     tip : ndarray of int, shape (shafts, 2)
@@ -185,6 +190,7 @@ class MovingTrain:
     mass: Ints
     inertia: Floats
     damping: Floats
+    swing_damping: Floats
     shafts: tuple[str, ...]
     tip: Ints
     stiffness: Floats
@@ -245,6 +251,7 @@ class MovingTrain:
         times: ArrayLike,
         *,
         accuracy: float,
+        start: float = 0.0,
         method: str = "auto",
         steps_max: int,
     ) -> Moved:
@@ -258,6 +265,8 @@ class MovingTrain:
             To sample at, from zero to the end [s].
         accuracy : float
             Relative, of a step.
+        start : float
+            When the motion begins, zero or before; it is recorded from zero on [s].
         method : str
             "auto", "explicit" or "implicit".
         steps_max : int
@@ -268,14 +277,19 @@ class MovingTrain:
         Moved
             Samples beyond the time reached are NaN.
         """
-        lists = [np.ascontiguousarray(each, dtype=np.float64) for each in (angle, speed, times)]
-        found = self.system.follow(*lists, float(lists[2][-1]), accuracy, _METHODS.index(method), steps_max)
-        end, used, counts, scalars, samples, extremes, work = found
+        at, turning, sampled = (
+            np.ascontiguousarray(each, dtype=np.float64) for each in (angle, speed, times)
+        )
+        kind = _METHODS.index(method)
+        found = self.system.follow(at, turning, sampled, start, float(sampled[-1]), accuracy, kind, steps_max)
+        end, used, (steps, rejected, evaluations), scalars, samples, extremes, work = found
         n, m = self.masses, len(self.shafts)
         return Moved(
-            end,
-            _METHODS[used],
-            *counts,
+            end=end,
+            method=_METHODS[used],
+            steps=steps,
+            rejected=rejected,
+            evaluations=evaluations,
             time=scalars[0],
             fastest=scalars[1],
             energies=(scalars[2], scalars[3], scalars[4], scalars[5]),
@@ -294,6 +308,7 @@ def moving(
     inertia: ArrayLike,
     *,
     damping: ArrayLike = 0.0,
+    swing_damping: ArrayLike = 0.0,
     shaft_damping: ArrayLike = 0.0,
     curves: Sequence[Curve | None] | None = None,
     inertias: Iterable[VariableInertia] = (),
@@ -310,6 +325,8 @@ def moving(
         Constant part, at the speed of each disc [kg m²].
     damping : array_like, shape (discs,)
         Against the ground [N m s/rad].
+    swing_damping : array_like, shape (discs,)
+        Against what goes beyond the speed of the train as a whole [N m s/rad].
     shaft_damping : array_like, shape (shafts,)
         At the first end of each that is a disc [N m s/rad].
     curves : sequence of Curve or None, optional
@@ -337,6 +354,7 @@ def moving(
         referred.mass,
         np.broadcast_to(np.asarray(inertia, dtype=float), n),
         np.broadcast_to(np.asarray(damping, dtype=float), n),
+        np.broadcast_to(np.asarray(swing_damping, dtype=float), n),
         referred.shafts,
         referred.tip,
         referred.stiffness / lead**2 * straight,
@@ -348,7 +366,7 @@ def moving(
     )
 
 
-def viscous(stiffness: ArrayLike, loss_factor: ArrayLike, omega: float) -> Floats:
+def viscous(stiffness: ArrayLike, loss_factor: ArrayLike, omega: ArrayLike) -> Floats:
     """Viscous damping that loses as much at one frequency as hysteresis does: c = ηk/ω.
 
     Parameters
@@ -357,12 +375,14 @@ def viscous(stiffness: ArrayLike, loss_factor: ArrayLike, omega: float) -> Float
         k, of any shape [N m/rad].
     loss_factor : array_like
         η, of the same shape [–].
-    omega : float
-        The frequency [rad/s].
+    omega : array_like
+        The frequency, of the same shape or one for all [rad/s].
 
     Returns
     -------
     ndarray
         Of the same shape [N m s/rad].
     """
-    return np.asarray(stiffness, dtype=float) * np.asarray(loss_factor, dtype=float) / omega
+    k, eta = np.asarray(stiffness, dtype=float), np.asarray(loss_factor, dtype=float)
+    damping: Floats = k * eta / np.asarray(omega, dtype=float)
+    return damping

@@ -19,7 +19,8 @@
 | `shaft_limit`, `propulsion_shaft`, `crankshaft_limit` | what shafts bear, given or by the rules of ships |
 | `reciprocating/` | parts of reciprocating engines |
 | `train`, `train_speeds`, `train_faults` | torsional trains, speeds of their discs, faults |
-| `coupling`, `damper`, `train_torques`, `train_run` | what else a train has: couplings, dampers, torques, its run |
+| `train_transient`, `train_event` | manoeuvres of trains, what happens in them |
+| `coupling`, `damper`, `train_torques`, `train_run` | couplings, dampers, torques on a train, its run |
 | `whole_train` | engine, couplings and dampers written out as discs and shafts |
 | `linkage` | the whole mechanism: elements of the file, and what cams and a pumping unit expand into |
 | `body`, `loads` | masses; forces and torques |
@@ -121,14 +122,27 @@ from linkwright.machine.rod_rotator import RodRotator
 from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_section import ShaftSection
 from linkwright.machine.train import Disc, ElasticShaft, Shaft, Train, TrainGear
+from linkwright.machine.train_event import (
+    AnyTrainEvent,
+    FuelSwitch,
+    LoadStep,
+    Misfire,
+    MotorSwitch,
+    ShortCircuit,
+    SpeedCourse,
+    TorqueCourse,
+    TorqueStep,
+)
 from linkwright.machine.train_run import TrainRun
 from linkwright.machine.train_torques import Excitation, Harmonic, LoadHarmonic, TrainLoad
+from linkwright.machine.train_transient import TrainMotor, TrainTransient
 from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
 
 __all__ = [
     "FORMAT",
     "AnyLoad",
     "AnyMotor",
+    "AnyTrainEvent",
     "ArticulatedRod",
     "Bar",
     "Body",
@@ -164,6 +178,7 @@ __all__ = [
     "FollowerTrain",
     "ForcePosition",
     "FormulaLoad",
+    "FuelSwitch",
     "GasSpring",
     "Gear",
     "Gearbox",
@@ -181,12 +196,15 @@ __all__ = [
     "Link",
     "Load",
     "LoadHarmonic",
+    "LoadStep",
     "Machine",
     "Mechanism",
+    "Misfire",
     "ModifiedSineLaw",
     "ModifiedTrapezoidLaw",
     "MotionSection",
     "Motor",
+    "MotorSwitch",
     "OptimalLaw",
     "PlainLaw",
     "PolishedRodLoad",
@@ -205,8 +223,10 @@ __all__ = [
     "Shaft",
     "ShaftLimit",
     "ShaftSection",
+    "ShortCircuit",
     "Slider",
     "SlottedLever",
+    "SpeedCourse",
     "SplineLaw",
     "Spring",
     "Swing",
@@ -215,7 +235,9 @@ __all__ = [
     "TableLaw",
     "TableMotor",
     "TorqueAngle",
+    "TorqueCourse",
     "TorqueSpeed",
+    "TorqueStep",
     "TorsionalDamper",
     "TorsionalSpring",
     "Train",
@@ -223,7 +245,9 @@ __all__ = [
     "TrainDamper",
     "TrainGear",
     "TrainLoad",
+    "TrainMotor",
     "TrainRun",
+    "TrainTransient",
     "TrapezoidalVelocityLaw",
     "TwoPointSwing",
     "Valves",

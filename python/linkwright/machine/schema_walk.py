@@ -70,12 +70,14 @@ def words_of(annotation: Any) -> str:
     lists = [each for each in bare if get_origin(each) is tuple]
     if lists:
         inner = get_args(lists[0])[0]
-        if _is_model(_bare(inner)):
+        if any(_is_model(_bare(each)) for each in _branches(inner)):
             return "a list of tables"
         entry = mark_of(inner)
         if entry is not None:
             return f"a list of {len(get_args(lists[0]))} {entry.kind.noun}s"
-        return "a list of whole numbers" if inner is int else "a list of two names"
+        return "a list of whole numbers" if _bare(inner) is int else "a list of two names"
+    if bool in bare:
+        return "true or false"
     if int in bare:
         return "a whole number"
     return "a text" if str in bare else "another value"

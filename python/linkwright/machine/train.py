@@ -33,6 +33,7 @@ from linkwright.machine.shaft_section import Density, Modulus, ShaftSection
 from linkwright.machine.train_base import GROUND, Damping, LossFactor, PositiveStiffness
 from linkwright.machine.train_run import TrainRun
 from linkwright.machine.train_torques import Excitation, TrainLoad
+from linkwright.machine.train_transient import TrainTransient
 from linkwright.units import INERTIA, positive
 
 __all__ = ["GROUND", "Disc", "ElasticShaft", "Shaft", "ShaftSection", "Train", "TrainGear"]
@@ -171,3 +172,4 @@ class Train(Description):
         None, description="Disc that drives the loads, where no engine does. Without it, the first."
     )
     run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")
+    transient: TrainTransient | None = Field(None, description="Manoeuvre that is followed in time.")

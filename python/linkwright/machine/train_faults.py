@@ -13,6 +13,7 @@ from linkwright.machine.base import close_match, fault, suggestion
 from linkwright.machine.plain import keys, look
 from linkwright.machine.train import GROUND, Train
 from linkwright.machine.train_speeds import Contradiction, parts_of, speeds
+from linkwright.machine.train_transient import transient_faults
 from linkwright.machine.whole_train import crank_names, throw_names, whole_train
 
 # Tables whose entries join two discs, and those whose entries sit on one.
@@ -62,6 +63,7 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
             yield _no_throw(error)
             return
         yield from map(_loop_fault, speeds(whole)[1])
+        yield from transient_faults(train, (*discs, *train.dampers))
 
 
 def _same_names(train: object) -> Iterator[InitErrorDetails]:

@@ -15,6 +15,8 @@ pub struct Request<'a> {
     pub speed: &'a [f64],
     /// Times to sample at, increasing from zero on.
     pub times: &'a [f64],
+    /// When the motion begins, zero or before: what swings in until zero is not recorded.
+    pub start: f64,
     pub duration: f64,
     /// Relative accuracy of a step.
     pub accuracy: f64,
@@ -81,10 +83,10 @@ const FIRST: (f64, f64) = (0.1, 1e-3);
 pub fn follow(system: &System, request: &Request<'_>) -> Course {
     let mut rates = Rates::new(system);
     let state = rates.state(request.angle, request.speed);
-    rates.enter(0.0);
-    rates.derivative(0.0, &state, &mut state.clone());
+    rates.enter(request.start);
+    rates.derivative(request.start, &state, &mut state.clone());
     let fastest = rates.fastest();
-    let stiff = request.duration * fastest / STABLE_PHASE > STIFF;
+    let stiff = (request.duration - request.start) * fastest / STABLE_PHASE > STIFF;
     let method = match request.method {
         Method::Auto if stiff => Method::Implicit,
         Method::Auto => Method::Explicit,
@@ -125,7 +127,7 @@ impl<'a, S: Stepper> Follower<'a, S> {
         let [kinetic, potential] = rates.energies(&state);
         let course = Course {
             end: End::Time,
-            time: 0.0,
+            time: request.start,
             samples: vec![f64::NAN; (2 * n + m + 2) * request.times.len()],
             extremes: Vec::new(),
             work: vec![0.0; rates.powers.len()],
@@ -157,7 +159,10 @@ impl<'a, S: Stepper> Follower<'a, S> {
     }
 
     fn run(mut self) -> Course {
-        for mark in marks(self.rates.system, self.request.duration) {
+        for mark in marks(self.rates.system, self.request) {
+            if self.course.time == 0.0 {
+                self.record();
+            }
             self.course.end = self.stretch(mark);
             if self.course.end != End::Time {
                 break;
@@ -169,6 +174,14 @@ impl<'a, S: Stepper> Follower<'a, S> {
         self.course.rejected = self.stepper.rejected();
         self.course.evaluations = self.rates.evaluations;
         self.course
+    }
+
+    /// Begins to record: extremes, work and energy count from here.
+    fn record(&mut self) {
+        self.extremes = Extremes::new(&self.rates);
+        self.course.work.fill(0.0);
+        let [kinetic, potential] = self.rates.energies(&self.state);
+        self.course.energies[..2].copy_from_slice(&[kinetic, potential]);
     }
 
     /// Up to the next mark.
@@ -253,12 +266,11 @@ fn estimated(accuracy: f64) -> f64 {
     0.1 * accuracy.powf(2.0 / 3.0)
 }
 
-/// Times at which something outside switches or bends, and the end.
-fn marks(system: &System, duration: f64) -> Vec<f64> {
-    let inside = |&t: &f64| 0.0 < t && t < duration;
-    let mut found: Vec<f64> =
-        system.torques.iter().flat_map(|torque| torque.marks(&system.curves)).filter(inside).collect();
-    found.push(duration);
+/// Times at which something outside switches or bends, zero, from which on is recorded, and the end.
+fn marks(system: &System, request: &Request<'_>) -> Vec<f64> {
+    let switches = system.torques.iter().flat_map(|torque| torque.marks(&system.curves)).chain([0.0]);
+    let mut found: Vec<f64> = switches.filter(|&t| request.start < t && t < request.duration).collect();
+    found.push(request.duration);
     found.sort_by(f64::total_cmp);
     found.dedup();
     found

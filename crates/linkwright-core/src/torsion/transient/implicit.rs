@@ -425,6 +425,7 @@ mod tests {
         let system = System {
             inertia: vec![3.0, 2.0],
             damping: vec![0.0; 2],
+            swing_damping: vec![0.0; 2],
             links: vec![link],
             rotors: Vec::new(),
             torques: Vec::new(),

@@ -30,6 +30,12 @@ impl Periodic {
         })
     }
 
+    /// Mean over a period.
+    pub fn mean(&self) -> f64 {
+        let of = |piece: &[f64; 6]| piece.iter().enumerate().map(|(k, c)| c / (k + 1) as f64).sum::<f64>();
+        self.pieces.iter().map(of).sum::<f64>() / self.pieces.len() as f64
+    }
+
     /// Value, first and second derivative at an angle.
     #[inline(always)]
     pub fn at(&self, angle: f64) -> [f64; 3] {
@@ -86,6 +92,16 @@ mod tests {
         assert!((order - 6.0).abs() < 0.2, "the error falls with power {order}");
         // h⁶/(6!·2⁶) of the sixth derivative: (2π/64)⁶/46080.
         assert!(worst(64) < 2.0e-11, "{}", worst(64));
+    }
+
+    /// 2 + sin² has the mean 2.5.
+    #[test]
+    fn mean_is_exact() {
+        let angle = |i: i32| TAU * f64::from(i) / 16.0;
+        let list = |f: fn(f64) -> f64| (0..16).map(|i| f(angle(i))).collect::<Vec<_>>();
+        let (value, slope) = (list(|x| 2.0 + x.sin().powi(2)), list(|x| (2.0 * x).sin()));
+        let table = Periodic::new(TAU, &value, &slope, &list(|x| 2.0 * (2.0 * x).cos())).expect("even knots");
+        assert!((table.mean() - 2.5).abs() < 1e-15, "{}", table.mean());
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! The equations of motion:
 //!
 //! ```text
-//! J(θ) θ̈ = Σ M − c θ̇ − ½ J′(θ) θ̇² − Σ ± n (kΔ + cΔ̇ + f(Δ))        Δ = n(θ_a − θ_b)
+//! J(θ) θ̈ = Σ M − c θ̇ − d (θ̇ − ω) − ½ J′(θ) θ̇² − Σ ± n (kΔ + cΔ̇ + f(Δ))        Δ = n(θ_a − θ_b)
 //! ```
+//!
+//! with the speed of the train as a whole, ω = Σ J θ̇ / Σ J of the mean inertias.
 //!
 //! The state holds the angle of the first mass and those of the others less that one, so that the twist of a shaft keeps
 //! its digits however far the train has turned; likewise for the speeds. A train that is held has nothing to turn far, and
@@ -26,6 +28,8 @@ pub struct Rates<'a> {
     /// Angles and speeds for twists, and those of the ground.
     aside: Vec<f64>,
     aside_speed: Vec<f64>,
+    /// Shares of the masses in the inertia of the whole.
+    shares: Vec<f64>,
     inertia: Vec<f64>,
     /// J′ and J″ of each mass.
     bends: Vec<[f64; 2]>,
@@ -48,6 +52,7 @@ impl<'a> Rates<'a> {
             omega: vec![0.0; n],
             aside: vec![0.0; n + 1],
             aside_speed: vec![0.0; n + 1],
+            shares: system.shares(),
             inertia: vec![0.0; n],
             bends: vec![[0.0; 2]; n],
             acceleration: vec![0.0; n],
@@ -151,8 +156,10 @@ impl<'a> Rates<'a> {
         let system = self.system;
         let at_masses = system.torques.len() + system.links.len();
         let losses = &mut self.powers[at_masses..];
+        let whole: f64 = self.shares.iter().zip(&self.aside_speed).map(|(share, w)| share * w).sum();
         for (i, loss) in losses.iter_mut().enumerate() {
-            let drag = system.damping[i] * self.omega[i];
+            let swing = self.aside_speed[i] - whole;
+            let drag = system.damping[i] * self.omega[i] + system.swing_damping[i] * swing;
             self.acceleration[i] = -drag;
             *loss = drag * self.omega[i];
         }
@@ -246,7 +253,9 @@ impl<'a> Rates<'a> {
         let system = self.system;
         let n = system.len();
         let (mut stiffness, mut damping) = (vec![0.0; n + 1], vec![0.0; n + 1]);
-        damping[..n].copy_from_slice(&system.damping);
+        for i in 0..n {
+            damping[i] = system.damping[i] + system.swing_damping[i];
+        }
         for link in &system.links {
             let [a, b] = link.ends;
             let square = link.ratio * link.ratio;
@@ -284,7 +293,10 @@ impl<'a> Rates<'a> {
             let omega = self.omega[i];
             let [d1, d2] = self.bends[i];
             by_angle[i * n + i] = -0.5 * d2 * omega * omega - self.acceleration[i] * d1;
-            by_speed[i * n + i] = -d1 * omega - system.damping[i];
+            by_speed[i * n + i] = -d1 * omega - system.damping[i] - system.swing_damping[i];
+            for (j, share) in self.shares.iter().enumerate() {
+                by_speed[i * n + j] += system.swing_damping[i] * share;
+            }
         }
         for torque in &system.torques {
             let i = torque.mass;

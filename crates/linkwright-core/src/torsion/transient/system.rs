@@ -36,6 +36,8 @@ pub struct System {
     pub inertia: Vec<f64>,
     /// Against the ground \[N m s/rad\].
     pub damping: Vec<f64>,
+    /// Against the train as a whole: it resists swinging, not turning \[N m s/rad\].
+    pub swing_damping: Vec<f64>,
     pub links: Vec<Link>,
     pub rotors: Vec<Rotor>,
     pub torques: Vec<Torque>,
@@ -46,8 +48,8 @@ pub struct System {
 /// The lists that cross the border.
 #[derive(Clone, Copy, Debug)]
 pub struct Encoded<'a> {
-    /// Constant inertia and damping of each mass.
-    pub masses: [&'a [f64]; 2],
+    /// Constant inertia, damping against the ground, and damping against the train as a whole, of each mass.
+    pub masses: [&'a [f64]; 3],
     /// Rows of both ends (−1 the ground) and curve (−1 none).
     pub links: &'a [i32],
     /// Rows of ratio, stiffness, damping.
@@ -121,22 +123,39 @@ impl System {
         self.links.iter().all(|link| !link.ends.contains(&self.len()))
     }
 
+    /// Share of each mass in the mean inertia: weights of the speeds whose sum is that of the train as a whole. None of a
+    /// train that is held, which as a whole stands.
+    pub fn shares(&self) -> Vec<f64> {
+        if !self.is_free() {
+            return vec![0.0; self.len()];
+        }
+        let mut shares = self.inertia.clone();
+        for rotor in &self.rotors {
+            shares[rotor.mass] += rotor.ratio * rotor.ratio * self.tables[rotor.table].mean();
+        }
+        let sum: f64 = shares.iter().sum();
+        shares.iter_mut().for_each(|share| *share /= sum);
+        shares
+    }
+
     /// Decodes and checks every index.
     ///
     /// # Errors
     /// [`PlanError`] names the first list or row that does not make sense.
     pub fn decode(code: &Encoded<'_>) -> Result<System, PlanError> {
-        let [inertia, damping] = code.masses;
+        let [inertia, damping, swing_damping] = code.masses;
         let n = inertia.len();
         if n == 0 {
             return Err(PlanError::Length { what: "list of inertias", found: 0, expected: 1 });
         }
         length("list of damping", damping.len(), n)?;
+        length("list of damping of swings", swing_damping.len(), n)?;
         let tables = decode_tables(code)?;
         let curves = decode_curves(code)?;
         Ok(System {
             inertia: inertia.to_vec(),
             damping: damping.to_vec(),
+            swing_damping: swing_damping.to_vec(),
             links: decode_links(code, n, curves.len())?,
             rotors: decode_rotors(code, n, tables.len())?,
             torques: decode_torques(code, n, tables.len(), curves.len())?,
