@@ -10,6 +10,9 @@ import numpy as np
 from linkwright.analysis.torsion.forced import ForcedVibration, angular_deflection
 from linkwright.analysis.torsion.stress import ShaftStress
 from linkwright.analysis.torsion.study import TorsionStudy
+from linkwright.analysis.torsion.transient import TorsionTransient
+from linkwright.analysis.torsion.waterfall import waterfall
+from linkwright.errors import LinkwrightError
 from linkwright.plot import (
     campbell_figure,
     heat_figure,
@@ -19,6 +22,8 @@ from linkwright.plot import (
     shaft_torques_figure,
     stress_figure,
     torsion_unevenness_figure,
+    transient_figure,
+    waterfall_figure,
 )
 from linkwright.plot.train_row import in_a_row
 from linkwright.report.captioned import Captioned
@@ -44,6 +49,25 @@ def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
     yield Captioned("mode_shapes", "Mode shapes", caption, modes_figure(study.free))
     if study.forced is not None:
         yield from _forced(study, study.forced)
+    if study.transient is not None:
+        yield from _manoeuvre(study.transient)
+
+
+def _manoeuvre(moved: TorsionTransient) -> Iterator[Captioned]:
+    """Speeds and torques over time, and what orders they hold."""
+    caption = "Speeds of discs and torques of the shafts that swing most; marked are their extremes."
+    yield Captioned("transient", "Manoeuvre", caption, transient_figure(moved))
+    if not moved.shafts or not (np.diff(moved.angle[0]) > 0).all():
+        return
+    shaft = int(np.argmax(moved.torque_max - moved.torque_min))
+    try:
+        orders = waterfall(moved.time, moved.angle[0], moved.torque[shaft])
+    except LinkwrightError:
+        # Too short for turns to tell orders apart.
+        return
+    caption = f"Torque in {moved.shafts[shaft]}, order by order as the speed changes [N m]."
+    figure = waterfall_figure(orders, quantity="torque [N m]")
+    yield Captioned("waterfall", "Waterfall of the manoeuvre", caption, figure)
 
 
 def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]:

@@ -19,6 +19,7 @@ from linkwright.analysis.torsion.peaks import TorquePeaks, torque_peaks
 from linkwright.analysis.torsion.scheme import Scheme, scheme
 from linkwright.analysis.torsion.stress import ShaftStress, shaft_stress
 from linkwright.analysis.torsion.survey import survey
+from linkwright.analysis.torsion.transient import TorsionTransient, torsion_transient
 from linkwright.analysis.torsion.unevenness_along import UnevennessAlong, unevenness_along
 from linkwright.analysis.torsion.verdict import Verdict, verdict
 from linkwright.machine import Machine, Train
@@ -64,6 +65,8 @@ class TorsionStudy:
         Critical speeds.
     peaks : TorquePeaks or None
         Largest torques of the shafts, resonances between the speeds among them.
+    transient : TorsionTransient or None
+        The manoeuvre of [train.transient].
     """
 
     machine: Machine
@@ -79,6 +82,7 @@ class TorsionStudy:
     engine: EngineData | None = None
     campbell: CampbellDiagram | None = None
     peaks: TorquePeaks | None = None
+    transient: TorsionTransient | None = None
 
     @property
     def findings(self) -> list[str]:
@@ -102,6 +106,8 @@ class TorsionStudy:
             found["damped"] = self.damped.to_dict(curves=True)
         parts = {"forced": self.forced, "peaks": self.peaks, "stress": self.stress, "verdict": self.verdict}
         found |= {name: part.to_dict(curves=True) for name, part in parts.items() if part is not None}
+        if self.transient is not None:
+            found["transient"] = self.transient.to_dict()
         if self.campbell is not None:
             found["campbell"] = self.campbell.to_dict()
         if self.engine is not None:
@@ -134,8 +140,11 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
     free = free_vibration(machine)
     tables = tuple(holzer_table(machine, frequency) for frequency in holzer)
     damped = damped_vibration(machine, _service(machine)) if _is_damped(machine) else None
+    moved = None
+    if machine.train is not None and machine.train.transient is not None:
+        moved = torsion_transient(machine)
     if not is_excited(machine):
-        return TorsionStudy(machine, scheme(machine), free, tables, damped)
+        return TorsionStudy(machine, scheme(machine), free, tables, damped, transient=moved)
     at = excited(machine)
     forced = responded(at)
     stress, seen = shaft_stress(machine, forced), survey(machine, at, forced)
@@ -153,6 +162,7 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
         _engine(machine),
         campbell(machine, speed_range=(at.torques.speeds[0], at.torques.speeds[-1])),
         torque_peaks(seen),
+        moved,
     )
 
 
@@ -195,6 +205,7 @@ def _along(machine: Machine, at: Excited, forced: ForcedVibration) -> Unevenness
 def _warnings(study: TorsionStudy) -> Iterator[str]:
     """What one should know beside the numbers."""
     forced, at, train = study.forced, study.excited, study.machine.train
+    yield from () if study.transient is None else (f"Manoeuvre: {note}." for note in study.transient.notes)
     if forced is None or at is None:
         if train is not None and pulsates(train):
             yield "Torques pulsate, but no speeds are given: forced vibration needs [train.run]."
