@@ -91,7 +91,7 @@ def mean_inertia(machine: Machine) -> float:
     AssemblyError
         The mechanism does not close all round.
     """
-    compiled = _mechanism(machine)
+    compiled = mechanism_alone(machine)
     phi, weights = turn_nodes(compiled)
     return float(weights @ compiled.reductions(phi)[0])
 
@@ -127,7 +127,7 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     a jump.
     """
     nu, omega = _orders(orders), _positive(speed)
-    compiled = _mechanism(machine)
+    compiled = mechanism_alone(machine)
     pieces = 1 + int(nu.max(initial=0.0) / _ORDERS_OF_A_PIECE)
     phi, weights = turn_nodes(compiled, pieces)
     size = np.where(nu == 0, 1.0, 2.0) * (nu == np.round(nu))
@@ -162,7 +162,7 @@ def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
         The mechanism does not close all round.
     """
     omega = _positive(speed)
-    compiled = _mechanism(machine)
+    compiled = mechanism_alone(machine)
     damping = {CRANK: mean_over_turn(compiled)[1] + _slope(lambda at: _resistance(compiled, at), omega)}
     motor = None if machine.drive is None else machine.drive.motor
     if machine.drive is not None and motor is not None and not isinstance(motor, ConstantSpeedMotor):
@@ -172,8 +172,26 @@ def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
     return {station: c.reshape(np.shape(speed)) for station, c in damping.items()}
 
 
-def _mechanism(machine: Machine) -> Compiled:
-    """The mechanism without its drive, if its turns can be told."""
+def mechanism_alone(machine: Machine) -> Compiled:
+    """The mechanism without its drive, if its turns can be told.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    Compiled
+        In the core's terms.
+
+    Raises
+    ------
+    AssemblyError
+        It does not close all round, or does not repeat every turn.
+    FindingError
+        A load has no value at some angle, or changes with time itself.
+    """
     alone = machine.with_entries({"drive": None})
     compiled = compile_machine(alone)
     require_same_turns(alone)

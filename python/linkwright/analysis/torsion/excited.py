@@ -205,7 +205,7 @@ def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:
     if run is None:
         remedy = 'give [train.run] speed_min and speed_max, such as "500 rpm" and "2000 rpm"'
         raise InputError(f"{machine.name} has no speeds for forced vibration: {remedy}")
-    return np.linspace(run.speed_min, run.speed_max, run.points)
+    return run.speeds
 
 
 def _onto_masses(referred: ReferredTrain, torques: Complexes) -> Complexes:

@@ -17,7 +17,7 @@ from linkwright.engine.train import ReferredTrain, refer
 from linkwright.engine.train_motor import motor_curve
 from linkwright.engine.train_torque import Decaying, Following, OverSpeed, Power, TrainTorque, short_circuit
 from linkwright.engine.train_transient import MovingTrain, moving, viscous
-from linkwright.errors import InputError
+from linkwright.errors import InputError, MachineError, Problem
 from linkwright.machine import Train
 from linkwright.machine.train_event import (
     LoadStep,
@@ -29,7 +29,7 @@ from linkwright.machine.train_event import (
 )
 from linkwright.machine.train_run import TrainRun
 from linkwright.machine.train_torques import Harmonic, LoadHarmonic, TrainLoad
-from linkwright.machine.train_transient import TrainTransient
+from linkwright.machine.train_transient import TrainTransient, transient_faults
 from linkwright.machine.whole_train import whole_train
 
 Floats = NDArray[np.float64]
@@ -61,10 +61,13 @@ def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
 
     Raises
     ------
+    MachineError
+        The manoeuvre speaks of parts that are not there.
     InputError
         There is no speed to take gas torques at, or a load grows beyond bounds at rest.
     """
     whole, referred = whole_train(train), refer(train)
+    _require_fit(train, manoeuvre, tuple(whole.discs))
     place = {name: k for k, name in enumerate(whole.discs)}
     own = np.array([each.inertia for each in whole.discs.values()])
     inertias = [] if train.engine is None else throw_inertias(train.engine)
@@ -81,6 +84,14 @@ def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
         notes=notes,
     )
     return _balanced(found, train, manoeuvre, place)
+
+
+def _require_fit(train: Train, manoeuvre: TrainTransient, discs: tuple[str, ...]) -> None:
+    """Refuse a manoeuvre that speaks of parts that are not there."""
+    faults = list(transient_faults(train.model_copy(update={"transient": manoeuvre}), discs))
+    if faults:
+        told = ((each["loc"], getattr(each["type"], "context", None) or {}) for each in faults)
+        raise MachineError([Problem(".".join(map(str, place)), **words) for place, words in told])
 
 
 def mean_torques(train: MovingTrain, speed: float, angle: float = 0.0) -> Floats:

@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.loaded_start import loaded_angles
+from linkwright.analysis.torsion.moving_drive import moving_drive
 from linkwright.analysis.torsion.moving_train import moving_train
 from linkwright.engine.train_transient import Moved, MovingTrain
 from linkwright.errors import ConvergenceError, InputError
@@ -112,9 +113,10 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
     Parameters
     ----------
     machine : Machine
-        With a [train].
+        With a [train], or with a drive line that twists.
     manoeuvre : TrainTransient, optional
-        Without it, that of the file, [train.transient].
+        Without it, that of the file, [train.transient]; a drive line needs one. Speeds are those of the first
+        disc, of a drive line those of the motor.
 
     Returns
     -------
@@ -125,16 +127,20 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
     ------
     InputError
         There is no train, or no manoeuvre, or it does not fit the train.
+    AssemblyError
+        The mechanism behind the drive line does not close all round.
     ConvergenceError
         The accuracy cannot be kept, or needs too many steps.
     """
-    if machine.train is None:
-        raise InputError(f"{machine.name} has no [train]: expected [train.discs] and [train.shafts]")
-    manoeuvre = manoeuvre or machine.train.transient
+    if manoeuvre is None and machine.train is not None:
+        manoeuvre = machine.train.transient
     if manoeuvre is None:
         remedy = 'give [train.transient] with a duration, such as "2 s"'
         raise InputError(f"{machine.name} has no manoeuvre: {remedy}")
-    train = moving_train(machine.train, manoeuvre)
+    if machine.train is None:
+        train, manoeuvre = moving_drive(machine, manoeuvre)
+    else:
+        train = moving_train(machine.train, manoeuvre)
     return follow_train(
         train,
         duration=manoeuvre.duration,
