@@ -56,7 +56,9 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
         yield Captioned("torques", "Torque of the shafts", caption, shaft_torques_figure(forced))
     if study.stress is not None:
         caption = "Vibratory shear stress with its concentration; dashed what the shaft bears."
-        yield Captioned("stress", "Stress of the shafts", caption, stress_figure(study.stress))
+        barred = () if study.verdict is None else study.verdict.barred
+        caption += " Shaded are speeds to be barred." if barred else ""
+        yield Captioned("stress", "Stress of the shafts", caption, stress_figure(study.stress, barred))
     if forced.shafts:
         yield _of_the_worst_shaft(study, forced)
     yield _of_the_freest_disc(forced)

@@ -21,7 +21,8 @@ from linkwright.analysis.torsion.stress import ShaftStress, shaft_stress
 from linkwright.analysis.torsion.survey import survey
 from linkwright.analysis.torsion.unevenness_along import UnevennessAlong, unevenness_along
 from linkwright.analysis.torsion.verdict import Verdict, verdict
-from linkwright.machine import Machine
+from linkwright.machine import Machine, Train
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.reciprocating.firing import firing_angles
 
 # Share by which loads may be off what the engine gives without a word.
@@ -207,8 +208,8 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     if run is not None and not run.speed_min <= run.service <= run.speed_max:
         near = min(max(run.service, run.speed_min), run.speed_max) * 30 / np.pi
         yield f"The speed of service is not among those looked at: what is told of it is at {near:.5g} rpm."
-    if train is not None and train.engine is not None and not train.loads and at.referred.is_free:
-        yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
+    if train is not None and train.engine is not None and at.referred.is_free:
+        yield from _balance_warnings(train.engine, train, at)
     yield from _about_loads(study, at)
     yield from _about_couplings(study, forced)
     yield from _about_the_ends(study, forced)
@@ -218,21 +219,29 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
         yield f"Orders {listed} have no common base with the others: their amplitudes are added up."
 
 
+def _balance_warnings(engine: ReciprocatingEngine, train: Train, at: Excited) -> Iterator[str]:
+    """Loads that do not take what an engine gives."""
+    if not train.loads:
+        yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
+        return
+    # Behind the throws there are loads alone, and all of them drive if one does.
+    behind = slice(len(engine.throws), None)
+    driven = at.referred.speed[behind] @ at.torques.mean[behind] > 0
+    if driven.any():
+        rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in at.torques.speeds[driven][:4])
+        yield f"The engine gives no torque in the mean, at {rpm} rpm: the loads are taken to drive it there."
+
+
 def _about_loads(study: TorsionStudy, at: Excited) -> Iterator[str]:
     """Loads that the engine does not fit."""
     speeds, run = at.torques.speeds, study.machine.train.run if study.machine.train is not None else None
     service = speeds[-1] if run is None else run.service
-    driven = at.torques.load_factor < 0
-    if driven.any():
-        rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in speeds[driven][:4])
-        yield f"The engine gives no torque in the mean, at {rpm} rpm: the loads are taken to drive it there."
-        return
     factor = float(at.torques.load_factor[np.abs(speeds - service).argmin()])
-    if at.train.loads and abs(factor - 1) > _FITS:
+    # Loads that drive the engine are told by themselves.
+    if at.train.loads and factor > 0 and abs(factor - 1) > _FITS:
         yield (
             f"At the speed of service the loads count {factor:.3g} times, to take what the engine gives. "
-            "Check torque "
-            "and speed of [train.loads], or the mean effective pressure of the gas."
+            "Check torque and speed of [train.loads], or the mean effective pressure of the gas."
         )
 
 
@@ -246,8 +255,7 @@ def _about_couplings(study: TorsionStudy, forced: ForcedVibration) -> Iterator[s
         if carried > each.torque[-1]:
             yield (
                 f"Coupling {name} carries {carried:.4g} N m, its curve ends at {each.torque[-1]:.4g} N m: "
-                "its last "
-                "slope is taken beyond."
+                "its last slope is taken beyond."
             )
 
 
