@@ -248,7 +248,8 @@ def _about_loads(study: TorsionStudy, at: Excited) -> Iterator[str]:
     speeds, run = at.torques.speeds, study.machine.train.run if study.machine.train is not None else None
     service = speeds[-1] if run is None else run.service
     factor = float(at.torques.load_factor[np.abs(speeds - service).argmin()])
-    if at.train.loads and abs(factor - 1) > _FITS:
+    # Loads that drive the engine are told by themselves.
+    if at.train.loads and factor > 0 and abs(factor - 1) > _FITS:
         yield (
             f"At the speed of service the loads count {factor:.3g} times, to take what the engine gives. "
             "Check torque and speed of [train.loads], or the mean effective pressure of the gas."
