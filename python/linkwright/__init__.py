@@ -86,6 +86,8 @@ _HOME = {
     "engine_data": "analysis.torsion.engine_data",
     "damped_vibration": "analysis.torsion.damped",
     "campbell": "analysis.torsion.campbell",
+    "torsion_transient": "analysis.torsion.transient",
+    "waterfall": "analysis.torsion.waterfall",
     "drive_line": "analysis.torsion.drive_line",
     "mechanism_harmonics": "analysis.torsion.drive_line",
     "design_damper": "analysis.torsion.damper_design",
@@ -190,6 +192,8 @@ if TYPE_CHECKING:
     from linkwright.analysis.torsion.scheme import scheme as scheme
     from linkwright.analysis.torsion.stress import shaft_stress as shaft_stress
     from linkwright.analysis.torsion.study import torsion_study as torsion_study
+    from linkwright.analysis.torsion.transient import torsion_transient as torsion_transient
+    from linkwright.analysis.torsion.waterfall import waterfall as waterfall
     from linkwright.analysis.transient import transient as transient
     from linkwright.exchange.cam import cam_drawings as cam_drawings
     from linkwright.exchange.write import write_drawing as write_drawing
