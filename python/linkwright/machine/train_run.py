@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import Annotated
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
@@ -16,10 +18,12 @@ from linkwright.units import COUNT, Bound, Quantity
 # As far as gas torques are computed.
 _HIGHEST = 48.0
 _ORDER = Bound(
-    f" above 0 and up to {_HIGHEST:.0f},",
-    {"exclusiveMinimum": 0, "maximum": _HIGHEST},
-    lambda value: 0 < value <= _HIGHEST,
+    f" from 1 to {_HIGHEST:.0f},",
+    {"minimum": 1, "maximum": _HIGHEST},
+    lambda value: 1 <= value <= _HIGHEST,
 )
+
+Floats = NDArray[np.float64]
 
 
 class TrainRun(Checked):
@@ -40,6 +44,14 @@ class TrainRun(Checked):
             least = f"{self.speed_min:.6g} rad/s or {self.speed_min * 30 / math.pi:.6g} rpm"
             expected = f"more than speed_min, {least}"
             yield fault("speed_max", found=self.speed_max, expected=expected)
+
+    @property
+    def speeds(self) -> Floats:
+        """All speeds, (n,) [rad/s]; even, but that of service stands in the place of the nearest."""
+        even = np.linspace(self.speed_min, self.speed_max, self.points)
+        if self.speed_min < self.service < self.speed_max:
+            even[np.abs(even - self.service).argmin()] = self.service
+        return even
 
     @property
     def service(self) -> float:

@@ -46,7 +46,7 @@ class LoadHarmonic(Description):
 
     order: PositiveNumber = Field(description="Waves a turn of its disc; of a propeller, its blades.")
     share: Annotated[float, not_negative(RATIO)] = Field(description="Amplitude over the mean torque.")
-    phase: Angle = Field(0.0, description="Lead of its greatest resistance before angle 0 of the disc.")
+    phase: Angle = Field(0.0, description="β of the resistance cos(νφ + β), φ the angle of the disc.")
 
 
 class TrainLoad(Checked):
@@ -80,7 +80,7 @@ class Harmonic(Description):
 
     order: PositiveNumber = Field(description="Waves a turn of its disc.")
     torque: Annotated[float, not_negative(TORQUE)] = Field(description="Amplitude.")
-    phase: Angle = Field(0.0, description="Lead of the greatest torque before angle 0 of the disc.")
+    phase: Angle = Field(0.0, description="β of cos(νφ + β), φ the angle of the disc.")
 
 
 class Excitation(Checked):

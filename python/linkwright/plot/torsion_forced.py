@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from linkwright.analysis.torsion.barred_range import BarredRange
     from linkwright.analysis.torsion.forced import ForcedVibration
     from linkwright.analysis.torsion.stress import ShaftStress
 
@@ -64,13 +66,15 @@ def shaft_torques_figure(found: ForcedVibration) -> Figure:
 
 
 @styled
-def stress_figure(stress: ShaftStress) -> Figure:
+def stress_figure(stress: ShaftStress, barred: Sequence[BarredRange] = ()) -> Figure:
     """Draw the vibratory stress of the shafts over the speed, and what they bear.
 
     Parameters
     ----------
     stress : ShaftStress
         What to draw.
+    barred : sequence of BarredRange
+        Speeds to be barred, which are shaded.
 
     Returns
     -------
@@ -88,9 +92,19 @@ def stress_figure(stress: ShaftStress) -> Figure:
             panel.plot(rpm, stress.vibratory[s] / 1e6, color=colour, label=stress.shafts[s])
         _limits(panel, stress, shafts[0])
         _over_speed(panel, stress.speeds, "stress [MPa]")
+        names = [stress.shafts[s] for s in shafts]
+        _bar(panel, [each.barred for each in barred if each.shaft in names])
         legend_above(panel)
     axes[-1].set_xlabel("speed of the first disc [rpm]")
     return figure
+
+
+def _bar(axes: Axes, ranges: Sequence[tuple[float, float]]) -> None:
+    """Shade ranges of speed, as far as they lie in view."""
+    left, right = axes.get_xlim()
+    for n, (low, high) in enumerate(ranges):
+        ends = (max(low * 30 / math.pi, left), min(high * 30 / math.pi, right))
+        axes.axvspan(*ends, color=RED, alpha=0.12, linewidth=0, label="" if n else "barred")
 
 
 def _limits(axes: Axes, stress: ShaftStress, s: int) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.analysis.torsion.forced import ForcedVibration, angular_deflection
+from linkwright.analysis.torsion.stress import ShaftStress
 from linkwright.analysis.torsion.study import TorsionStudy
 from linkwright.plot import (
     campbell_figure,
@@ -55,7 +56,9 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
         yield Captioned("torques", "Torque of the shafts", caption, shaft_torques_figure(forced))
     if study.stress is not None:
         caption = "Vibratory shear stress with its concentration; dashed what the shaft bears."
-        yield Captioned("stress", "Stress of the shafts", caption, stress_figure(study.stress))
+        barred = () if study.verdict is None else study.verdict.barred
+        caption += " Shaded are speeds to be barred." if barred else ""
+        yield Captioned("stress", "Stress of the shafts", caption, stress_figure(study.stress, barred))
     if forced.shafts:
         yield _of_the_worst_shaft(study, forced)
     yield _of_the_freest_disc(forced)
@@ -73,16 +76,36 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
 
 def _of_the_worst_shaft(study: TorsionStudy, forced: ForcedVibration) -> Captioned:
     """Orders of the shaft that is nearest to its limit, or twisted most."""
-    size = np.nan_to_num(forced.shaft_torque_vibratory.max(axis=1), posinf=np.inf)
-    worst = int(size.argmax())
-    if study.stress is not None:
-        used = np.nan_to_num(study.stress.utilisation.max(axis=1))
-        if used.max() > 0:
-            worst = forced.shafts.index(study.stress.shafts[int(used.argmax())])
+    worst = worst_shaft(forced, study.stress)
     name = forced.shafts[worst]
     single, total = np.abs(forced.shaft_torques[:, worst]), forced.shaft_torque_vibratory[worst]
     figure = orders_figure(forced, single, total, "torque [kN m]", 1e-3)
     return Captioned("orders", f"Orders in {name}", "Amplitude of each order, and all in phase.", figure)
+
+
+def worst_shaft(forced: ForcedVibration, stress: ShaftStress | None) -> int:
+    """The shaft that is nearest to its limit of stress; where none has one, that which is twisted most.
+
+    Parameters
+    ----------
+    forced : ForcedVibration
+        Of a train with shafts.
+    stress : ShaftStress or None
+        Of those with known sections.
+
+    Returns
+    -------
+    int
+        Its place.
+    """
+    if stress is not None:
+        # Limits may say nothing at some speeds.
+        used = np.nan_to_num(stress.utilisation, posinf=np.inf).max(axis=1)
+        if used.max() > 0:
+            return forced.shafts.index(stress.shafts[int(used.argmax())])
+    # Without number is a resonance that nothing damps.
+    size = np.nan_to_num(forced.shaft_torque_vibratory, nan=np.inf, posinf=np.inf).max(axis=1)
+    return int(size.argmax())
 
 
 def _of_the_freest_disc(forced: ForcedVibration) -> Captioned:

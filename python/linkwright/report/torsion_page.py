@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 import linkwright
-from linkwright.analysis.torsion.forced import ForcedVibration
+from linkwright.analysis.torsion.peaks import TorquePeaks
 from linkwright.analysis.torsion.study import TorsionStudy
 from linkwright.files.write import dumps
 from linkwright.report.formulas import Formula, formula
@@ -67,8 +67,8 @@ def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
         yield "which is a speed of", number(60 * twisting[0], 4), "1/min"
     forced = study.forced
     if forced is not None:
-        if forced.shafts:
-            yield "largest vibratory torque", *_largest_torque(forced)
+        if study.peaks is not None and forced.shafts:
+            yield from _largest_torque(study.peaks)
         run = study.machine.train.run if study.machine.train is not None else None
         if run is not None:
             at = int(np.argmin(np.abs(forced.speeds - run.service)))
@@ -79,10 +79,15 @@ def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
         yield "verdict", words[study.verdict.state], ""
 
 
-def _largest_torque(forced: ForcedVibration) -> tuple[str, str]:
-    """Number and unit; at a resonance that nothing damps there is none."""
-    largest = float(forced.shaft_torque_vibratory.max())
-    return (number(largest, 4), "N m") if np.isfinite(largest) else ("no bound", "")
+def _largest_torque(peaks: TorquePeaks) -> Iterator[tuple[str, str, str]]:
+    """Of all shafts, over all speeds."""
+    worst = int(peaks.vibratory.argmax())
+    value, rpm = float(peaks.vibratory[worst]), float(peaks.speed[worst]) * 30 / np.pi
+    words = f"largest vibratory torque, {peaks.shafts[worst]} at {rpm:.5g} rpm"
+    if np.isfinite(value):
+        yield words, number(value, 4), "N m"
+    else:
+        yield words, "without bound", ""
 
 
 def _formulas(study: TorsionStudy) -> Iterator[Formula]:

@@ -52,7 +52,7 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
         yield _engine(study.engine)
     yield from torsion_tables(study.free)
     if study.damped is not None:
-        yield _damped(study.damped)
+        yield _damped(study, study.damped)
     if study.campbell is not None and study.campbell.critical:
         yield _critical(study.campbell)
     if study.forced is not None:
@@ -128,7 +128,7 @@ def _shown(value: float, unit: str) -> str:
     return with_unit(value / 1e6, "MPa") if unit == "Pa" else with_unit(value, unit)
 
 
-def _damped(found: DampedVibration) -> Table:
+def _damped(study: TorsionStudy, found: DampedVibration) -> Table:
     """Natural frequencies with their damping."""
     columns = (
         found.natural_frequencies,
@@ -137,11 +137,18 @@ def _damped(found: DampedVibration) -> Table:
         found.logarithmic_decrements,
     )
     rows: list[Row] = [
-        (f"mode {k}", "", *(_finite(value) for value in values))
-        for k, values in enumerate(zip(*(each.tolist() for each in columns), strict=True))
+        (_kind(values[0], values[1]), "", *(_finite(value) for value in values))
+        for values in zip(*(each.tolist() for each in columns), strict=True)
     ]
-    heads = ("mode", "", "Hz", "damped Hz", "ζ", "log. decrement")
-    return Table("damped", "Modes with damping", heads, rows)
+    heads = ("motion", "", "Hz", "damped Hz", "ζ", "log. decrement")
+    run = study.machine.train.run if study.machine.train is not None else None
+    at = f" at {_rpm(run.service)} rpm, loads and mean torques counted" if run and study.forced else ""
+    return Table("damped", f"Modes with damping{at}", heads, rows)
+
+
+def _kind(natural: float, damped: float) -> str:
+    """What a mode with damping does."""
+    return "turns as a whole" if natural == 0 else "vibrates" if damped > 0 else "creeps back"
 
 
 def _critical(found: CampbellDiagram) -> Table:
@@ -175,23 +182,22 @@ def _amplitude(theta: float | None) -> str:
 
 def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
     """Torques of every shaft at their worst, and in service."""
-    at = service_place(study, forced)
+    at, peaks = service_place(study, forced), study.peaks
+    assert peaks is not None
     rows: list[Row] = []
     for s, name in enumerate(forced.shafts):
-        vibratory = forced.shaft_torque_vibratory[s]
-        worst = int(np.nan_to_num(vibratory, nan=-1.0, posinf=np.finfo(float).max).argmax())
         numbers = (
-            vibratory[worst],
+            float(peaks.vibratory[s]),
             forced.mean_torques[s, at],
-            vibratory[at],
+            forced.shaft_torque_vibratory[s, at],
             forced.shaft_torque_max[s, at],
             forced.shaft_heat[s, at],
         )
         cells = [_finite(value) for value in numbers]
-        rows.append((name, "", cells[0], _rpm(forced.speeds[worst]), *cells[1:]))
+        rows.append((name, "", cells[0], _rpm(float(peaks.speed[s])), *cells[1:]))
     service = _rpm(forced.speeds[at])
     heads = ("shaft", "", "vibratory", "at rpm", "mean", "vibratory", "greatest", "heat")
-    title = f"Torques [N m]: largest over the speeds; then at {service} rpm, with heat [W]"
+    title = f"Torques [N m]: largest over speeds and resonances; then at {service} rpm, with heat [W]"
     return Table("shaft_torques", title, heads, rows)
 
 

@@ -34,35 +34,44 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Halvings until all brackets are closed: from the highest frequency to rounding of the lowest some eighty.
 const CLOSINGS: usize = 2000;
 
-/// All λ, increasing; that of a free train as a whole is zero exactly.
-pub fn squares(holzer: &Holzer) -> Vec<f64> {
-    in_lanes(Squares { holzer })
+/// What a search found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// All λ, increasing; that of a free train as a whole is zero exactly.
+    pub squares: Vec<f64>,
+    /// How often all lanes were swept.
+    pub sweeps: usize,
 }
 
-struct Squares<'a> {
+/// Finds all λ.
+pub fn find(holzer: &Holzer) -> Found {
+    in_lanes(All { holzer })
+}
+
+struct All<'a> {
     holzer: &'a Holzer,
 }
 
-impl Job for Squares<'_> {
-    type Output = Vec<f64>;
+impl Job for All<'_> {
+    type Output = Found;
 
     #[inline(always)]
-    fn run<R: Real>(self) -> Vec<f64> {
+    fn run<R: Real>(self) -> Found {
         let n = self.holzer.positive();
         let width = n.next_multiple_of(R::LANES);
-        let mut search =
-            Search { holzer: self.holzer, n, width, side: self.holzer.room::<R>(), values: vec![0.0; width] };
+        let (side, values) = (self.holzer.room::<R>(), vec![0.0; width]);
+        let mut search = Search { holzer: self.holzer, n, width, side, values, sweeps: 0 };
         let mut brackets = search.brackets();
-        let mut found = search.starts(&brackets);
-        if !search.aberth(&mut found) {
+        let mut squares = search.starts(&brackets);
+        if !search.aberth(&mut squares) {
             search.close(&mut brackets);
-            found = brackets.into_iter().map(|[low, high]| 0.5 * (low + high)).collect();
+            squares = brackets.into_iter().map(|[low, high]| 0.5 * (low + high)).collect();
         }
-        found.truncate(n);
+        squares.truncate(n);
         if self.holzer.is_free {
-            found.insert(0, 0.0);
+            squares.insert(0, 0.0);
         }
-        found
+        Found { squares, sweeps: search.sweeps }
     }
 }
 
@@ -76,12 +85,14 @@ struct Search<'a, R> {
     side: Vec<[R; 2]>,
     /// What the last sweep found.
     values: Vec<f64>,
+    sweeps: usize,
 }
 
 impl<R: Real> Search<'_, R> {
     /// Counts, or p′/p, at as many places as there are lanes.
     #[inline(always)]
     fn sweep<const SLOPE: bool>(&mut self, places: &[f64]) {
+        self.sweeps += 1;
         for first in (0..self.width).step_by(R::LANES) {
             let lambda = R::load(&places[first..]);
             let found = R::outline(
@@ -185,14 +196,15 @@ impl<R: Real> Search<'_, R> {
         false
     }
 
-    /// The next λ, and the distance of the present one from its neighbours.
+    /// The next λ, and the distance of the present one from its neighbours and from zero.
     #[inline(always)]
     fn step(&self, slope: R, ring: &[f64]) -> (R, R) {
         let bound = R::splat(self.holzer.bound);
         let at = R::load(ring);
-        let (mut sum, mut gap) = (R::splat(0.0), bound);
+        // From zero at most, so that small ones have as many digits.
+        let (mut sum, mut gap) = (R::splat(0.0), at);
         if self.holzer.is_free {
-            (sum, gap) = (at.recip(), at);
+            sum = at.recip();
         }
         for r in [1, self.n - 1] {
             if r % self.n != 0 {
@@ -235,6 +247,76 @@ fn sort(list: &mut [f64]) {
         while at > 0 && list[at] < list[at - 1] {
             list.swap(at, at - 1);
             at -= 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::scalar;
+    use crate::torsion::{Train, modes::modes, trees};
+
+    fn chain(inertia: &[f64], stiffness: f64) -> Train {
+        let n = inertia.len();
+        let parent: Vec<usize> = (0..n).map(|c: usize| c.saturating_sub(1)).collect();
+        let mut shafts = vec![stiffness; n];
+        shafts[0] = 0.0;
+        Train::new(&parent, inertia, &shafts).expect("a chain")
+    }
+
+    #[test]
+    fn they_are_good_before_shapes_improve_them() {
+        for train in trees::trees() {
+            let found = find(&Holzer::new(&train)).squares;
+            for (square, omega) in found.iter().zip(modes(&train).omega) {
+                // Rounding of a sweep: some units of the last place for every disc.
+                assert!(
+                    (square - omega * omega).abs() <= 2e-14 * square,
+                    "{square} for {omega} of {train:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn few_sweeps_find_them() {
+        // Counts, a halving or two, and Aberth's steps, of which each triples the digits.
+        let even = find(&Holzer::new(&chain(&[0.5; 50], 2.0)));
+        assert!(even.sweeps <= 8, "an even chain took {} sweeps", even.sweeps);
+        let inertia: Vec<f64> = (0..50).map(|i| 0.5 + 1.5 * (0.618 * f64::from(i)).fract()).collect();
+        let uneven = find(&Holzer::new(&chain(&inertia, 2.0)));
+        assert!(uneven.sweeps <= 12, "an uneven chain took {} sweeps", uneven.sweeps);
+        for train in trees::trees() {
+            let sweeps = find(&Holzer::new(&train)).sweeps;
+            assert!(sweeps <= 40, "{sweeps} sweeps for {train:?}");
+        }
+    }
+
+    #[test]
+    fn multiple_ones_are_closed_in() {
+        for branches in [2, 3, 7, 20] {
+            let mut stiffness = vec![3.0; branches + 1];
+            stiffness[0] = 0.0;
+            let star =
+                Train::new(&vec![0; branches + 1], &vec![1.7; branches + 1], &stiffness).expect("a star");
+            let found = find(&Holzer::new(&star)).squares;
+            let (single, last) = (3.0 / 1.7, 3.0 / 1.7 * (branches + 1) as f64);
+            for square in &found[1..branches] {
+                assert!((square - single).abs() <= 1e-15 * single, "{square} of {branches} branches");
+            }
+            assert!((found[branches] - last).abs() <= 4e-15 * last, "the last of {branches} branches");
+        }
+    }
+
+    #[test]
+    fn lanes_are_plain_numbers() {
+        for train in trees::trees() {
+            let holzer = Holzer::new(&train);
+            let (lanes, plain) = (find(&holzer).squares, scalar(All { holzer: &holzer }).squares);
+            for (a, b) in lanes.iter().zip(&plain) {
+                assert!((a - b).abs() <= 2e-14 * a, "{a} and {b} of {train:?}");
+            }
         }
     }
 }

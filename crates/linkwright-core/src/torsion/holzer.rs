@@ -101,15 +101,21 @@ impl Holzer {
         let zero = R::splat(0.0);
         let fresh = State { angle: R::splat(1.0), torque: zero, angle_d1: zero, torque_d1: zero };
         let (mut at, mut found) = (fresh, zero);
+        let mut before = fresh.angle;
         for (c, step) in self.steps.iter().enumerate().skip(1).rev() {
             at.turn::<SLOPE>(step, lambda, side.get_mut(c));
             let up = at.twist::<SLOPE>(step.flexibility);
             let sure = at.angle.mul_add(R::splat(NUDGE), up.angle);
             if !SLOPE {
-                found = found + negative(at.angle * sure);
+                found = found + negative(before * sure);
             }
+            before = sure;
             if step.parent + 1 == c {
-                at = if step.rescales { up.rescaled(self.unit) } else { up };
+                at = up;
+                if step.rescales {
+                    let size = up.size(self.unit).recip();
+                    (at, before) = (up.scaled(size), before * size);
+                }
                 continue;
             }
             let reciprocal = sure.recip();
@@ -120,10 +126,10 @@ impl Holzer {
                 found = up.angle_d1.mul_add(reciprocal, found);
                 sum[1] = (up.torque_d1 - answer * up.angle_d1).mul_add(reciprocal, sum[1]);
             }
-            at = fresh;
+            (at, before) = (fresh, fresh.angle);
         }
         at.turn::<SLOPE>(&self.steps[0], lambda, side.first_mut());
-        found + if SLOPE { at.torque_d1 / at.torque } else { negative(at.angle * at.torque) }
+        found + if SLOPE { at.torque_d1 / at.torque } else { negative(before * at.torque) }
     }
 }
 
@@ -175,15 +181,84 @@ impl<R: Real> State<R> {
         State { angle: self.torque.mul_add(f, self.angle), angle_d1, ..self }
     }
 
-    /// The same, of size one.
+    /// Of both together, never zero.
     #[inline(always)]
-    fn rescaled(self, unit: f64) -> Self {
-        let size = self.torque.abs().mul_add(R::splat(unit), self.angle.abs()).recip();
+    fn size(&self, unit: f64) -> R {
+        self.torque.abs().mul_add(R::splat(unit), self.angle.abs())
+    }
+
+    #[inline(always)]
+    fn scaled(self, factor: R) -> Self {
         State {
-            angle: self.angle * size,
-            torque: self.torque * size,
-            angle_d1: self.angle_d1 * size,
-            torque_d1: self.torque_d1 * size,
+            angle: self.angle * factor,
+            torque: self.torque * factor,
+            angle_d1: self.angle_d1 * factor,
+            torque_d1: self.torque_d1 * factor,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::torsion::{modes::modes, trees};
+
+    fn count(train: &Train, lambda: f64) -> usize {
+        let holzer = Holzer::new(train);
+        holzer.sweep::<f64, false>(lambda, &mut holzer.room()) as usize
+    }
+
+    #[test]
+    fn it_counts_as_the_plain_pivots_do() {
+        for train in trees::trees() {
+            let bound = Holzer::new(&train).bound;
+            for part in 1..40 {
+                let lambda = bound * 10f64.powi(-part / 4) * f64::from(part % 4 + 1) * 0.2137;
+                assert_eq!(count(&train, lambda), trees::below(&train, lambda), "λ = {lambda}, {train:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn long_chains_do_not_grow_out_of_numbers() {
+        let n = 900;
+        let parent: Vec<usize> = (0..n).map(|c: usize| c.saturating_sub(1)).collect();
+        let mut stiffness: Vec<f64> = (0..n).map(|c| if c % 7 == 3 { 1e6 } else { 1.0 }).collect();
+        stiffness[0] = 0.0;
+        let chain = Train::new(&parent, &vec![1.0; n], &stiffness).expect("a chain");
+        for lambda in [1e-3, 0.37, 3.9, 5.0, 1e3, 1.1e6, 1.9e6, 3.9e6] {
+            assert_eq!(count(&chain, lambda), trees::below(&chain, lambda), "λ = {lambda}");
+        }
+    }
+
+    #[test]
+    fn angles_that_are_zero_count_once() {
+        // λ = 0, 1, 3; at 1 the middle disc is at rest.
+        let chain = Train::new(&[0, 0, 1], &[1.0; 3], &[0.0, 1.0, 1.0]).expect("a chain");
+        assert_eq!([0.5, 1.0, 1.5, 3.0, 3.5].map(|lambda| count(&chain, lambda)), [1, 1, 2, 2, 3], "a chain");
+        // λ = 0, 1 three times, 5; at 1 all branches leave the hub at rest.
+        let star = Train::new(&[0; 5], &[1.0; 5], &[0.0, 1.0, 1.0, 1.0, 1.0]).expect("a star");
+        assert_eq!([0.5, 1.5, 4.5, 5.5].map(|lambda| count(&star, lambda)), [1, 4, 4, 5], "a star");
+        // One of them, which counts for one below or above.
+        assert!((1..=4).contains(&count(&star, 1.0)), "a star in tune");
+    }
+
+    #[test]
+    fn the_slope_is_a_sum_over_all_zeros() {
+        for train in trees::trees().filter(|train| train.len() > 1) {
+            let holzer = Holzer::new(&train);
+            let squares: Vec<f64> = modes(&train).omega.iter().map(|omega| omega * omega).collect();
+            for part in [0.013, 0.21, 0.77, 1.3] {
+                let lambda = part * holzer.bound;
+                let found = holzer.sweep::<f64, true>(lambda, &mut holzer.room());
+                let terms: Vec<f64> = squares.iter().map(|square| 1.0 / (lambda - square)).collect();
+                let size: f64 = terms.iter().map(|term| term.abs()).sum();
+                let largest = terms.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+                // Rounding of λ_i counts by 1/(λ − λ_i)².
+                let off = 1e-13 * size + 1e-14 * lambda * largest * largest;
+                let wanted: f64 = terms.iter().sum();
+                assert!((found - wanted).abs() <= off, "{found} for {wanted} at {lambda} of {train:?}");
+            }
         }
     }
 }

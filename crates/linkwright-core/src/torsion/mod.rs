@@ -35,6 +35,8 @@ pub mod modes;
 pub mod rotations;
 pub mod shapes;
 pub mod transient;
+#[cfg(test)]
+mod trees;
 pub mod waves;
 
 /// A train referred to one speed, its discs in an order in which each hangs on an earlier one.

@@ -15,13 +15,21 @@ from linkwright.analysis.torsion.excited import Excited, excited, is_excited, pu
 from linkwright.analysis.torsion.forced import ForcedVibration, responded
 from linkwright.analysis.torsion.free import FreeVibration, free_vibration, train_of
 from linkwright.analysis.torsion.holzer import HolzerTable, holzer_table
+from linkwright.analysis.torsion.peaks import TorquePeaks, torque_peaks
 from linkwright.analysis.torsion.scheme import Scheme, scheme
 from linkwright.analysis.torsion.stress import ShaftStress, shaft_stress
 from linkwright.analysis.torsion.survey import survey
 from linkwright.analysis.torsion.unevenness_along import UnevennessAlong, unevenness_along
 from linkwright.analysis.torsion.verdict import Verdict, verdict
-from linkwright.machine import Machine
+from linkwright.machine import Machine, Train
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.reciprocating.firing import firing_angles
+
+# Share by which loads may be off what the engine gives without a word.
+_FITS = 0.1
+
+# Share of a limit from which on it matters that more may be asked for beyond the speeds.
+_NEAR = 0.8
 
 
 @dataclass(frozen=True)
@@ -54,6 +62,8 @@ class TorsionStudy:
         What an engine is in the train.
     campbell : CampbellDiagram or None
         Critical speeds.
+    peaks : TorquePeaks or None
+        Largest torques of the shafts, resonances between the speeds among them.
     """
 
     machine: Machine
@@ -68,6 +78,7 @@ class TorsionStudy:
     along: UnevennessAlong | None = None
     engine: EngineData | None = None
     campbell: CampbellDiagram | None = None
+    peaks: TorquePeaks | None = None
 
     @property
     def findings(self) -> list[str]:
@@ -89,7 +100,7 @@ class TorsionStudy:
             found["holzer"] = [each.to_dict(curves=True) for each in self.holzer]
         if self.damped is not None:
             found["damped"] = self.damped.to_dict(curves=True)
-        parts = {"forced": self.forced, "stress": self.stress, "verdict": self.verdict}
+        parts = {"forced": self.forced, "peaks": self.peaks, "stress": self.stress, "verdict": self.verdict}
         found |= {name: part.to_dict(curves=True) for name, part in parts.items() if part is not None}
         if self.campbell is not None:
             found["campbell"] = self.campbell.to_dict()
@@ -122,12 +133,12 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
     """
     free = free_vibration(machine)
     tables = tuple(holzer_table(machine, frequency) for frequency in holzer)
-    damped = damped_vibration(machine) if _is_damped(machine) else None
+    damped = damped_vibration(machine, _service(machine)) if _is_damped(machine) else None
     if not is_excited(machine):
         return TorsionStudy(machine, scheme(machine), free, tables, damped)
     at = excited(machine)
     forced = responded(at)
-    stress = shaft_stress(machine, forced)
+    stress, seen = shaft_stress(machine, forced), survey(machine, at, forced)
     return TorsionStudy(
         machine,
         scheme(machine),
@@ -137,11 +148,18 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
         at,
         forced,
         stress if stress.shafts else None,
-        verdict(machine, survey(machine, at, forced)),
+        verdict(machine, seen),
         _along(machine, at, forced),
         _engine(machine),
         campbell(machine, speed_range=(at.torques.speeds[0], at.torques.speeds[-1])),
+        torque_peaks(seen),
     )
+
+
+def _service(machine: Machine) -> float | None:
+    """Speed of service of a train, at which loads damp it and couplings carry their mean torque."""
+    run = machine.train.run if machine.train is not None else None
+    return None if run is None or not pulsates(machine.train) else run.service  # type: ignore[arg-type]
 
 
 def _is_damped(machine: Machine) -> bool:
@@ -190,9 +208,64 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     if run is not None and not run.speed_min <= run.service <= run.speed_max:
         near = min(max(run.service, run.speed_min), run.speed_max) * 30 / np.pi
         yield f"The speed of service is not among those looked at: what is told of it is at {near:.5g} rpm."
-    if train is not None and train.engine is not None and not train.loads:
-        yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
+    if train is not None and train.engine is not None and at.referred.is_free:
+        yield from _balance_warnings(train.engine, train, at)
+    yield from _about_loads(study, at)
+    yield from _about_couplings(study, forced)
+    yield from _about_the_ends(study, forced)
     rest = forced.orders[~forced.together.together]
     if len(rest):
         listed = ", ".join(f"{order:.5g}" for order in rest[:4])
         yield f"Orders {listed} have no common base with the others: their amplitudes are added up."
+
+
+def _balance_warnings(engine: ReciprocatingEngine, train: Train, at: Excited) -> Iterator[str]:
+    """Loads that do not take what an engine gives."""
+    if not train.loads:
+        yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
+        return
+    # Behind the throws there are loads alone, and all of them drive if one does.
+    behind = slice(len(engine.throws), None)
+    driven = at.referred.speed[behind] @ at.torques.mean[behind] > 0
+    if driven.any():
+        rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in at.torques.speeds[driven][:4])
+        yield f"The engine gives no torque in the mean, at {rpm} rpm: the loads are taken to drive it there."
+
+
+def _about_loads(study: TorsionStudy, at: Excited) -> Iterator[str]:
+    """Loads that the engine does not fit."""
+    speeds, run = at.torques.speeds, study.machine.train.run if study.machine.train is not None else None
+    service = speeds[-1] if run is None else run.service
+    factor = float(at.torques.load_factor[np.abs(speeds - service).argmin()])
+    if at.train.loads and abs(factor - 1) > _FITS:
+        yield (
+            f"At the speed of service the loads count {factor:.3g} times, to take what the engine gives. "
+            "Check torque and speed of [train.loads], or the mean effective pressure of the gas."
+        )
+
+
+def _about_couplings(study: TorsionStudy, forced: ForcedVibration) -> Iterator[str]:
+    """Couplings that carry more than their curve says."""
+    couplings = {} if study.machine.train is None else study.machine.train.couplings
+    for name, each in couplings.items():
+        if each.torque is None:
+            continue
+        carried = float(np.abs(forced.mean_torques[forced.shafts.index(name)]).max())
+        if carried > each.torque[-1]:
+            yield (
+                f"Coupling {name} carries {carried:.4g} N m, its curve ends at {each.torque[-1]:.4g} N m: "
+                "its last slope is taken beyond."
+            )
+
+
+def _about_the_ends(study: TorsionStudy, forced: ForcedVibration) -> Iterator[str]:
+    """Limits that are nearest to being broken at an end of the speeds."""
+    rows = () if study.verdict is None else study.verdict.judgements
+    ends = (forced.speeds[0], forced.speeds[-1])
+    near = [each for each in rows if each.speed in ends and each.found > _NEAR * each.permitted > 0]
+    if near:
+        parts = ", ".join(dict.fromkeys(each.part for each in near))
+        yield (
+            f"{parts}: most is asked for at an end of the speeds, and more may be beyond it; widen "
+            "[train.run] to see."
+        )

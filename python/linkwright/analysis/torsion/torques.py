@@ -38,6 +38,8 @@ class Torques:
         Driving positive; they balance unless nothing takes them off [N m].
     damping : ndarray, shape (discs, speeds)
         Of the loads [N m s/rad].
+    load_factor : ndarray, shape (speeds,)
+        Loads as they count over those given: not 1 where they follow an engine.
     """
 
     speeds: Floats
@@ -45,6 +47,7 @@ class Torques:
     harmonics: Complexes
     mean: Floats
     damping: Floats
+    load_factor: Floats
 
 
 @dataclass(frozen=True)
@@ -111,11 +114,13 @@ def torques_of(
         if each.mean is not None:
             mean[each.disc] += each.mean
     resistance, of_loads = _loads(train, place, turning, speeds)
+    factor = np.ones(len(speeds))
     if is_free:
         # Power balances: what turns n times as fast counts n times.
         drive, needed = turning @ mean, turning @ resistance
         if has_engine:
-            resistance = resistance * np.divide(drive, needed, out=np.ones_like(needed), where=needed > 0)
+            factor = np.divide(drive, needed, out=factor, where=needed > 0)
+            resistance, of_loads = factor * resistance, np.maximum(factor, 0.0) * of_loads
         else:
             driver = place[train.driver or next(iter(place))]
             mean[driver] += (needed - drive) / turning[driver]
@@ -126,7 +131,7 @@ def torques_of(
         at = np.abs(orders[:, None] - each.orders).argmin(axis=0)
         np.add.at(harmonics, (at, each.disc), each.harmonics)
     own = of_loads if damping is None else of_loads + damping
-    return Torques(speeds, orders, harmonics, mean - resistance, own)
+    return Torques(speeds, orders, harmonics, mean - resistance, own, factor)
 
 
 def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> list[Source]:

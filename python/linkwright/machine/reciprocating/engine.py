@@ -105,6 +105,11 @@ class ReciprocatingEngine(Checked):
             yield fault("throws", 0, found=self.throws[0], expected="0, from which the others are counted")
         if not self.banks:
             yield fault("banks", found="an empty list", expected="an angle for each bank of cylinders")
+        for name, angles in (("throws", self.throws), ("banks", self.banks)):
+            for n, angle in enumerate(angles):
+                if abs(angle) > 2 * math.pi + _EQUAL:
+                    remedy = f'a number without unit is radians; give degrees as "{angle:.6g} deg"'
+                    yield fault(name, n, found=angle, expected="an angle up to a turn", remedy=remedy)
 
     def _part_faults(self) -> Iterator[InitErrorDetails]:
         """Parts that are missing, or contradict each other."""
