@@ -29,6 +29,9 @@ from linkwright.plot.train_row import in_a_row
 from linkwright.report.captioned import Captioned
 from linkwright.report.torsion_tables import service_place
 
+# Share of its highest speed below which a disc stands as good as still.
+_TURNING = 0.02
+
 
 def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
     """The figures that a study has results for.
@@ -57,11 +60,15 @@ def _manoeuvre(moved: TorsionTransient) -> Iterator[Captioned]:
     """Speeds and torques over time, and what orders they hold."""
     caption = "Speeds of discs and torques of the shafts that swing most; marked are their extremes."
     yield Captioned("transient", "Manoeuvre", caption, transient_figure(moved))
-    if not moved.shafts or not (np.diff(moved.angle[0]) > 0).all():
+    # Orders are told by turns: while the first disc stands there are none.
+    turning = moved.speed[0] > _TURNING * moved.speed[0].max()
+    first = int(np.argmax(turning))
+    angle = moved.angle[0, first:]
+    if not moved.shafts or not turning[first:].all() or not (np.diff(angle) > 0).all():
         return
     shaft = int(np.argmax(moved.torque_max - moved.torque_min))
     try:
-        orders = waterfall(moved.time, moved.angle[0], moved.torque[shaft])
+        orders = waterfall(moved.time[first:], angle, moved.torque[shaft, first:])
     except LinkwrightError:
         # Too short for turns to tell orders apart.
         return
