@@ -88,8 +88,6 @@ _HOME = {
     "engine_data": "analysis.torsion.engine_data",
     "damped_vibration": "analysis.torsion.damped",
     "campbell": "analysis.torsion.campbell",
-    "torsion_transient": "analysis.torsion.transient",
-    "waterfall": "analysis.torsion.waterfall",
     "drive_line": "analysis.torsion.drive_line",
     "mechanism_harmonics": "analysis.torsion.drive_line",
     "design_damper": "analysis.torsion.damper_design",

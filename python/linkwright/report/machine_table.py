@@ -146,7 +146,7 @@ def _entries(machine: Machine, place: Place, node: object, before: str = "") -> 
             yield from _entries(machine, (*place, key), value, f"{word} ")
         # A zero that nobody wrote says nothing.
         elif (
-            value not in (None, {})
+            value not in (None, {}, ())
             and not isinstance(value, BaseModel)
             and not (key in assumed and value == 0)
         ):
