@@ -87,8 +87,10 @@ def _train(machine: Machine) -> Iterator[Part]:
 
 
 def _nested(group: str, machine: Machine, place: Place) -> Iterator[Part]:
-    """A part, then those inside it."""
-    yield _part(group, machine, place)
+    """A part, then those inside it, as far as they have entries."""
+    part = _part(group, machine, place)
+    if part.entries:
+        yield part
     node: Any = machine
     for key in place:
         node = look(node, key)
@@ -142,6 +144,9 @@ def _entries(machine: Machine, place: Place, node: object, before: str = "") -> 
         if isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
             for n, each in enumerate(value):
                 yield Entry(f"{word.removesuffix('s')} {n + 1}", _words(machine, (*place, key, str(n)), each))
+        elif isinstance(value, dict) and any(isinstance(each, BaseModel) for each in value.values()):
+            for name, each in value.items():
+                yield Entry(f"{word.removesuffix('s')} {name}", _words(machine, (*place, key, name), each))
         elif isinstance(value, Guide | SecondFollower):
             yield from _entries(machine, (*place, key), value, f"{word} ")
         # A zero that nobody wrote says nothing.
