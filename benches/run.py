@@ -29,6 +29,7 @@ CASES = (
     "torsion_modes",
     "torsion_forced",
     "torsion_engine",
+    "torsion_transient",
     "start_up",
 )
 

@@ -78,6 +78,8 @@ _HOME = {
     "holzer_table": "analysis.torsion.holzer",
     "forced_vibration": "analysis.torsion.forced",
     "torsion_study": "analysis.torsion.study",
+    "torsion_transient": "analysis.torsion.transient",
+    "waterfall": "analysis.torsion.waterfall",
     "shaft_stress": "analysis.torsion.stress",
     "barred_ranges": "analysis.torsion.barred_range",
     "mesh_torques": "analysis.torsion.mesh_torque",
@@ -190,6 +192,8 @@ if TYPE_CHECKING:
     from linkwright.analysis.torsion.scheme import scheme as scheme
     from linkwright.analysis.torsion.stress import shaft_stress as shaft_stress
     from linkwright.analysis.torsion.study import torsion_study as torsion_study
+    from linkwright.analysis.torsion.transient import torsion_transient as torsion_transient
+    from linkwright.analysis.torsion.waterfall import waterfall as waterfall
     from linkwright.analysis.transient import transient as transient
     from linkwright.exchange.cam import cam_drawings as cam_drawings
     from linkwright.exchange.write import write_drawing as write_drawing

@@ -10,6 +10,7 @@ import linkwright as lw
 from linkwright.analysis.torsion.engine_torques import cylinder_torques, engine_sources
 from linkwright.analysis.torsion.excited import excited
 from linkwright.analysis.torsion.forced import forced_vibration
+from linkwright.analysis.torsion.study import torsion_study
 from linkwright.analysis.torsion.survey import between
 from linkwright.errors import MachineError
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
@@ -39,6 +40,10 @@ ARTICULATED = {
         "pin_radius": 0.063,
         "pin_angle": 67 * DEG,
     },
+}
+HELD = {
+    "out": {"between": ["throw_6", "flywheel"], "stiffness": 4e6, "loss_factor": 0.02},
+    "hold": {"between": ["flywheel", "ground"], "stiffness": 1e4},
 }
 SPEEDS = np.array([60.0, 120.0, 160.0])
 
@@ -214,6 +219,23 @@ def test_ring_of_a_balanced_train_takes_nothing() -> None:
     ring = {"on": "flywheel", "ring_inertia": 0.8, "damping": 30.0}
     at = excited(machine(dampers={"ring": ring}), SPEEDS)
     assert not at.mean_torques[at.referred.shafts.index("ring")].any()
+
+
+@pytest.mark.parametrize(
+    ("entries", "word"),
+    [
+        ({}, None),
+        ({"loads": {}}, "speeds the train up"),
+        ({"engine": {**V12, "factors": {str(n): 0.0 for n in range(1, 13)}}}, "taken to drive it"),
+        # What is held neither speeds up nor is driven.
+        ({"loads": {}, "shafts": HELD}, None),
+    ],
+)
+def test_loads_that_do_not_take_what_the_engine_gives_are_told(
+    entries: dict[str, Any], word: str | None
+) -> None:
+    warnings = torsion_study(machine(**entries)).warnings
+    assert [word in each for each in warnings] == [True] if word else warnings == []
 
 
 def test_survey_of_few_speeds_computes_those_between() -> None:

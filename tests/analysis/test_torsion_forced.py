@@ -243,6 +243,32 @@ def test_mean_torques_balance() -> None:
     )
 
 
+@pytest.mark.parametrize("stiff", [1e4, 1e10, 1e15])
+def test_mean_torques_do_not_lose_digits_to_stiff_shafts(stiff: float) -> None:
+    row = machine(
+        discs={name: {"inertia": 1.0} for name in "abcde"},
+        shafts={
+            pair: {"between": list(pair), "stiffness": 1e4 if pair == "bc" else stiff}
+            for pair in ("ab", "bc", "cd", "de")
+        },
+        loads={"fan": {"on": "e", "torque": 100.0, "speed": 50.0, "harmonics": [{"order": 2, "share": 0.1}]}},
+    )
+    # Statics of a row knows no stiffness.
+    found = forced_vibration(row, np.array([50.0]))
+    np.testing.assert_allclose(found.mean_torques, 100.0, rtol=1e-9)
+
+
+def test_ways_in_parallel_share_the_mean_torque_by_stiffness() -> None:
+    between = ["a", "b"]
+    two = machine(
+        discs={"a": {"inertia": 2.0}, "b": {"inertia": 3.0}},
+        shafts={n: {"between": between, "stiffness": k} for n, k in (("s", 1e4), ("t", 3e4))},
+        loads={"fan": {"on": "b", "torque": 100.0, "speed": 50.0, "harmonics": [{"order": 2, "share": 0.1}]}},
+    )
+    found = forced_vibration(two, np.array([50.0]))
+    np.testing.assert_allclose(found.mean_torques[:, 0], [25.0, 75.0], rtol=1e-12)
+
+
 def test_coupling_stiffens_with_its_mean_torque() -> None:
     coupling = geared().train.couplings["c"]  # type: ignore[union-attr]
     x, y, slopes = coupling.curve()

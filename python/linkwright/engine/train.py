@@ -80,6 +80,15 @@ class ReferredTrain:
         return not bool((self.ends == HELD).any())
 
     @cached_property
+    def joins(self) -> Floats:
+        """Connections, shape (shafts, masses): +1 at the first end of each shaft, −1 at the second."""
+        found = np.zeros((len(self.ends), len(self.inertia) + 1))
+        # The last column is that of the ground.
+        for end, sign in zip(self.ends.T, (1.0, -1.0), strict=True):
+            np.add.at(found, (np.arange(len(found)), end), sign)
+        return found[:, :-1]
+
+    @cached_property
     def stiffness_matrix(self) -> Floats:
         """K of the masses, shape (masses, masses) [N m/rad]."""
         return self._matrix(self.stiffness)

@@ -135,11 +135,6 @@ def _whole(referred: ReferredTrain, at: Operating, orders: Floats, torques: Comp
     """Amplitudes from the matrices, for trains with loops; not finite where they are singular."""
     n, speeds = len(referred.inertia), len(at.speeds)
     found = np.empty((len(orders), n, speeds), complex)
-    # Connections of shafts as a matrix: +1 at the first end, −1 at the second.
-    joins = np.zeros((len(referred.shafts), n + 1))
-    np.add.at(joins, (np.arange(len(joins)), referred.ends[:, 0]), 1.0)
-    np.add.at(joins, (np.arange(len(joins)), referred.ends[:, 1]), -1.0)
-    joins = joins[:, :n]
     step = max(1, _BLOCK // (n * n))
     for m, order in enumerate(orders):
         for first in range(0, speeds, step):
@@ -148,7 +143,7 @@ def _whole(referred: ReferredTrain, at: Operating, orders: Floats, torques: Comp
             s = at.stiffness[:, part] * (1 + 1j * referred.loss_factor[:, None])
             s = s + 1j * omega * referred.damping[:, None]
             own = -(omega**2) * referred.inertia[:, None] + 1j * omega * at.disc_damping[:, part]
-            matrix = np.einsum("si,sw,sj->wij", joins, s, joins)
+            matrix = np.einsum("si,sw,sj->wij", referred.joins, s, referred.joins)
             matrix[:, np.arange(n), np.arange(n)] += own.T
             found[m, :, part] = _solved(matrix, torques[m, :, part].T).T
     return found

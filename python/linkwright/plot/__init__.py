@@ -16,6 +16,7 @@
 | `campbell` | Campbell's diagram of a train |
 | `damper` | response of a train with the best damper |
 | `torsion_forced` | forced vibration of trains over their speeds |
+| `torsion_transient` | manoeuvres of trains over time, waterfalls |
 | `torsion_scheme` | equivalent schemes of trains, by `scheme_layout`, `scheme_page`, `scheme_words` |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
@@ -58,6 +59,7 @@ from linkwright.plot.torsion_forced import (
     torsion_unevenness_figure,
 )
 from linkwright.plot.torsion_scheme import scheme_figure
+from linkwright.plot.torsion_transient import transient_figure, waterfall_figure
 
 __all__ = [
     "attempt_figure",
@@ -95,6 +97,8 @@ __all__ = [
     "time_figure",
     "torque_figure",
     "torsion_unevenness_figure",
+    "transient_figure",
     "transmission_figure",
     "vibration_figure",
+    "waterfall_figure",
 ]

@@ -19,6 +19,9 @@ Place = tuple[str, ...]
 # Headings of tables of elements that are not the table's own name.
 _GROUPS = {"points": "Fixed points", "rigid_points": "Points on links"}
 
+# Tables of a train, in the order of the report.
+_TRAIN = ("discs", "shafts", "gears", "couplings", "dampers", "loads", "excitations")
+
 # Longer lists are cut; the machine file holds them all.
 _LONGEST_LIST = 12
 
@@ -50,9 +53,10 @@ def machine_parts(machine: Machine) -> list[Part]:
     Returns
     -------
     list of Part
-        In the order drive, pumping unit, mechanism, bodies, loads, run-up.
+        In the order drive, train, pumping unit, mechanism, bodies, loads, run-up.
     """
-    return [*_drive(machine), *_unit(machine), *_mechanism(machine), *_tables(machine), *_run_up(machine)]
+    parts = (_drive, _train, _unit, _mechanism, _tables, _run_up)
+    return [part for each in parts for part in each(machine)]
 
 
 def _drive(machine: Machine) -> Iterator[Part]:
@@ -65,6 +69,34 @@ def _drive(machine: Machine) -> Iterator[Part]:
     for name in ("motor", "gearbox", "coupling", "flywheel", "brake"):
         if getattr(machine.drive, name) is not None:
             yield _part("Drive", machine, ("drive", name))
+
+
+def _train(machine: Machine) -> Iterator[Part]:
+    """A train: its engine, then its tables, then its run and manoeuvre."""
+    train = machine.train
+    if train is None:
+        return
+    if train.engine is not None:
+        yield from _nested("Engine", machine, ("train", "engine"))
+    for table in _TRAIN:
+        for name in getattr(train, table):
+            yield _part(table.capitalize(), machine, ("train", table, name))
+    for name in ("run", "transient"):
+        if getattr(train, name) is not None:
+            yield _part("Train", machine, ("train", name))
+
+
+def _nested(group: str, machine: Machine, place: Place) -> Iterator[Part]:
+    """A part, then those inside it, as far as they have entries."""
+    part = _part(group, machine, place)
+    if part.entries:
+        yield part
+    node: Any = machine
+    for key in place:
+        node = look(node, key)
+    for key in keys(node):
+        if isinstance(look(node, key), BaseModel):
+            yield from _nested(group, machine, (*place, key))
 
 
 def _unit(machine: Machine) -> Iterator[Part]:
@@ -112,11 +144,14 @@ def _entries(machine: Machine, place: Place, node: object, before: str = "") -> 
         if isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
             for n, each in enumerate(value):
                 yield Entry(f"{word.removesuffix('s')} {n + 1}", _words(machine, (*place, key, str(n)), each))
+        elif isinstance(value, dict) and any(isinstance(each, BaseModel) for each in value.values()):
+            for name, each in value.items():
+                yield Entry(f"{word.removesuffix('s')} {name}", _words(machine, (*place, key, name), each))
         elif isinstance(value, Guide | SecondFollower):
             yield from _entries(machine, (*place, key), value, f"{word} ")
         # A zero that nobody wrote says nothing.
         elif (
-            value not in (None, {})
+            value not in (None, {}, ())
             and not isinstance(value, BaseModel)
             and not (key in assumed and value == 0)
         ):

@@ -8,7 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.analysis.torsion.forced import ForcedVibration, angular_deflection
+from linkwright.analysis.torsion.stress import ShaftStress
 from linkwright.analysis.torsion.study import TorsionStudy
+from linkwright.analysis.torsion.transient import TorsionTransient
+from linkwright.analysis.torsion.waterfall import waterfall
+from linkwright.errors import LinkwrightError
 from linkwright.plot import (
     campbell_figure,
     heat_figure,
@@ -18,10 +22,15 @@ from linkwright.plot import (
     shaft_torques_figure,
     stress_figure,
     torsion_unevenness_figure,
+    transient_figure,
+    waterfall_figure,
 )
 from linkwright.plot.train_row import in_a_row
 from linkwright.report.captioned import Captioned
 from linkwright.report.torsion_tables import service_place
+
+# Share of its highest speed below which a disc stands as good as still.
+_TURNING = 0.02
 
 
 def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
@@ -43,6 +52,29 @@ def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
     yield Captioned("mode_shapes", "Mode shapes", caption, modes_figure(study.free))
     if study.forced is not None:
         yield from _forced(study, study.forced)
+    if study.transient is not None:
+        yield from _manoeuvre(study.transient)
+
+
+def _manoeuvre(moved: TorsionTransient) -> Iterator[Captioned]:
+    """Speeds and torques over time, and what orders they hold."""
+    caption = "Speeds of discs and torques of the shafts that swing most; marked are their extremes."
+    yield Captioned("transient", "Manoeuvre", caption, transient_figure(moved))
+    # Orders are told by turns: while the first disc stands there are none.
+    turning = moved.speed[0] > _TURNING * moved.speed[0].max()
+    first = int(np.argmax(turning))
+    angle = moved.angle[0, first:]
+    if not moved.shafts or not turning[first:].all() or not (np.diff(angle) > 0).all():
+        return
+    shaft = int(np.argmax(moved.torque_max - moved.torque_min))
+    try:
+        orders = waterfall(moved.time[first:], angle, moved.torque[shaft, first:])
+    except LinkwrightError:
+        # Too short for turns to tell orders apart.
+        return
+    caption = f"Torque in {moved.shafts[shaft]}, order by order as the speed changes [N m]."
+    figure = waterfall_figure(orders, quantity="torque [N m]")
+    yield Captioned("waterfall", "Waterfall of the manoeuvre", caption, figure)
 
 
 def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]:
@@ -75,16 +107,36 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
 
 def _of_the_worst_shaft(study: TorsionStudy, forced: ForcedVibration) -> Captioned:
     """Orders of the shaft that is nearest to its limit, or twisted most."""
-    size = np.nan_to_num(forced.shaft_torque_vibratory.max(axis=1), posinf=np.inf)
-    worst = int(size.argmax())
-    if study.stress is not None:
-        used = np.nan_to_num(study.stress.utilisation.max(axis=1))
-        if used.max() > 0:
-            worst = forced.shafts.index(study.stress.shafts[int(used.argmax())])
+    worst = worst_shaft(forced, study.stress)
     name = forced.shafts[worst]
     single, total = np.abs(forced.shaft_torques[:, worst]), forced.shaft_torque_vibratory[worst]
     figure = orders_figure(forced, single, total, "torque [kN m]", 1e-3)
     return Captioned("orders", f"Orders in {name}", "Amplitude of each order, and all in phase.", figure)
+
+
+def worst_shaft(forced: ForcedVibration, stress: ShaftStress | None) -> int:
+    """The shaft that is nearest to its limit of stress; where none has one, that which is twisted most.
+
+    Parameters
+    ----------
+    forced : ForcedVibration
+        Of a train with shafts.
+    stress : ShaftStress or None
+        Of those with known sections.
+
+    Returns
+    -------
+    int
+        Its place.
+    """
+    if stress is not None:
+        # Limits may say nothing at some speeds.
+        used = np.nan_to_num(stress.utilisation, posinf=np.inf).max(axis=1)
+        if used.max() > 0:
+            return forced.shafts.index(stress.shafts[int(used.argmax())])
+    # Without number is a resonance that nothing damps.
+    size = np.nan_to_num(forced.shaft_torque_vibratory, nan=np.inf, posinf=np.inf).max(axis=1)
+    return int(size.argmax())
 
 
 def _of_the_freest_disc(forced: ForcedVibration) -> Captioned:

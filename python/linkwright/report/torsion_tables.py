@@ -14,6 +14,7 @@ from linkwright.analysis.torsion.forced import ForcedVibration
 from linkwright.analysis.torsion.free import FreeVibration, Node
 from linkwright.analysis.torsion.holzer import HolzerTable
 from linkwright.analysis.torsion.study import TorsionStudy
+from linkwright.analysis.torsion.transient import TorsionTransient
 from linkwright.analysis.torsion.verdict import Verdict
 from linkwright.report.quantities import number
 from linkwright.report.table import Row, Table, with_unit
@@ -58,6 +59,8 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
     if study.forced is not None:
         yield _shafts(study, study.forced)
         yield _discs(study, study.forced)
+    if study.transient is not None:
+        yield _manoeuvre(study.transient)
     for each in study.holzer:
         yield from holzer_tables(each)
 
@@ -126,6 +129,20 @@ def _shown(value: float, unit: str) -> str:
     if np.isinf(value):
         return "no bound"
     return with_unit(value / 1e6, "MPa") if unit == "Pa" else with_unit(value, unit)
+
+
+def _manoeuvre(moved: TorsionTransient) -> Table:
+    """Extremes of the torques in a manoeuvre, and when they come."""
+    columns = (moved.torque_max, moved.torque_max_time, moved.torque_min, moved.torque_min_time)
+    rows: list[Row] = [
+        (name, "", *(_finite(value) for value in values))
+        for name, values in zip(
+            moved.shafts, zip(*(each.tolist() for each in columns), strict=True), strict=True
+        )
+    ]
+    heads = ("shaft", "", "greatest N m", "at s", "least N m", "at s")
+    title = f"Manoeuvre of {moved.time[-1]:.4g} s: torques of the shafts"
+    return Table("manoeuvre", title, heads, rows)
 
 
 def _damped(study: TorsionStudy, found: DampedVibration) -> Table:

@@ -244,6 +244,21 @@ mod tests {
     }
 
     #[test]
+    fn tuned_branches_in_a_row_are_still_numbers() {
+        // Every disc of the row carries a branch that at λ = 1 holds it as good as firmly.
+        let n = 80;
+        let parent: Vec<usize> =
+            (0..n).map(|c: usize| if c < n / 2 { c.saturating_sub(1) } else { c - n / 2 }).collect();
+        let mut stiffness = vec![1.0; n];
+        stiffness[0] = 0.0;
+        let comb = Train::new(&parent, &vec![1.0; n], &stiffness).expect("a comb");
+        let (less, more) = (trees::below(&comb, 1.0 - 1e-9), trees::below(&comb, 1.0 + 1e-9));
+        assert!((less..=more).contains(&count(&comb, 1.0)), "between {less} and {more}");
+        let holzer = Holzer::new(&comb);
+        assert!(!holzer.sweep::<f64, true>(1.0, &mut holzer.room()).is_nan(), "the slope");
+    }
+
+    #[test]
     fn the_slope_is_a_sum_over_all_zeros() {
         for train in trees::trees().filter(|train| train.len() > 1) {
             let holzer = Holzer::new(&train);

@@ -76,7 +76,7 @@ fn part_shapes(train: &Train, lambda: &[f64], q: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::torsion::trees;
+    use crate::torsion::{forest::Forest, trees};
     use std::f64::consts::PI;
 
     fn laws(train: &Train, tolerance: f64) {
@@ -194,6 +194,24 @@ mod tests {
             let twins = Train::new(&[0, 0, 1, 2, 3, 4, 5, 6], &[1.0; 8], &stiffness).expect("a chain");
             laws(&twins, 1e-13);
         }
+    }
+
+    #[test]
+    fn parts_are_put_in_order_together() {
+        // ω² = k (1/J + 1/J): 0 and 4 of the first and last disc, 0 and 2 of the others.
+        let ends = [[0, 3], [1, 2], [2, 3]];
+        let Forest::Trees(parts) = Forest::new(&[1.0, 2.0, 2.0, 1.0], &ends, &[2.0, 2.0, 0.0]) else {
+            panic!("no trees");
+        };
+        let found = modes_of_parts(&parts);
+        let wanted = [0.0, 0.0, 2f64.sqrt(), 2.0];
+        assert!(found.omega.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-15), "{:?}", found.omega);
+        let rows: Vec<&[f64]> = found.shapes.chunks_exact(4).collect();
+        let at_rest = |mode: usize| rows.iter().map(|row| row[mode] == 0.0).collect::<Vec<_>>();
+        assert_eq!(at_rest(0), [false, true, true, false], "the first part as a whole");
+        assert_eq!(at_rest(1), [true, false, false, true], "the second part as a whole");
+        assert_eq!(at_rest(2), [true, false, false, true], "the second part");
+        assert_eq!(at_rest(3), [false, true, true, false], "the first part");
     }
 
     #[test]

@@ -11,6 +11,8 @@
 | `damped`, `damped_modes` | modes with damping, and what damps them |
 | `campbell`, `modes_over_speed` | critical speeds and how severe they are |
 | `excited`, `torques`, `engine_torques`, `mechanism_torques` | what makes a train vibrate |
+| `transient`, `moving_train`, `moving_engine`, `moving_drive`, `loaded_start` | motion in time |
+| `waterfall` | amplitudes over speed and order |
 | `synthesis` | orders added up in phase |
 | `study` | all of these as one |
 | `stress`, `mesh_torque` | stresses in shafts, with those permitted; torque of gear stages |

@@ -5,7 +5,7 @@ Mean torques go through the shafts as statics has it, and set couplings to the s
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -224,10 +224,9 @@ def _mean_torques(referred: ReferredTrain, mean: Floats) -> Floats:
         M = M - referred.inertia[:, None] * (M.sum(axis=0) / referred.inertia.sum())
     # The ring of a fluid hangs on nothing else, so that any stiffness tells what takes it along.
     k = np.where(referred.stiffness > 0, referred.stiffness, referred.stiffness.max(initial=0.0) or 1.0)
-    q = np.linalg.pinv(replace(referred, stiffness=k).stiffness_matrix, rcond=1e-13, hermitian=True) @ M
-    held = np.concatenate([q, np.zeros_like(q[:1])])
-    first, second = referred.ends.T
-    carried: Floats = k[:, None] * (held[first] - held[second])
+    # Of all torques that balance those of least energy, Σ T²/k: so ways in parallel share by stiffness.
+    scale = np.sqrt(k)[:, None]
+    carried: Floats = scale * (np.linalg.pinv((scale * referred.joins).T, rcond=1e-13) @ M)
     # What is left of the rounding of large torques is none.
     carried[np.abs(carried) < _ROUNDING * np.abs(M).max(initial=0.0)] = 0.0
     return carried / lead_speeds(referred)[:, None]

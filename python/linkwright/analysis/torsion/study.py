@@ -19,9 +19,11 @@ from linkwright.analysis.torsion.peaks import TorquePeaks, torque_peaks
 from linkwright.analysis.torsion.scheme import Scheme, scheme
 from linkwright.analysis.torsion.stress import ShaftStress, shaft_stress
 from linkwright.analysis.torsion.survey import survey
+from linkwright.analysis.torsion.transient import TorsionTransient, torsion_transient
 from linkwright.analysis.torsion.unevenness_along import UnevennessAlong, unevenness_along
 from linkwright.analysis.torsion.verdict import Verdict, verdict
-from linkwright.machine import Machine
+from linkwright.machine import Machine, Train
+from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.reciprocating.firing import firing_angles
 
 # Share by which loads may be off what the engine gives without a word.
@@ -63,6 +65,8 @@ class TorsionStudy:
         Critical speeds.
     peaks : TorquePeaks or None
         Largest torques of the shafts, resonances between the speeds among them.
+    transient : TorsionTransient or None
+        The manoeuvre of [train.transient].
     """
 
     machine: Machine
@@ -78,6 +82,7 @@ class TorsionStudy:
     engine: EngineData | None = None
     campbell: CampbellDiagram | None = None
     peaks: TorquePeaks | None = None
+    transient: TorsionTransient | None = None
 
     @property
     def findings(self) -> list[str]:
@@ -101,6 +106,8 @@ class TorsionStudy:
             found["damped"] = self.damped.to_dict(curves=True)
         parts = {"forced": self.forced, "peaks": self.peaks, "stress": self.stress, "verdict": self.verdict}
         found |= {name: part.to_dict(curves=True) for name, part in parts.items() if part is not None}
+        if self.transient is not None:
+            found["transient"] = self.transient.to_dict()
         if self.campbell is not None:
             found["campbell"] = self.campbell.to_dict()
         if self.engine is not None:
@@ -133,8 +140,11 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
     free = free_vibration(machine)
     tables = tuple(holzer_table(machine, frequency) for frequency in holzer)
     damped = damped_vibration(machine, _service(machine)) if _is_damped(machine) else None
+    moved = None
+    if machine.train is not None and machine.train.transient is not None:
+        moved = torsion_transient(machine)
     if not is_excited(machine):
-        return TorsionStudy(machine, scheme(machine), free, tables, damped)
+        return TorsionStudy(machine, scheme(machine), free, tables, damped, transient=moved)
     at = excited(machine)
     forced = responded(at)
     stress, seen = shaft_stress(machine, forced), survey(machine, at, forced)
@@ -152,6 +162,7 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
         _engine(machine),
         campbell(machine, speed_range=(at.torques.speeds[0], at.torques.speeds[-1])),
         torque_peaks(seen),
+        moved,
     )
 
 
@@ -194,6 +205,7 @@ def _along(machine: Machine, at: Excited, forced: ForcedVibration) -> Unevenness
 def _warnings(study: TorsionStudy) -> Iterator[str]:
     """What one should know beside the numbers."""
     forced, at, train = study.forced, study.excited, study.machine.train
+    yield from () if study.transient is None else (f"Manoeuvre: {note}." for note in study.transient.notes)
     if forced is None or at is None:
         if train is not None and pulsates(train):
             yield "Torques pulsate, but no speeds are given: forced vibration needs [train.run]."
@@ -207,8 +219,8 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     if run is not None and not run.speed_min <= run.service <= run.speed_max:
         near = min(max(run.service, run.speed_min), run.speed_max) * 30 / np.pi
         yield f"The speed of service is not among those looked at: what is told of it is at {near:.5g} rpm."
-    if train is not None and train.engine is not None and not train.loads:
-        yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
+    if train is not None and train.engine is not None and at.referred.is_free:
+        yield from _balance_warnings(train.engine, train, at)
     yield from _about_loads(study, at)
     yield from _about_couplings(study, forced)
     yield from _about_the_ends(study, forced)
@@ -218,16 +230,29 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
         yield f"Orders {listed} have no common base with the others: their amplitudes are added up."
 
 
+def _balance_warnings(engine: ReciprocatingEngine, train: Train, at: Excited) -> Iterator[str]:
+    """Loads that do not take what an engine gives."""
+    if not train.loads:
+        yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
+        return
+    # Behind the throws there are loads alone, and all of them drive if one does.
+    behind = slice(len(engine.throws), None)
+    driven = at.referred.speed[behind] @ at.torques.mean[behind] > 0
+    if driven.any():
+        rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in at.torques.speeds[driven][:4])
+        yield f"The engine gives no torque in the mean, at {rpm} rpm: the loads are taken to drive it there."
+
+
 def _about_loads(study: TorsionStudy, at: Excited) -> Iterator[str]:
     """Loads that the engine does not fit."""
     speeds, run = at.torques.speeds, study.machine.train.run if study.machine.train is not None else None
     service = speeds[-1] if run is None else run.service
     factor = float(at.torques.load_factor[np.abs(speeds - service).argmin()])
-    if at.train.loads and abs(factor - 1) > _FITS:
+    # Loads that drive the engine are told by themselves.
+    if at.train.loads and factor > 0 and abs(factor - 1) > _FITS:
         yield (
             f"At the speed of service the loads count {factor:.3g} times, to take what the engine gives. "
-            "Check torque "
-            "and speed of [train.loads], or the mean effective pressure of the gas."
+            "Check torque and speed of [train.loads], or the mean effective pressure of the gas."
         )
 
 
@@ -241,8 +266,7 @@ def _about_couplings(study: TorsionStudy, forced: ForcedVibration) -> Iterator[s
         if carried > each.torque[-1]:
             yield (
                 f"Coupling {name} carries {carried:.4g} N m, its curve ends at {each.torque[-1]:.4g} N m: "
-                "its last "
-                "slope is taken beyond."
+                "its last slope is taken beyond."
             )
 
 

@@ -106,6 +106,26 @@ class TorsionTransient(Result):
     frequency_bound: float
     notes: tuple[str, ...]
 
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Extremes by name of shaft and disc; with ``curves`` also the samples.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether samples are included.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and lists, ready for JSON.
+        """
+        found = super().to_dict(curves=curves) | {"work": self.work, "loss": self.loss}
+        for names, kind in ((self.shafts, "torque"), (self.discs, "speed")):
+            for end in ("max", "max_time", "min", "min_time"):
+                values = getattr(self, f"{kind}_{end}")
+                found[f"{kind}_{end}"] = dict(zip(names, values.tolist(), strict=True))
+        return found
+
 
 def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None) -> TorsionTransient:
     """Follow a manoeuvre of a train in time.

@@ -1,0 +1,46 @@
+"""Which parts the figures of torsional vibration show."""
+
+from __future__ import annotations
+
+import pytest
+
+import linkwright as lw
+from linkwright.analysis.torsion.study import torsion_study
+from linkwright.report.torsion_figures import worst_shaft
+
+THREE = """
+format = 1
+name = "Three discs"
+[train.discs]
+a = { inertia = 1 }
+b = { inertia = 1 }
+c = { inertia = 1 }
+[train.shafts.thin]
+between = ["a", "b"]
+stiffness = 1e6
+[train.shafts.thick]
+between = ["b", "c"]
+stiffness = 1e6
+[train.excitations.pulse]
+on = "c"
+harmonics = [{ order = 1, torque = 100 }]
+[train.run]
+speed_min = 10
+speed_max = 120
+points = 12
+speed_rated = 100
+"""
+# Of this rule nothing is said above 1.05 times the speed of service.
+LIMITED = """
+[train.shafts.thin.limit]
+kind = "iacs_m68"
+tensile_strength = "560 MPa"
+diameter = "20 mm"
+"""
+
+
+@pytest.mark.parametrize(("limit", "worst"), [("", "thick"), (LIMITED, "thin")])
+def test_orders_are_those_of_the_shaft_nearest_to_its_limit(limit: str, worst: str) -> None:
+    study = torsion_study(lw.loads(THREE + limit))
+    assert study.forced is not None
+    assert study.forced.shafts[worst_shaft(study.forced, study.stress)] == worst
