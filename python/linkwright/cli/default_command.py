@@ -35,4 +35,9 @@ def group_with_default(name: str) -> type[TyperGroup]:
                 args = [self.default, *args]
             return super().parse_args(context, args)
 
+        def resolve_command(self, context: Any, args: list[str]) -> Any:
+            """Leave the name of the default command out of what is shown as its usage."""
+            found, command, rest = super().resolve_command(context, args)
+            return None if found == self.default else found, command, rest
+
     return WithDefault

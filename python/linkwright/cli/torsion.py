@@ -18,7 +18,7 @@ Folder = Annotated[
     typer.Option(
         "--out",
         metavar="DIR",
-        help="Write results.json, the equivalent scheme and the mode shapes as SVG and PNG there.",
+        help="Write report.html, results.json, and scheme and mode shapes as SVG and PNG there.",
         show_default=False,
     ),
 ]
@@ -36,7 +36,11 @@ Holzer = Annotated[
 def torsion(
     file: File, set: Sets = None, json: Json = False, holzer: Holzer = None, out: Folder = None
 ) -> None:
-    """Torsional vibration of a train: natural frequencies, mode shapes, nodes, energy."""
+    """Torsional vibration of a train: modes, and under its torques all that its parts bear.
+
+    Natural frequencies, shapes and nodes; with torques and [train.run] in the file also critical speeds,
+    torques, stresses, limits, barred speeds, unevenness and heat. Exit code 1 if a limit is exceeded.
+    """
     from linkwright.analysis.torsion.study import torsion_study
     from linkwright.cli.tables import progress
     from linkwright.files.read import read

@@ -135,7 +135,7 @@ def campbell(
     orders : sequence of float, optional
         Waves a turn of the first disc; without them, those of the torques of the machine.
     speed_range : tuple of float, optional
-        Lowest and highest speed of the first disc; without it, that of [train.run] [rad/s].
+        Lowest and highest speed of the first disc; without it, that of `[train.run]` [rad/s].
     excitation : ndarray of complex, shape (orders, discs), optional
         M_ν on each disc; without it, the torques of the machine at the critical speed [N m].
     damping_ratios : float or ndarray, shape (modes,), optional

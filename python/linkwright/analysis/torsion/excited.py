@@ -77,7 +77,7 @@ def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
     machine : Machine
         With a [train] that something excites.
     speeds : ndarray, shape (speeds,), optional
-        Of the first disc; without them those of [train.run] [rad/s].
+        Of the first disc; without them those of `[train.run]` [rad/s].
 
     Returns
     -------
@@ -104,7 +104,7 @@ def prepared(machine: Machine, speeds: Floats | None = None) -> Excited:
     machine : Machine
         With a [train], or with a drive line that twists.
     speeds : ndarray, shape (speeds,), optional
-        Of the first disc; without them those of [train.run] [rad/s].
+        Of the first disc; without them those of `[train.run]` [rad/s].
 
     Returns
     -------

@@ -116,7 +116,7 @@ def forced_vibration(machine: Machine, speeds: Floats | None = None) -> ForcedVi
     machine : Machine
         With a [train] that something excites.
     speeds : ndarray, shape (speeds,), optional
-        Of the first disc; without them those of [train.run] [rad/s].
+        Of the first disc; without them those of `[train.run]` [rad/s].
 
     Returns
     -------

@@ -95,7 +95,7 @@ def mesh_torques(machine: Machine, speeds: Floats | None = None) -> MeshTorque:
     machine : Machine
         With a [train] that something excites.
     speeds : ndarray, shape (speeds,), optional
-        Of the first disc; without them those of [train.run] [rad/s].
+        Of the first disc; without them those of `[train.run]` [rad/s].
 
     Returns
     -------
