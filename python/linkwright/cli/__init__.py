@@ -22,6 +22,7 @@ from linkwright.cli.common import reports_errors
 from linkwright.cli.damper import TORSION
 from linkwright.cli.damper import torsion as torsion_group
 from linkwright.cli.default_command import group_with_default
+from linkwright.cli.diagnose import diagnose
 from linkwright.cli.forces import forces
 from linkwright.cli.motion import motion
 from linkwright.cli.new import new
@@ -49,7 +50,7 @@ COMMANDS: tuple[Callable[..., Any], ...] = (
 GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = (
     (synthesise, SYNTHESISE),
     (cam, CAM),
-    (torsion_group, TORSION),
+    (torsion_group, (*TORSION, diagnose)),
 )
 
 # Group → its command for a first word that names none of its commands, such as a file.

@@ -8,6 +8,7 @@
 | `write` | machine → text that reads back equal |
 | `schema` | JSON Schema for editors |
 | `templates` | files to start from |
+| `points`, `columns` | values from files of comma-separated values |
 """
 
 from linkwright.files.read import loads, loads_as, read, read_as

@@ -79,7 +79,7 @@ def with_points(tables: dict[str, Any], folder: Path) -> list[Column]:
     for place, table in _tables(tables, ()):
         if table.get("kind") in _KINDS and isinstance(table.get("file"), str):
             path = folder / table.pop("file")
-            lists, lines = _columns(path, ".".join((*place, "file")))
+            lists, lines = columns_of(path, ".".join((*place, "file")))
             table.update(lists)
             columns += [Column((*place, name), path, lines[0], tuple(lines[1:])) for name in lists]
     return columns
@@ -94,8 +94,28 @@ def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...]
         yield from _tables(below, (*place, str(key)))
 
 
-def _columns(path: Path, key: str) -> tuple[dict[str, list[str]], list[int]]:
-    """The columns of a file by name, each entry with its unit; the number of each line, head first."""
+def columns_of(path: Path, key: str) -> tuple[dict[str, list[Any]], list[int]]:
+    """The columns of a file of comma-separated values.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    key : str
+        Entry that names it, for messages; empty if none does.
+
+    Returns
+    -------
+    columns : dict
+        By name, each entry with its unit, as it would stand in a machine file.
+    lines : list of int
+        Number of each line, head first.
+
+    Raises
+    ------
+    MachineFileError
+        The file cannot be read, has no head or a row that does not fit it.
+    """
     lines = _lines(path, key)
     heads = [_HEAD.fullmatch(cell) for cell in lines[0][1]] if lines else []
     if len(lines) < 2 or not all(heads):
@@ -135,7 +155,7 @@ def _row_problems(key: str, names: list[str], row: list[str]) -> Iterator[Proble
     for name, cell in zip(names, row, strict=False):
         if not _is_number(cell):
             found = show(cell.strip()) if cell.strip() else "an empty cell"
-            yield Problem(f"{key}, column {name}", found, "a finite number")
+            yield Problem(f"{key}, column {name}".removeprefix(", "), found, "a finite number")
 
 
 def _is_number(cell: str) -> bool:

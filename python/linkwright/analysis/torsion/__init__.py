@@ -22,4 +22,5 @@
 | `carried`, `forced` | torque and heat of shafts; amplitudes and unevenness of discs |
 | `unevenness_along` | the measure N over the cylinders, at every disc |
 | `diagnosis`, `engine_diagnosis` | which cylinder is weak, from a `measured_speed` |
+| `recorded_speed`, `record_diagnosis` | a speed recorded over the crank angle, and what it says |
 """

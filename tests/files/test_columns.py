@@ -1,0 +1,55 @@
+"""Columns of quantities from files of comma-separated values."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from linkwright.errors import MachineFileError
+from linkwright.files.columns import read_columns
+from linkwright.units import ANGLE, SPEED
+
+KINDS = {"angle": ANGLE, "speed": SPEED}
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "measured.csv"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_units_stand_in_the_head(tmp_path: Path) -> None:
+    """Other columns, comments and empty lines are passed over; without a unit numbers are SI."""
+    text = "# a pick-up\nspeed [rpm], angle [deg], note\n600, 0, 1\n\n601.5, 90, 2\n"
+    found = read_columns(written(tmp_path, text), KINDS)
+    assert found["angle"] == pytest.approx([0, np.pi / 2], rel=1e-15)
+    assert found["speed"] == pytest.approx([20 * np.pi, 601.5 * np.pi / 30], rel=1e-15)
+    bare = read_columns(written(tmp_path, "angle, speed\n1.5, 60\n2.5, 61\n"), KINDS)
+    assert bare["angle"].tolist() == [1.5, 2.5]
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("angle [deg], rpm\n0, 600\n", 1, "no column speed"),
+        ("angle [deg], speed [m/s]\n0, 600\n", 2, '"m/s" is a unit of velocity'),
+        ("angle [deg], speed [1/min]\n0, 600\n", 2, "turns or radians"),
+        ("angle [deg], speed [rpm]\n0, 600\n1,\n", 3, "an empty cell"),
+        ("angle [deg], speed [rpm]\n0, 600\n1, 2, 3\n", 3, "2 values, one for each column"),
+        ("angle [deg], speed [rpm]\n", 1, "a row for each point"),
+    ],
+)
+def test_what_is_wrong_has_its_line(tmp_path: Path, text: str, line: int, words: str) -> None:
+    path = written(tmp_path, text)
+    with pytest.raises(MachineFileError) as caught:
+        read_columns(path, KINDS)
+    (problem,) = caught.value.problems
+    assert (problem.path, problem.line) == (str(path), line)
+    assert words in str(problem)
+
+
+def test_no_file(tmp_path: Path) -> None:
+    with pytest.raises(MachineFileError, match=r"nowhere\.csv, which cannot be read"):
+        read_columns(tmp_path / "nowhere.csv", KINDS)
