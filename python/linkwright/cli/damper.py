@@ -54,8 +54,8 @@ Folder = Annotated[
 def torsion() -> None:
     """Torsional vibration: `linkwright torsion FILE` looks at a train; or one of these commands.
 
-    FILE gives natural frequencies, shapes and nodes; with torques and [train.run] also critical speeds, torques,
-    stresses, limits, barred speeds, unevenness and heat. Exit code 1 if a limit is exceeded.
+    FILE gives natural frequencies, shapes and nodes; with torques and [train.run] also critical speeds,
+    torques, stresses, limits, barred speeds, unevenness and heat. Exit code 1 if a limit is exceeded.
 
     With FILE: --set PATH=VALUE, --json, --holzer HZ, --out DIR (report, drawings, JSON).
     """
