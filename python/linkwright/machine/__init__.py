@@ -18,6 +18,7 @@
 | `shaft_flexibility`, `shaft_step` | closed forms of cones and rings; what a step adds |
 | `shaft_limit`, `propulsion_shaft`, `crankshaft_limit` | what shafts bear, given or by the rules of ships |
 | `reciprocating/` | parts of reciprocating engines |
+| `topper`, `topper_motion` | knives of root-crop toppers, and how they move |
 | `train`, `train_speeds`, `train_faults` | torsional trains, speeds of their discs, faults |
 | `train_transient`, `train_event` | manoeuvres of trains, what happens in them |
 | `coupling`, `damper`, `train_torques`, `train_run` | couplings, dampers, torques on a train, its run |
@@ -121,6 +122,8 @@ from linkwright.machine.reciprocating.wiebe import Wiebe
 from linkwright.machine.rod_rotator import RodRotator
 from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_section import ShaftSection
+from linkwright.machine.topper import Topper
+from linkwright.machine.topper_motion import ConstantKnife, HarmonicKnife, MemberKnife
 from linkwright.machine.train import Disc, ElasticShaft, Shaft, Train, TrainGear
 from linkwright.machine.train_event import (
     AnyTrainEvent,
@@ -155,6 +158,7 @@ __all__ = [
     "Combustion",
     "ConstantForce",
     "ConstantGasLoad",
+    "ConstantKnife",
     "ConstantSpeedMotor",
     "ConstantTorque",
     "ConstantTorqueMotor",
@@ -185,6 +189,7 @@ __all__ = [
     "Gravity",
     "Guide",
     "Harmonic",
+    "HarmonicKnife",
     "HeatShare",
     "Hohenberg",
     "Indicator",
@@ -199,6 +204,7 @@ __all__ = [
     "LoadStep",
     "Machine",
     "Mechanism",
+    "MemberKnife",
     "Misfire",
     "ModifiedSineLaw",
     "ModifiedTrapezoidLaw",
@@ -234,6 +240,7 @@ __all__ = [
     "TableGasLoad",
     "TableLaw",
     "TableMotor",
+    "Topper",
     "TorqueAngle",
     "TorqueCourse",
     "TorqueSpeed",

@@ -21,6 +21,7 @@ from linkwright.machine.plain import look
 from linkwright.machine.problems import problems
 from linkwright.machine.pumping_unit import PumpingUnit
 from linkwright.machine.rod_rotator import RodRotator
+from linkwright.machine.topper import Topper, topper_faults
 from linkwright.machine.train import Train
 from linkwright.machine.train_faults import train_faults
 from linkwright.units import INSIDE_ONE, RATIO, SPEED, Angle, Quantity, not_negative, positive
@@ -66,6 +67,7 @@ class Machine(Description):
         None, description="Beam pumping unit, which is a mechanism by itself."
     )
     rod_rotator: RodRotator | None = Field(None, description="Rotator of the rod string on the pumping unit.")
+    topper: Topper | None = Field(None, description="Knife that slices the heads of roots in a row.")
     train: Train | None = Field(None, description="Torsional train: discs, shafts and gears.")
     bodies: dict[str, Body] = Field(default_factory=dict, description="Masses by name.")
     loads: dict[str, AnyLoad] = Field(default_factory=dict, description="Forces and torques by name.")
@@ -81,6 +83,11 @@ class Machine(Description):
     def is_train_alone(self) -> bool:
         """Whether it is a torsional train and nothing else."""
         return self.train is not None and self.pumping_unit is None and _is_left_out(self)
+
+    @property
+    def is_topper_alone(self) -> bool:
+        """Whether it is a topper whose knife moves by a law, and nothing else."""
+        return self.topper is not None and self.pumping_unit is None and _is_left_out(self)
 
     @model_validator(mode="wrap")
     @classmethod
@@ -106,15 +113,17 @@ class Machine(Description):
 def _reference_faults(machine: object) -> list[InitErrorDetails]:
     """Nothing that moves, names that clash, bodies and loads that refer to nothing."""
     mechanism, unit = look(machine, "mechanism"), look(machine, "pumping_unit")
-    train = look(machine, "train")
+    train, topper = look(machine, "train"), look(machine, "topper")
     faults = [*train_faults(train), *two_trains(machine)]
-    if unit is None and train is None and (mechanism is None or _is_left_out(machine)):
+    stands_alone = any(each is not None for each in (unit, train, topper))
+    if not stands_alone and (mechanism is None or _is_left_out(machine)):
         return [fault("mechanism", expected="a table")]
     faults += expansion_faults(machine)
-    if unit is None and train is None and not isinstance(mechanism, BaseModel | Mapping):
+    if not stands_alone and not isinstance(mechanism, BaseModel | Mapping):
         # There is nothing to refer to.
         return faults
     outline = outline_of(machine)
+    faults += topper_faults(machine, outline.slides)
     bodies, loads = look(machine, "bodies"), look(machine, "loads")
     return [*faults, *body_faults(outline, bodies), *load_faults(outline, loads)]
 
