@@ -1,4 +1,4 @@
-r"""The topper of a root-crop harvester: a knife that moves to and fro across the row and slices the heads off.
+r"""The topper of a root-crop harvester: a knife that moves to and fro across the row and slices heads off.
 
 | letter of paper 5 | is | key |
 | --- | --- | --- |
@@ -21,8 +21,8 @@ References
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import Annotated, Any
+from collections.abc import Iterator, Sequence
+from typing import Annotated
 
 from pydantic import Field
 from pydantic_core import InitErrorDetails
@@ -72,15 +72,15 @@ class Topper(Checked):
             yield fault("knife_speed", expected="a velocity (m/s) of 0 or more")
 
 
-def topper_faults(machine: object, slides: dict[str, Any]) -> Iterator[InitErrorDetails]:
+def topper_faults(machine: object, slides: Sequence[str]) -> Iterator[InitErrorDetails]:
     """What is wrong between a topper and the mechanism that moves its knife.
 
     Parameters
     ----------
     machine : object
         The machine, checked or raw.
-    slides : dict
-        Coordinates along guides by name.
+    slides : sequence of str
+        Names of the coordinates along guides.
 
     Yields
     ------

@@ -6,13 +6,14 @@ band whose width is its length seen along the way:
 .. math:: w = L\,\frac{|v\cos\alpha \mp v_h\sin\alpha|}{\sqrt{v^2 + v_h^2}}.
 
 Heads of diameter d whose centres lie up to Δ to either side of the row take the width
-:math:`d + 2\Delta\,v/\sqrt{v^2 + v_h^2}` of it. With the middle of the band over the row all of them are cut if
+:math:`d + 2\Delta\,v/\sqrt{v^2 + v_h^2}` of it. With the middle of the band over the row all of them are
+cut if
 
 .. math:: L \ge \frac{d\sqrt{v^2 + v_h^2} + 2\Delta v}{|v\cos\alpha \mp v_h\sin\alpha|}.
 
-The worse direction is that in which the knife moves towards its leading end. There the edge hardly advances
-if :math:`v_h\tan|\alpha|` comes near v: no length does for equality, and beyond it the edge runs backwards over
-the head.
+The worse direction is that in which the knife moves towards its leading end. The edge hardly advances there
+if :math:`v_h\tan|\alpha|` comes near v: no length does for equality, and beyond it the edge runs backwards
+over the head.
 
 References
 ----------
@@ -56,10 +57,8 @@ def constant_speed_lengths(
     d, delta, alpha = np.asarray(diameter), np.asarray(offset), np.asarray(edge_angle)
     v, v_h = np.asarray(forward_speed, dtype=float), np.asarray(knife_speed, dtype=float)
     speed = np.hypot(v, v_h)
-    normal = np.stack(
-        np.broadcast_arrays(*(v * np.cos(alpha) - way * v_h * np.sin(alpha) for way in (1, -1)))
-    )
-    advance = np.abs(normal)
+    along, across = np.broadcast_arrays(v * np.cos(alpha), v_h * np.sin(alpha))
+    advance = np.abs(np.stack([along - across, along + across]))
     with np.errstate(divide="ignore"):
         found = (d * speed + 2 * delta * v) / advance
     return np.where(advance > _ALONG_ITSELF * speed, found, np.inf)

@@ -32,7 +32,7 @@ def head_diameter(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:
         [m]; zero where the cut passes above or below the root.
     """
     D, h = np.asarray(root_diameter, dtype=float), np.asarray(cut_height, dtype=float)
-    return 2 * np.sqrt(np.clip(h * (D - h), 0.0, None))
+    return np.asarray(2 * np.sqrt(np.clip(h * (D - h), 0.0, None)))
 
 
 def cap_volume(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:

@@ -30,8 +30,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.result import Result
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -102,12 +105,12 @@ def published_lengths(
     )
 
 
-def length_published(band: np.ndarray | float, edge_angle: np.ndarray | float, ratio: np.ndarray | float):
+def length_published(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -> Floats:
     """Least length as printed, (5), (9), (10).
 
     Parameters
     ----------
-    band, edge_angle, ratio : float or ndarray
+    band, edge_angle, ratio : array_like
         d + 2Δ [m], α [rad], v_h/v [–]; they broadcast.
 
     Returns
@@ -115,15 +118,16 @@ def length_published(band: np.ndarray | float, edge_angle: np.ndarray | float, r
     ndarray
         [m]
     """
-    return band * (ratio * np.cos(edge_angle) + np.abs(np.sin(edge_angle)))
+    along = np.asarray(ratio) * np.cos(edge_angle)
+    return np.asarray(band) * (along + np.abs(np.sin(edge_angle)))
 
 
-def length_consistent(band: np.ndarray | float, edge_angle: np.ndarray | float, ratio: np.ndarray | float):
+def length_consistent(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -> Floats:
     """Least length that follows from (4).
 
     Parameters
     ----------
-    band, edge_angle, ratio : float or ndarray
+    band, edge_angle, ratio : array_like
         d + 2Δ [m], α [rad], v_h/v [–]; they broadcast.
 
     Returns
@@ -132,4 +136,5 @@ def length_consistent(band: np.ndarray | float, edge_angle: np.ndarray | float, 
         [m]
     """
     sin = np.abs(np.sin(edge_angle))
-    return band * (ratio * (1 + sin * np.abs(np.tan(edge_angle))) + sin)
+    along = np.asarray(ratio) * (1 + sin * np.abs(np.tan(edge_angle)))
+    return np.asarray(band) * (along + sin)
