@@ -119,7 +119,7 @@ def length_published(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -
         [m]
     """
     along = np.asarray(ratio) * np.cos(edge_angle)
-    return np.asarray(band) * (along + np.abs(np.sin(edge_angle)))
+    return np.asarray(np.asarray(band) * (along + np.abs(np.sin(edge_angle))))
 
 
 def length_consistent(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -> Floats:
@@ -137,4 +137,4 @@ def length_consistent(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) 
     """
     sin = np.abs(np.sin(edge_angle))
     along = np.asarray(ratio) * (1 + sin * np.abs(np.tan(edge_angle)))
-    return np.asarray(band) * (along + sin)
+    return np.asarray(np.asarray(band) * (along + sin))
