@@ -56,7 +56,7 @@ class RandomField(RootField):
     )
     spacing: AnyScatter | None = Field(
         None,
-        description="Distance of neighbours along the row, from which the phases of the knife follow. Without "
+        description="Distance of neighbours along the row, from which phases of the knife follow. Without "
         "it, phases come as they may.",
     )
 

@@ -77,7 +77,7 @@ class Clusters:
     @property
     def sizes(self) -> Floats:
         """Pieces in each cluster."""
-        return np.bincount(self.of, minlength=self.count).astype(float)
+        return np.asarray(np.bincount(self.of, minlength=self.count), dtype=float)
 
     @property
     def factor(self) -> float:
@@ -97,10 +97,10 @@ class Clusters:
         ndarray, shape (clusters,)
             The sums.
         """
-        return np.bincount(self.of, values, minlength=self.count)
+        return np.asarray(np.bincount(self.of, values, minlength=self.count), dtype=float)
 
     def mean(self, values: Floats) -> Interval:
-        """Mean of a quantity.
+        """Mean of a quantity that is not negative.
 
         Parameters
         ----------
@@ -110,7 +110,7 @@ class Clusters:
         return self.ratio(values, np.ones(len(values)))
 
     def ratio(self, values: Floats, sizes: Floats) -> Interval:
-        """Sum of a quantity over the sum of another.
+        """Sum of a quantity that is not negative over the sum of another.
 
         Parameters
         ----------
@@ -119,7 +119,7 @@ class Clusters:
         """
         mean, variance = self._moments(self.sums(values), self.sums(sizes))
         half = self.factor * np.sqrt(variance)
-        return Interval(mean, mean - half, mean + half)
+        return Interval(mean, np.maximum(mean - half, 0.0), mean + half)
 
     def share(self, values: Floats) -> Interval:
         """Mean of a quantity that is between 0 and 1.
