@@ -18,6 +18,7 @@
 | `torsion_forced` | forced vibration of trains over their speeds |
 | `torsion_transient` | manoeuvres of trains over time, waterfalls |
 | `torsion_scheme` | equivalent schemes of trains, by `scheme_layout`, `scheme_page`, `scheme_words` |
+| `topper_field` | fields of roots under a topper, maps of knives |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -50,6 +51,13 @@ from linkwright.plot.reduction import reduction_figure
 from linkwright.plot.run_up import attempt_figure, run_up_figure
 from linkwright.plot.steady import speed_figure, time_figure, torque_figure
 from linkwright.plot.svg import svg
+from linkwright.plot.topper_field import (
+    best_knife_figure,
+    field_haulm_figure,
+    field_length_figure,
+    field_share_figure,
+    sweep_figures,
+)
 from linkwright.plot.torsion import modes_figure
 from linkwright.plot.torsion_forced import (
     heat_figure,
@@ -63,6 +71,7 @@ from linkwright.plot.torsion_transient import transient_figure, waterfall_figure
 
 __all__ = [
     "attempt_figure",
+    "best_knife_figure",
     "cam_figure",
     "cam_force_figure",
     "campbell_figure",
@@ -72,6 +81,9 @@ __all__ = [
     "coupler_figure",
     "curvature_figure",
     "damper_figure",
+    "field_haulm_figure",
+    "field_length_figure",
+    "field_share_figure",
     "forces_figure",
     "gear_torque_figure",
     "heat_figure",
@@ -94,6 +106,7 @@ __all__ = [
     "speed_figure",
     "stress_figure",
     "svg",
+    "sweep_figures",
     "time_figure",
     "torque_figure",
     "torsion_unevenness_figure",

@@ -11,13 +11,9 @@ Of a root, D, h_p and δ are drawn or measured, and the phase of the knife in wh
 A root whose h_p is 0 or less is missed: no length cuts it, and all its haulm remains. A root whose h_p comes
 to D or more is lost as a whole; no haulm remains, so that it counts as cut.
 
-The interval of a quantile L_p is that of the share at L_p, read off the same curve.
-
 References
 ----------
-.. [1] Woodruff, Confidence intervals for medians and other position measures, J. Amer. Statist. Assoc. 47
-   (1952) 635-646.
-.. [2] `intervals` for all others.
+.. [1] Derived here; `intervals` and `share_curve` for the intervals.
 """
 
 from __future__ import annotations
@@ -34,15 +30,13 @@ from linkwright.analysis.topper.coverage import COARSE, Edge
 from linkwright.analysis.topper.intervals import Clusters, Interval
 from linkwright.analysis.topper.passes import Pass, Watch, pass_over
 from linkwright.analysis.topper.roots import Roots, draw_roots, field_of
+from linkwright.analysis.topper.share_curve import QUANTILES, ShareCurve
 from linkwright.analysis.topper.slicing import slicing
 from linkwright.analysis.topper.topper import edges_of
 from linkwright.errors import InputError
 from linkwright.machine import Machine, Topper
 
 Floats = NDArray[np.float64]
-
-# Shares of heads whose length is told.
-QUANTILES = (0.5, 0.9, 0.95, 0.99, 0.999)
 
 # Lengths of the curve, from zero to the greatest that a head needs.
 _LENGTHS = 201
@@ -121,6 +115,17 @@ class TopperField(Result):
     quantile_length: tuple[float, ...]
     quantile_length_low: tuple[float, ...]
     quantile_length_high: tuple[float, ...]
+
+    def length_at(self, share: float) -> float:
+        """Least length that cuts a share of the heads right through [m].
+
+        Parameters
+        ----------
+        share : float
+            From 0 to 1.
+        """
+        place = int(np.ceil(share * self.n_roots - 1e-9)) - 1
+        return float(np.sort(self.length_needed)[max(place, 0)])
 
     @property
     def length_for_50(self) -> float:
@@ -235,8 +240,11 @@ def field_result(
     TopperField
         Shares and means with intervals.
     """
-    clusters = Clusters(roots.cluster, roots.n_clusters, roots.are_free, level)
-    curve = _Curve(found.length_needed, clusters)
+    is_random = topper.field is None or topper.field.kind == "random"
+    # Phases mean nothing to a knife that rests.
+    are_free = roots.are_free or (is_random and not edges[0].knife.rate)
+    clusters = Clusters(roots.cluster, roots.n_clusters, are_free, level)
+    curve = ShareCurve(found.length_needed, clusters)
     top = float(found.length_needed[np.isfinite(found.length_needed)].max(initial=topper.edge_length))
     length = np.linspace(0.0, top, _LENGTHS)
     share = curve.at(length)
@@ -251,7 +259,7 @@ def field_result(
         root_loss=roots.cap,
         n_roots=len(found.length_needed),
         n_clusters=roots.n_clusters,
-        clusters="rows" if topper.field is None or topper.field.kind == "random" else "roots",
+        clusters="rows" if is_random else "roots",
         n_missed=int(roots.is_missed.sum()),
         n_lost=int(roots.is_lost.sum()),
         level=level,
@@ -272,37 +280,8 @@ def _named(name: str, found: Interval) -> dict[str, Any]:
     return {key: float(np.squeeze(each)) for key, each in zip(keys, found, strict=True)}
 
 
-@dataclass(frozen=True)
-class _Curve:
-    """Share of heads that are cut, over the length of the edge."""
-
-    needed: Floats
-    clusters: Clusters
-
-    def at(self, length: Floats) -> Interval:
-        """Shares at lengths that increase."""
-        # The first of the lengths that is enough for each head.
-        k = len(length)
-        first = np.searchsorted(length, self.needed)
-        cells = self.clusters.of * (k + 1) + first
-        table = np.bincount(cells, minlength=self.clusters.count * (k + 1)).reshape(-1, k + 1)
-        return self.clusters.shares(np.cumsum(table[:, :k], axis=1).astype(float))
-
-    def quantiles(self, shares: Sequence[float]) -> Floats:
-        """Least lengths that are enough for shares of all heads."""
-        ordered = np.sort(self.needed)
-        # A share that a whole number of heads makes up is not to be missed by its rounding.
-        place = np.ceil(np.asarray(shares) * len(ordered) - 1e-9).astype(int) - 1
-        return np.asarray(ordered[np.clip(place, 0, len(ordered) - 1)])
-
-
-def _quantiles(curve: _Curve) -> dict[str, Any]:
+def _quantiles(curve: ShareCurve) -> dict[str, Any]:
     """Lengths for the usual shares, with what holds the true ones."""
-    found = curve.quantiles(QUANTILES)
-    _, low, high = curve.at(found)
-    return {
-        "quantile": QUANTILES,
-        "quantile_length": tuple(found.tolist()),
-        "quantile_length_low": tuple(curve.quantiles(low.tolist()).tolist()),
-        "quantile_length_high": tuple(curve.quantiles(high.tolist()).tolist()),
-    }
+    keys = ("quantile_length", "quantile_length_low", "quantile_length_high")
+    found = (tuple(each.tolist()) for each in curve.lengths(QUANTILES))
+    return {"quantile": QUANTILES, **dict(zip(keys, found, strict=True))}
