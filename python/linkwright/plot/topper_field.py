@@ -33,6 +33,9 @@ _MARKED = (0.5, 0.9, 0.95, 0.99)
 
 _BINS = 60
 
+# Numbers nearer to the rim of a map than this share of it are left out.
+_RIM = 0.05
+
 
 @styled
 def field_share_figure(found: TopperField) -> Figure:
@@ -48,7 +51,7 @@ def field_share_figure(found: TopperField) -> Figure:
     Figure
         The share with its interval, the edge, and the lengths for some shares.
     """
-    figure, (axes,) = panels(1, height=3.4)
+    figure, (axes,) = panels(1, height=3.8)
     length = 1e3 * found.length
     axes.fill_between(
         length, 100 * found.share_low, 100 * found.share_high, color=BLUE, alpha=0.25, linewidth=0
@@ -59,11 +62,10 @@ def field_share_figure(found: TopperField) -> Figure:
         if share in _MARKED and np.isfinite(value):
             axes.plot(1e3 * value, 100 * share, "o", color=INK, markersize=3.5)
             text = f"{100 * share:.3g} %: {1e3 * value:.0f} mm"
-            axes.annotate(
-                text, (1e3 * value, 100 * share), (-6, 0), textcoords="offset points", ha="right", va="center"
-            )
+            place = (1e3 * value, 100 * share)
+            axes.annotate(text, place, (6, -2), textcoords="offset points", va="top", fontsize=8)
     axes.set_xlim(_start(found), length[-1])
-    axes.set_ylim(0, 105)
+    axes.set_ylim(0, 103)
     axes.set_xlabel(_AXES["edge_length"][0])
     axes.set_ylabel("heads cut right through [%]")
     legend_above(axes)
@@ -159,27 +161,31 @@ def sweep_figure(swept: FieldSweep) -> Figure:
     Returns
     -------
     Figure
-        Four panels.
+        Two panels, and two below for what the length of the edge has no influence on.
     """
     (name,) = swept.entries
     label, factor = _AXES[name]
     x = factor * swept.entries[name]
-    figure, axes = panels(2, height=5.0, columns=2)
+    rows = 1 if name == "edge_length" else 2
+    figure, axes = panels(rows, height=2.5 * rows + 0.3, columns=2)
     _banded(axes[0], x, "share_complete", swept, (BLUE, "heads cut right through [%]"))
     _banded(axes[1], x, "haulm_mean", swept, (GREEN, "left of the head, mean [%]"))
-    axes[2].plot(x, 1e3 * _drawable(swept.length_for_95), color=PURPLE)
-    axes[2].set_ylabel("length for 95 % of heads [mm]")
-    if name == "cut_height":
-        axes[3].plot(x, 1e6 * swept.loss_mean, color=ORANGE)
-        axes[3].set_ylabel("loss of a root [cm³]")
-    else:
-        axes[3].plot(x, swept.slicing_ratio_mean, color=RED)
-        axes[3].set_ylabel("mean draw-cut ratio [–]")
-    for each in axes[2:]:
+    if rows > 1:
+        axes[2].plot(x, 1e3 * _drawable(swept.length_for_95), color=PURPLE)
+        axes[2].set_ylabel("length for 95 % of heads [mm]")
+        _other(axes[3], x, swept, is_cut=name == "cut_height")
+    for each in axes[-2:]:
         each.set_xlabel(label)
     for each in axes[1:]:
         each.set_ylim(bottom=0)
     return figure
+
+
+def _other(axes: Axes, x: Floats, swept: FieldSweep, *, is_cut: bool) -> None:
+    """What a deeper cut loses, or how the edge slices."""
+    values = 1e6 * swept.loss_mean if is_cut else swept.slicing_ratio_mean
+    axes.plot(x, values, color=ORANGE if is_cut else RED)
+    axes.set_ylabel("loss of a root [cm³]" if is_cut else "mean draw-cut ratio [–]")
 
 
 def _banded(axes: Axes, x: Floats, key: str, swept: FieldSweep, look: tuple[str, str]) -> None:
@@ -217,8 +223,9 @@ def sweep_map(swept: FieldSweep) -> Figure:
     for each, (values, title) in zip(axes, maps, strict=True):
         first, second = (factor * np.unique(swept.entries[name]) for name, factor in _scales(swept))
         _map(each, (first, second), _drawable(values).reshape(swept.shape), title)
-        each.set_xlabel(_AXES[list(swept.entries)[0]][0])
-        each.set_ylabel(_AXES[list(swept.entries)[1]][0])
+        across, up = swept.entries
+        each.set_xlabel(_AXES[across][0])
+        each.set_ylabel(_AXES[up][0])
     return figure
 
 
@@ -234,9 +241,17 @@ def _map(axes: Axes, at: tuple[Floats, Floats], values: Floats, title: str) -> N
     if len(finite) and np.ptp(finite) > 1e-9 * abs(finite).max():
         axes.contourf(*at, values.T, 12, cmap="Blues", alpha=0.75)
         lines = axes.contour(*at, values.T, 6, colors=INK, linewidths=0.7)
-        axes.clabel(lines, fontsize=7.5)
+        for word in axes.clabel(lines, fontsize=7.5):
+            _drop_at_rim(axes, word, at)
     elif len(finite):
         axes.text(0.5, 0.5, f"{finite[0]:.4g} everywhere", transform=axes.transAxes, ha="center", color=SOFT)
+
+
+def _drop_at_rim(axes: Axes, word: Any, at: tuple[Floats, Floats]) -> None:
+    """Take away a number that the rim of the map would cut off."""
+    for place, ends in zip(word.get_position(), at, strict=True):
+        if min(place - ends[0], ends[-1] - place) < _RIM * (ends[-1] - ends[0]):
+            word.set_visible(False)
 
 
 def sweep_figures(swept: FieldSweep) -> dict[str, Figure]:

@@ -89,13 +89,13 @@ def best_warnings(found: KnifeSearch) -> Iterator[str]:
         )
     if found.limits.slicing_min is None:
         yield (
-            "No slicing_min is asked for: nothing then speaks for a slanted or a moving edge, and the shortest "
-            "one rests across the row as far as the bounds allow."
+            "No slicing_min is asked for: nothing then speaks for a slanted or a moving edge, and the "
+            "shortest one rests across the row as far as the bounds allow."
         )
     elif best.knife_speed == 0:
         yield (
-            f"A slanted edge that rests slices as much as is asked for; bound its angle, or set knife_speed_min, "
-            f"where {math.degrees(best.edge_angle):.3g}° is too much or the knife has to move."
+            "A slanted edge that rests slices as much as is asked for; bound its angle, or set "
+            f"knife_speed_min, where {math.degrees(best.edge_angle):.3g}° is too much or the knife shall move."
         )
     listed = [key for key in best.at_bounds if key not in ("knife_speed_min", "angle_min")]
     if listed:

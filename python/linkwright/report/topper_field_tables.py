@@ -123,7 +123,7 @@ def sweep_table(swept: FieldSweep) -> Table:
     n = len(swept.share_complete)
     kept = np.unique(np.linspace(0, n - 1, min(n, _ROWS)).astype(int))
     names = list(swept.entries)
-    heads = tuple(f"{WORDS[name][1]} [{WORDS[name][2]}]" for name in names)
+    heads = tuple(WORDS[name][1] for name in names)
     # A table begins with a word and a symbol.
     heads = heads if len(heads) == 2 else (*heads, "")
     rows: list[Row] = []
@@ -149,7 +149,9 @@ def sweep_table(swept: FieldSweep) -> Table:
 
 
 def _shown(name: str, value: float) -> str:
-    return number(math.degrees(value) if name == "edge_angle" else value)
+    if name == "edge_angle":
+        return f"{number(math.degrees(value))}°"
+    return f"{number(value)} {WORDS[name][2]}"
 
 
 def columns_csv(columns: Mapping[str, Floats]) -> str:

@@ -19,7 +19,7 @@ References
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -244,6 +244,7 @@ def field_result(
     # Phases mean nothing to a knife that rests.
     are_free = roots.are_free or (is_random and not edges[0].knife.rate)
     clusters = Clusters(roots.cluster, roots.n_clusters, are_free, level)
+    clusters = replace(clusters, worth=ShareCurve(found.length_needed, clusters).worth())
     curve = ShareCurve(found.length_needed, clusters)
     top = float(found.length_needed[np.isfinite(found.length_needed)].max(initial=topper.edge_length))
     length = np.linspace(0.0, top, _LENGTHS)

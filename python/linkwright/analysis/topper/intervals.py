@@ -14,9 +14,10 @@ Shares p near 0 or 1 would get an interval that is too short, or none at all. Th
 .. math:: \frac{p + \frac{t^2}{2n} \pm t\sqrt{\frac{p(1-p)}{n} + \frac{t^2}{4n^2}}}{1 + \frac{t^2}{n}}, \qquad
     n = \frac{p(1 - p)}{s^2},
 
-with the number n of independent pieces that would have the same variance. Of exactly 0 and 1 the variance
-says nothing; n is the number of pieces there, or of clusters where pieces depend on one another. A share of
-pieces that are either cut or not never counts more than there are.
+with the number n of independent pieces that would have the same variance; never more than there are, where
+each piece is counted or is not. Of exactly 0 and 1 the variance says nothing: there n is the number of pieces
+if they are independent, else what other shares of the same pieces are worth (`ShareCurve.worth`), or without
+such the number of clusters.
 
 References
 ----------
@@ -67,12 +68,15 @@ class Clusters:
         Whether pieces of a cluster are independent all the same.
     level : float
         Probability that an interval holds the truth.
+    worth : float, optional
+        Number of independent pieces that shares of 0 and 1 are worth, where pieces depend on one another.
     """
 
     of: NDArray[np.intp]
     count: int
     are_free: bool
     level: float = 0.95
+    worth: float | None = None
 
     @property
     def sizes(self) -> Floats:
@@ -143,17 +147,43 @@ class Clusters:
 
     def _wilson(self, sums: Floats, most: float) -> Interval:
         """Wilson's interval with the number of pieces that the variance is worth, at most so many."""
-        p, variance = self._moments(sums, self.sizes)
-        # A mean of ones may be off by rounding.
-        p = np.clip(p, 0.0, 1.0)
+        p, worth = self._worth(sums, most)
         spread = p * (1 - p)
-        alone = float(len(self.of) if self.are_free else self.count)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            worth = np.where(spread > 0, np.minimum(spread / variance, most), alone)
-        square = self.factor**2 / worth
+        square = self.factor**2 / np.where(spread > 0, worth, self._at_ends)
         middle = (p + 0.5 * square) / (1 + square)
         half = np.sqrt(square * (spread + 0.25 * square)) / (1 + square)
         return Interval(p, np.clip(middle - half, 0.0, p), np.clip(middle + half, p, 1.0))
+
+    def worths(self, counts: Floats) -> Floats:
+        """Numbers of independent pieces whose shares would have the same variance.
+
+        Parameters
+        ----------
+        counts : ndarray, shape (clusters, k)
+            How many pieces of each cluster are.
+
+        Returns
+        -------
+        ndarray, shape (k,)
+            NaN for shares of 0 and 1.
+        """
+        p, worth = self._worth(counts, float(len(self.of)))
+        return np.where(p * (1 - p) > 0, worth, np.nan)
+
+    @property
+    def _at_ends(self) -> float:
+        """Number of pieces that shares of 0 and 1 are worth."""
+        if self.are_free:
+            return float(len(self.of))
+        return float(self.count) if self.worth is None else self.worth
+
+    def _worth(self, sums: Floats, most: float) -> tuple[Floats, Floats]:
+        """Shares, and the number of pieces that each is worth, at most so many."""
+        p, variance = self._moments(sums, self.sizes)
+        # A mean of ones may be off by rounding.
+        p = np.clip(p, 0.0, 1.0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return p, np.asarray(np.minimum(p * (1 - p) / variance, most))
 
     def _moments(self, sums: Floats, sizes: Floats) -> tuple[Floats, Floats]:
         """Mean and its variance."""

@@ -55,12 +55,16 @@ class ShareCurve:
         Interval
             Of each length by itself.
         """
+        return self.clusters.shares(self._counts(length))
+
+    def _counts(self, length: Floats) -> Floats:
+        """Heads of each cluster that each of the lengths cuts right through."""
         # The first of the lengths that is enough for each head.
         k = len(length)
         first = np.searchsorted(length, self.needed)
         cells = self.clusters.of * (k + 1) + first
         table = np.bincount(cells, minlength=self.clusters.count * (k + 1)).reshape(-1, k + 1)
-        return self.clusters.shares(np.cumsum(table[:, :k], axis=1).astype(float))
+        return np.cumsum(table[:, :k], axis=1).astype(float)
 
     def quantiles(self, shares: Sequence[float]) -> Floats:
         """Least lengths that are enough for shares of all heads.
@@ -91,6 +95,18 @@ class ShareCurve:
         found = self.quantiles(shares)
         _, low, high = self.at(found)
         return Interval(found, self.quantiles(low.tolist()), self.quantiles(high.tolist()))
+
+    def worth(self) -> float | None:
+        """Independent heads that the shares at the lengths for 50 and 90 % are worth, the fewer of both.
+
+        Returns
+        -------
+        float or None
+            None if all heads need the same length.
+        """
+        found = self.clusters.worths(self._counts(self.quantiles((0.5, 0.9))))
+        found = found[np.isfinite(found)]
+        return float(found.min()) if len(found) else None
 
     @cached_property
     def _ordered(self) -> Floats:
