@@ -100,8 +100,9 @@ def _about_exact_result(paper: Paper5) -> str:
         f"{1e3 * found.stroke.length:g} mm the bands are {_bands(paper, 'every_phase')}. With the roots and "
         f"Δ = {1e3 * found.offset:g} mm chosen here the edge must have {need['constant_speed']:.3f} m and "
         f"{need['every_phase']:.3f} m, by (10) {need['published']:.3f} m. So the published length is one "
-        "that such a machine needs, but (10) is not where it can come from unless heads stray farther than "
-        "their own half width."
+        "that such a machine needs; (10) gives it only if heads stand "
+        f"{_offsets(paper, 'published')} off the row, with a half width of "
+        f"{0.5e3 * found.diameters[1]:.0f} mm."
     )
 
 

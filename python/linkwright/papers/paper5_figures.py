@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,8 @@ from linkwright.plot.style import BLUE, GREEN, INK, ORANGE, PURPLE, legend_above
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
 
     from linkwright.papers.paper5 import Paper5
     from linkwright.papers.paper5_surface import Surface
@@ -28,6 +30,9 @@ _COLOURS = dict(zip(WAYS, (ORANGE, PURPLE, BLUE, GREEN), strict=True))
 
 # Steps of the lines of equal length [mm].
 _STEP = 20
+
+# Where along the diagonal a label has room.
+_ROOM = 0.08, 0.92
 
 _MILLI = 1e3
 
@@ -66,8 +71,13 @@ def _figure3(paper: Paper5) -> Figure:
         below.set_xlabel("root diameter D [mm]")
         for each in (above, below):
             each.tick_params(labelleft=column == 0)
-    axes[0].set_ylabel("printed (10)\n\n$v_h$ [m/s]")
-    axes[count].set_ylabel("exact, constant speed\n\n$v_h$ [m/s]")
+            each.set_xticks(_MILLI * surface.root_diameters[:: len(surface.root_diameters) // 3])
+    for each in (axes[0], axes[count]):
+        each.set_ylabel("knife speed $v_h$ [m/s]")
+    low, high = (_MILLI * each for each in paper.verdict.claim.lengths)
+    lines = [_line(ORANGE, "L by (10) [mm]"), _line(BLUE, "L exact, constant speed [mm]")]
+    handles = [*lines, _patch(GREEN, f"{low:.0f}…{high:.0f} mm")]
+    figure.legend(handles=handles, loc="outside upper center", ncols=3)
     return figure
 
 
@@ -79,7 +89,13 @@ def _contours(axes: Axes, surface: Surface, lengths: Floats, colour: str, paper:
         axes.contourf(D, v_h, L, levels=[low, high], colors=[GREEN], alpha=0.25)
     levels = np.arange(_STEP * np.ceil(L.min() / _STEP), L.max(), _STEP)
     lines = axes.contour(D, v_h, L, levels=levels, colors=[colour], linewidths=1.3)
-    axes.clabel(lines, fontsize=7.5, colors=INK, fmt="%d")
+    # Along the diagonal all lengths rise, so that each line has its label there; corners have no room.
+    along = np.linspace(*_ROOM, 200)
+    rising = L[(along * (len(v_h) - 1)).round().astype(int), (along * (len(D) - 1)).round().astype(int)]
+    shown = levels[(levels > rising[0]) & (levels < rising[-1])]
+    places = np.interp(shown, rising, along)
+    spots = [(D[0] + u * (D[-1] - D[0]), v_h[0] + u * (v_h[-1] - v_h[0])) for u in places.tolist()]
+    axes.clabel(lines, shown, manual=spots, fontsize=7.5, colors=INK, fmt="%d")
 
 
 @styled
@@ -90,7 +106,7 @@ def _step(paper: Paper5) -> Figure:
     alpha = np.radians(degrees)
     left.plot(degrees, factors(alpha), color=PURPLE)
     level(left, 1.0, "(4) = (5)")
-    left.set_ylabel(r"$S_x/\cos α$ over $d \cos α$")
+    left.set_ylabel(r"$S_x/\cos α$ over $d\,\cos α$")
     left.set_ylim(0, 5.2)
     left.legend(loc="upper left")
     ratio, (share, _) = paper.verdict.claim.ratios[1], paper.verdict.shares
@@ -152,15 +168,21 @@ def _heads(paper: Paper5) -> Figure:
         each.set_xlabel("cut height $h_p$ [mm]")
         each.tick_params(labelleft=each is axes[0])
     axes[0].set_ylabel("offset Δ [mm]")
-    _key(figure)
+    handles = [_patch(_COLOURS[way], words) for way, words in WAYS.items()]
+    dot = _line(INK, "chosen here", marker="o", markersize=4, linestyle="none")
+    figure.legend(handles=[*handles, dot], loc="outside upper center", ncols=3)
     return figure
 
 
-def _key(figure: Figure) -> None:
-    """The ways and the roots chosen, in one legend above all axes."""
+def _line(colour: str, words: str, **how: Any) -> Line2D:
+    """A line for a legend."""
     from matplotlib.lines import Line2D
+
+    return Line2D([], [], color=colour, label=words, **how)
+
+
+def _patch(colour: str, words: str) -> Patch:
+    """A shade for a legend."""
     from matplotlib.patches import Patch
 
-    handles = [Patch(color=_COLOURS[way], alpha=0.4, label=words) for way, words in WAYS.items()]
-    dot = Line2D([], [], color=INK, marker="o", markersize=4, linestyle="none", label="chosen here")
-    figure.legend(handles=[*handles, dot], loc="outside upper center", ncols=3)
+    return Patch(color=colour, alpha=0.35, linewidth=0, label=words)

@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from linkwright.papers.paper5 import Paper5
 
 _CAPTIONS = {
-    "figure3": "Figure 3: length of the edge over root diameter and knife speed",
+    "figure3": "Figure 3: lines of equal length over root diameter and knife speed",
     "step": "The step from (4) to (5), and the lengths over the angle",
-    "bands": "The result: bands of heads for which it holds",
-    "heads": "The result: cut heights and offsets for which it holds",
+    "bands": "The result: bands of heads for which it holds; the green one ends where the edge would retreat",
+    "heads": "The result: cut heights and offsets for which it holds, for the largest root",
 }
 
 

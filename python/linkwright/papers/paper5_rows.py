@@ -141,7 +141,7 @@ def _limits(paper: Paper5) -> list[Row]:
         Row(
             "(10) for v_h = 0, α = 0",
             f"L_h ≥ {short.across_published:g}",
-            f"exact {short.across:.4g} (d + 2Δ)",
+            f"exact {short.across:.4g} times d + 2Δ",
             "not the limit: an edge at rest across the row must be as long as the band of the heads",
             "far",
         ),
