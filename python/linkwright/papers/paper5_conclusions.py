@@ -57,9 +57,9 @@ def _about_condition(paper: Paper5) -> str:
     short = paper.short
     return (
         "Condition (1) asks that the knife be not done before the edge has gone over the head; it does not "
-        "ask that the edge reach over the head's width. A knife that rests across the row shows it: both "
-        f"lengths of the paper are {short.across_published:g} there, while the edge must be as long as the "
-        "band of the heads, d + 2Δ."
+        "ask that the edge reach over the head's width. A knife at rest, set straight across the row, shows "
+        f"it: both lengths of the paper are {short.across_published:g} there, while the edge must be as long "
+        "as the band of the heads, d + 2Δ."
     )
 
 
@@ -98,10 +98,10 @@ def _about_exact_result(paper: Paper5) -> str:
         f"{_bands(paper, 'constant_speed')}; the same roots then stand up to "
         f"{_offsets(paper, 'constant_speed')} off the row. For every phase of a harmonic stroke of "
         f"{1e3 * found.stroke.length:g} mm the bands are {_bands(paper, 'every_phase')}. With the roots and "
-        f"Δ = {1e3 * found.offset:g} mm chosen here the edge must have {need['constant_speed']:.3f} m and "
-        f"{need['every_phase']:.3f} m, by (10) {need['published']:.3f} m. So the published length is one "
-        "that such a machine needs; (10) gives it only if heads stand "
-        f"{_offsets(paper, 'published')} off the row, with a half width of "
+        f"Δ = {1e3 * found.offset:g} mm chosen here the edge needs {need['constant_speed']:.3f} m at constant "
+        f"speed and {need['every_phase']:.3f} m for every phase of the stroke; (10) gives "
+        f"{need['published']:.3f} m. So the published length is one that such a machine needs; (10) gives it "
+        f"only if heads stand {_offsets(paper, 'published')} off the row, with a half width of "
         f"{0.5e3 * found.diameters[1]:.0f} mm."
     )
 

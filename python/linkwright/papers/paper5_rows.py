@@ -141,7 +141,7 @@ def _limits(paper: Paper5) -> list[Row]:
         Row(
             "(10) for v_h = 0, α = 0",
             f"L_h ≥ {short.across_published:g}",
-            f"exact {short.across:.4g} times d + 2Δ",
+            f"exact {short.across:.4g} · (d + 2Δ)",
             "not the limit: an edge at rest across the row must be as long as the band of the heads",
             "far",
         ),
@@ -184,8 +184,8 @@ def _of_result(name: str, paper: Paper5, way: str, more: str = "") -> Row:
         name,
         f"L_h = {low:.2f}…{high:.2f} m",
         f"at {np.degrees(found.chosen.edge_angle):g}° for d + 2Δ = "
-        f"{millimetres(demand.band_low, demand.band_high)}{more}; the roots chosen take "
-        f"{1e3 * found.chosen.band:.0f} mm and {demand.length_greatest:.3f} m",
+        f"{millimetres(demand.band_low, demand.band_high)}{more}; the roots chosen have "
+        f"{1e3 * found.chosen.band:.0f} mm and need {demand.length_greatest:.3f} m",
         "holds for the roots chosen" if demand.holds else "does not hold for the roots chosen",
         "near" if demand.holds else "far",
     )

@@ -190,7 +190,7 @@ def lengths_over(
         Ranges of speeds.
     way : str
         A key of `WAYS`.
-    edge_angle, diameter, offset : array_like
+    edge_angle, diameter, offset : array_like of any shapes
         α [rad], d and Δ [m]; they broadcast.
     stroke : Stroke, optional
         Of the knife; ``"every_phase"`` needs it.
@@ -219,7 +219,7 @@ def bands_of(
         Ranges of speeds, and of the length.
     way : str
         A key of `WAYS`.
-    edge_angle, offset_share : array_like
+    edge_angle, offset_share : array_like of any shapes
         α [rad], 2Δ/(d + 2Δ) [–]; they broadcast.
     stroke : Stroke, optional
         Of the knife; ``"every_phase"`` needs it.
