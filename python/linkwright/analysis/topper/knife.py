@@ -197,7 +197,7 @@ def _moved(machine: Machine, member: str) -> Knife:
         return slide.position, slide.d1, slide.d2
 
     corners = _joints(machine)
-    found = None if corners else _harmonics(motion(np.arange(_ANGLES) * (_TURN / _ANGLES))[0])
+    found = None if corners else _harmonics(motion(np.linspace(0.0, _TURN, _ANGLES, endpoint=False))[0])
     if found is not None:
         least, greatest = _smooth(found, rate).law.extremes()
         found[0, 0] -= 0.5 * (least.value + greatest.value)
@@ -229,7 +229,7 @@ def _in_pieces(
     motion: Callable[[Floats], tuple[Floats, Floats, Floats]], corners: tuple[float, ...]
 ) -> MotionLaw:
     """Polynomials through position and two derivatives at even angles and at corners."""
-    knots = np.unique(np.concatenate([np.linspace(0.0, _TURN, _ANGLES + 1), corners]))
+    knots: Floats = np.unique(np.concatenate([np.linspace(0.0, _TURN, _ANGLES + 1), corners]))
     knots = knots[np.concatenate([[True], np.diff(knots) > 2 * _BESIDE])]
     knots[-1] = _TURN
     starts, ends = motion(np.asarray(knots[:-1])), motion(np.asarray(knots[1:] - _BESIDE))
