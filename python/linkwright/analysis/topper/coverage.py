@@ -225,8 +225,8 @@ def _worst(
     edge: Edge, offset: float, phase: float | None, measure: Callable[[Edge, Floats, Floats], Floats]
 ) -> Worst:
     is_still = edge.knife.rate == 0
-    every = np.arange(1 if is_still else _PHASES) * (2 * np.pi / _PHASES)
-    phases: Floats = every if phase is None else np.array([float(phase)])
+    every: Floats = np.linspace(0.0, 2 * np.pi, 1 if is_still else _PHASES, endpoint=False)
+    phases = every if phase is None else np.array([phase], dtype=np.float64)
     offsets: Floats = np.asarray(np.linspace(-offset, offset, _OFFSETS if offset else 1))
     wide = [np.pi / _PHASES if len(phases) > 1 else 0.0, offset / (_OFFSETS - 1)]
     best = _best(edge, phases, offsets, measure)

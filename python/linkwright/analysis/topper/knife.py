@@ -41,6 +41,9 @@ _ANGLES = 1440
 _ROUNDING = 1e-14
 _HARMONICS = 180
 
+# Share of the greatest speed by which the speed has to change at once to be a blow.
+_JUMP = 1e-6
+
 # Beside a joint of a cam its acceleration is taken from before it [rad].
 _BESIDE = 1e-9
 
@@ -101,6 +104,17 @@ class Knife:
     def speed_max(self) -> float:
         """Greatest speed across the row [m/s]."""
         return max(abs(speed) for speed in self.speeds)
+
+    @cached_property
+    def acceleration_max(self) -> float:
+        """Greatest acceleration across the row [m/s²]; infinite for a knife that turns back at once."""
+        if not self.rate:
+            return 0.0
+        jumps = np.append(self.law.jumps(1), self.law.at(0.0, 1) - self.law.at(self.law.end, 1, "before"))
+        slope = abs(self.law.peak(1).value)
+        if np.abs(jumps).max() > _JUMP * slope:
+            return float("inf")
+        return abs(self.law.peak(2).value) * self.rate**2
 
     def at(self, time: ArrayLike, phase: ArrayLike = 0.0, order: int = 0) -> Floats:
         """Place, velocity or acceleration across the row.
