@@ -13,4 +13,5 @@
 | `field`, `field_verdict` | share of heads cut, haulm left, loss; limits that are not kept |
 | `intervals`, `share_curve` | what holds the true shares and means; share against length |
 | `constant_speed` | the exact length for a knife that does not turn back over a head |
+| `verdict` | for which heads lengths that are said to do for ranges of speeds do |
 """
