@@ -95,7 +95,7 @@ def best_warnings(found: KnifeSearch) -> Iterator[str]:
     elif best.knife_speed == 0:
         yield (
             "A slanted edge that rests slices as much as is asked for; bound its angle, or set "
-            f"knife_speed_min, where {math.degrees(best.edge_angle):.3g}° is too much or the knife shall move."
+            f"knife_speed_min, where {math.degrees(best.edge_angle):.3g}° is too much, or the knife moves."
         )
     listed = [key for key in best.at_bounds if key not in ("knife_speed_min", "angle_min")]
     if listed:
