@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,17 +16,16 @@ Floats = NDArray[np.float64]
 # Grid of angles and knife speeds: for the map, for each of several forward speeds, and about the best.
 MAP, _COARSE, _CLOSE = (25, 21), (13, 11), 7
 
-# Rounds about the best; the width falls to a third each time, in the end to 1e-3 of a step of the grid.
-_ROUNDS = 6
+# Rounds about the best; the width falls to a third each time, in the end to 1e-3 of a step of the grid. After
+# a search with a part of the roots as many follow with all of them, of which the first are left out.
+_ROUNDS, _SKIPPED = 6, 2
 
 # Forward speeds that are looked at, and halvings between two of them: 1e-3 of such a step.
 _SPEEDS, _HALVINGS = 9, 10
 
 _EACH = _COARSE[0] * _COARSE[1] + _ROUNDS * _CLOSE**2
-_ALL = {
-    "shortest": MAP[0] * MAP[1] + _ROUNDS * _CLOSE**2,
-    "fastest": MAP[0] * MAP[1] + (_SPEEDS + _HALVINGS) * _EACH,
-}
+_ONCE = MAP[0] * MAP[1] + (_ROUNDS - _SKIPPED) * _CLOSE**2
+_ALL = {"shortest": _ONCE + _ROUNDS * _CLOSE**2, "fastest": _ONCE + (_SPEEDS + _HALVINGS) * _EACH}
 
 
 class KnifeGrid:
@@ -95,13 +94,41 @@ class KnifeGrid:
         """
         if first is None:
             first = _listed(self.grid(forward_speed, _COARSE, self.low, self.high))
-        best = min(first, key=self._order)
+        return self._about(min(first, key=self._order), _ROUNDS)
+
+    def settled(self, chosen: Trial) -> Trial:
+        """The best about a knife that was found with a part of the roots.
+
+        Parameters
+        ----------
+        chosen : Trial
+            That knife; where it cannot be had at its forward speed, and the fastest is sought, a slower one
+            is taken.
+
+        Returns
+        -------
+        Trial
+            The knife over all roots.
+        """
+        best = self._settled(chosen, chosen.forward_speed)
+        slow = max(self.speeds[0], chosen.forward_speed - (self.speeds[1] - self.speeds[0]) / (_SPEEDS - 1))
+        if not self.is_fastest or self.keeps(best) or slow >= chosen.forward_speed:
+            return best
+        found = self._settled(chosen, slow)
+        return self._between(found, chosen.forward_speed, lambda v: self._settled(chosen, v))
+
+    def _settled(self, chosen: Trial, forward_speed: float) -> Trial:
+        own = self._at(chosen.edge_angle, chosen.knife_speed, forward_speed)
+        return self._about(own, _ROUNDS - _SKIPPED)
+
+    def _about(self, best: Trial, rounds: int) -> Trial:
+        """The best about a knife, closer in each of some rounds."""
         # To the neighbours on the grid, which has at least a dozen steps.
-        half = (self.high - self.low) / 12
-        for _ in range(_ROUNDS):
+        half = (self.high - self.low) / 12 / 3 ** (_ROUNDS - rounds)
+        for _ in range(rounds):
             middle = np.array([best.edge_angle, best.knife_speed])
             low, high = np.maximum(middle - half, self.low), np.minimum(middle + half, self.high)
-            close = self.grid(forward_speed, (_CLOSE, _CLOSE), low, high)
+            close = self.grid(best.forward_speed, (_CLOSE, _CLOSE), low, high)
             best = min([best, *_listed(close)], key=self._order)
             half = half / 3
         return best
@@ -116,10 +143,14 @@ class KnifeGrid:
         best = found[kept[-1]]
         if kept[-1] + 1 == len(speeds):
             return best
-        slow, fast = speeds[kept[-1]], speeds[kept[-1] + 1]
+        return self._between(best, speeds[kept[-1] + 1], self.shortest)
+
+    def _between(self, best: Trial, fast: float, look: Callable[[float], Trial]) -> Trial:
+        """The fastest between a knife that keeps the limits and a speed at which none does."""
+        slow = best.forward_speed
         for _ in range(_HALVINGS):
             middle = 0.5 * (slow + fast)
-            trial = self.shortest(middle)
+            trial = look(middle)
             if self.keeps(trial):
                 slow, best = middle, trial
             else:

@@ -78,11 +78,12 @@ class Trials:
         With its limits.
     roots : Roots
         What all of them meet.
+    count : int
+        Knives that were looked at before.
     """
 
-    def __init__(self, machine: Machine, topper: Topper, roots: Roots) -> None:
-        self.topper, self.roots = topper, roots
-        self.count = 0
+    def __init__(self, machine: Machine, topper: Topper, roots: Roots, count: int = 0) -> None:
+        self.topper, self.roots, self.count = topper, roots, count
         self._machine = machine
         self._knives: dict[float, list[Knife]] = {}
 
@@ -138,6 +139,8 @@ class Trials:
 
     def _for_haulm(self, edges: list[Edge], least: float, most: float, haulm_max: float) -> float:
         """Least edge, from one that cuts enough heads on, that leaves no more haulm."""
+        if float(self.roots.is_missed.mean()) > haulm_max:
+            return math.inf
         if self._haulm(edges, least) <= haulm_max:
             return least
         if self._haulm(edges, most) > haulm_max:

@@ -6,7 +6,7 @@ haulm has a limit, the edge is made longer until it is kept. The draw-cut ratio 
 So only α and v_h are sought, on a grid, and then on ever finer ones about the best:
 
 * robust against the steps of a sample, against locked phases, and against limits on whose edge the best lies;
-* the search looks at a part of the roots, the best knife at all of them, and its verification at others,
+* the search looks at a part of the roots, the last rounds at all of them, and the verification at others,
   drawn with another seed, with a finer look at each pass.
 
 Edges that run backwards at times are passed over: they push the head instead of cutting it. Without
@@ -33,8 +33,8 @@ from linkwright.analysis.result import Result
 from linkwright.analysis.topper.coverage import FINE
 from linkwright.analysis.topper.field import TopperField, field_result, require_topper
 from linkwright.analysis.topper.passes import Watch, pass_over
-from linkwright.analysis.topper.roots import Roots, draw_roots, field_of
-from linkwright.machine import Machine, MemberKnife, Topper, TopperLimits
+from linkwright.analysis.topper.roots import draw_roots, field_of
+from linkwright.machine import Machine, MemberKnife, TopperLimits
 from linkwright.sizing.knife_failing import Failing, failing_limit
 from linkwright.sizing.knife_search import MAP, KnifeGrid
 from linkwright.sizing.knife_trial import Trial, Trials, thinned
@@ -188,6 +188,10 @@ def best_knife(
     table = search.grid(speed, MAP, search.low, search.high)
     if chosen is None:
         chosen = search.shortest(speed, [each for row in table for each in row])
+    if trials.roots is not roots:
+        trials = Trials(machine, topper, roots, trials.count)
+        search = KnifeGrid(trials, length_max, objective, watch)
+        chosen = search.settled(chosen)
     keeps = search.keeps(chosen)
     return KnifeSearch(
         map_angle=np.array([row[0].edge_angle for row in table]),
@@ -198,21 +202,18 @@ def best_knife(
         limits=limits,
         length_max=length_max,
         tried=trials.count,
-        best=_verified(machine, topper, roots, chosen, search, seed) if keeps else None,
+        best=_verified(trials, chosen, search, seed) if keeps else None,
         failing=None if keeps else failing_limit(chosen, roots, limits, length_max),
     )
 
 
-def _verified(
-    machine: Machine, topper: Topper, roots: Roots, chosen: Trial, search: KnifeGrid, seed: int | None
-) -> BestKnife:
-    """The knife with the length that all roots ask for, over these and over others."""
+def _verified(trials: Trials, chosen: Trial, search: KnifeGrid, seed: int | None) -> BestKnife:
+    """The knife over the roots that it was sought with, and over others."""
+    topper, roots, length = trials.topper, trials.roots, chosen.length
     at = (chosen.edge_angle, chosen.knife_speed, chosen.forward_speed)
-    every = Trials(machine, topper, roots)
-    edges = every.edges(*at)
-    entries = {"edge_angle": at[0], "edge_length": every.length(edges), "forward_speed": at[2]}
+    edges = trials.edges(*at)
+    entries = {"edge_angle": at[0], "edge_length": length, "forward_speed": at[2]}
     best = topper.with_entries(entries)
-    length = best.edge_length
     own = field_result(best, edges, roots, pass_over(edges, roots, length=length))
     other = (field_of(topper).seed if seed is None else seed) + _OTHER_SEED
     fresh = draw_roots(topper, other)
