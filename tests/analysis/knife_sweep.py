@@ -11,7 +11,7 @@ edge at (v t, y(t)), its direction (sin α, cos α).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -130,9 +130,8 @@ def _parts(points: Floats, steps: int) -> Iterator[Floats]:
     yield from (points[i : i + size] for i in range(0, len(points), size))
 
 
-def length_by_bisection(over: Pass, n: int = 40, rounds: int = 20) -> float:
-    """Least length whose parallelograms hold every point of a lattice and the rim."""
-    points = np.concatenate([lattice(over, n), rim(over, 2 * n)])
+def length_by_bisection(over: Pass, points: Floats, rounds: int = 20) -> float:
+    """Least length whose parallelograms hold every point."""
     low, high = 0.0, 4 * (over.diameter + abs(over.offset) + over.knife.reach) / np.cos(over.knife.angle)
     for _ in range(rounds):
         middle = (low + high) / 2
@@ -199,28 +198,34 @@ def _on_border(left: Mask) -> int:
     return int((left[1:] != left[:-1]).sum() + (left[:, 1:] != left[:, :-1]).sum())
 
 
-def needed_length(over: Pass, n: int = 24, rounds: int = 14) -> float:
+def needed_length(over: Pass, n: int = 24, rounds: int = 14, per_cycle: int = STEPS) -> float:
     """Least length that cuts every point: the greatest of a lattice and the rim, closed in upon."""
     points = np.concatenate([lattice(over, n), rim(over, 6 * n)])
-    lengths = lengths_of_points(over, points)
+    lengths = lengths_of_points(over, points, per_cycle)
     best = points[np.argsort(lengths)[-3:]]
     around = lattice(replace(over, offset=0.0), 7)
     for k in range(rounds):
         near = best[:, None] + around * (4 / n * 0.5**k)
         points = into_head(over, np.concatenate([best, near.reshape(-1, 2)]))
-        lengths = lengths_of_points(over, points)
+        lengths = lengths_of_points(over, points, per_cycle)
         best = points[np.argsort(lengths)[-3:]]
     return float(lengths.max())
 
 
-def worst(
-    knife: Knife, diameter: float, offsets: Sequence[float], phases: Sequence[float]
-) -> tuple[float, Pass]:
-    """Greatest needed length over offsets and phases, and where."""
-    passes = [Pass(knife, diameter, offset, phase) for offset in offsets for phase in phases]
-    lengths = [needed_length(each, n=10, rounds=5) for each in passes]
-    k = int(np.argmax(lengths))
-    return lengths[k], passes[k]
+def worst(knife: Knife, diameter: float, offset: float, phases: int = 24) -> tuple[float, Pass]:
+    """Greatest needed length over phases and offsets up to `offset`, and where: a scan, then closing in."""
+    scan = 2 * np.pi * np.arange(phases) / phases
+    found = [_needed_at(knife, diameter, o, p) for o in (-offset, 0.0, offset) for p in scan]
+    for k in range(12):
+        best = max(found, key=lambda each: each[0])[1]
+        near = best.phase + 2 * np.pi / phases * 0.45**k * np.array([-1, -0.5, 0.5, 1])
+        found += [_needed_at(knife, diameter, best.offset, phase) for phase in near]
+    return max(found, key=lambda each: each[0])
+
+
+def _needed_at(knife: Knife, diameter: float, offset: float, phase: float) -> tuple[float, Pass]:
+    over = Pass(knife, diameter, offset, float(phase))
+    return needed_length(over, n=8, rounds=7, per_cycle=STEPS // 3), over
 
 
 # --- laws of the knife --------------------------------------------------------------------------------------

@@ -8,7 +8,16 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from knife_sweep import Pass, is_cut, lattice, length_by_bisection, needed_length, one_direction, uncut_share
+from knife_sweep import (
+    Pass,
+    is_cut,
+    lattice,
+    length_by_bisection,
+    needed_length,
+    one_direction,
+    rim,
+    uncut_share,
+)
 from numpy.typing import NDArray
 from scipy.integrate import quad
 
@@ -69,7 +78,8 @@ def test_length_is_that_of_the_swept_points(name: str, direction: int) -> None:
 @pytest.mark.parametrize("direction", [1, -1])
 def test_length_is_that_of_the_swept_parallelograms(name: str, direction: int) -> None:
     # 80 points of the rim: the farthest is off by at most (π/80)²/2 of the radius.
-    swept = max(length_by_bisection(over(name, direction, each)) for each in (-OFFSET, OFFSET))
+    passes = [over(name, direction, each) for each in (-OFFSET, OFFSET)]
+    swept = max(length_by_bisection(each, rim(each, 80)) for each in passes)
     found = float(both(name)[(1 - direction) // 2])
     assert found * (1 - 1e-3) <= swept <= found * (1 + 1e-5)
 
