@@ -10,6 +10,7 @@ __all__ = [
     "FORMAT",
     "Cam",
     "Plan",
+    "TopperKnife",
     "TorsionSystem",
     "cam_crossings",
     "change_point",
@@ -128,6 +129,24 @@ class Cam:
 
 def cam_crossings(x: _Floats, y: _Floats) -> _Floats:
     """Crossings of the sides of a closed polygon: side and share of both, place (n, 4)."""
+
+@final
+class TopperKnife:
+    """The knife of a topper: `crates/linkwright-core/src/topper`."""
+
+    def __new__(
+        cls,
+        law: _Floats,
+        in_pieces: bool,
+        corners: Sequence[float],
+        angle: float,
+        forward: float,
+        rate: float,
+        drift: float,
+        bounds: Sequence[float],
+    ) -> TopperKnife: ...
+    def cover(self, columns: Sequence[_Floats], n: int, length: float | None, fine: int) -> _Floats:
+        """Length needed, place of the point that is reached last, areas left: right, left, between (n, 6)."""
 
 def torsion_forced(
     parent: _Ints,

@@ -22,6 +22,7 @@
 //! | [`rk`], [`transient`] | motion in time from given angle and speed, with its events |
 //! | [`batch`] | many machines: lanes and threads |
 //! | [`cam`] | profiles of cams: contact, pressure angle, curvature, many cams |
+//! | [`topper`] | knives over the heads of roots: what they cut, and what they leave |
 //! | [`torsion`] | natural frequencies, mode shapes and motion in time of trains of discs and shafts |
 //! | [`status`] | why a machine has no answer |
 //!
@@ -55,5 +56,6 @@ pub mod rk;
 pub mod status;
 pub mod steady;
 pub mod table;
+pub mod topper;
 pub mod torsion;
 pub mod transient;

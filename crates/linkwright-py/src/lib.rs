@@ -6,6 +6,7 @@
 mod arrays;
 mod cam;
 mod errors;
+mod topper;
 mod torsion;
 mod torsion_transient;
 
@@ -316,6 +317,8 @@ mod _core {
     const FORMAT: u32 = linkwright_core::plan::FORMAT;
     #[pymodule_export]
     use super::cam::{Cam, cam_crossings};
+    #[pymodule_export]
+    use super::topper::TopperKnife;
     #[pymodule_export]
     use super::torsion::{torsion_forced, torsion_modes, torsion_waves};
     #[pymodule_export]
