@@ -18,6 +18,7 @@
 | `step_method` | what does the published step method give instead? |
 | `pumping_unit`, `gear_torque` | how does the polished rod move, and what does its gearbox carry? |
 | `rod_rotator`, `lever` | how does the lever turn the rod string? |
+| `topper` | how long must the knife of a topper be, and what does it leave? |
 | `forces`, `kinetostatics` | what do its pairs bear, what must the drive give, what does the frame feel? |
 | `envelope` | how large does each force become, and under which loads? |
 | `harmonics` | of which harmonics does a force consist? |

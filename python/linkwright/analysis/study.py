@@ -9,6 +9,7 @@
 | 5 | `forces` | steady motion to act in |
 | 6 | `linkage` | a linkage that closes somewhere |
 | 7 | `pumping_unit`, `rod_rotator` | such a unit, such a rotator; nothing of the above |
+| 8 | `topper` | a topper; a mechanism that closes if that moves its knife |
 
 What fails becomes a finding, and the study goes on with what does not depend on it.
 """
@@ -41,6 +42,8 @@ from linkwright.analysis.run_down import RunDown, run_down
 from linkwright.analysis.run_up import RunUp, run_up, start_of
 from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.analysis.step_method import StepMotion, step_method
+from linkwright.analysis.topper.cautions import topper_cautions, topper_findings
+from linkwright.analysis.topper.topper import TopperStudy, topper
 from linkwright.analysis.transient import Transient, transient
 from linkwright.analysis.unit_cautions import unit_cautions
 from linkwright.engine import compile_machine, drive_inertia
@@ -73,6 +76,8 @@ class Study:
         Results by analysis; None where there is none.
     pumping_unit, rotator : Result or None
         Motion of the polished rod and of its rotator.
+    topper : TopperStudy or None
+        What the knife of a topper cuts.
     linkage : Linkage or None
         Extreme positions, transmission angles and Grashof classes.
     cams : tuple of CamProfile
@@ -102,6 +107,7 @@ class Study:
     forces: Forces | None = None
     pumping_unit: PumpingUnitMotion | None = None
     rotator: RodRotatorMotion | None = None
+    topper: TopperStudy | None = None
     linkage: Linkage | None = None
     cams: tuple[CamProfile, ...] = ()
     cam_sizes: tuple[LeastSizes, ...] = ()
@@ -117,8 +123,8 @@ class Study:
 
     def results(self) -> dict[str, Result]:
         """The results that there are, by analysis."""
-        first = ("linkage", "pumping_unit", "gear_torque", "rotator", "reduction", "constant_energy")
-        names = (*first, "steady_state", "step_method", "run_up", "run_down", "forces")
+        first = ("topper", "linkage", "pumping_unit", "gear_torque", "rotator", "reduction")
+        names = (*first, "constant_energy", "steady_state", "step_method", "run_up", "run_down", "forces")
         found: dict[str, Result | None] = {name: getattr(self, name) for name in names}
         single = len(self.cams) == 1
         cams: dict[str, Result] = {"cam" if single else f"cam.{each.name}": each for each in self.cams}
@@ -175,6 +181,9 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         The accuracy or the step makes no sense.
     """
     found = _Findings()
+    cut = found.of(topper, machine) if machine.topper else None
+    if machine.is_topper_alone:
+        return _topped(Study(machine, findings=found.sentences()), cut)
     unit = found.of(pumping_unit, machine, n=_INTERVALS) if machine.pumping_unit else None
     rotator = found.of(rod_rotator, machine, n=_INTERVALS) if machine.rod_rotator else None
     # A linkage that closes nowhere is told of by what follows.
@@ -183,7 +192,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     driven = _moved(machine, found) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
     loaded = _loaded(machine, sound, driven.forces, found)
     shaken = tuple(each for cam in cams for each in _vibration(cam, found))
-    return replace(
+    whole = replace(
         driven,
         pumping_unit=unit,
         rotator=rotator,
@@ -195,6 +204,16 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         findings=found.sentences(),
         warnings=(*unit_cautions(machine, unit, rotator), *_cam_warnings(cams), *driven.warnings),
     )
+    return _topped(whole, cut)
+
+
+def _topped(known: Study, cut: TopperStudy | None) -> Study:
+    """A study with what the knife of its topper cuts."""
+    described = known.machine.topper
+    if described is None or cut is None:
+        return known
+    findings = (*known.findings, *topper_findings(described, cut))
+    return replace(known, topper=cut, findings=findings, warnings=(*topper_cautions(cut), *known.warnings))
 
 
 def _cams(machine: Machine, found: _Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:

@@ -4,5 +4,10 @@
 | --- | --- |
 | `head` | the disc that is cut, and what lies above it |
 | `published` | working lengths of the paper, and the bound that follows from its (4) |
+| `knife` | the law of the knife, given or that of a member of the mechanism |
+| `coverage` | what heads need, what an edge leaves of them, the worst head |
+| `slicing` | draw-cut ratio, cutting speed, use of the edge |
+| `knife_drive` | inertia force of the knife, torque of its drive |
+| `topper`, `cautions` | all of these as one; what it does not do |
 | `constant_speed` | the exact length for a knife that does not turn back over a head |
 """

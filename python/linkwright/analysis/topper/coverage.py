@@ -1,4 +1,4 @@
-r"""What a knife cuts of heads, for any law of its motion: the length that each needs, what a shorter edge leaves.
+r"""What a knife cuts of heads, by any law: the length that each needs, and what a shorter edge leaves.
 
 Seen from the centre of a head, δ to the left of the row, the middle of the edge is at
 
@@ -12,8 +12,8 @@ retreats, :math:`v\cos\alpha > \dot y\sin\alpha`, each chord is crossed once, an
 
 A retreating edge crosses some chords again; any crossing counts.
 
-If phases come as they may and the edge never retreats, at some head the knife is at one end of its stroke S just
-as it crosses the point farthest to the other side: then :math:`L = (S + d + 2\Delta)/\cos\alpha`.
+If phases come as they may and the edge never retreats, at some head the knife is at one end of its stroke S
+just as it crosses the point farthest to the other side: then :math:`L = (S + d + 2\Delta)/\cos\alpha`.
 
 References
 ----------
@@ -37,7 +37,8 @@ Floats = NDArray[np.float64]
 # Stations a turn of the law for one machine: tops between them are then told apart to 1e-9.
 FINE = 128
 
-# Stations a turn of the law for many heads: two tops that differ by less than 1e-6 of the head may be confused.
+# Stations a turn of the law for many heads: two tops that differ by less than 1e-6 of the head may be
+# confused.
 COARSE = 16
 
 # First look at the worst head: phases, and offsets.
@@ -127,8 +128,8 @@ def coverage(
     edge : Edge
         The edge.
     diameter, offset, phase : array_like
-        d of the discs [m], their centres to the left of the row [m], phase of the knife when the middle of the
-        edge is abreast of the centre [rad]; one, or one a head.
+        d of the discs [m], their centres to the left of the row [m], phase of the knife when the middle of
+        the edge is abreast of the centre [rad]; one, or one a head.
     length : float, optional
         Of the edge [m]; without it, only what is needed is looked at.
     fine : int
@@ -213,8 +214,8 @@ def worst_head(
 
     Notes
     -----
-    A look at many heads, then a look about the best of them that narrows fourfold each round: tops may be smooth
-    or edges.
+    A look at many heads, then a look about the best of them that narrows fourfold each round: tops may be
+    smooth or edges.
     """
     found = [_worst(edge, offset, phase, measure) for edge in edges]
     return max(found, key=lambda each: each.value)
@@ -224,9 +225,9 @@ def _worst(
     edge: Edge, offset: float, phase: float | None, measure: Callable[[Edge, Floats, Floats], Floats]
 ) -> Worst:
     is_still = edge.knife.rate == 0
-    phases = np.arange(_PHASES) * (2 * np.pi / _PHASES) if phase is None else np.array([phase])
-    phases = np.zeros(1) if is_still else phases
-    offsets = np.linspace(-offset, offset, _OFFSETS) if offset else np.zeros(1)
+    every: Floats = np.linspace(0.0, 2 * np.pi, 1 if is_still else _PHASES, endpoint=False)
+    phases = every if phase is None else np.array([phase], dtype=np.float64)
+    offsets: Floats = np.asarray(np.linspace(-offset, offset, _OFFSETS if offset else 1))
     wide = [np.pi / _PHASES if len(phases) > 1 else 0.0, offset / (_OFFSETS - 1)]
     best = _best(edge, phases, offsets, measure)
     for _ in range(_ROUNDS):

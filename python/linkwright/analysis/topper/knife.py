@@ -41,6 +41,9 @@ _ANGLES = 1440
 _ROUNDING = 1e-14
 _HARMONICS = 180
 
+# Share of the greatest speed by which the speed has to change at once to be a blow.
+_JUMP = 1e-6
+
 # Beside a joint of a cam its acceleration is taken from before it [rad].
 _BESIDE = 1e-9
 
@@ -101,6 +104,17 @@ class Knife:
     def speed_max(self) -> float:
         """Greatest speed across the row [m/s]."""
         return max(abs(speed) for speed in self.speeds)
+
+    @cached_property
+    def acceleration_max(self) -> float:
+        """Greatest acceleration across the row [m/s²]; infinite for a knife that turns back at once."""
+        if not self.rate:
+            return 0.0
+        jumps = np.append(self.law.jumps(1), self.law.at(0.0, 1) - self.law.at(self.law.end, 1, "before"))
+        slope = abs(self.law.peak(1).value)
+        if np.abs(jumps).max() > _JUMP * slope:
+            return float("inf")
+        return abs(self.law.peak(2).value) * self.rate**2
 
     def at(self, time: ArrayLike, phase: ArrayLike = 0.0, order: int = 0) -> Floats:
         """Place, velocity or acceleration across the row.
@@ -197,7 +211,7 @@ def _moved(machine: Machine, member: str) -> Knife:
         return slide.position, slide.d1, slide.d2
 
     corners = _joints(machine)
-    found = None if corners else _harmonics(motion(np.arange(_ANGLES) * (_TURN / _ANGLES))[0])
+    found = None if corners else _harmonics(motion(np.linspace(0.0, _TURN, _ANGLES, endpoint=False))[0])
     if found is not None:
         least, greatest = _smooth(found, rate).law.extremes()
         found[0, 0] -= 0.5 * (least.value + greatest.value)
@@ -229,7 +243,7 @@ def _in_pieces(
     motion: Callable[[Floats], tuple[Floats, Floats, Floats]], corners: tuple[float, ...]
 ) -> MotionLaw:
     """Polynomials through position and two derivatives at even angles and at corners."""
-    knots = np.unique(np.concatenate([np.linspace(0.0, _TURN, _ANGLES + 1), corners]))
+    knots: Floats = np.unique(np.concatenate([np.linspace(0.0, _TURN, _ANGLES + 1), corners]))
     knots = knots[np.concatenate([[True], np.diff(knots) > 2 * _BESIDE])]
     knots[-1] = _TURN
     starts, ends = motion(np.asarray(knots[:-1])), motion(np.asarray(knots[1:] - _BESIDE))

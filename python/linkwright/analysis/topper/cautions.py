@@ -1,0 +1,63 @@
+"""What a topper cannot do, and what its user should know: sentences with numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.analysis.topper.topper import TopperStudy
+from linkwright.machine import Topper
+
+# Lengths that differ by less than this share are the same: rounding of their formulas.
+_SAME = 1e-12
+
+# Ends of a head that is cut all through differ from its rim by rounding.
+_NOTHING = 1e-12
+
+
+def topper_findings(described: Topper, found: TopperStudy) -> Iterator[str]:
+    """What the knife does not do.
+
+    Parameters
+    ----------
+    described : Topper
+        The topper.
+    found : TopperStudy
+        Its study.
+
+    Yields
+    ------
+    str
+        Sentences.
+    """
+    length = described.edge_length
+    if not np.isfinite(found.length_exact):
+        yield "The edge moves along itself and cuts nothing: no length is enough."
+    elif found.length_exact > length * (1 + _SAME) and found.uncut_share > _NOTHING:
+        yield (
+            f"The edge of {length:.6g} m does not cut through every head: it leaves up to "
+            f"{100 * found.uncut_share:.3g} % of the head, {found.uncut_offset:.4g} m beside the row at "
+            f"the phase {np.degrees(found.uncut_phase):.4g}°; it needs {found.length_exact:.6g} m."
+        )
+
+
+def topper_cautions(found: TopperStudy) -> Iterator[str]:
+    """What should be known although every head is cut.
+
+    Parameters
+    ----------
+    found : TopperStudy
+        The study.
+
+    Yields
+    ------
+    str
+        Sentences.
+    """
+    if found.edge_retreats:
+        speed = -found.least_advance
+        yield (
+            f"The edge runs backwards at times, by up to {speed:.4g} m/s along its normal: there its back "
+            "meets the head; set it less aslant, or move the knife more slowly."
+        )

@@ -1,0 +1,142 @@
+r"""How the edge slices: draw-cut ratio, cutting speed, and which part of the edge cuts how much.
+
+All points of the edge move alike, with :math:`u_n = v\cos\alpha - \dot y\sin\alpha` normal to it and
+:math:`u_t = v\sin\alpha + \dot y\cos\alpha` along it. The draw-cut ratio is
+
+.. math:: \frac{|u_t|}{u_n} = |\tan(\alpha + \beta)|, \qquad \tan\beta = \dot y/v.
+
+Heads meet the knife in all phases; a chord of a head is swept the faster the greater u_n, so that over what
+is cut the mean of the ratio is :math:`\langle|u_t|\rangle/\langle u_n\rangle` with means over the time, and
+:math:`\langle u_n\rangle = v\cos\alpha` for a knife that turns back.
+
+References
+----------
+.. [1] V. P. Goryachkin, *Collected Works*, theory of cutting with sliding: the ratio of tangential to normal
+   speed. The mean over heads is derived here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.analysis.topper.coverage import Edge
+
+Floats = NDArray[np.float64]
+
+# Phases over which means are taken, and times of a pass and places of the edge at which its use is counted.
+_PHASES, _TIMES, _PLACES = 2048, 400, 201
+
+# Phases of heads over which the use of the edge is averaged, for each of some offsets.
+_HEADS, _OFFSETS = 72, 5
+
+
+@dataclass(frozen=True)
+class Slicing:
+    """How an edge slices, heads in all phases.
+
+    Attributes
+    ----------
+    ratio_min, ratio_mean, ratio_max : float
+        Draw-cut ratio [–]; the greatest is infinite where the edge retreats.
+    speed_min, speed_max : float
+        Speed of the edge against the head [m/s].
+    """
+
+    ratio_min: float
+    ratio_mean: float
+    ratio_max: float
+    speed_min: float
+    speed_max: float
+
+
+def slicing(edges: Sequence[Edge]) -> Slicing:
+    """Draw-cut ratio and cutting speed of an edge in one or two directions.
+
+    Parameters
+    ----------
+    edges : sequence of Edge
+        The edge; the mean is that over its directions.
+
+    Returns
+    -------
+    Slicing
+        Extremes and mean.
+    """
+    ratios = [_ratios(edge) for edge in edges]
+    slow, fast = zip(*(_speeds(edge) for edge in edges), strict=True)
+    least, mean, greatest = zip(*ratios, strict=True)
+    return Slicing(min(least), float(np.mean(mean)), max(greatest), min(slow), max(fast))
+
+
+def _ratios(edge: Edge) -> tuple[float, float, float]:
+    """Least, mean and greatest draw-cut ratio."""
+    way, v = edge.knife, edge.forward_speed
+    leans = [edge.angle + float(np.arctan2(speed, v)) for speed in way.speeds]
+    reaches = [abs(float(np.tan(lean))) for lean in leans]
+    least = 0.0 if leans[0] * leans[1] <= 0 else min(reaches)
+    greatest = np.inf if edge.retreats else max(reaches)
+    phases = (np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES)
+    across = way.at(0.0, phases, 1)
+    along = v * np.sin(edge.angle) + across * np.cos(edge.angle)
+    normal = v * np.cos(edge.angle) - across * np.sin(edge.angle)
+    return least, float(np.abs(along).mean() / np.abs(normal).mean()), float(greatest)
+
+
+def _speeds(edge: Edge) -> tuple[float, float]:
+    """Least and greatest speed of the edge."""
+    low, high = edge.knife.speeds
+    slowest = 0.0 if low <= 0 <= high else min(abs(low), abs(high))
+    speeds = (np.hypot(edge.forward_speed, speed) for speed in (slowest, max(abs(low), abs(high))))
+    least, greatest = speeds
+    return float(least), float(greatest)
+
+
+def edge_use(edges: Sequence[Edge], diameter: float, offset: float) -> tuple[Floats, Floats]:
+    """How much of a head each place of the edge cuts, on average.
+
+    Parameters
+    ----------
+    edges : sequence of Edge
+        The edge; offsets and phases are taken evenly, directions alike.
+    diameter, offset : float
+        d and Δ [m].
+
+    Returns
+    -------
+    place, width : ndarray, shape (n,)
+        Place along the edge from its middle [m], and the way that it goes, normal to the edge, through a head
+        [m]: its integral over all places is the area of the head, but for an edge that retreats.
+    """
+    places, widths = zip(*(_use(edge, diameter, offset) for edge in edges), strict=True)
+    reach = max(float(place[-1]) for place in places)
+    place = np.linspace(-reach, reach, _PLACES)
+    return place, np.mean(
+        [np.interp(place, at, width) for at, width in zip(places, widths, strict=True)], axis=0
+    )
+
+
+def _use(edge: Edge, diameter: float, offset: float) -> tuple[Floats, Floats]:
+    """The same for one direction."""
+    knife, sin, cos = edge.knife, np.sin(edge.angle), np.cos(edge.angle)
+    radius, v = 0.5 * diameter, edge.forward_speed
+    phase = (np.arange(_HEADS) + 0.5)[:, None, None] * (2 * np.pi / _HEADS)
+    delta = np.linspace(-offset, offset, _OFFSETS)[:, None]
+    swing = 0.5 * knife.stroke + offset
+    end = (radius + swing * abs(sin)) / abs(v * cos - knife.drift * sin)
+    step = 2 * end / _TIMES
+    t = -end + (np.arange(_TIMES) + 0.5) * step
+    y = knife.at(t, phase) - delta
+    p, q = v * t * cos - y * sin, v * t * sin + y * cos
+    pace = np.abs(v * cos - knife.at(t, phase, 1) * sin) * step / (_HEADS * _OFFSETS)
+    chord = np.sqrt(np.clip(radius**2 - p**2, 0.0, None))
+    reach = float((np.abs(q) + chord)[chord > 0].max(initial=radius))
+    place = np.linspace(-reach, reach, _PLACES)
+    # Each chord adds its pace to the places between its ends.
+    weight = np.broadcast_to(pace, chord.shape)[chord > 0]
+    bounds = [np.searchsorted(place, (sign * chord - q)[chord > 0]) for sign in (-1, 1)]
+    ends = [np.bincount(each, weight, _PLACES + 1)[:_PLACES] for each in bounds]
+    return place, np.cumsum(ends[0] - ends[1])
