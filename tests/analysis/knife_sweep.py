@@ -11,7 +11,7 @@ edge at (v t, y(t)), its direction (sin α, cos α).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -115,7 +115,8 @@ def is_cut(over: Pass, points: Floats, length: float, per_cycle: int = STEPS) ->
     ends = np.stack([over.knife.speed * t, over.across(t)], axis=1) - edge / 2
     start, move = ends[:-1], np.diff(ends, axis=0)
     area = _cross(edge, move)
-    parts = _parts(points, len(t))
+    size = max(1, CHUNK // len(t))
+    parts = (points[i : i + size] for i in range(0, len(points), size))
     return np.concatenate([_in_any(part[:, None] - start, edge, move, area) for part in parts])
 
 
@@ -123,11 +124,6 @@ def _in_any(from_end: Floats, edge: Floats, move: Floats, area: Floats) -> Mask:
     with np.errstate(divide="ignore", invalid="ignore"):
         along, forth = _cross(from_end, move) / area, _cross(edge, from_end) / area
     return np.asarray(((along >= 0) & (along <= 1) & (forth >= 0) & (forth <= 1)).any(axis=1))
-
-
-def _parts(points: Floats, steps: int) -> Iterator[Floats]:
-    size = max(1, CHUNK // steps)
-    yield from (points[i : i + size] for i in range(0, len(points), size))
 
 
 def length_by_bisection(over: Pass, points: Floats, rounds: int = 20) -> float:
@@ -148,24 +144,46 @@ def lengths_of_points(over: Pass, points: Floats, per_cycle: int = STEPS) -> Flo
     The line stands at x = v t + (Y − y) tan α beside the point (X, Y); there the point is |Y − y|/cos α
     from the middle of the edge.
     """
+    which, y = passes_of_points(over, points, per_cycle)
+    found = np.full(len(points), np.inf)
+    np.minimum.at(found, which, 2 * np.abs(points[which, 1] - y) / np.cos(over.knife.angle))
+    return found
+
+
+def passes_of_points(over: Pass, points: Floats, per_cycle: int = STEPS) -> tuple[NDArray[np.int64], Floats]:
+    """All passes of the line over points: which point, and y of the edge's middle."""
     t = over.instants(per_cycle)
-    return np.concatenate([_shortest(over, part, t) for part in _parts(points, len(t))])
+    t = np.sort(np.concatenate([t, _turning(over, t)]))
+    size = max(1, CHUNK // len(t))
+    found = [_steps_over(over, points[i : i + size], t, i) for i in range(0, len(points), size)]
+    which, step = (np.concatenate(each) for each in zip(*found, strict=True))
+    return which, over.across(_crossing(over, points[which], t[step], t[step + 1]))
+
+
+def _steps_over(over: Pass, points: Floats, t: Floats, first: int) -> tuple[NDArray[np.int64], ...]:
+    """Which point, counted from the first, and the step in which the line passes over it."""
+    past = _ahead(over, points[:, None], t) >= 0
+    which, step = np.nonzero(past[:, 1:] != past[:, :-1])
+    return which + first, step
+
+
+def _turning(over: Pass, t: Floats) -> Floats:
+    """Instants at which the line stops and runs the other way, between steps: a third cut off 80 times."""
+    origin = np.zeros(2)
+    way = _ahead(over, origin, t)
+    k = 1 + np.flatnonzero((way[1:-1] - way[:-2]) * (way[2:] - way[1:-1]) < 0)
+    sign, low, high = np.sign(way[k] - way[k - 1]), t[k - 1], t[k + 1]
+    for _ in range(80):
+        a, b = low + (high - low) / 3, high - (high - low) / 3
+        rises = sign * (_ahead(over, origin, b) - _ahead(over, origin, a)) > 0
+        low, high = np.where(rises, a, low), np.where(rises, high, b)
+    return np.asarray((low + high) / 2)
 
 
 def _ahead(over: Pass, points: Floats, t: Floats) -> Floats:
     """How far the line is past the point, along x."""
     slant = np.tan(over.knife.angle)
     return over.knife.speed * t + (points[..., 1] - over.across(t)) * slant - points[..., 0]
-
-
-def _shortest(over: Pass, points: Floats, t: Floats) -> Floats:
-    past = _ahead(over, points[:, None], t) >= 0
-    which, step = np.nonzero(past[:, 1:] != past[:, :-1])
-    when = _crossing(over, points[which], t[step], t[step + 1])
-    length = 2 * np.abs(points[which, 1] - over.across(when)) / np.cos(over.knife.angle)
-    found = np.full(len(points), np.inf)
-    np.minimum.at(found, which, length)
-    return found
 
 
 def _crossing(over: Pass, points: Floats, before: Floats, after: Floats) -> Floats:
@@ -198,7 +216,53 @@ def _on_border(left: Mask) -> int:
     return int((left[1:] != left[:-1]).sum() + (left[:, 1:] != left[:, :-1]).sum())
 
 
-def needed_length(over: Pass, n: int = 24, rounds: int = 14, per_cycle: int = STEPS) -> float:
+def uncut_by_slices(over: Pass, length: float, slices: int = 12000) -> tuple[Floats, float]:
+    """Shares left on the right of the edge, on its left and between two passes; and what they may be off.
+
+    Points of a slice along the edge have x = X − Y tan α in common, and the line is over all of them at once;
+    the edge then covers Y within L cos α / 2 of y. Half as many slices show how much they miss.
+    """
+    fine, coarse = _left_of_slices(over, length, slices), _left_of_slices(over, length, slices // 2)
+    return fine, float(np.abs(fine - coarse).max())
+
+
+def _left_of_slices(over: Pass, length: float, slices: int) -> Floats:
+    slant, cos = np.tan(over.knife.angle), np.cos(over.knife.angle)
+    x, widths = _slices(over, slices)
+    # The chord: (x + Y tan α)² + Y² = r², seen from the centre.
+    middle = over.offset - x * slant * cos**2
+    half = cos**2 * np.sqrt(np.maximum(0.0, (over.diameter / 2 / cos) ** 2 - x**2))
+    points = np.stack([x - over.offset * slant, np.zeros(len(x))], axis=1)
+    left = _gaps(middle - half, middle + half, *passes_of_points(over, points), length * cos / 2)
+    return np.asarray(left @ widths / (np.pi * over.diameter**2 / 4))
+
+
+def _slices(over: Pass, n: int) -> tuple[Floats, Floats]:
+    """Places x and widths: between those where the line turns back, as close at the ends as a pendulum's."""
+    t = over.instants()
+    turns = _ahead(over, np.array([0.0, over.offset]), _turning(over, t))
+    extent = over.diameter / 2 / np.cos(over.knife.angle)
+    ends = np.sort(np.concatenate([[-extent, extent], turns[np.abs(turns) < extent]]))
+    each = max(50, n // (len(ends) - 1))
+    u = np.pi * ((np.arange(each) + 0.5) / each - 0.5)
+    middle, half = (ends[1:] + ends[:-1])[:, None] / 2, np.diff(ends)[:, None] / 2
+    return (middle + half * np.sin(u)).ravel(), (half * np.cos(u) * np.pi / each).ravel()
+
+
+def _gaps(low: Floats, high: Floats, which: NDArray[np.int64], y: Floats, half: float) -> Floats:
+    """What intervals y ± half leave of those from low to high: below all of them, above, and between."""
+    order = np.lexsort((y, which))
+    which, y = which[order], y[order]
+    bottom, top = np.clip(y - half, low[which], high[which]), np.clip(y + half, low[which], high[which])
+    starts = np.searchsorted(which, np.arange(len(low)))
+    ends = np.searchsorted(which, np.arange(len(low)), side="right") - 1
+    between = np.zeros(len(low))
+    again = np.flatnonzero(which[1:] == which[:-1])
+    np.add.at(between, which[again], np.maximum(0, bottom[again + 1] - top[again]))
+    return np.stack([bottom[starts] - low, high - top[ends], between])
+
+
+def needed_length(over: Pass, n: int = 24, rounds: int = 24, per_cycle: int = STEPS) -> float:
     """Least length that cuts every point: the greatest of a lattice and the rim, closed in upon."""
     points = np.concatenate([lattice(over, n), rim(over, 6 * n)])
     lengths = lengths_of_points(over, points, per_cycle)
@@ -212,20 +276,20 @@ def needed_length(over: Pass, n: int = 24, rounds: int = 14, per_cycle: int = ST
     return float(lengths.max())
 
 
-def worst(knife: Knife, diameter: float, offset: float, phases: int = 24) -> tuple[float, Pass]:
-    """Greatest needed length over phases and offsets up to `offset`, and where: a scan, then closing in."""
+def worst(knife: Knife, diameter: float, offset: float, phases: int = 16) -> tuple[float, Pass]:
+    """Greatest needed length over phases at this offset to either side, and where: a scan, then closing in."""
     scan = 2 * np.pi * np.arange(phases) / phases
-    found = [_needed_at(knife, diameter, o, p) for o in (-offset, 0.0, offset) for p in scan]
-    for k in range(12):
+    found = [_needed_at(knife, diameter, o, p) for o in (-offset, offset) for p in scan]
+    for k in range(8):
         best = max(found, key=lambda each: each[0])[1]
-        near = best.phase + 2 * np.pi / phases * 0.45**k * np.array([-1, -0.5, 0.5, 1])
+        near = best.phase + 2 * np.pi / phases * 0.5**k * np.array([-1, -0.5, 0.5, 1])
         found += [_needed_at(knife, diameter, best.offset, phase) for phase in near]
     return max(found, key=lambda each: each[0])
 
 
 def _needed_at(knife: Knife, diameter: float, offset: float, phase: float) -> tuple[float, Pass]:
     over = Pass(knife, diameter, offset, float(phase))
-    return needed_length(over, n=8, rounds=7, per_cycle=STEPS // 3), over
+    return needed_length(over, n=8, rounds=6, per_cycle=STEPS // 3), over
 
 
 # --- laws of the knife --------------------------------------------------------------------------------------
