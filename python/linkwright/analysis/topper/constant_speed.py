@@ -54,8 +54,8 @@ def constant_speed_lengths(
     ndarray, shape (2, ...)
         Knife to the left, then to the right [m]; infinite where the edge moves along itself.
     """
-    given = np.broadcast_arrays(diameter, offset, edge_angle, forward_speed, knife_speed)
-    d, delta, alpha, v, v_h = (np.asarray(each, dtype=float) for each in given)
+    given = diameter, offset, edge_angle, forward_speed, knife_speed
+    d, delta, alpha, v, v_h = np.broadcast_arrays(*(np.asarray(each, dtype=float) for each in given))
     speed = np.hypot(v, v_h)
     along, across = v * np.cos(alpha), v_h * np.sin(alpha)
     advance = np.abs(np.stack([along - across, along + across]))
