@@ -276,8 +276,8 @@ def needed_length(over: Pass, n: int = 24, rounds: int = 24, per_cycle: int = ST
     return float(lengths.max())
 
 
-def worst(knife: Knife, diameter: float, offset: float, phases: int = 16) -> tuple[float, Pass]:
-    """Greatest needed length over phases at this offset to either side, and where: a scan, then closing in."""
+def worst(knife: Knife, diameter: float, offset: float, phases: int = 12) -> tuple[float, Pass]:
+    """Greatest needed length over phases, at this offset to either side: a scan, then closing in."""
     scan = 2 * np.pi * np.arange(phases) / phases
     found = [_needed_at(knife, diameter, o, p) for o in (-offset, offset) for p in scan]
     for k in range(8):
