@@ -134,7 +134,7 @@ def coverage(
     ----------
     edge : Edge
         The edge.
-    diameter, offset, phase : array_like
+    diameter, offset, phase : array_like, shape (n,) or (1,)
         d of the discs [m], their centres to the left of the row [m], phase of the knife when the middle of
         the edge is abreast of the centre [rad]; one, or one a head.
     length : float, optional
