@@ -69,7 +69,8 @@ class Topper(Checked):
             remedy = "the mechanism and drive.speed give the speed of the knife"
             yield fault("knife_speed", found=self.knife_speed, expected="nothing", remedy=remedy)
         if not is_moved and self.knife_speed is None:
-            yield fault("knife_speed", expected="a velocity (m/s) of 0 or more")
+            remedy = "the mean over the time, 2 · stroke · frequency"
+            yield fault("knife_speed", expected="a velocity (m/s) of 0 or more", remedy=remedy)
 
 
 def topper_faults(machine: object, slides: Sequence[str]) -> Iterator[InitErrorDetails]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.coverage import Edge, coverage, worst_head
+from linkwright.analysis.topper.coverage import Edge, coverage, require_few_passes, worst_head
 from linkwright.analysis.topper.head import cap_volume, head_diameter
 from linkwright.analysis.topper.knife import knives
 from linkwright.analysis.topper.knife_drive import KnifeDrive, knife_drive
@@ -167,6 +167,8 @@ def topper(machine: Machine) -> TopperStudy:
         The machine has no topper.
     AssemblyError
         The mechanism of the knife does not close all round.
+    FindingError
+        The edge retreats, and hardly goes on.
 
     References
     ----------
@@ -177,6 +179,8 @@ def topper(machine: Machine) -> TopperStudy:
         raise InputError(f"{machine.name} has no [topper]: expected one")
     d = float(head_diameter(described.root_diameter, described.cut_height))
     edges = edges_of(machine, described)
+    for edge in edges:
+        require_few_passes(edge, d, described.offset)
     return TopperStudy(
         head_diameter=d,
         cap_volume=float(cap_volume(described.root_diameter, described.cut_height)),
