@@ -112,3 +112,16 @@ def test_papers_of_the_engine(tmp_path: Path) -> None:
     # Square brackets of a formula are no markup.
     assert "[m_1 +" in shown
     assert "cannot be read" in shown
+
+
+def test_papers_of_the_topper(tmp_path: Path) -> None:
+    done = run("papers", "5", "--json", "--out", tmp_path)
+    assert done.exit_code == 0
+    found = json.loads(done.stdout)["results"]["paper5"]
+    assert found["verdict"]["lengths"] == [0.25, 0.3]
+    names = {f"{name}.{end}" for name in ("figure3", "step", "bands", "heads") for end in ("svg", "png")}
+    assert {path.name for path in tmp_path.iterdir()} == names | {"papers5.html"}
+    shown = run("papers", "5").stdout
+    # Square brackets of a formula are no markup.
+    assert "d[(v_h/v)" in shown
+    assert "500…600 mm" in shown

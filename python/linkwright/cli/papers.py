@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from linkwright.papers.paper2 import Paper2
     from linkwright.papers.paper3 import Paper3
     from linkwright.papers.paper4 import Paper4
+    from linkwright.papers.paper5 import Paper5
     from linkwright.papers.published import PublishedDrive
 
 Number = Annotated[
@@ -51,7 +52,7 @@ def papers(number: Number = None, json: Json = False, out: Folder = None) -> Non
     if number is None:
         typer.echo("\n".join(f"  {n}  {title}" for n, title in PAPERS.items()))
         return
-    paper = {1: _first, 2: _second, 3: _third, 4: _fourth}[known_paper(number)]()
+    paper = {1: _first, 2: _second, 3: _third, 4: _fourth, 5: _fifth}[known_paper(number)]()
     if out:
         _write(paper, out)
     if json:
@@ -143,6 +144,22 @@ def _fourth() -> _Shown:
     )
 
 
+def _fifth() -> _Shown:
+    """Paper 5."""
+    from linkwright.papers.paper5 import paper5
+    from linkwright.papers.paper5_conclusions import conclusions
+    from linkwright.papers.paper5_figures import figures
+    from linkwright.papers.paper5_page import page
+    from linkwright.papers.paper5_table import HEADS, tables
+
+    paper = paper5()
+    grids = [_grid(HEADS, rows, numbers=True, title=title) for title, rows in tables(paper)]
+    show = partial(_print_rows, paper, conclusions(paper), grids)
+    return _Shown(
+        paper.number, paper.title, paper.to_dict(), partial(figures, paper), partial(page, paper), show
+    )
+
+
 def _tracked(drives: Sequence[PublishedDrive]) -> Iterator[PublishedDrive]:
     """The drives one by one, with a bar on standard error if someone looks at it."""
     from rich.console import Console
@@ -181,7 +198,7 @@ def _write(paper: _Shown, folder: Path) -> None:
 
 
 def _print_rows(
-    paper: Paper2 | Paper3 | Paper4, conclusions: Sequence[str], tables: Sequence[Table] = ()
+    paper: Paper2 | Paper3 | Paper4 | Paper5, conclusions: Sequence[str], tables: Sequence[Table] = ()
 ) -> None:
     """A row for each printed number, further tables, and what follows."""
     from rich.console import Console
@@ -206,11 +223,14 @@ def _coloured(text: str, kind: str) -> str:
     return f"[{colours[kind]}]{text}[/]"
 
 
-def _grid(heads: Sequence[str], rows: Sequence[Sequence[str]], *, numbers: bool = False) -> Table:
+def _grid(
+    heads: Sequence[str], rows: Sequence[Sequence[str]], *, numbers: bool = False, title: str | None = None
+) -> Table:
     """A table without lines; with numbers all columns but the first stand to the right."""
     from rich.table import Table
 
-    table = Table(box=None, padding=(0, 2, 0, 0) if not numbers else (0, 1, 0, 0))
+    padding = (0, 1, 0, 0) if numbers else (0, 2, 0, 0)
+    table = Table(box=None, padding=padding, title=title, title_justify="left", title_style="bold")
     for i, head in enumerate(heads):
         table.add_column(head, justify="right" if numbers and i else "left")
     for row in rows:

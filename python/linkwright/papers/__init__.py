@@ -30,4 +30,9 @@
 | `paper4_rows` | every printed number of paper 4 with its verdict |
 | `paper4_formulas` | the closed forms of paper 4, a second way beside the core |
 | `paper4_conclusions`, `paper4_figures`, `paper4_page` | what its numbers say; its figures; its page |
+| `paper5` | paper 5 computed anew: the length of a topper's knife |
+| `paper5_head`, `paper5_step`, `paper5_short` | its head; from (4) to (5); how much its lengths fall short |
+| `paper5_surface`, `paper5_verdict` | its figure 3; for which angles and heads its result holds |
+| `paper5_rows`, `paper5_table` | every formula with its verdict; where its result holds, as tables |
+| `paper5_conclusions`, `paper5_figures`, `paper5_page` | what its numbers say; its figures; its page |
 """

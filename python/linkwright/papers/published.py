@@ -28,6 +28,7 @@ PAPERS = {
     2: "Cam drive of a roller-forming machine with a combined mode of motion",
     3: "Torsional vibration of V-type engines, and the unevenness of their rotation",
     4: "Lever mechanism of a worm-type rotator of a sucker-rod string",
+    5: "Movement of a topper knife over the head of a root, and the length of its edge",
 }
 
 

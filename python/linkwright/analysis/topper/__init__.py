@@ -10,4 +10,5 @@
 | `knife_drive` | inertia force of the knife, torque of its drive |
 | `topper`, `cautions` | all of these as one; what it does not do |
 | `constant_speed` | the exact length for a knife that does not turn back over a head |
+| `verdict` | for which heads lengths that are said to do for ranges of speeds do |
 """

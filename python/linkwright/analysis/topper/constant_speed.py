@@ -54,10 +54,10 @@ def constant_speed_lengths(
     ndarray, shape (2, ...)
         Knife to the left, then to the right [m]; infinite where the edge moves along itself.
     """
-    d, delta, alpha = np.asarray(diameter), np.asarray(offset), np.asarray(edge_angle)
-    v, v_h = np.asarray(forward_speed, dtype=float), np.asarray(knife_speed, dtype=float)
+    given = diameter, offset, edge_angle, forward_speed, knife_speed
+    d, delta, alpha, v, v_h = np.broadcast_arrays(*(np.asarray(each, dtype=float) for each in given))
     speed = np.hypot(v, v_h)
-    along, across = np.broadcast_arrays(v * np.cos(alpha), v_h * np.sin(alpha))
+    along, across = v * np.cos(alpha), v_h * np.sin(alpha)
     advance = np.abs(np.stack([along - across, along + across]))
     with np.errstate(divide="ignore"):
         found = (d * speed + 2 * delta * v) / advance
