@@ -95,9 +95,7 @@ impl Work<'_> {
         let [x, y] = self.point(p, side * c);
         let turns = self.knife.turns(self.longest);
         let area = match self.half {
-            Some(short) if short < half => {
-                uncut(self.knife, &head, short, window, turns, self.stations, at)
-            }
+            Some(short) if short < half => uncut(self.knife, &head, short, window, turns, self.stations, at),
             _ => [0.0; 2],
         };
         row.copy_from_slice(&[2.0 * half, x, y, area[0], area[1], 0.0]);

@@ -138,13 +138,7 @@ fn parabola<R: Real>([a, b, c]: [R; 3], at: R, pace: R) -> Top<R> {
 
 /// Newton on the slope of a height from about its top.
 #[inline(always)]
-fn climbed<R: Real>(
-    knife: &Knife,
-    head: &Head<R>,
-    top: Top<R>,
-    side: usize,
-    mut best: (R, R),
-) -> (R, R) {
+fn climbed<R: Real>(knife: &Knife, head: &Head<R>, top: Top<R>, side: usize, mut best: (R, R)) -> (R, R) {
     let sign = if side == 0 { 1.0 } else { -1.0 };
     let (low, high) = (top.at - top.reach, top.at + top.reach);
     let mut t = top.at;

@@ -21,7 +21,7 @@ pub struct Left {
     pub area: [f64; 3],
 }
 
-/// Panels of Gauss's rule between two chords at which branches end: with some kinks in them, they leave 1e-6 of a head.
+/// Panels of Gauss's rule between two chords at which branches end: with some kinks in them, they leave 1e-5 of a head.
 const PANELS: usize = 64;
 
 /// Steps of the search for the chord that needs most: the golden section gains a digit in five.

@@ -9,8 +9,8 @@ use super::needed::{Stations, half_chord};
 use crate::gauss::{B, C};
 use std::f64::consts::FRAC_PI_2;
 
-/// Parts of Gauss's rule a panel: of order 8, they leave some 1e-12 of a head.
-const PARTS: usize = 6;
+/// Length of u that a part of Gauss's rule takes, at most: of order 8, it leaves some 1e-12 of a head.
+const PART: f64 = 0.25;
 
 /// Steps of the search for a kink: regula falsi (Illinois) gains a digit and a half each.
 const SEARCH: usize = 60;
@@ -69,8 +69,9 @@ impl Swing<'_> {
             if middle[0] <= 0.0 && middle[1] <= 0.0 {
                 continue;
             }
-            let step = (pair[1] - pair[0]) / PARTS as f64;
-            for part in 0..PARTS {
+            let parts = ((pair[1] - pair[0]) / PART).ceil().max(1.0);
+            let step = (pair[1] - pair[0]) / parts;
+            for part in 0..parts as usize {
                 for (c, b) in C.into_iter().zip(B) {
                     let rate = self.rate(pair[0] + (part as f64 + c) * step);
                     area = [area[0] + b * step * rate[0], area[1] + b * step * rate[1]];
@@ -82,8 +83,12 @@ impl Swing<'_> {
 
     /// Both ends, and where an end of the edge crosses the rim, increasing.
     fn kinks(&self, stations: &Stations, top: f64) -> Vec<f64> {
-        let mut places: Vec<f64> =
-            stations.turns.iter().enumerate().map(|(j, _)| (j as f64 + 0.5) * stations.step - FRAC_PI_2).collect();
+        let mut places: Vec<f64> = stations
+            .turns
+            .iter()
+            .enumerate()
+            .map(|(j, _)| (j as f64 + 0.5) * stations.step - FRAC_PI_2)
+            .collect();
         let highest = (top - self.middle) / self.width;
         if highest.abs() < 1.0 {
             // Where most is left: between two stations nothing else might be.
