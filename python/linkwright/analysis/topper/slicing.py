@@ -72,6 +72,33 @@ def slicing(edges: Sequence[Edge]) -> Slicing:
     return Slicing(min(least), float(np.mean(mean)), max(greatest), min(slow), max(fast))
 
 
+def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
+    """Draw-cut ratio and cutting speed in each phase of the knife.
+
+    Parameters
+    ----------
+    edge : Edge
+        The edge.
+    phases : ndarray, shape (n,)
+        [rad]
+
+    Returns
+    -------
+    ratio, speed : ndarray, shape (n,)
+        [–], NaN where the edge retreats; speed against the head [m/s].
+    """
+    along, normal = _velocity(edge, phases)
+    ahead = np.where(normal > 0, normal, np.nan)
+    return np.abs(along) / ahead, np.hypot(along, normal)
+
+
+def _velocity(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
+    """Speed of the edge along itself and along its normal."""
+    v, across = edge.forward_speed, edge.knife.at(0.0, phases, 1)
+    sin, cos = np.sin(edge.angle), np.cos(edge.angle)
+    return v * sin + across * cos, v * cos - across * sin
+
+
 def _ratios(edge: Edge) -> tuple[float, float, float]:
     """Least, mean and greatest draw-cut ratio."""
     way, v = edge.knife, edge.forward_speed
@@ -79,10 +106,8 @@ def _ratios(edge: Edge) -> tuple[float, float, float]:
     reaches = [abs(float(np.tan(lean))) for lean in leans]
     least = 0.0 if leans[0] * leans[1] <= 0 else min(reaches)
     greatest = np.inf if edge.retreats else max(reaches)
-    phases = (np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES)
-    across = way.at(0.0, phases, 1)
-    along = v * np.sin(edge.angle) + across * np.cos(edge.angle)
-    normal = v * np.cos(edge.angle) - across * np.sin(edge.angle)
+    phases = np.asarray((np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES), dtype=np.float64)
+    along, normal = _velocity(edge, phases)
     return least, float(np.abs(along).mean() / np.abs(normal).mean()), float(greatest)
 
 
