@@ -37,6 +37,9 @@ _MILLI = 1e3
 
 _PHASE = "phase of the knife when it is abreast of the head [°]"
 
+# Lengths beyond so many times those of heads and edge are not drawn.
+_FAR = 1.8
+
 # A draw-cut ratio beyond this says no more than that the edge hardly advances.
 _RATIO = 10.0
 
@@ -62,14 +65,15 @@ def phase_figure(study: TopperStudy, edge_length: float, phase: float | None = N
     leaves = float(study.uncut_by_phase.max()) > 0
     figure, axes = panels(2 if leaves else 1, height=5.2 if leaves else 3.4)
     degrees, needed = np.degrees(study.phase), _MILLI * study.length_by_phase
-    axes[0].plot(degrees, needed, color=BLUE, label="needed")
+    axes[0].plot(degrees, needed, color=GREEN, label="needed")
     lines = [
         (edge_length, "the edge", INK),
-        (study.length_exact_constant_speed, "exact, constant speed", GREEN),
+        (study.length_exact_constant_speed, "exact, constant speed", BLUE),
         (study.length_consistent, "from (4)", PURPLE),
         (study.length_published, "printed (10)", ORANGE),
     ]
-    shown = [each for each in lines if np.isfinite(each[0])]
+    far = _FAR * max(edge_length, float(needed[np.isfinite(needed)].max(initial=0.0)) / _MILLI)
+    shown = [each for each in lines if each[0] <= far]
     for value, words, colour in shown:
         level(axes[0], _MILLI * value, words, colour)
     finite = needed[np.isfinite(needed)]

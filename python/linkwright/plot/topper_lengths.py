@@ -72,7 +72,7 @@ def length_chart_figure(chart: LengthChart) -> Figure:
     for each, words in zip(axes[:3], _TITLES.values(), strict=True):
         each.set_title(words)
     handles, labels = axes[2].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=3, handlelength=1.8)
+    figure.legend(handles, labels, loc="outside upper left", ncols=5, handlelength=1.6, columnspacing=1.4)
     return figure
 
 

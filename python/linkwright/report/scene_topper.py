@@ -71,14 +71,14 @@ def topper_scene(study: Study) -> Scene | None:
     offset, phase = _worst(found)
     edges = edges_of(study.machine, described)
     edge = worse_edge(edges, found.head_diameter, offset, phase, described.edge_length)
-    law = edge.knife.law.at(np.linspace(0.0, 2 * math.pi, _PLACES + 1))
+    places = np.linspace(0.0, 2 * math.pi, (_PLACES if edge.knife.rate else 1) + 1)
     heads = _row(edge, found, described, offset)
     reach = _reach(edge, found, described)
     x = [each[0] for each in heads]
     ends = (x[0] - reach, x[-1] + reach)
     d = found.head_diameter
     return {
-        "law": _rounded(law, _FINE * d),
+        "law": _rounded(edge.knife.law.at(places), _FINE * d),
         "rate": edge.knife.rate,
         "drift": edge.knife.drift,
         "phase": phase,

@@ -129,8 +129,9 @@ def _chart(cut: _Cut) -> Captioned:
     words = (
         f"The chart of paper 5 (its figure 3) for α = {degrees(cut.described.edge_angle)}, cut height "
         f"{mm(cut.described.cut_height)} and Δ = {mm(cut.described.offset)}, at v = {slow}, {own} and {fast} "
-        f"m/s: above over the diameter of roots at v_h = {number(chart.knife_speed, 3)} m/s, below over the "
-        "speed of the knife at this machine's root. Solid lines keep one speed over the head"
+        f"m/s: above over the diameter of roots at this knife's mean speed, {number(chart.knife_speed, 3)} "
+        "m/s, below over the speed of the knife at this machine's root. Solid lines keep one speed over the "
+        "head"
     )
     words += "; dashed: its true motion." if chart.over_roots.moved.size else "."
     words += " The dot is this machine."
@@ -148,7 +149,7 @@ def _verdict(cut: _Cut) -> Captioned:
     low, high = PAPER.lengths
     words = (
         f"Paper 5 gives {low:.2f} to {high:.2f} m for v from {PAPER.forward_speeds[0]:g} to "
-        f"{PAPER.forward_speeds[1]:g} m/s and v_h from {PAPER.knife_speeds[0]:g} to "
+        f"{PAPER.forward_speeds[1]:g} m/s and knife speeds from {PAPER.knife_speeds[0]:g} to "
         f"{PAPER.knife_speeds[1]:g} m/s, and does not print α, h_p and Δ. Shaded: for which of them the "
         "longest edge over these speeds lies in that range, each way of computing it; offsets have this "
         "machine's share in the band."

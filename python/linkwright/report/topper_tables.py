@@ -9,13 +9,16 @@ from linkwright.analysis.study import Study
 from linkwright.analysis.topper.topper import TopperStudy
 from linkwright.analysis.topper.verdict import PAPER, WAYS, Demand, Stroke, length_verdict
 from linkwright.machine import Topper
-from linkwright.report.quantities import degrees, number
+from linkwright.report.quantities import SHOWN, degrees, number
 from linkwright.report.table import Row, Table, row, rows_of, with_unit
 
 _HEADS = ("quantity", "", "value", "remark")
 
 # A length that exceeds the edge by less than this share is the edge's: rounding.
 _SAME = 1e-12
+
+# A draw-cut ratio beyond this is that of an edge that moves along itself, but for rounding.
+_NO_BOUND = 1e9
 
 
 def topper_tables(study: Study) -> Iterator[Table]:
@@ -66,7 +69,12 @@ def _lengths(found: TopperStudy, described: Topper) -> Table:
     own, phase = described.edge_length, described.motion.phase
     listed = [
         ("printed in paper 5", "(10)", found.length_published, "compares times, not what is covered"),
-        ("what its condition (4) gives", "(4)", found.length_consistent, "the step from (4) to (5) put right"),
+        (
+            "what its condition (4) gives",
+            "(4)",
+            found.length_consistent,
+            "the step from (4) to (5) put right",
+        ),
         ("knife at rest", "v_h = 0", found.length_at_rest, "(d + 2Δ)/cos α"),
         (
             "exact at constant speed",
@@ -112,7 +120,7 @@ def _head(found: TopperStudy, described: Topper) -> Table:
         ("band of the heads", "d + 2Δ", mm(found.head_diameter + 2 * described.offset), ""),
     ]
     if found.uncut_share > 0:
-        rows += list(_left(found))
+        rows += list(_left(found, described))
     else:
         rows.append(("left of a head at worst", "", "nothing", "at every offset and phase"))
         if math.isfinite(found.length_exact):
@@ -126,24 +134,36 @@ def _settled(value: float, found: TopperStudy) -> float:
     return 0.0 if abs(value) < 1e-6 * found.head_diameter else value
 
 
-def _left(found: TopperStudy) -> Iterator[Row]:
+def _left(found: TopperStudy, described: Topper) -> Iterator[Row]:
+    """The head of which most is left, on which side of the edge, and the mean."""
     side = "left" if found.uncut_offset > 0 else "right"
     at = f"head {mm(abs(found.uncut_offset))} to the {side}" if found.uncut_offset else "head on the row"
     moves = f", phase {degrees(found.uncut_phase)}" if found.stroke else ""
     yield "left of a head at worst", "", percent(found.uncut_share), at + moves
-    for word, share in (
+    sides = (
         ("of that, to the right of the edge", found.uncut_right),
         ("of that, to the left of the edge", found.uncut_left),
         ("of that, between two passes of it", found.uncut_between),
-    ):
+    )
+    # An edge that moves along itself has no sides.
+    for word, share in sides if math.isfinite(found.length_exact) else ():
         if share > 0:
             yield word, "", percent(share), "of the head"
-    yield (
-        "left of a head on average",
-        "",
-        percent(found.uncut_share_mean),
-        "over offsets and phases, both even",
-    )
+    yield "left of a head on average", "", percent(found.uncut_share_mean), _mean_over(found, described)
+
+
+def _mean_over(found: TopperStudy, described: Topper) -> str:
+    """What a mean is taken over."""
+    if found.stroke:
+        return "over even offsets" + (" and phases" if described.motion.phase is None else "")
+    return "over even offsets" + (" and both directions" if found.knife_speed else "")
+
+
+def _way(found: TopperStudy) -> str:
+    """What a mean speed is a mean of."""
+    if not found.knife_speed:
+        return "at rest"
+    return "over the time" if found.stroke else "one direction over the head"
 
 
 def _motion(found: TopperStudy) -> Table:
@@ -152,13 +172,13 @@ def _motion(found: TopperStudy) -> Table:
         rows.append(("stroke of the knife", "S", mm(found.stroke), ""))
         rows += rows_of(found, "frequency")
         rows.append(row(found, "strokes_per_head", "while the edge passes a head on the row"))
-    rows.append(row(found, "knife_speed", "over the time" if found.stroke else "one direction over the head"))
+    rows.append(row(found, "knife_speed", _way(found)))
     if found.stroke:
         rows += rows_of(found, "knife_speed_max")
         jumps = not math.isfinite(found.knife_acceleration_max)
         told = ("greatest acceleration of the knife", "ÿ_max", "no bound", "it turns back at once")
         rows.append(told if jumps else row(found, "knife_acceleration_max"))
-    holds = "t_y ≥ t_x, condition (1), holds" if found.condition_holds else "t_y < t_x: condition (1) fails"
+    holds = "not less than along it: (1) holds" if found.condition_holds else "less than along it: (1) fails"
     rows += [row(found, name, "paper 5 (2), (8)") for name in ("travel_along", "travel_across")]
     rows.append(row(found, "time_along"))
     across = "no bound" if math.isinf(found.time_across) else with_unit(found.time_across, "s")
@@ -168,16 +188,19 @@ def _motion(found: TopperStudy) -> Table:
 
 def _slicing(found: TopperStudy) -> Table:
     words = "speed along the edge over speed normal to it"
-    greatest = found.slicing_ratio_max
-    rows = [row(found, "slicing_ratio_min", words), row(found, "slicing_ratio_mean", "over what is cut")]
-    if math.isfinite(greatest):
-        rows.append(row(found, "slicing_ratio_max"))
-    else:
-        rows.append(("greatest draw-cut ratio", "", "no bound", "the edge stops on its way"))
+    rows = [row(found, "slicing_ratio_min", words), _ratio(found, "slicing_ratio_mean", "over what is cut")]
+    rows.append(_ratio(found, "slicing_ratio_max", ""))
     rows += rows_of(found, "cutting_speed_min", "cutting_speed_max")
     told = "its back meets the head" if found.edge_retreats else "it never retreats"
     rows.append(row(found, "least_advance", told))
     return Table("topper_slicing", "Slicing", _HEADS, rows)
+
+
+def _ratio(found: TopperStudy, name: str, remark: str) -> Row:
+    """A ratio that may have no bound."""
+    if getattr(found, name) < _NO_BOUND:
+        return row(found, name, remark)
+    return SHOWN[name].word, "", "no bound", "the edge moves along itself"
 
 
 def _drive(found: TopperStudy) -> Table:
@@ -207,5 +230,5 @@ def _judged(each: Demand) -> Row:
     elif math.isclose(each.length_least, each.length_greatest, rel_tol=_SAME):
         spread = mm(each.length_greatest)
     bands = f"{mm(each.band_low)} to {mm(each.band_high)}" if each.band_high > 0 else "none"
-    holds = "yes" if each.holds_throughout else "longest" if each.holds else "no"
+    holds = "yes" if each.holds_throughout else "longest only" if each.holds else "no"
     return word, "", spread, holds, bands

@@ -29,7 +29,7 @@ _FORMULAS = (
     formula(
         "Length that follows from the condition",
         "L ≥ ( d + 2 Δ ) [ frac(v_h|v) ( 1 + tan α sin α ) + sin α ]",
-        "paper 5 (4), S_x divided by cos α",
+        "paper 5 (4), divided by cos α",
     ),
     formula(
         "Exact length at constant speed, worse direction",
@@ -56,7 +56,7 @@ _EVERY_PHASE = formula(
 
 _SLICING = formula(
     "Draw-cut ratio: speed along the edge over speed normal to it",
-    "frac(∣v sin α + ẏ cos α∣|v cos α − ẏ sin α)",
+    "frac(∣ v sin α + ẏ cos α ∣|v cos α − ẏ sin α)",
     "Goryachkin, Collected Works",
 )
 
@@ -81,10 +81,9 @@ def topper_headline(study: Study) -> Iterator[tuple[str, str, str]]:
     needed = found.length_exact
     yield "edge needed", *((number(1e3 * needed, 4), "mm") if math.isfinite(needed) else ("none does", ""))
     yield "edge L", number(1e3 * described.edge_length, 4), "mm"
-    yield "left of a head at worst", number(100 * found.uncut_share, 3), "%"
+    yield "left at worst", number(100 * found.uncut_share, 3), "%"
     if found.stroke:
         yield "strokes to and fro", number(found.frequency, 3), "1/s"
-    yield "mean draw-cut ratio", number(found.slicing_ratio_mean, 3), ""
 
 
 def topper_formulas(study: Study) -> list[Formula]:

@@ -8,10 +8,11 @@
 
   // y points to the left of the travel: up on the page.
   const [x0, y0, x1, y1] = scene.box;
-  const scale = Math.min(760 / (x1 - x0), 420 / (y1 - y0)), MARGIN = 16, FOOT = 30;
-  const width = (x1 - x0) * scale + 2 * MARGIN, height = (y1 - y0) * scale + 2 * MARGIN + FOOT;
+  const scale = Math.min(760 / (x1 - x0), 340 / (y1 - y0)), MARGIN = 16, FOOT = 30;
+  const width = Math.max((x1 - x0) * scale, 760) + 2 * MARGIN, slack = (width - (x1 - x0) * scale) / 2;
+  const height = (y1 - y0) * scale + 2 * MARGIN + FOOT;
   svg.setAttribute("viewBox", `0 0 ${width.toFixed(1)} ${height.toFixed(1)}`);
-  const X = (x) => (x - x0) * scale + MARGIN, Y = (y) => (y1 - y) * scale + MARGIN;
+  const X = (x) => (x - x0) * scale + slack, Y = (y) => (y1 - y) * scale + MARGIN;
 
   function add(tag, name, attributes = {}, parent = svg) {
     const element = document.createElementNS(svg.namespaceURI, tag);
@@ -173,7 +174,7 @@
   play.addEventListener("click", () => setPlaying(!playing));
   slider.addEventListener("input", () => setTime(Number(slider.value)));
   turn.addEventListener("input", () => setPhase(Number(turn.value) * Math.PI / 180));
-  if (!scene.rate) turn.parentElement.hidden = true;
+  if (!scene.rate) turn.parentElement.style.display = "none";
 
   turn.value = Math.round(scene.phase * 180 / Math.PI);
   setPhase(scene.phase);
