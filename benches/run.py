@@ -26,6 +26,7 @@ CASES = (
     "general_many",
     "cam_one",
     "cams_many",
+    "topper_heads",
     "torsion_modes",
     "torsion_forced",
     "torsion_engine",

@@ -27,6 +27,9 @@ const PANELS: usize = 64;
 /// Steps of the search for the chord that needs most: the golden section gains a digit in five.
 const GOLDEN: usize = 60;
 
+/// Times of crossings are known to this, in seconds: rounding.
+const CLOSE: f64 = 1e-15;
+
 /// A branch of the way: times and places p of its ends.
 #[derive(Clone, Copy, Debug)]
 struct Branch {
@@ -70,7 +73,7 @@ fn branches(knife: &Knife, head: &Head<f64>, stations: &Stations) -> Vec<Branch>
                 let t = middle + width * sin;
                 let here = (t, speed(t));
                 if (here.1 > 0.0) != (before.1 > 0.0) {
-                    cuts.push(crossing([before.0, here.0], [before.1, here.1], speed));
+                    cuts.push(crossing([before.0, here.0], [before.1, here.1], CLOSE, speed));
                 }
                 before = here;
             }
@@ -96,7 +99,7 @@ impl Chord {
             .filter(inside)
             .map(|each| {
                 let miss = |t: f64| knife.place(head, t).p[0] - p;
-                let t = crossing(each.t, [each.p[0] - p, each.p[1] - p], miss);
+                let t = crossing(each.t, [each.p[0] - p, each.p[1] - p], CLOSE, miss);
                 knife.place(head, t).q[0]
             })
             .collect();

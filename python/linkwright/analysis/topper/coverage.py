@@ -24,12 +24,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.knife import Knife
+from linkwright.engine.topper import KnifeKernel
 from linkwright.errors import InputError
 
 Floats = NDArray[np.float64]
@@ -93,6 +95,11 @@ class Edge:
     knife: Knife
     angle: float
     forward_speed: float
+
+    @cached_property
+    def kernel(self) -> KnifeKernel:
+        """The edge in the core's terms."""
+        return KnifeKernel(self.knife.way, self.angle, self.forward_speed)
 
     @property
     def least_advance(self) -> float:
@@ -158,8 +165,7 @@ def coverage(
         return Coverage(
             np.where(discs > 0, np.inf, 0.0), none, none, none, none, discs * (length is not None)
         )
-    kernel = edge.knife.kernel(edge.angle, edge.forward_speed)
-    table = kernel.cover(radius, place, angle, length=length, fine=fine).T
+    table = edge.kernel.cover(radius, place, angle, length=length, fine=fine).T
     # A head without a disc has no point to be cut.
     table[:, discs == 0] = 0.0
     return Coverage(*table)

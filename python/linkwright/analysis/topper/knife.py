@@ -6,8 +6,8 @@ phase is zero in the middle of the stroke, the knife going to the left; that of 
 is the crank angle. A knife at rest stands in the middle of its stroke.
 
 Smooth laws are sums of harmonics, all others laws in pieces: those of a mechanism with cams are polynomials
-of degree 5 through position, velocity and acceleration at each quarter of a degree and at every joint of a
-cam.
+of degree 5 through position, velocity and acceleration at each degree and at every joint of a cam, which
+leaves rounding of a smooth stretch. The follower of a cam has the lift of its cam.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.closure import require_full_turn
 from linkwright.analysis.kinematics import kinematics_of
 from linkwright.engine import compile_machine
-from linkwright.engine.topper import KnifeKernel, KnifeWay
+from linkwright.engine.topper import KnifeWay
 from linkwright.machine import Machine, MemberKnife
 from linkwright.machine.topper import Topper
 from linkwright.machine.topper_motion import ConstantKnife
@@ -34,8 +34,8 @@ Ends = tuple[float, float, float]
 
 _TURN = 2 * np.pi
 
-# Crank angles at which the motion of a member is looked at, a quarter of a degree.
-_ANGLES = 1440
+# Crank angles at which the motion of a smooth member is sampled, and polynomials that stand for any other.
+_ANGLES, _KNOTS = 1440, 360
 
 # Share of the first harmonic below which harmonics are rounding; a smooth law has no more of them than this.
 _ROUNDING = 1e-14
@@ -89,7 +89,7 @@ class Knife:
         """Turns of the phase in a second [1/s]."""
         return self.rate / _TURN
 
-    @property
+    @cached_property
     def mean_speed(self) -> float:
         """Mean of the speed across the row, in both senses [m/s]."""
         return abs(self.drift) + self.way_per_turn * self.frequency
@@ -137,12 +137,12 @@ class Knife:
         value = self.law.at(np.mod(np.asarray(phase) + self.rate * t, _TURN), order) * self.rate**order
         return value + (self.drift * t, self.drift, 0.0)[order]
 
-    def kernel(self, edge_angle: float, forward_speed: float) -> KnifeKernel:
+    @cached_property
+    def way(self) -> KnifeWay:
         """The knife in the core's terms."""
         reach = max(abs(each.value) for each in self.law.extremes())
         law = self.law if self.harmonics is None else self.harmonics
-        way = KnifeWay(law, self.corners, self.rate, self.drift, reach, *self.speeds)
-        return KnifeKernel(way, edge_angle, forward_speed)
+        return KnifeWay(law, self.corners, self.rate, self.drift, reach, *self.speeds)
 
 
 def knives(machine: Machine, topper: Topper) -> tuple[Knife, ...]:
@@ -211,12 +211,19 @@ def _moved(machine: Machine, member: str) -> Knife:
         return slide.position, slide.d1, slide.d2
 
     corners = _joints(machine)
+    if member in machine.mechanism.cams:
+        cam = machine.mechanism.cams[member]
+        return _centred(cam.lift.shifted(cam.phase), corners, rate)
     found = None if corners else _harmonics(motion(np.linspace(0.0, _TURN, _ANGLES, endpoint=False))[0])
     if found is not None:
         least, greatest = _smooth(found, rate).law.extremes()
         found[0, 0] -= 0.5 * (least.value + greatest.value)
         return _smooth(found, rate)
-    law = _in_pieces(motion, corners)
+    return _centred(_in_pieces(motion, corners), corners, rate)
+
+
+def _centred(law: MotionLaw, corners: tuple[float, ...], rate: float) -> Knife:
+    """A law in pieces, counted from the middle of its stroke."""
     least, greatest = law.extremes()
     return Knife(law.scaled(1.0, -0.5 * (least.value + greatest.value)), None, corners, rate)
 
@@ -243,7 +250,7 @@ def _in_pieces(
     motion: Callable[[Floats], tuple[Floats, Floats, Floats]], corners: tuple[float, ...]
 ) -> MotionLaw:
     """Polynomials through position and two derivatives at even angles and at corners."""
-    knots: Floats = np.unique(np.concatenate([np.linspace(0.0, _TURN, _ANGLES + 1), corners]))
+    knots: Floats = np.unique(np.concatenate([np.linspace(0.0, _TURN, _KNOTS + 1), corners]))
     knots = knots[np.concatenate([[True], np.diff(knots) > 2 * _BESIDE])]
     knots[-1] = _TURN
     starts, ends = motion(np.asarray(knots[:-1])), motion(np.asarray(knots[1:] - _BESIDE))
