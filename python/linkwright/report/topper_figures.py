@@ -77,7 +77,9 @@ def topper_figures(study: Study) -> Iterator[Captioned]:
         yield _phases(cut)
     yield _chart(cut)
     yield _verdict(cut)
-    yield _use(cut)
+    # An edge that moves along itself has no use.
+    if math.isfinite(cut.found.length_exact):
+        yield _use(cut)
     if cut.edges[0].knife.rate:
         yield _slicing(cut)
 
@@ -147,12 +149,12 @@ def _verdict(cut: _Cut) -> Captioned:
     bands = {way: bands_of(PAPER, way, _ANGLES, 2 * described.offset / band, stroke) for way in ways}
     figure = bands_figure(_ANGLES, bands, WAYS, (abs(described.edge_angle), band))
     low, high = PAPER.lengths
+    (slow, fast), (least, most) = PAPER.forward_speeds, PAPER.knife_speeds
     words = (
-        f"Paper 5 gives {low:.2f} to {high:.2f} m for v from {PAPER.forward_speeds[0]:g} to "
-        f"{PAPER.forward_speeds[1]:g} m/s and knife speeds from {PAPER.knife_speeds[0]:g} to "
-        f"{PAPER.knife_speeds[1]:g} m/s, and does not print α, h_p and Δ. Shaded: for which of them the "
-        "longest edge over these speeds lies in that range, each way of computing it; offsets have this "
-        "machine's share in the band."
+        f"Paper 5 gives {low:.2f} to {high:.2f} m for v from {slow:g} to {fast:g} m/s and knife speeds from "
+        f"{least:g} to {most:g} m/s, and does not print angle, cut height and offset. Shaded: for which of "
+        "them the longest edge over these speeds lies in that range, each way of computing it; offsets have "
+        "this machine's share in the band."
     )
     return Captioned("topper_verdict", f"Where the published {low:.2f} to {high:.2f} m hold", words, figure)
 

@@ -191,9 +191,17 @@ def _slicing(found: TopperStudy) -> Table:
     rows = [row(found, "slicing_ratio_min", words), _ratio(found, "slicing_ratio_mean", "over what is cut")]
     rows.append(_ratio(found, "slicing_ratio_max", ""))
     rows += rows_of(found, "cutting_speed_min", "cutting_speed_max")
-    told = "its back meets the head" if found.edge_retreats else "it never retreats"
-    rows.append(row(found, "least_advance", told))
+    rows.append(_advance(found))
     return Table("topper_slicing", "Slicing", _HEADS, rows)
+
+
+def _advance(found: TopperStudy) -> Row:
+    """Zero but for rounding where the edge moves along itself."""
+    if abs(found.least_advance) * _NO_BOUND < found.cutting_speed_max:
+        return SHOWN["least_advance"].word, SHOWN["least_advance"].symbol, "0 m/s", "it moves along itself"
+    return row(
+        found, "least_advance", "its back meets the head" if found.edge_retreats else "it never retreats"
+    )
 
 
 def _ratio(found: TopperStudy, name: str, remark: str) -> Row:

@@ -74,13 +74,13 @@
 
   // Share of a head that is farther than half an edge from all crossings of its chords.
   const CHORDS = 400;
-  function uncut([hx, hy]) {
-    const along = middles.map(([x, y]) => (x - hx) * sin + (y - hy) * cos);
-    const normal = middles.map(([x, y]) => (x - hx) * cos - (y - hy) * sin);
+  function uncut([hx, hy], places) {
+    const along = places.map(([x, y]) => (x - hx) * sin + (y - hy) * cos);
+    const normal = places.map(([x, y]) => (x - hx) * cos - (y - hy) * sin);
     const crossed = Array.from({ length: CHORDS }, () => []);
     // Chords lie at p = −r cos u, u in even steps, so that their number at a p is known.
     const number = (p) => Math.acos(Math.min(Math.max(-p / radius, -1), 1)) / Math.PI * CHORDS - 0.5;
-    for (let n = 0; n < count; n++) {
+    for (let n = 0; n < places.length - 1; n++) {
       const [low, high] = normal[n] < normal[n + 1] ? [normal[n], normal[n + 1]] : [normal[n + 1], normal[n]];
       if (high <= -radius || low >= radius || high === low) continue;
       for (let k = Math.max(0, Math.ceil(number(low))); k < CHORDS && k <= number(high); k++) {
@@ -105,7 +105,10 @@
   function prepare() {
     middles = instants.map((t) => [scene.speed * t, across(t)]);
     slices = middles.slice(1).map((place, n) => slice(middles[n], place));
-    left = scene.heads.map(uncut);
+    // Areas ask for more places than the picture.
+    const FINE = 8 * count, fine = Array.from({ length: FINE + 1 }, (_, n) => first + (last - first) * n / FINE);
+    const places = fine.map((t) => [scene.speed * t, across(t)]);
+    left = scene.heads.map((head) => uncut(head, places));
   }
 
   // The last instant at which the edge is over a head.
@@ -182,7 +185,7 @@
   document.getElementById("topper-words").textContent =
     `From above; the machine goes to the right, with the pace in the middle ${slow.toPrecision(2)} times slower than in ` +
     "the field. Green: haulm; yellow: cut; hatched: left. " + (scene.heads.length > 1
-      ? `The head in the middle is the worst one; all stand up to ${(1e3 * scene.offset).toPrecision(3)} mm off the row.`
+      ? `The head in the middle is the worst one, unless its phase is changed; all stand up to ${(1e3 * scene.offset).toPrecision(3)} mm off the row.`
       : "This head is the worst one.");
   // An address that ends in #topper=0.4 shows the place 0.4 of the way.
   const asked = /^#topper=([\d.]+)$/.exec(location.hash);
