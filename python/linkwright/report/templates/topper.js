@@ -73,7 +73,7 @@
   }
 
   // Share of a head that is farther than half an edge from all crossings of its chords.
-  const CHORDS = 400;
+  const CHORDS = 3000;
   function uncut([hx, hy], places) {
     const along = places.map(([x, y]) => (x - hx) * sin + (y - hy) * cos);
     const normal = places.map(([x, y]) => (x - hx) * cos - (y - hy) * sin);
