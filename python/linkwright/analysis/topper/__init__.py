@@ -10,5 +10,7 @@
 | `knife_drive` | inertia force of the knife, torque of its drive |
 | `topper`, `cautions` | all of these as one; what it does not do |
 | `constant_speed` | the exact length for a knife that does not turn back over a head |
+| `head_pass` | one pass over a head, and the outline of what is left of it |
+| `length_chart` | lengths over root diameter and knife speed, for some forward speeds |
 | `verdict` | for which heads lengths that are said to do for ranges of speeds do |
 """
