@@ -79,7 +79,8 @@ class Topper(Checked):
             remedy = "the mechanism and drive.speed give the speed of the knife"
             yield fault("knife_speed", found=self.knife_speed, expected="nothing", remedy=remedy)
         if not is_moved and self.knife_speed is None:
-            yield fault("knife_speed", expected="a velocity (m/s) of 0 or more")
+            remedy = "the mean over the time, 2 · stroke · frequency"
+            yield fault("knife_speed", expected="a velocity (m/s) of 0 or more", remedy=remedy)
         if self.field is not None:
             yield from field_faults(self.field, has_cycle=self.has_cycle, phase=self.motion.phase)
 

@@ -13,5 +13,7 @@
 | `field`, `field_verdict` | share of heads cut, haulm left, loss; limits that are not kept |
 | `intervals`, `share_curve` | what holds the true shares and means; share against length |
 | `constant_speed` | the exact length for a knife that does not turn back over a head |
+| `head_pass` | one pass over a head, and the outline of what is left of it |
+| `length_chart` | lengths over root diameter and knife speed, for some forward speeds |
 | `verdict` | for which heads lengths that are said to do for ranges of speeds do |
 """
