@@ -65,7 +65,7 @@ class Scatter(Checked):
 
         Parameters
         ----------
-        shares : array_like
+        shares : array_like, shape (n,)
             Between 0 and 1; random ones give random values.
 
         Returns

@@ -64,7 +64,7 @@ def field_share_figure(found: TopperField) -> Figure:
             text = f"{100 * share:.3g} %: {1e3 * value:.0f} mm"
             place = (1e3 * value, 100 * share)
             axes.annotate(text, place, (6, -2), textcoords="offset points", va="top", fontsize=8)
-    axes.set_xlim(_start(found), length[-1])
+    axes.set_xlim(_start(found), 1.06 * length[-1])
     axes.set_ylim(0, 103)
     axes.set_xlabel(_AXES["edge_length"][0])
     axes.set_ylabel("heads cut right through [%]")
