@@ -21,7 +21,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from statistics import NormalDist
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,6 +37,8 @@ Deviation = Annotated[float, not_negative(LENGTH)]
 
 _NORMAL = NormalDist()
 _PLAIN = Quantity(LENGTH)
+
+_BOTH = "an even scatter is given by least and greatest, or by mean and deviation"
 
 # Share of a distribution that must be left between its ends: below it the rounding of F counts.
 _LEFT = 1e-9
@@ -118,17 +120,12 @@ class UniformScatter(Scatter):
         wanted, others = (by_mean, by_ends) if self.mean is not None else (by_ends, by_mean)
         for key, value in wanted.items():
             if value is None:
-                yield fault(key, expected=Quantity(LENGTH).expected, remedy=f"with {_other(key, wanted)}")
+                yield fault(key, expected=Quantity(LENGTH).expected, remedy=_BOTH)
         for key, value in others.items():
             if value is not None:
-                remedy = "even scatter goes by its ends, or by mean and deviation"
-                yield fault(key, found=value, expected="nothing", remedy=remedy)
+                yield fault(key, found=value, expected="nothing", remedy=_BOTH)
         if self.least is not None and self.greatest is not None:
             yield from _order_faults(self.least, self.greatest)
-
-
-def _other(key: str, among: dict[str, Any]) -> str:
-    return next(each for each in among if each != key)
 
 
 class BellScatter(Scatter):
@@ -238,7 +235,7 @@ class LognormalScatter(BellScatter):
 
 def _order_faults(least: float, greatest: float) -> Iterator[InitErrorDetails]:
     if least > greatest:
-        yield fault("greatest", found=greatest, expected=f"at least least, {least:.6g} m")
+        yield fault("greatest", found=greatest, expected=f"{least:.6g} m or more, as least is")
 
 
 def _or(value: float | None, other: float) -> float:

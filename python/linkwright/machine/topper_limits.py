@@ -11,7 +11,17 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.machine.base import Checked, fault
 from linkwright.machine.element import PositiveLength
-from linkwright.units import ANGLE, INSIDE_ONE, RATIO, VELOCITY, Bound, Quantity, not_negative, positive
+from linkwright.units import (
+    ANGLE,
+    INSIDE_ONE,
+    RATIO,
+    VELOCITY,
+    Bound,
+    Quantity,
+    not_negative,
+    positive,
+    worded,
+)
 
 # An edge along the row crosses nothing ahead of it; beyond 80° it would be six times as long as across.
 _STEEPEST = math.radians(80)
@@ -53,7 +63,8 @@ class TopperLimits(Checked):
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        for key in ("angle", "knife_speed", "forward_speed"):
+        for key, kind in (("angle", ANGLE), ("knife_speed", VELOCITY), ("forward_speed", VELOCITY)):
             least, greatest = getattr(self, f"{key}_min"), getattr(self, f"{key}_max")
             if least > greatest:
-                yield fault(f"{key}_max", found=greatest, expected=f"at least {key}_min, {least:.6g}")
+                expected = f"at least {key}_min, {worded(least, kind)}"
+                yield fault(f"{key}_max", found=greatest, expected=expected)
