@@ -32,7 +32,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.knife import Knife
 from linkwright.engine.topper import KnifeKernel
-from linkwright.errors import FindingError, InputError
+from linkwright.errors import InputError
 
 Floats = NDArray[np.float64]
 
@@ -43,11 +43,12 @@ FINE = 128
 # confused.
 COARSE = 16
 
-# Far aslant, the point that is reached last lies within cot α of the end of the pass: so many stations see it,
-# times tan α; no more than the second for an edge that hardly goes on.
+# Far aslant, the point that is reached last lies within cot α of the end of the pass: so many stations see
+# it, times tan α; no more than the second for an edge that hardly goes on.
 _ASLANT, _MOST = 4, 100_000
 
-# Turns of the law over a head up to which an edge that retreats is followed: the work grows with their square.
+# Turns of the law over a head up to which an edge that retreats is followed: the work grows with their
+# square.
 _TURNS = 8
 
 # First look at the worst head: phases, and offsets.
@@ -132,8 +133,8 @@ class Edge:
         return float(self.knife.frequency * (diameter + 2 * swing) / abs(mean)) if self.knife.rate else 0.0
 
 
-def require_few_passes(edge: Edge, diameter: float, offset: float) -> None:
-    """Refuse an edge that goes over a head again and again, and hardly on.
+def hardly_goes_on(edge: Edge, diameter: float, offset: float) -> str | None:
+    """Why an edge cannot be followed: it goes over a head again and again, and hardly on.
 
     Parameters
     ----------
@@ -142,18 +143,19 @@ def require_few_passes(edge: Edge, diameter: float, offset: float) -> None:
     diameter, offset : float
         d and Δ [m].
 
-    Raises
-    ------
-    FindingError
-        It does.
+    Returns
+    -------
+    str or None
+        A sentence with its numbers; None for an edge that can be followed.
     """
     turns = edge.turns(diameter, offset)
-    if edge.retreats and turns > _TURNS:
-        raise FindingError(
-            f"the edge, at {np.degrees(edge.angle):.4g}° to the transverse axis, hardly goes on: it runs over a "
-            f"head and back while the knife goes {turns:.3g} times to and fro, and is followed for "
-            f"{_TURNS}; set it less aslant, or move the knife more slowly"
-        )
+    if not edge.retreats or turns <= _TURNS:
+        return None
+    return (
+        f"The edge, at {np.degrees(edge.angle):.4g}° to the transverse axis, hardly goes on: it runs over a "
+        f"head and back while the knife goes {turns:.3g} times to and fro, and is followed for {_TURNS}: "
+        "what it cuts is not computed; set it less aslant, or move the knife more slowly."
+    )
 
 
 def coverage(
