@@ -147,6 +147,24 @@ def test_best_knife(file: str, tmp_path: Path) -> None:
     assert field["share_complete"] == pytest.approx(best["share_complete"], abs=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("limits", "words"),
+    [
+        ({}, "No slicing_min is asked for"),
+        ({"slicing_min": 0.4}, "A slanted edge that rests slices as much"),
+        ({"slicing_min": 0.4, "knife_speed_min": 0.8, "angle_max": 0.1}, "No such"),
+    ],
+)
+def test_what_to_know_of_the_best(file: str, limits: dict[str, float], words: str) -> None:
+    asked = {"complete_min": 0.9, **limits}
+    sets = [word for key, x in asked.items() for word in ("--set", f"topper.limits.{key}={x}")]
+    warnings = " ".join(told("best", file, *sets)["warnings"])
+    if words == "No such":
+        assert "rests" not in warnings
+    else:
+        assert words in warnings
+
+
 def test_no_knife_keeps_the_limits(file: str) -> None:
     sets = ("--set", "topper.limits.knife_speed_max=0", "--set", "topper.limits.slicing_min=3")
     result = run("best", file, *sets, "--json")
