@@ -222,6 +222,12 @@ def test_a_measured_root_that_cannot_be(file: str, tmp_path: Path) -> None:
     assert told("field", file)["results"]["topper_field"]["clusters"] == "roots"
 
 
+def test_a_file_alone_is_run() -> None:
+    machine = str(Path(__file__).parents[2] / "machines" / "topper.toml")
+    whole = json.loads(CliRunner().invoke(application(), ["run", machine, "--json"]).stdout)
+    assert told(machine)["results"]["topper"] == whole["results"]["topper"]
+
+
 def test_folder_that_cannot_be_written(file: str) -> None:
     result = run("field", file, "--out", file)
     assert result.exit_code == 2
