@@ -110,6 +110,15 @@ def test_files_of_a_field(file: str, tmp_path: Path) -> None:
     assert "loss_mean [m³]" in head
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("height", [-0.01, 0.03])
+def test_heads_that_are_all_alike_are_drawn(file: str, tmp_path: Path, height: float) -> None:
+    sets = ("--set", f"topper.field.cut_height={height}", "--set", "topper.motion.phase=1")
+    result = run("field", file, *sets, "--set", "topper.field.offset=0", "--out", str(tmp_path / "out"))
+    assert result.exit_code == 0
+    assert len(list((tmp_path / "out").glob("*.png"))) == 3
+
+
 def test_limits_give_the_exit_code(file: str) -> None:
     sound = run("field", file, "--set", "topper.limits.complete_min=0.5")
     assert sound.exit_code == 0
@@ -175,6 +184,16 @@ def test_no_knife_keeps_the_limits(file: str) -> None:
     assert failing["reached"] == pytest.approx(3**0.5)
     assert "slicing_min = 3" in found["findings"][0]
     assert "edge_length" not in found["results"]["topper_best"]
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_map_without_any_knife(file: str, tmp_path: Path) -> None:
+    # Half of the heads are missed: no edge is long enough anywhere.
+    shallow = 'topper.field.cut_height={kind="normal", mean=0, deviation=0.01}'
+    result = run("best", file, "--set", shallow, "--out", str(tmp_path / "none"))
+    assert result.exit_code == 1
+    assert "cut deeper" in result.output
+    assert {path.name for path in (tmp_path / "none").iterdir()} == {"results.json", "map.csv"}
 
 
 def test_fastest(file: str) -> None:

@@ -110,8 +110,12 @@ def field_length_figure(found: TopperField) -> Figure:
 def _histogram(axes: Axes, values: Floats, total: int) -> None:
     """Shares of all heads; of equal values one bar."""
     spread = float(np.ptp(values)) if len(values) else 0.0
-    bins: Any = _BINS if spread > 1e-9 else 1
-    axes.hist(values, bins=bins, weights=np.full(len(values), 100 / total), color=BLUE, alpha=0.8)
+    if spread > 1e-9:
+        axes.hist(values, bins=_BINS, weights=np.full(len(values), 100 / total), color=BLUE, alpha=0.8)
+    elif len(values):
+        size = float(values[0]) or 1.0
+        axes.bar(values[:1], [100 * len(values) / total], width=0.06 * size, color=BLUE, alpha=0.8)
+        axes.set_xlim(0, 2 * size)
     axes.set_ylabel("share of heads [%]")
 
 
@@ -243,8 +247,11 @@ def _map(axes: Axes, at: tuple[Floats, Floats], values: Floats, title: str) -> N
         lines = axes.contour(*at, values.T, 6, colors=INK, linewidths=0.7)
         for word in axes.clabel(lines, fontsize=7.5):
             _drop_at_rim(axes, word, at)
-    elif len(finite):
-        axes.text(0.5, 0.5, f"{finite[0]:.4g} everywhere", transform=axes.transAxes, ha="center", color=SOFT)
+    else:
+        text = f"{finite[0]:.4g} everywhere" if len(finite) else "none anywhere"
+        axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", color=SOFT)
+        axes.set_xlim(at[0][0], at[0][-1])
+        axes.set_ylim(at[1][0], at[1][-1])
 
 
 def _drop_at_rim(axes: Axes, word: Any, at: tuple[Floats, Floats]) -> None:
@@ -295,9 +302,9 @@ def best_knife_figure(found: KnifeSearch) -> Figure:
         (found.map_length, found.length_max, PURPLE, "greatest length"),
     ]
     for values, limit, colour, label in lines:
-        shown = _drawable(values)
-        if limit is not None and np.nanmin(shown) < limit < np.nanmax(shown):
-            axes.contour(*at, shown.T, [limit], colors=colour, linewidths=1.8)
+        finite = values[np.isfinite(values)]
+        if limit is not None and len(finite) and finite.min() < limit < finite.max():
+            axes.contour(*at, _drawable(values).T, [limit], colors=colour, linewidths=1.8)
             axes.plot([], [], color=colour, label=label)
     if found.best is not None:
         x, y = np.degrees(found.best.edge_angle), found.best.knife_speed
