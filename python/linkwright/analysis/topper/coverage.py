@@ -43,12 +43,13 @@ FINE = 128
 # confused.
 COARSE = 16
 
-# Far aslant, the point that is reached last lies within cot α of the end of the pass: so many stations see it,
-# times tan α; no more than the second for an edge that hardly goes on.
+# Far aslant, the point that is reached last lies within cot α of the end of the pass: so many stations
+# see it, times tan α; no more than the second for an edge that hardly goes on.
 _ASLANT, _MOST = 4, 100_000
 
-# Turns of the law over a head up to which an edge that retreats is followed: the work grows with their square.
-_TURNS = 8
+# Turns of the law over a head that are followed: for an edge that retreats the work grows with their square,
+# for any other the core runs out of stations.
+_TURNS, _TURNS_RETREATING = 60, 8
 
 # First look at the worst head: phases, and offsets.
 _PHASES, _OFFSETS = 360, 5
@@ -132,8 +133,8 @@ class Edge:
         return float(self.knife.frequency * (diameter + 2 * swing) / abs(mean)) if self.knife.rate else 0.0
 
 
-def require_few_passes(edge: Edge, diameter: float, offset: float) -> None:
-    """Refuse an edge that goes over a head again and again, and hardly on.
+def require_few_turns(edge: Edge, diameter: float, offset: float) -> None:
+    """Refuse a knife that goes to and fro again and again over the same head.
 
     Parameters
     ----------
@@ -147,12 +148,12 @@ def require_few_passes(edge: Edge, diameter: float, offset: float) -> None:
     FindingError
         It does.
     """
-    turns = edge.turns(diameter, offset)
-    if edge.retreats and turns > _TURNS:
+    turns, most = edge.turns(diameter, offset), _TURNS_RETREATING if edge.retreats else _TURNS
+    if turns > most:
+        way = "set the edge less aslant" if edge.retreats else "give it a longer stroke"
         raise FindingError(
-            f"the edge, at {np.degrees(edge.angle):.4g}° to the transverse axis, hardly goes on: it runs over a "
-            f"head and back while the knife goes {turns:.3g} times to and fro, and is followed for "
-            f"{_TURNS}; set it less aslant, or move the knife more slowly"
+            f"the knife goes {turns:.3g} times to and fro while its edge is over one head, and is followed "
+            f"for {most}; {way}, or move the knife more slowly"
         )
 
 
@@ -202,11 +203,19 @@ def coverage(
         return Coverage(
             np.where(discs > 0, np.inf, 0.0), none, none, none, none, discs * (length is not None)
         )
-    stations = max(fine, min(_MOST, int(_ASLANT * abs(np.tan(edge.angle)))))
+    stations = _stations(edge, fine, float(2 * radius.max()), float(np.abs(place).max()))
     table = edge.kernel.cover(radius, place, angle, length=length, fine=stations).T
     # A head without a disc has no point to be cut.
     table[:, discs == 0] = 0.0
     return Coverage(*table)
+
+
+def _stations(edge: Edge, fine: int, diameter: float, offset: float) -> int:
+    """Stations a turn: more far aslant; fewer if each stretch between corners has them all."""
+    aslant = min(_MOST, int(_ASLANT * abs(np.tan(edge.angle))))
+    if edge.knife.corners and not edge.retreats:
+        fine = max(2, int(fine / max(1.0, edge.turns(diameter, offset))))
+    return max(fine, aslant)
 
 
 @dataclass(frozen=True)

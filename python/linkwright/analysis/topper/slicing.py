@@ -83,7 +83,9 @@ def _ratios(edge: Edge) -> tuple[float, float, float]:
     across = way.at(0.0, phases, 1)
     along = v * np.sin(edge.angle) + across * np.cos(edge.angle)
     normal = v * np.cos(edge.angle) - across * np.sin(edge.angle)
-    return least, float(np.abs(along).mean() / np.abs(normal).mean()), float(greatest)
+    # An edge that moves along itself has no speed normal to it.
+    mean = np.inf if edge.stands else np.abs(along).mean() / np.abs(normal).mean()
+    return least, float(mean), float(greatest)
 
 
 def _speeds(edge: Edge) -> tuple[float, float]:
@@ -121,6 +123,8 @@ def edge_use(edges: Sequence[Edge], diameter: float, offset: float) -> tuple[Flo
 
 def _use(edge: Edge, diameter: float, offset: float) -> tuple[Floats, Floats]:
     """The same for one direction."""
+    if edge.stands:
+        return np.array([-0.5, 0.5]) * diameter, np.zeros(2)
     knife, sin, cos = edge.knife, np.sin(edge.angle), np.cos(edge.angle)
     radius, v = 0.5 * diameter, edge.forward_speed
     phase = (np.arange(_HEADS) + 0.5)[:, None, None] * (2 * np.pi / _HEADS)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.coverage import Edge, coverage, require_few_passes, worst_head
+from linkwright.analysis.topper.coverage import Edge, coverage, require_few_turns, worst_head
 from linkwright.analysis.topper.head import cap_volume, head_diameter
 from linkwright.analysis.topper.knife import knives
 from linkwright.analysis.topper.knife_drive import KnifeDrive, knife_drive
@@ -168,7 +168,7 @@ def topper(machine: Machine) -> TopperStudy:
     AssemblyError
         The mechanism of the knife does not close all round.
     FindingError
-        The edge retreats, and hardly goes on.
+        The knife goes to and fro again and again over the same head.
 
     References
     ----------
@@ -180,7 +180,7 @@ def topper(machine: Machine) -> TopperStudy:
     d = float(head_diameter(described.root_diameter, described.cut_height))
     edges = edges_of(machine, described)
     for edge in edges:
-        require_few_passes(edge, d, described.offset)
+        require_few_turns(edge, d, described.offset)
     return TopperStudy(
         head_diameter=d,
         cap_volume=float(cap_volume(described.root_diameter, described.cut_height)),
@@ -279,7 +279,8 @@ def _left(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
     worst = worst_head(edges, d, described.offset, described.motion.phase, left)
     there = coverage(worst.edge, d, worst.offset, worst.phase, length=length)
     return {
-        "uncut_share": worst.value,
+        # All of it, but for rounding.
+        "uncut_share": min(worst.value, 1.0),
         "uncut_phase": worst.phase,
         "uncut_offset": worst.offset,
         "uncut_right": float(there.uncut_right[0] / area),
