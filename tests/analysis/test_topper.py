@@ -305,4 +305,5 @@ def test_use_of_the_edge_adds_up_to_the_head() -> None:
     found = cut()
     area = np.trapezoid(found.edge_use, found.edge_place)
     assert area == pytest.approx(0.25 * np.pi * DISC**2, rel=0.01)
-    assert found.edge_place[-1] == pytest.approx(0.5 * found.length_exact, rel=0.02)
+    # No place is used beyond what the worst head needs.
+    assert 0.9 < found.edge_place[-1] / (0.5 * found.length_exact) <= 1

@@ -19,7 +19,7 @@ fn harmonic() -> Knife {
     let knife = Knife {
         law,
         corners: vec![],
-        angle: ANGLE,
+        direction: ANGLE.sin_cos().into(),
         forward: FORWARD,
         rate,
         drift: 0.0,
@@ -42,7 +42,7 @@ fn to_and_fro(stroke: f64, speed: f64, angle: f64) -> Knife {
     Knife {
         law: Law::Pieces(law.expect("a whole turn")),
         corners: vec![0.5 * PI, 1.5 * PI],
-        angle,
+        direction: angle.sin_cos().into(),
         forward: FORWARD,
         rate: PI * speed / stroke,
         drift: 0.0,
@@ -55,7 +55,16 @@ fn to_and_fro(stroke: f64, speed: f64, angle: f64) -> Knife {
 fn one_way(drift: f64, angle: f64) -> Knife {
     let law = Law::Harmonics(vec![[0.0, 0.0]]);
     let speeds = [drift; 2];
-    Knife { law, corners: vec![], angle, forward: FORWARD, rate: 0.0, drift, reach: 0.0, speeds }
+    Knife {
+        law,
+        corners: vec![],
+        direction: angle.sin_cos().into(),
+        forward: FORWARD,
+        rate: 0.0,
+        drift,
+        reach: 0.0,
+        speeds,
+    }
 }
 
 /// Heads of several sizes, places and phases.
@@ -112,7 +121,7 @@ fn the_worst_phase_needs_stroke_and_band() {
         let phases: Vec<f64> = (0..3600).map(|k| TAU * f64::from(k) / 3600.0).collect();
         let found = covered(&knife, &[vec![r], vec![delta], phases], None, 32);
         let most = found.iter().map(|row| row[0]).fold(0.0, f64::max);
-        let wanted = (stroke + 2.0 * r + 2.0 * delta) / knife.angle.cos();
+        let wanted = (stroke + 2.0 * r + 2.0 * delta) / knife.direction[1];
         // A phase beside the worst: the knife goes on with 0.8 m/s for no more than half a step.
         let step = 0.8 * 0.5 * (TAU / 3600.0) / knife.rate;
         assert!(most <= wanted + 1e-14 && most > wanted - 4.0 * step, "{most} for {wanted}");
@@ -128,7 +137,7 @@ fn the_point_reached_last_is_on_the_rim_and_asks_for_the_length() {
         assert!((x.hypot(y) - columns[0][k]).abs() < 1e-12, "head {k}: on the rim");
         // When the edge's line passes the point, the point lies half the length from its middle.
         let head = Head { radius: columns[0][k], offset: columns[1][k], phase: columns[2][k] };
-        let (sin, cos) = knife.direction();
+        let [sin, cos] = knife.direction;
         let t = knife.time(&head, x * cos - y * sin);
         let away = (x * sin + y * cos - knife.place(&head, t).q[0]).abs();
         assert!((away - 0.5 * needed).abs() < 1e-12, "head {k}: {away} for {}", 0.5 * needed);

@@ -37,7 +37,7 @@ impl TopperKnife {
         Ok(TopperKnife(Knife {
             law,
             corners,
-            angle,
+            direction: angle.sin_cos().into(),
             forward,
             rate,
             drift,

@@ -9,7 +9,7 @@ import typer
 from linkwright.cli.common import File, Sets
 
 if TYPE_CHECKING:
-    from linkwright.machine import Machine
+    from linkwright.machine import Machine, Topper
 
 
 def check(file: File, set: Sets = None) -> None:
@@ -38,12 +38,48 @@ def summary(machine: Machine) -> str:
     """
     from linkwright.machine.mobility import mobility
 
-    rows = [("machine", machine.name), ("motor", _motor(machine)), *_mechanism(machine)]
-    if not machine.is_train_alone:
+    rows = [("machine", machine.name), *_topper(machine)]
+    if not machine.is_topper_alone:
+        rows += [("motor", _motor(machine)), *_mechanism(machine)]
+    if not (machine.is_train_alone or machine.is_topper_alone):
         rows += [("mobility", str(mobility(machine.linkage)))]
     rows += _train(machine)
     rows += [("bodies", ", ".join(machine.bodies)), ("loads", _loads(machine))]
     return "\n".join(f"  {word:<14} {text}" for word, text in rows if text)
+
+
+def _topper(machine: Machine) -> list[tuple[str, str]]:
+    """The head that is cut, the edge, and how the knife moves."""
+    from math import degrees
+
+    from linkwright.analysis.topper.head import head_diameter
+
+    cut = machine.topper
+    if cut is None:
+        return []
+    d = float(head_diameter(cut.root_diameter, cut.cut_height))
+    beside = f", up to {_mm(cut.offset)} beside the row" if cut.offset else ", on the row"
+    head = f"{_mm(d)} across: root {_mm(cut.root_diameter)}, cut {_mm(cut.cut_height)} below its top{beside}"
+    edge = (
+        f"{_mm(cut.edge_length)} at {degrees(cut.edge_angle):.4g}°, {cut.forward_speed:.4g} m/s along the row"
+    )
+    return [("head", head), ("edge", edge), ("knife", _knife(cut))]
+
+
+def _knife(cut: Topper) -> str:
+    """How it moves across the row."""
+    motion = cut.motion
+    if motion.kind == "member":
+        return f"moved by {motion.of}"
+    if not cut.knife_speed:
+        return "at rest"
+    stroke = f", stroke {_mm(motion.stroke)}" if motion.stroke else ", one direction over a head"
+    word = "harmonic" if motion.kind == "harmonic" else "constant speed"
+    return f"{word}{stroke}, {cut.knife_speed:.4g} m/s across the row in the mean"
+
+
+def _mm(value: float) -> str:
+    return f"{1e3 * value:.4g} mm"
 
 
 def _motor(machine: Machine) -> str:

@@ -115,11 +115,13 @@ def _files(study: Study, folder: Path) -> list[str]:
     from json import dumps
 
     from linkwright.report import report_html
-    from linkwright.report.csv import curves_csv
+    from linkwright.report.csv import curves_csv, edge_csv
 
     texts = {"results.json": dumps(study.to_dict(curves=True), allow_nan=False, ensure_ascii=False) + "\n"}
     tables = {f"{name}.csv": curves_csv(result) for name, result in study.results().items()}
     texts |= {name: text for name, text in tables.items() if text}
+    if study.topper is not None:
+        texts["topper_edge.csv"] = edge_csv(study.topper)
     texts["report.html"] = report_html(study, command=command_line())
     try:
         folder.mkdir(parents=True, exist_ok=True)

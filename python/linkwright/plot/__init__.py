@@ -18,6 +18,9 @@
 | `torsion_forced` | forced vibration of trains over their speeds |
 | `torsion_transient` | manoeuvres of trains over time, waterfalls |
 | `torsion_scheme` | equivalent schemes of trains, by `scheme_layout`, `scheme_page`, `scheme_words` |
+| `topper`, `topper_view` | knives of toppers over the phase, and from above |
+| `topper_lengths` | lengths of their edges, and for which heads published ones do |
+| `topper_field` | fields of roots under a topper, maps of knives |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -50,6 +53,16 @@ from linkwright.plot.reduction import reduction_figure
 from linkwright.plot.run_up import attempt_figure, run_up_figure
 from linkwright.plot.steady import speed_figure, time_figure, torque_figure
 from linkwright.plot.svg import svg
+from linkwright.plot.topper import edge_use_figure, phase_figure, slicing_figure
+from linkwright.plot.topper_field import (
+    best_knife_figure,
+    field_haulm_figure,
+    field_length_figure,
+    field_share_figure,
+    sweep_figures,
+)
+from linkwright.plot.topper_lengths import bands_figure, length_chart_figure
+from linkwright.plot.topper_view import top_view_figure
 from linkwright.plot.torsion import modes_figure
 from linkwright.plot.torsion_forced import (
     heat_figure,
@@ -63,6 +76,8 @@ from linkwright.plot.torsion_transient import transient_figure, waterfall_figure
 
 __all__ = [
     "attempt_figure",
+    "bands_figure",
+    "best_knife_figure",
     "cam_figure",
     "cam_force_figure",
     "campbell_figure",
@@ -72,15 +87,21 @@ __all__ = [
     "coupler_figure",
     "curvature_figure",
     "damper_figure",
+    "edge_use_figure",
+    "field_haulm_figure",
+    "field_length_figure",
+    "field_share_figure",
     "forces_figure",
     "gear_torque_figure",
     "heat_figure",
     "hodograph_figure",
+    "length_chart_figure",
     "lift_figure",
     "modes_figure",
     "motion_laws_figure",
     "motor_figure",
     "orders_figure",
+    "phase_figure",
     "polar_figure",
     "polished_rod_figure",
     "pressure_angle_figure",
@@ -91,10 +112,13 @@ __all__ = [
     "run_up_figure",
     "scheme_figure",
     "shaft_torques_figure",
+    "slicing_figure",
     "speed_figure",
     "stress_figure",
     "svg",
+    "sweep_figures",
     "time_figure",
+    "top_view_figure",
     "torque_figure",
     "torsion_unevenness_figure",
     "transient_figure",

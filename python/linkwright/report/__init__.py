@@ -10,6 +10,7 @@
 | `formulas` | formulas of the measures, with their sources |
 | `figures` | the figures of a study, with captions |
 | `scene` | the moving sketch: positions over a turn |
+| `scene_topper` | the knife of a topper over a row of heads, to be moved |
 | `inline` | SVG that can stand in a page together with others |
 | `csv` | curves as text |
 

@@ -28,6 +28,7 @@ from linkwright.machine import (
     ViscousFriction,
 )
 from linkwright.report.quantities import degrees, number
+from linkwright.report.topper_words import topper_assumptions
 
 # Meshes that agree better than this agree to rounding.
 _FINEST = 1e-15
@@ -66,7 +67,10 @@ def assumptions(study: Study) -> list[str]:
         Sentences, from the mechanism to the methods.
     """
     machine = study.machine
-    found = [*_mechanism(), *_bodies(machine), *_loads(machine)]
+    cut = [] if machine.topper is None else list(topper_assumptions(machine.topper))
+    if machine.is_topper_alone:
+        return cut
+    found = [*cut, *_mechanism(), *_bodies(machine), *_loads(machine)]
     if machine.drive is not None:
         found += [*_drive(machine.drive), *_motor(machine.drive)]
     return [*found, *_methods(study)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.result import Result
+from linkwright.analysis.topper.topper import TopperStudy
 from linkwright.report.quantities import SHOWN
 
 
@@ -27,6 +28,24 @@ def curves_csv(result: Result) -> str:
         return ""
     rows = zip(*(curve.tolist() for curve in curves.values()), strict=True)
     lines = [",".join(head(name) for name in curves), *(",".join(map(repr, row)) for row in rows)]
+    return "\n".join(lines) + "\n"
+
+
+def edge_csv(found: TopperStudy) -> str:
+    """The use of a topper's edge along its length as CSV: a curve of its own length.
+
+    Parameters
+    ----------
+    found : TopperStudy
+        The study of the topper.
+
+    Returns
+    -------
+    str
+        Two columns.
+    """
+    rows = zip(found.edge_place.tolist(), found.edge_use.tolist(), strict=True)
+    lines = [f"{head('edge_place')},{head('edge_use')}", *(",".join(map(repr, row)) for row in rows)]
     return "\n".join(lines) + "\n"
 
 

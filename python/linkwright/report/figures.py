@@ -26,6 +26,7 @@ from linkwright.report.cam_figures import cam_figures
 from linkwright.report.captioned import Captioned
 from linkwright.report.linkage_figures import linkage_figures
 from linkwright.report.quantities import degrees, number
+from linkwright.report.topper_figures import topper_figures
 
 # The motor's curve is drawn beyond the fastest instant of the turn by this share of it, and half the range of
 # speeds: as far as the detail beside it looks.
@@ -45,6 +46,7 @@ def figures(study: Study) -> Iterator[Captioned]:
     Captioned
         In the order of the page.
     """
+    yield from topper_figures(study)
     yield from cam_figures(study)
     yield from _unit(study)
     yield from _rotator(study)

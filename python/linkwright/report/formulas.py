@@ -42,6 +42,9 @@ def _math(text: str) -> str:
 # What stands between two formulas, with room around it.
 _BETWEEN = {"or": "\u2003or\u2003", ",": ",\u2003"}
 
+# Names of functions, with a little room about them.
+_FUNCTIONS = {"sin", "cos", "tan", "max"}
+
 _PIECE = re.compile(r"(frac|root)\(((?:[^()]|\([^()]*\))*)\)|(\S+)")
 
 
@@ -66,11 +69,12 @@ def _symbol(text: str) -> str:
     base, _, power = text.partition("^")
     base, _, index = base.partition("_")
     core = f"<{_tag(base)}>{base}</{_tag(base)}>"
+    room = '<mspace width="0.17em"></mspace>' if base in _FUNCTIONS else ""
     if not index and not power:
-        return core
+        return f"{room}{core}{room}"
     below = f"<mtext>{index}</mtext>" if index else "<mrow></mrow>"
     above = f"<mn>{power}</mn>" if power else "<mrow></mrow>"
-    return f"<msubsup>{core}{below}{above}</msubsup>"
+    return f"{room}<msubsup>{core}{below}{above}</msubsup>{room}"
 
 
 def _tag(text: str) -> str:

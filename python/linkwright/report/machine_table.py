@@ -53,10 +53,16 @@ def machine_parts(machine: Machine) -> list[Part]:
     Returns
     -------
     list of Part
-        In the order drive, train, pumping unit, mechanism, bodies, loads, run-up.
+        In the order topper, drive, train, pumping unit, mechanism, bodies, loads, run-up.
     """
-    parts = (_drive, _train, _unit, _mechanism, _tables, _run_up)
+    parts = (_topper, _drive, _train, _unit, _mechanism, _tables, _run_up)
     return [part for each in parts for part in each(machine)]
+
+
+def _topper(machine: Machine) -> Iterator[Part]:
+    """A topper, then the motion of its knife."""
+    if machine.topper is not None:
+        yield from _nested("Topper", machine, ("topper",))
 
 
 def _drive(machine: Machine) -> Iterator[Part]:

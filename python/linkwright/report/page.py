@@ -23,7 +23,9 @@ from linkwright.report.inline import inline_svg
 from linkwright.report.machine_table import Part, machine_parts
 from linkwright.report.quantities import number
 from linkwright.report.scene import scene
+from linkwright.report.scene_topper import topper_scene
 from linkwright.report.tables import tables
+from linkwright.report.topper_words import PAPER_5, topper_formulas, topper_headline
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -88,8 +90,9 @@ def _context(study: Study, command: str) -> dict[str, Any]:
         "tables": tables(study),
         "figures": drawn,
         "scene": _embedded(scene(study)),
+        "topper_scene": _embedded(topper_scene(study)),
         "formulas": _formulas(study),
-        "paper": PAPER_1,
+        "paper": _papers(study),
         "assumptions": assumptions(study),
         "file": dumps(study.machine),
         "command": command or "linkwright run machine.toml --out report",
@@ -115,13 +118,25 @@ def grouped(parts: list[Part]) -> list[tuple[str, list[Part]]]:
 
 
 def _formulas(study: Study) -> list[Formula]:
+    cut = topper_formulas(study)
+    if study.machine.is_topper_alone:
+        return cut
     motor = study.machine.drive.motor if study.machine.drive else None
     is_induction = isinstance(motor, InductionMotor)
-    return formulas(induction=is_induction, motor=motor is not None, steps=study.step_method is not None)
+    steps = study.step_method is not None
+    return [*cut, *formulas(induction=is_induction, motor=motor is not None, steps=steps)]
+
+
+def _papers(study: Study) -> str:
+    """The papers that formulas are from."""
+    if study.machine.topper is None:
+        return PAPER_1
+    return PAPER_5 if study.machine.is_topper_alone else f"{PAPER_1}. {PAPER_5}"
 
 
 def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
     """The few numbers that one looks for first: symbol and word, value, unit."""
+    yield from topper_headline(study)
     steady, run_up, reduced = study.steady_state, study.run_up, study.reduction
     if steady is not None:
         yield "mean speed", number(steady.speed_mean_time, 4), "rad/s"

@@ -13,6 +13,7 @@ from linkwright.report.force_tables import envelope_table
 from linkwright.report.linkage_tables import linkage_tables
 from linkwright.report.quantities import SHOWN, degrees, number
 from linkwright.report.table import Row, Table, row, rows_of, with_unit
+from linkwright.report.topper_tables import topper_tables
 from linkwright.report.unit_tables import unit_tables
 
 
@@ -31,7 +32,8 @@ def tables(study: Study) -> list[Table]:
     """
     made = (_reduction(study), _steady(study), _measures(study), _drive(study), _run_up(study))
     last = (_run_down(study), _step_method(study), envelope_table(study.forces) if study.forces else None)
-    found = (*cam_tables(study), *unit_tables(study), *made, *last, *linkage_tables(study))
+    first = (*topper_tables(study), *cam_tables(study), *unit_tables(study))
+    found = (*first, *made, *last, *linkage_tables(study))
     return [table for table in found if table is not None]
 
 

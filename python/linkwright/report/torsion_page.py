@@ -49,6 +49,7 @@ def torsion_html(study: TorsionStudy, *, command: str = "") -> str:
         "tables": list(study_tables(study)),
         "figures": drawn,
         "scene": "null",
+        "topper_scene": "null",
         "formulas": list(_formulas(study)),
         "paper": _SOURCES,
         "assumptions": list(_assumptions(study)),

@@ -1,9 +1,9 @@
 //! Many heads under one knife: what each needs, and what the edge leaves of it.
 
 use super::knife::{Head, Knife};
-use super::needed::{Stations, needed};
+use super::needed::{Stations, half_chord, needed};
 use super::retreat;
-use super::uncut::uncut;
+use super::uncut::{Scratch, uncut};
 use crate::lanes::{Job, in_lanes};
 use crate::real::Real;
 use rayon::prelude::*;
@@ -48,7 +48,7 @@ const MOST: f64 = 4096.0;
 /// Longest time from abreast to either end of a pass.
 fn longest(knife: &Knife, heads: &Heads<'_>) -> f64 {
     let most = |column: &[f64]| column.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-    let (sin, _) = knife.direction();
+    let [sin, _] = knife.direction;
     let way = most(heads.radius) + (knife.reach + most(heads.offset)) * sin.abs();
     way / knife.advance().abs()
 }
@@ -74,7 +74,7 @@ impl Work<'_> {
 
     /// Place along x and y of a point given along n and e.
     fn point(&self, p: f64, s: f64) -> [f64; 2] {
-        let (sin, cos) = self.knife.direction();
+        let [sin, cos] = self.knife.direction;
         [p * cos + s * sin, s * cos - p * sin]
     }
 
@@ -88,17 +88,16 @@ impl Work<'_> {
     }
 
     /// Row of a head of which it is known what it needs.
-    fn row(&self, k: usize, [half, at, side]: [f64; 3], window: [f64; 2], row: &mut [f64]) {
-        let head = self.head(k);
-        let p = self.knife.place(&head, at).p[0];
-        let c = (head.radius * head.radius - p * p).max(0.0).sqrt();
-        let [x, y] = self.point(p, side * c);
-        let turns = self.knife.turns(self.longest);
-        let area = match self.half {
-            Some(short) if short < half => uncut(self.knife, &head, short, window, turns, self.stations, at),
-            _ => [0.0; 2],
-        };
-        row.copy_from_slice(&[2.0 * half, x, y, area[0], area[1], 0.0]);
+    #[inline(always)]
+    fn row<R: Real>(&self, k: usize, found: [f64; 6], scratch: &mut Scratch, row: &mut [f64]) {
+        let [half, at, p, s, from, to] = found;
+        let [x, y] = self.point(p, s);
+        row.copy_from_slice(&[2.0 * half, x, y, 0.0, 0.0, 0.0]);
+        if let Some(short) = self.half.filter(|&short| short < half) {
+            let (head, turns) = (self.head(k), self.knife.turns(self.longest));
+            let area = uncut::<R>(self.knife, &head, short, [from, to], turns, self.stations, at, scratch);
+            row[3..5].copy_from_slice(&area);
+        }
     }
 }
 
@@ -114,7 +113,8 @@ impl Job for Chunk<'_> {
     #[inline(always)]
     fn run<R: Real>(self) {
         let n = self.out.len() / RESULTS;
-        let mut lanes = vec![0.0; 5 * R::LANES];
+        let mut lanes = vec![0.0; 6 * R::LANES];
+        let mut scratch = Scratch::default();
         for at in (0..n).step_by(R::LANES) {
             let found = R::outline(
                 #[inline(always)]
@@ -125,8 +125,11 @@ impl Job for Chunk<'_> {
             }
             let rows = self.out[at * RESULTS..].chunks_exact_mut(RESULTS).take(R::LANES);
             for (lane, row) in rows.enumerate() {
-                let [half, time, side, from, to] = std::array::from_fn(|k| lanes[k * R::LANES + lane]);
-                self.work.row(self.first + at + lane, [half, time, side], [from, to], row);
+                let found = std::array::from_fn(|k| lanes[k * R::LANES + lane]);
+                R::outline(
+                    #[inline(always)]
+                    || self.work.row::<R>(self.first + at + lane, found, &mut scratch, row),
+                );
             }
         }
     }
@@ -136,7 +139,7 @@ impl Chunk<'_> {
     /// What the heads from one on need, as many as there are lanes, and between which times they are passed; beyond the
     /// last they are repeated.
     #[inline(always)]
-    fn lanes<R: Real>(&self, first: usize) -> [R; 5] {
+    fn lanes<R: Real>(&self, first: usize) -> [R; 6] {
         let Work { knife, heads, stations, longest, .. } = self.work;
         let load = |column: &[f64]| {
             let mut lanes = [0.0; 2 * LANES_MAX];
@@ -148,7 +151,8 @@ impl Chunk<'_> {
         let head = Head { radius: load(heads.radius), offset: load(heads.offset), phase: load(heads.phase) };
         let window = [knife.time(&head, -head.radius), knife.time(&head, head.radius)];
         let found = needed(knife, &head, window, knife.turns(*longest), stations);
-        [found.half, found.at, found.side, window[0], window[1]]
+        let p = knife.place(&head, found.at).p[0];
+        [found.half, found.at, p, found.side * half_chord(head.radius, p), window[0], window[1]]
     }
 }
 

@@ -48,8 +48,8 @@ pub struct Knife {
     pub law: Law,
     /// Phases at which the law or one of its first two derivatives jumps, increasing, in one turn.
     pub corners: Vec<f64>,
-    /// Angle α of the edge to the transverse axis.
-    pub angle: f64,
+    /// sin α and cos α of the edge's angle to the transverse axis.
+    pub direction: [f64; 2],
     /// Speed v along the row.
     pub forward: f64,
     /// Phase per time.
@@ -81,31 +81,28 @@ pub struct Place<R> {
 }
 
 /// Rounds in which a crossing is found: a bracket halved if Newton's step would leave it.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 24;
+
+/// Share of the bracket below which a step is the last: Newton's next would be rounding.
+const CLOSE: f64 = 1e-8;
 
 impl Knife {
-    /// sin α and cos α.
-    #[inline(always)]
-    pub fn direction(&self) -> (f64, f64) {
-        self.angle.sin_cos()
-    }
-
     /// Mean speed of the edge along its normal.
     pub fn advance(&self) -> f64 {
-        let (sin, cos) = self.direction();
+        let [sin, cos] = self.direction;
         self.forward * cos - self.drift * sin
     }
 
     /// Whether the edge runs backwards at times.
     pub fn retreats(&self) -> bool {
-        let (sin, cos) = self.direction();
+        let [sin, cos] = self.direction;
         self.speeds.iter().any(|speed| self.forward * cos - speed * sin <= 0.0)
     }
 
     /// The edge at a time.
     #[inline(always)]
     pub fn place<R: Real>(&self, head: &Head<R>, t: R) -> Place<R> {
-        let (sin, cos) = self.direction();
+        let [sin, cos] = self.direction;
         let [law, d1, d2] = self.law.at(head.phase + t * self.rate);
         let y = law + t * self.drift - head.offset;
         let (speed, bend) = (d1 * self.rate + self.drift, d2 * (self.rate * self.rate));
@@ -119,7 +116,7 @@ impl Knife {
     /// Times between which p must come to a level, and their middle.
     #[inline(always)]
     pub fn bracket<R: Real>(&self, head: &Head<R>, level: R) -> [R; 3] {
-        let (sin, _) = self.direction();
+        let [sin, _] = self.direction;
         let inverse = 1.0 / self.advance();
         let middle = (level - head.offset * sin) * inverse;
         let spare = R::splat((self.reach * sin * inverse).abs());
@@ -130,14 +127,18 @@ impl Knife {
     #[inline(always)]
     pub fn time<R: Real>(&self, head: &Head<R>, level: R) -> R {
         let [mut low, mut t, mut high] = self.bracket(head, level);
-        let zero = R::splat(0.0);
+        let (zero, close) = (R::splat(0.0), (high - low) * CLOSE);
         for _ in 0..ROUNDS {
             let place = self.place(head, t);
             let miss = place.p[0] - level;
             low = miss.select_lt(zero, t, low);
             high = miss.select_lt(zero, high, t);
             let (next, middle) = (t - miss / place.p[1], (low + high) * 0.5);
-            t = next.select_lt(low, middle, high.select_lt(next, middle, next));
+            let step = next.select_lt(low, middle, high.select_lt(next, middle, next)) - t;
+            t = t + step;
+            if (step.abs() - close).max_lane() <= 0.0 {
+                break;
+            }
         }
         t
     }

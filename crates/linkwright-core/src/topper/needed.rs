@@ -22,6 +22,8 @@ pub struct Needed<R> {
 #[derive(Clone, Debug)]
 pub struct Stations {
     pub turns: Vec<[f64; 2]>,
+    /// u, with both ends of the stretch.
+    pub u: Vec<f64>,
     pub step: f64,
 }
 
@@ -29,13 +31,15 @@ impl Stations {
     /// In the middles of n equal steps.
     pub fn new(n: usize) -> Self {
         let step = PI / n as f64;
-        let turns = (0..n).map(|j| ((j as f64 + 0.5) * step - 0.5 * PI).sin_cos().into()).collect();
-        Stations { turns, step }
+        let inner = |j: usize| (j as f64 + 0.5) * step - 0.5 * PI;
+        let turns = (0..n).map(|j| inner(j).sin_cos().into()).collect();
+        let u = std::iter::once(-0.5 * PI).chain((0..n).map(inner)).chain([0.5 * PI]).collect();
+        Stations { turns, u, step }
     }
 }
 
-/// Newton's steps from a station: it starts within half a step of the top.
-const STEPS: usize = 4;
+/// Newton's steps from the top of a parabola, which is off by the cube of a station's step: each doubles its digits.
+const STEPS: usize = 3;
 
 /// A top that may be the highest of all: how high about, where, and how far it may be off.
 #[derive(Clone, Copy)]
@@ -85,14 +89,17 @@ pub fn needed<R: Real>(
             }
         },
     );
-    for side in 0..2 {
-        found[side] = climbed(knife, head, tops[side], side, found[side]);
-    }
     let [(near, at_near), (far, at_far)] = found;
+    let sampled = (near.max(far), near.select_lt(far, at_far, at_near));
+    let side = near.select_lt(far, R::splat(1.0), R::splat(-1.0));
+    // The side of the higher top; it may be another than that of the highest sample.
+    let top = higher(tops[0], tops[1]);
+    let top_side = tops[0].height.select_lt(tops[1].height, R::splat(1.0), R::splat(-1.0));
+    let climbed = climbed(knife, head, top, -top_side);
     Needed {
-        half: near.max(far),
-        at: near.select_lt(far, at_far, at_near),
-        side: near.select_lt(far, R::splat(1.0), R::splat(-1.0)),
+        half: sampled.0.max(climbed.0),
+        at: sampled.0.select_lt(climbed.0, climbed.1, sampled.1),
+        side: sampled.0.select_lt(climbed.0, top_side, side),
     }
 }
 
@@ -136,23 +143,24 @@ fn parabola<R: Real>([a, b, c]: [R; 3], at: R, pace: R) -> Top<R> {
     Top { height: is_top.select_lt(R::splat(0.0), nothing, height), at: at + pace * shift, reach: pace }
 }
 
-/// Newton on the slope of a height from about its top.
+/// Newton on the slope of √(r² − p²) ± q from about its top.
 #[inline(always)]
-fn climbed<R: Real>(knife: &Knife, head: &Head<R>, top: Top<R>, side: usize, mut best: (R, R)) -> (R, R) {
-    let sign = if side == 0 { 1.0 } else { -1.0 };
+fn climbed<R: Real>(knife: &Knife, head: &Head<R>, top: Top<R>, sign: R) -> (R, R) {
     let (low, high) = (top.at - top.reach, top.at + top.reach);
     let mut t = top.at;
-    for _ in 0..STEPS {
+    let mut best = (R::splat(f64::NEG_INFINITY), t);
+    for step in 0..=STEPS {
         let place = knife.place(head, t);
         let [p, dp, ddp] = place.p;
         let chord = half_chord(head.radius, p);
-        let height = chord + place.q[0] * sign;
-        best = better(best, (height, t));
-        let inverse = chord.recip();
-        let slope = place.q[1] * sign - p * dp * inverse;
-        let lean = p * dp * inverse;
-        let bend = place.q[2] * sign - (dp * dp + p * ddp + lean * lean) * inverse;
-        t = (t - slope / bend).max(low).min(high);
+        best = better(best, (chord + place.q[0] * sign, t));
+        if step < STEPS {
+            let inverse = chord.recip();
+            let lean = p * dp * inverse;
+            let slope = place.q[1] * sign - lean;
+            let bend = place.q[2] * sign - (dp * dp + p * ddp + lean * lean) * inverse;
+            t = (t - slope / bend).max(low).min(high);
+        }
     }
-    better(best, (heights(knife, head, t)[side], t))
+    best
 }

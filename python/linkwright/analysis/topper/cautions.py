@@ -37,9 +37,15 @@ def topper_findings(described: Topper, found: TopperStudy) -> Iterator[str]:
     elif found.length_exact > length * (1 + _SAME) and found.uncut_share > _NOTHING:
         yield (
             f"The edge of {length:.6g} m does not cut through every head: it leaves up to "
-            f"{100 * found.uncut_share:.3g} % of the head, {found.uncut_offset:.4g} m beside the row at "
-            f"the phase {np.degrees(found.uncut_phase):.4g}°; it needs {found.length_exact:.6g} m."
+            f"{100 * found.uncut_share:.3g} % of {_head(found)}; it needs {found.length_exact:.6g} m."
         )
+
+
+def _head(found: TopperStudy) -> str:
+    """The head of which most is left."""
+    place, side = abs(found.uncut_offset), "left" if found.uncut_offset > 0 else "right"
+    where = f"a head {place:.4g} m to the {side} of the row" if place else "a head on the row"
+    return f"{where}, at the phase {np.degrees(found.uncut_phase):.4g}°" if found.stroke else where
 
 
 def topper_cautions(found: TopperStudy) -> Iterator[str]:

@@ -43,8 +43,8 @@ FINE = 128
 # confused.
 COARSE = 16
 
-# Far aslant, the point that is reached last lies within cot α of the end of the pass: so many stations
-# see it, times tan α; no more than the second for an edge that hardly goes on.
+# Far aslant, the point that is reached last lies within cot α of the end of the pass: so many stations see
+# it, times tan α; no more than the second for an edge that hardly goes on.
 _ASLANT, _MOST = 4, 100_000
 
 # Turns of the law over a head that are followed: for an edge that retreats the work grows with their square,

@@ -30,8 +30,8 @@ Floats = NDArray[np.float64]
 # Phases over which means are taken, and times of a pass and places of the edge at which its use is counted.
 _PHASES, _TIMES, _PLACES = 2048, 400, 201
 
-# Phases of heads over which the use of the edge is averaged, for each of some offsets.
-_HEADS, _OFFSETS = 72, 5
+# Phases and offsets of heads over which the use of the edge is averaged; without a stroke, offsets alone.
+_HEADS, _OFFSETS, _OFFSETS_ALONE = 72, 6, 240
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,33 @@ def slicing(edges: Sequence[Edge]) -> Slicing:
     return Slicing(min(least), float(np.mean(mean)), max(greatest), min(slow), max(fast))
 
 
+def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
+    """Draw-cut ratio and cutting speed in each phase of the knife.
+
+    Parameters
+    ----------
+    edge : Edge
+        The edge.
+    phases : ndarray, shape (n,)
+        [rad]
+
+    Returns
+    -------
+    ratio, speed : ndarray, shape (n,)
+        [–], NaN where the edge retreats; speed against the head [m/s].
+    """
+    along, normal = _velocity(edge, phases)
+    ahead = np.where(normal > 0, normal, np.nan)
+    return np.abs(along) / ahead, np.hypot(along, normal)
+
+
+def _velocity(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
+    """Speed of the edge along itself and along its normal."""
+    v, across = edge.forward_speed, edge.knife.at(0.0, phases, 1)
+    sin, cos = np.sin(edge.angle), np.cos(edge.angle)
+    return v * sin + across * cos, v * cos - across * sin
+
+
 def _ratios(edge: Edge) -> tuple[float, float, float]:
     """Least, mean and greatest draw-cut ratio."""
     way, v = edge.knife, edge.forward_speed
@@ -79,10 +106,8 @@ def _ratios(edge: Edge) -> tuple[float, float, float]:
     reaches = [abs(float(np.tan(lean))) for lean in leans]
     least = 0.0 if leans[0] * leans[1] <= 0 else min(reaches)
     greatest = np.inf if edge.retreats else max(reaches)
-    phases = (np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES)
-    across = way.at(0.0, phases, 1)
-    along = v * np.sin(edge.angle) + across * np.cos(edge.angle)
-    normal = v * np.cos(edge.angle) - across * np.sin(edge.angle)
+    phases = np.asarray((np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES), dtype=np.float64)
+    along, normal = _velocity(edge, phases)
     # An edge that moves along itself has no speed normal to it.
     mean = np.inf if edge.stands else np.abs(along).mean() / np.abs(normal).mean()
     return least, float(mean), float(greatest)
@@ -127,15 +152,17 @@ def _use(edge: Edge, diameter: float, offset: float) -> tuple[Floats, Floats]:
         return np.array([-0.5, 0.5]) * diameter, np.zeros(2)
     knife, sin, cos = edge.knife, np.sin(edge.angle), np.cos(edge.angle)
     radius, v = 0.5 * diameter, edge.forward_speed
-    phase = (np.arange(_HEADS) + 0.5)[:, None, None] * (2 * np.pi / _HEADS)
-    delta = np.linspace(-offset, offset, _OFFSETS)[:, None]
+    heads, offsets = (_HEADS, _OFFSETS) if knife.rate else (1, _OFFSETS_ALONE)
+    # Amid even steps, so that all count alike.
+    phase = (np.arange(heads) + 0.5)[:, None, None] * (2 * np.pi / heads)
+    delta = offset * ((2 * np.arange(offsets) + 1) / offsets - 1)[:, None]
     swing = 0.5 * knife.stroke + offset
     end = (radius + swing * abs(sin)) / abs(v * cos - knife.drift * sin)
     step = 2 * end / _TIMES
     t = -end + (np.arange(_TIMES) + 0.5) * step
     y = knife.at(t, phase) - delta
     p, q = v * t * cos - y * sin, v * t * sin + y * cos
-    pace = np.abs(v * cos - knife.at(t, phase, 1) * sin) * step / (_HEADS * _OFFSETS)
+    pace = np.abs(v * cos - knife.at(t, phase, 1) * sin) * step / (heads * offsets)
     chord = np.sqrt(np.clip(radius**2 - p**2, 0.0, None))
     reach = float((np.abs(q) + chord)[chord > 0].max(initial=radius))
     place = np.linspace(-reach, reach, _PLACES)

@@ -22,8 +22,11 @@ from linkwright.machine import Machine, Topper
 
 Floats = NDArray[np.float64]
 
-# Phases of the curves, and offsets over which means are taken.
+# Phases of the curves, and offsets at which the worst is looked for.
 _PHASES, _OFFSETS = 180, 9
+
+# Phases and offsets of the mean, amid even steps so that all count alike: it is good to three digits.
+_MEAN_PHASES, _MEAN_OFFSETS = 90, 41
 
 
 @dataclass(frozen=True)
@@ -300,24 +303,30 @@ def _by_phase(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
     left = np.stack([each.uncut.reshape(phi.shape) for each in found]) / (0.25 * np.pi * d**2)
     by_phase = needed.max(axis=(0, 2))
     best = int(np.argmin(by_phase))
-    # The last phase is the first.
-    rest = left[:, :-1] if described.motion.phase is None else _at_phase(described, edges, d)
     return {
         "phase": phases,
         "length_by_phase": by_phase,
         "uncut_by_phase": left.max(axis=(0, 2)),
         "length_best_phase": float(by_phase[best]),
         "best_phase": float(phases[best]),
-        "uncut_share_mean": float(rest.mean()),
+        "uncut_share_mean": _mean_left(described, edges, d),
     }
 
 
-def _at_phase(described: Topper, edges: list[Edge], d: float) -> Floats:
-    """Shares that are left in the one given phase, over even offsets."""
-    offsets = np.linspace(-described.offset, described.offset, _OFFSETS)
-    phase, length = described.motion.phase or 0.0, described.edge_length
-    left = [coverage(edge, d, offsets, phase, length=length).uncut for edge in edges]
-    return np.stack(left) / (0.25 * np.pi * d**2)
+def _mean_left(described: Topper, edges: list[Edge], d: float) -> float:
+    """Mean share that is left, over offsets, over directions, and over phases if none is given."""
+    offset, phase = described.offset, described.motion.phase
+    offsets = offset * _amid(_MEAN_OFFSETS) if offset else np.zeros(1)
+    moves = phase is None and any(edge.knife.rate for edge in edges)
+    phases = np.pi * (1 + _amid(_MEAN_PHASES)) if moves else np.array([phase or 0.0])
+    phi, delta = (each.ravel() for each in np.meshgrid(phases, offsets))
+    left = [coverage(edge, d, delta, phi, length=described.edge_length).uncut for edge in edges]
+    return float(np.mean(left) / (0.25 * np.pi * d**2))
+
+
+def _amid(n: int) -> Floats:
+    """Middles of even steps from −1 to 1, (n,)."""
+    return np.asarray((2 * np.arange(n) + 1) / n - 1, dtype=np.float64)
 
 
 def _slices(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:

@@ -1,0 +1,190 @@
+"""The figures of toppers with their captions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.analysis.study import Study
+from linkwright.analysis.topper.coverage import Edge
+from linkwright.analysis.topper.head_pass import head_pass, worse_edge
+from linkwright.analysis.topper.length_chart import length_chart
+from linkwright.analysis.topper.slicing import slicing_over_phase
+from linkwright.analysis.topper.topper import TopperStudy, edges_of
+from linkwright.analysis.topper.verdict import PAPER, WAYS, bands_of
+from linkwright.machine import Topper
+from linkwright.plot.topper import edge_use_figure, phase_figure, slicing_figure
+from linkwright.plot.topper_lengths import bands_figure, length_chart_figure
+from linkwright.plot.topper_view import top_view_figure
+from linkwright.report.captioned import Captioned
+from linkwright.report.quantities import degrees, number
+from linkwright.report.topper_tables import mm, percent, stroke_of
+
+# Angles of the chart of bands.
+_ANGLES = np.radians(np.linspace(0.0, 62.0, 311))
+
+# Phases of a curve.
+_PHASES = 361
+
+
+@dataclass(frozen=True)
+class _Cut:
+    """A study with its topper."""
+
+    study: Study
+    described: Topper
+    found: TopperStudy
+
+    @cached_property
+    def edges(self) -> list[Edge]:
+        return edges_of(self.study.machine, self.described)
+
+    @property
+    def leaves(self) -> bool:
+        return self.found.uncut_share > 0
+
+    @property
+    def head(self) -> tuple[float, float]:
+        """Offset and phase of the head of which most is left, or else of that which needs most."""
+        found = self.found
+        if self.leaves:
+            return found.uncut_offset, found.uncut_phase
+        return found.worst_offset, found.worst_phase
+
+
+def topper_figures(study: Study) -> Iterator[Captioned]:
+    """The figures of the knife over heads.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Yields
+    ------
+    Captioned
+        Nothing without a topper.
+    """
+    if study.topper is None or study.machine.topper is None:
+        return
+    cut = _Cut(study, study.machine.topper, study.topper)
+    yield _view(cut)
+    if cut.edges[0].knife.rate:
+        yield _phases(cut)
+    yield _chart(cut)
+    yield _verdict(cut)
+    # An edge that moves along itself has no use.
+    if math.isfinite(cut.found.length_exact):
+        yield _use(cut)
+    if cut.edges[0].knife.rate:
+        yield _slicing(cut)
+
+
+def _view(cut: _Cut) -> Captioned:
+    offset, phase = cut.head
+    found, length = cut.found, cut.described.edge_length
+    head = (found.head_diameter, offset, phase, length)
+    seen = head_pass(worse_edge(cut.edges, *head), *head)
+    figure = top_view_figure(seen, cut.described.offset, None if cut.leaves else (found.last_x, found.last_y))
+    moves = f" in the phase {degrees(phase)}" if cut.edges[0].knife.rate else ""
+    where = f"{_place(offset)}{moves}"
+    if cut.leaves:
+        words = f"The head of which most is left, {where}: {percent(found.uncut_share)}, hatched."
+    else:
+        words = (
+            f"The head that needs the longest edge, {where}: {mm(found.length_exact)}. The edge of "
+            f"{mm(length)} cuts all of it."
+        )
+    words += " Five places of the edge, the later the darker; the machine goes to the right."
+    return Captioned("topper_view", "The edge over the worst head, from above", words, figure)
+
+
+def _place(offset: float) -> str:
+    """Where a head stands."""
+    if offset == 0:
+        return "on the row"
+    return f"{mm(abs(offset))} to the {'left' if offset > 0 else 'right'} of the row"
+
+
+def _phases(cut: _Cut) -> Captioned:
+    found, length = cut.found, cut.described.edge_length
+    if cut.described.motion.phase is None:
+        words = (
+            f"At the worst offset heads need from {mm(found.length_best_phase)} to {mm(found.length_exact)}, "
+            f"as the knife meets them."
+        )
+    else:
+        words = f"Heads come in the phase {degrees(cut.described.motion.phase)} only, dotted."
+    if cut.leaves:
+        words += f" An edge of {mm(length)} leaves up to {percent(found.uncut_share)} of a head."
+    figure = phase_figure(found, length, cut.described.motion.phase)
+    return Captioned("topper_phase", "Length needed over the phase of the knife", words, figure)
+
+
+def _chart(cut: _Cut) -> Captioned:
+    chart = length_chart(cut.described, cut.edges)
+    slow, own, fast = (number(each, 3) for each in chart.forward_speeds)
+    words = (
+        f"The chart of paper 5 (its figure 3) for α = {degrees(cut.described.edge_angle)}, cut height "
+        f"{mm(cut.described.cut_height)} and Δ = {mm(cut.described.offset)}, at v = {slow}, {own} and {fast} "
+        f"m/s: above over the diameter of roots at this knife's mean speed, {number(chart.knife_speed, 3)} "
+        "m/s, below over the speed of the knife at this machine's root. Solid lines keep one speed over the "
+        "head"
+    )
+    words += "; dashed: its true motion." if chart.over_roots.moved.size else "."
+    words += " The dot is this machine."
+    return Captioned(
+        "topper_lengths", "Lengths printed, consistent and exact", words, length_chart_figure(chart)
+    )
+
+
+def _verdict(cut: _Cut) -> Captioned:
+    described, d = cut.described, cut.found.head_diameter
+    band, stroke = d + 2 * described.offset, stroke_of(cut.found)
+    ways = [way for way in WAYS if stroke or way != "every_phase"]
+    bands = {way: bands_of(PAPER, way, _ANGLES, 2 * described.offset / band, stroke) for way in ways}
+    figure = bands_figure(_ANGLES, bands, WAYS, (abs(described.edge_angle), band))
+    low, high = PAPER.lengths
+    (slow, fast), (least, most) = PAPER.forward_speeds, PAPER.knife_speeds
+    words = (
+        f"Paper 5 gives {low:.2f} to {high:.2f} m for v from {slow:g} to {fast:g} m/s and knife speeds from "
+        f"{least:g} to {most:g} m/s, and does not print angle, cut height and offset. Shaded: for which of "
+        "them the longest edge over these speeds lies in that range, each way of computing it; offsets have "
+        "this machine's share in the band."
+    )
+    return Captioned("topper_verdict", f"Where the published {low:.2f} to {high:.2f} m hold", words, figure)
+
+
+def _use(cut: _Cut) -> Captioned:
+    found, length = cut.found, cut.described.edge_length
+    place, use = found.edge_place, found.edge_use
+    total = float(np.trapezoid(use, place))
+    inside = np.abs(place) <= 0.5 * length
+    share = float(np.trapezoid(np.where(inside, use, 0.0), place)) / total if total else 0.0
+    middle = float(np.interp(0.0, place, use))
+    heads = "offsets and phases" if cut.edges[0].knife.rate else "offsets"
+    words = (
+        f"How far each place of an edge long enough goes through a head, on average over {heads}: where it "
+        f"wears. The middle of the edge goes through {mm(middle)} of a head."
+    )
+    if share < 1 - 1e-4:
+        words += f" About {percent(1 - share)} of the cut would be done beyond the ends of this edge."
+    figure = edge_use_figure(place, use, length, found.head_diameter)
+    return Captioned("topper_use", "Use of the edge along its length", words, figure)
+
+
+def _slicing(cut: _Cut) -> Captioned:
+    phases = np.linspace(0.0, 2 * math.pi, _PHASES)
+    ratio, speed = slicing_over_phase(cut.edges[0], phases)
+    found = cut.found
+    words = (
+        "The edge draws along itself while it cuts: speed along it over speed normal to it, "
+        f"{number(found.slicing_ratio_mean, 3)} on average over what is cut."
+    )
+    if found.edge_retreats:
+        words += " Where it retreats, its back meets the head."
+    return Captioned("topper_slicing", "Slicing over the phase", words, slicing_figure(phases, ratio, speed))
