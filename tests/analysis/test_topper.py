@@ -194,9 +194,11 @@ def test_a_retreating_edge_by_brute_force(degrees: float) -> None:
     ("change", "remedy"),
     [("topper.edge_angle=89.9 deg", "less aslant"), ("topper.motion.stroke=1 um", "longer stroke")],
 )
-def test_a_knife_that_hardly_goes_on_is_refused(change: str, remedy: str) -> None:
+def test_a_knife_that_hardly_goes_on_keeps_what_is_known(change: str, remedy: str) -> None:
     found = study(lw.read(MACHINES / "topper.toml", [change]))
-    assert found.topper is None
+    assert found.topper is not None
+    assert np.isfinite([found.topper.length_published, found.topper.length_exact_constant_speed]).all()
+    assert np.isnan([found.topper.length_exact, found.topper.uncut_share]).all()
     assert remedy in found.findings[0]
 
 

@@ -32,7 +32,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.knife import Knife
 from linkwright.engine.topper import KnifeKernel
-from linkwright.errors import FindingError, InputError
+from linkwright.errors import InputError
 
 Floats = NDArray[np.float64]
 
@@ -133,8 +133,8 @@ class Edge:
         return float(self.knife.frequency * (diameter + 2 * swing) / abs(mean)) if self.knife.rate else 0.0
 
 
-def require_few_turns(edge: Edge, diameter: float, offset: float) -> None:
-    """Refuse a knife that goes to and fro again and again over the same head.
+def hardly_goes_on(edge: Edge, diameter: float, offset: float) -> str | None:
+    """Why an edge cannot be followed: its knife goes to and fro over a head again and again.
 
     Parameters
     ----------
@@ -143,18 +143,19 @@ def require_few_turns(edge: Edge, diameter: float, offset: float) -> None:
     diameter, offset : float
         d and Δ [m].
 
-    Raises
-    ------
-    FindingError
-        It does.
+    Returns
+    -------
+    str or None
+        A sentence with its numbers; None for an edge that can be followed.
     """
     turns, most = edge.turns(diameter, offset), _TURNS_RETREATING if edge.retreats else _TURNS
-    if turns > most:
-        way = "set the edge less aslant" if edge.retreats else "give it a longer stroke"
-        raise FindingError(
-            f"the knife goes {turns:.3g} times to and fro while its edge is over one head, and is followed "
-            f"for {most}; {way}, or move the knife more slowly"
-        )
+    if turns <= most:
+        return None
+    way = "set the edge less aslant" if edge.retreats else "give it a longer stroke"
+    return (
+        f"The knife goes {turns:.3g} times to and fro while its edge is over one head, and is followed for "
+        f"{most}: what it cuts is not computed; {way}, or move the knife more slowly."
+    )
 
 
 def coverage(
