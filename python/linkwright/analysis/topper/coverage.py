@@ -47,9 +47,9 @@ COARSE = 16
 # it, times tan α; no more than the second for an edge that hardly goes on.
 _ASLANT, _MOST = 4, 100_000
 
-# Turns of the law over a head up to which an edge that retreats is followed: the work grows with their
-# square.
-_TURNS = 8
+# Turns of the law over a head that are followed: for an edge that retreats the work grows with their square,
+# for any other the core runs out of stations.
+_TURNS, _TURNS_RETREATING = 60, 8
 
 # First look at the worst head: phases, and offsets.
 _PHASES, _OFFSETS = 360, 5
@@ -134,7 +134,7 @@ class Edge:
 
 
 def hardly_goes_on(edge: Edge, diameter: float, offset: float) -> str | None:
-    """Why an edge cannot be followed: it goes over a head again and again, and hardly on.
+    """Why an edge cannot be followed: its knife goes to and fro over a head again and again.
 
     Parameters
     ----------
@@ -148,13 +148,13 @@ def hardly_goes_on(edge: Edge, diameter: float, offset: float) -> str | None:
     str or None
         A sentence with its numbers; None for an edge that can be followed.
     """
-    turns = edge.turns(diameter, offset)
-    if not edge.retreats or turns <= _TURNS:
+    turns, most = edge.turns(diameter, offset), _TURNS_RETREATING if edge.retreats else _TURNS
+    if turns <= most:
         return None
+    way = "set the edge less aslant" if edge.retreats else "give it a longer stroke"
     return (
-        f"The edge, at {np.degrees(edge.angle):.4g}° to the transverse axis, hardly goes on: it runs over a "
-        f"head and back while the knife goes {turns:.3g} times to and fro, and is followed for {_TURNS}: "
-        "what it cuts is not computed; set it less aslant, or move the knife more slowly."
+        f"The knife goes {turns:.3g} times to and fro while its edge is over one head, and is followed for "
+        f"{most}: what it cuts is not computed; {way}, or move the knife more slowly."
     )
 
 
@@ -204,11 +204,19 @@ def coverage(
         return Coverage(
             np.where(discs > 0, np.inf, 0.0), none, none, none, none, discs * (length is not None)
         )
-    stations = max(fine, min(_MOST, int(_ASLANT * abs(np.tan(edge.angle)))))
+    stations = _stations(edge, fine, float(2 * radius.max()), float(np.abs(place).max()))
     table = edge.kernel.cover(radius, place, angle, length=length, fine=stations).T
     # A head without a disc has no point to be cut.
     table[:, discs == 0] = 0.0
     return Coverage(*table)
+
+
+def _stations(edge: Edge, fine: int, diameter: float, offset: float) -> int:
+    """Stations a turn: more far aslant; fewer if each stretch between corners has them all."""
+    aslant = min(_MOST, int(_ASLANT * abs(np.tan(edge.angle))))
+    if edge.knife.corners and not edge.retreats:
+        fine = max(2, int(fine / max(1.0, edge.turns(diameter, offset))))
+    return max(fine, aslant)
 
 
 @dataclass(frozen=True)

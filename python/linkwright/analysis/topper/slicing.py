@@ -108,7 +108,9 @@ def _ratios(edge: Edge) -> tuple[float, float, float]:
     greatest = np.inf if edge.retreats else max(reaches)
     phases = np.asarray((np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES), dtype=np.float64)
     along, normal = _velocity(edge, phases)
-    return least, float(np.abs(along).mean() / np.abs(normal).mean()), float(greatest)
+    # An edge that moves along itself has no speed normal to it.
+    mean = np.inf if edge.stands else np.abs(along).mean() / np.abs(normal).mean()
+    return least, float(mean), float(greatest)
 
 
 def _speeds(edge: Edge) -> tuple[float, float]:
@@ -146,6 +148,8 @@ def edge_use(edges: Sequence[Edge], diameter: float, offset: float) -> tuple[Flo
 
 def _use(edge: Edge, diameter: float, offset: float) -> tuple[Floats, Floats]:
     """The same for one direction."""
+    if edge.stands:
+        return np.array([-0.5, 0.5]) * diameter, np.zeros(2)
     knife, sin, cos = edge.knife, np.sin(edge.angle), np.cos(edge.angle)
     radius, v = 0.5 * diameter, edge.forward_speed
     heads, offsets = (_HEADS, _OFFSETS) if knife.rate else (1, _OFFSETS_ALONE)

@@ -299,7 +299,8 @@ def _left(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
     worst = worst_head(edges, d, described.offset, described.motion.phase, left)
     there = coverage(worst.edge, d, worst.offset, worst.phase, length=length)
     return {
-        "uncut_share": worst.value,
+        # All of it, but for rounding.
+        "uncut_share": min(worst.value, 1.0),
         "uncut_phase": worst.phase,
         "uncut_offset": worst.offset,
         "uncut_right": float(there.uncut_right[0] / area),
