@@ -53,7 +53,7 @@ from linkwright.plot.run_up import attempt_figure, run_up_figure
 from linkwright.plot.steady import speed_figure, time_figure, torque_figure
 from linkwright.plot.svg import svg
 from linkwright.plot.topper import edge_use_figure, phase_figure, slicing_figure
-from linkwright.plot.topper_lengths import bands_figure, length_chart_figure
+from linkwright.plot.topper_lengths import length_chart_figure, verdict_figure
 from linkwright.plot.topper_view import top_view_figure
 from linkwright.plot.torsion import modes_figure
 from linkwright.plot.torsion_forced import (
@@ -68,7 +68,6 @@ from linkwright.plot.torsion_transient import transient_figure, waterfall_figure
 
 __all__ = [
     "attempt_figure",
-    "bands_figure",
     "cam_figure",
     "cam_force_figure",
     "campbell_figure",
@@ -110,6 +109,7 @@ __all__ = [
     "torsion_unevenness_figure",
     "transient_figure",
     "transmission_figure",
+    "verdict_figure",
     "vibration_figure",
     "waterfall_figure",
 ]
