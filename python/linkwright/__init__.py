@@ -74,6 +74,11 @@ _HOME = {
     "line_contact": "analysis.cam.hertz",
     "pumping_unit": "analysis.pumping_unit",
     "rod_rotator": "analysis.rod_rotator",
+    "topper": "analysis.topper.topper",
+    "topper_field": "analysis.topper.field",
+    "length_verdict": "analysis.topper.verdict",
+    "sweep_field": "sweep.topper",
+    "best_knife": "sizing.topper",
     "free_vibration": "analysis.torsion.free",
     "holzer_table": "analysis.torsion.holzer",
     "forced_vibration": "analysis.torsion.forced",
@@ -175,6 +180,9 @@ if TYPE_CHECKING:
     from linkwright.analysis.steady_state import steady_state as steady_state
     from linkwright.analysis.step_method import step_method as step_method
     from linkwright.analysis.study import study as study
+    from linkwright.analysis.topper.field import topper_field as topper_field
+    from linkwright.analysis.topper.topper import topper as topper
+    from linkwright.analysis.topper.verdict import length_verdict as length_verdict
     from linkwright.analysis.torsion.barred_range import barred_ranges as barred_ranges
     from linkwright.analysis.torsion.campbell import campbell as campbell
     from linkwright.analysis.torsion.damped import damped_vibration as damped_vibration
@@ -211,8 +219,10 @@ if TYPE_CHECKING:
     from linkwright.sizing.flywheel import choose_flywheel as choose_flywheel
     from linkwright.sizing.motor import choose_motor as choose_motor
     from linkwright.sizing.power import required_power as required_power
+    from linkwright.sizing.topper import best_knife as best_knife
     from linkwright.sweep.batch import steady_states as steady_states
     from linkwright.sweep.cams import search_cams as search_cams
+    from linkwright.sweep.topper import sweep_field as sweep_field
     from linkwright.synthesis.dead_centre import crank_rocker as crank_rocker
     from linkwright.synthesis.function_generator import function_generator as function_generator
     from linkwright.synthesis.path import path_generator as path_generator

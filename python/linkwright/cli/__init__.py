@@ -31,6 +31,8 @@ from linkwright.cli.run import run
 from linkwright.cli.schema import schema
 from linkwright.cli.size import size
 from linkwright.cli.synthesise import SYNTHESISE, synthesise
+from linkwright.cli.topper_best import best
+from linkwright.cli.topper_field import field, topper
 from linkwright.cli.torsion import torsion
 
 # In the order of the help.
@@ -51,10 +53,11 @@ GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = 
     (synthesise, SYNTHESISE),
     (cam, CAM),
     (torsion_group, (*TORSION, diagnose)),
+    (topper, (field, best)),
 )
 
 # Group → its command for a first word that names none of its commands, such as a file.
-_DEFAULTS: dict[str, Callable[..., Any]] = {"cam": cam_file, "torsion": torsion}
+_DEFAULTS: dict[str, Callable[..., Any]] = {"cam": cam_file, "torsion": torsion, "topper": run}
 
 
 def _version(wanted: bool) -> None:

@@ -19,7 +19,7 @@ from linkwright.errors import MachineFileError, Problem
 from linkwright.units import show
 
 # Kinds of tables whose points may be in a file.
-_KINDS = ("spline", "table")
+_KINDS = ("spline", "table", "measured")
 
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 

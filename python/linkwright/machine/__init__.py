@@ -19,6 +19,7 @@
 | `shaft_limit`, `propulsion_shaft`, `crankshaft_limit` | what shafts bear, given or by the rules of ships |
 | `reciprocating/` | parts of reciprocating engines |
 | `topper`, `topper_motion` | knives of root-crop toppers, and how they move |
+| `topper_field`, `scatter`, `topper_limits` | roots of a field, lengths that scatter; limits of a knife |
 | `train`, `train_speeds`, `train_faults` | torsional trains, speeds of their discs, faults |
 | `train_transient`, `train_event` | manoeuvres of trains, what happens in them |
 | `coupling`, `damper`, `train_torques`, `train_run` | couplings, dampers, torques on a train, its run |
@@ -120,9 +121,17 @@ from linkwright.machine.reciprocating.valves import Valves
 from linkwright.machine.reciprocating.wall_heat import HeatShare, Hohenberg, Woschni
 from linkwright.machine.reciprocating.wiebe import Wiebe
 from linkwright.machine.rod_rotator import RodRotator
+from linkwright.machine.scatter import (
+    ConstantScatter,
+    LognormalScatter,
+    NormalScatter,
+    UniformScatter,
+)
 from linkwright.machine.shaft_limit import ShaftLimit
 from linkwright.machine.shaft_section import ShaftSection
 from linkwright.machine.topper import Topper
+from linkwright.machine.topper_field import MeasuredField, RandomField
+from linkwright.machine.topper_limits import TopperLimits
 from linkwright.machine.topper_motion import ConstantKnife, HarmonicKnife, MemberKnife
 from linkwright.machine.train import Disc, ElasticShaft, Shaft, Train, TrainGear
 from linkwright.machine.train_event import (
@@ -159,6 +168,7 @@ __all__ = [
     "ConstantForce",
     "ConstantGasLoad",
     "ConstantKnife",
+    "ConstantScatter",
     "ConstantSpeedMotor",
     "ConstantTorque",
     "ConstantTorqueMotor",
@@ -202,7 +212,9 @@ __all__ = [
     "Load",
     "LoadHarmonic",
     "LoadStep",
+    "LognormalScatter",
     "Machine",
+    "MeasuredField",
     "Mechanism",
     "MemberKnife",
     "Misfire",
@@ -211,6 +223,7 @@ __all__ = [
     "MotionSection",
     "Motor",
     "MotorSwitch",
+    "NormalScatter",
     "OptimalLaw",
     "PlainLaw",
     "PolishedRodLoad",
@@ -218,6 +231,7 @@ __all__ = [
     "PropellerGasLoad",
     "PumpingUnit",
     "Rack",
+    "RandomField",
     "ReciprocatingEngine",
     "RigidPoint",
     "Rocker",
@@ -241,6 +255,7 @@ __all__ = [
     "TableLaw",
     "TableMotor",
     "Topper",
+    "TopperLimits",
     "TorqueAngle",
     "TorqueCourse",
     "TorqueSpeed",
@@ -257,6 +272,7 @@ __all__ = [
     "TrainTransient",
     "TrapezoidalVelocityLaw",
     "TwoPointSwing",
+    "UniformScatter",
     "Valves",
     "ViscousFriction",
     "Wiebe",

@@ -30,7 +30,9 @@ from pydantic_core import InitErrorDetails
 from linkwright.machine.base import Checked, fault, suggestion
 from linkwright.machine.element import PositiveLength
 from linkwright.machine.plain import look
-from linkwright.machine.topper_motion import AnyKnifeMotion, MemberKnife
+from linkwright.machine.topper_field import AnyField, field_faults
+from linkwright.machine.topper_limits import TopperLimits
+from linkwright.machine.topper_motion import AnyKnifeMotion, ConstantKnife, MemberKnife
 from linkwright.units import ANGLE, LENGTH, VELOCITY, Bound, Quantity, not_negative, positive
 
 # An edge along the row crosses nothing ahead of it.
@@ -58,6 +60,14 @@ class Topper(Checked):
         None, description="Mean speed v_h of the knife across the row. A mechanism gives it itself."
     )
     motion: AnyKnifeMotion = Field(description="How the knife moves across the row.")
+    field: AnyField | None = Field(None, description="Roots that are not all alike.")
+    limits: TopperLimits = Field(default_factory=TopperLimits, description="What the best knife has to keep.")
+
+    @property
+    def has_cycle(self) -> bool:
+        """Whether the knife goes to and fro, or rests."""
+        is_one_way = isinstance(self.motion, ConstantKnife) and self.motion.stroke is None
+        return not (is_one_way and self.knife_speed)
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.cut_height >= self.root_diameter:
@@ -69,7 +79,10 @@ class Topper(Checked):
             remedy = "the mechanism and drive.speed give the speed of the knife"
             yield fault("knife_speed", found=self.knife_speed, expected="nothing", remedy=remedy)
         if not is_moved and self.knife_speed is None:
-            yield fault("knife_speed", expected="a velocity (m/s) of 0 or more")
+            remedy = "the mean over the time, 2 · stroke · frequency"
+            yield fault("knife_speed", expected="a velocity (m/s) of 0 or more", remedy=remedy)
+        if self.field is not None:
+            yield from field_faults(self.field, has_cycle=self.has_cycle, phase=self.motion.phase)
 
 
 def topper_faults(machine: object, slides: Sequence[str]) -> Iterator[InitErrorDetails]:

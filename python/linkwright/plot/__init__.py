@@ -20,6 +20,7 @@
 | `torsion_scheme` | equivalent schemes of trains, by `scheme_layout`, `scheme_page`, `scheme_words` |
 | `topper`, `topper_view` | knives of toppers over the phase, and from above |
 | `topper_lengths` | lengths of their edges, and for which heads published ones do |
+| `topper_field` | fields of roots under a topper, maps of knives |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -53,6 +54,13 @@ from linkwright.plot.run_up import attempt_figure, run_up_figure
 from linkwright.plot.steady import speed_figure, time_figure, torque_figure
 from linkwright.plot.svg import svg
 from linkwright.plot.topper import edge_use_figure, phase_figure, slicing_figure
+from linkwright.plot.topper_field import (
+    best_knife_figure,
+    field_haulm_figure,
+    field_length_figure,
+    field_share_figure,
+    sweep_figures,
+)
 from linkwright.plot.topper_lengths import length_chart_figure, verdict_figure
 from linkwright.plot.topper_view import top_view_figure
 from linkwright.plot.torsion import modes_figure
@@ -68,6 +76,7 @@ from linkwright.plot.torsion_transient import transient_figure, waterfall_figure
 
 __all__ = [
     "attempt_figure",
+    "best_knife_figure",
     "cam_figure",
     "cam_force_figure",
     "campbell_figure",
@@ -78,6 +87,9 @@ __all__ = [
     "curvature_figure",
     "damper_figure",
     "edge_use_figure",
+    "field_haulm_figure",
+    "field_length_figure",
+    "field_share_figure",
     "forces_figure",
     "gear_torque_figure",
     "heat_figure",
@@ -103,6 +115,7 @@ __all__ = [
     "speed_figure",
     "stress_figure",
     "svg",
+    "sweep_figures",
     "time_figure",
     "top_view_figure",
     "torque_figure",

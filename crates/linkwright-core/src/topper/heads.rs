@@ -1,7 +1,7 @@
 //! Many heads under one knife: what each needs, and what the edge leaves of it.
 
 use super::knife::{Head, Knife};
-use super::needed::{Stations, needed};
+use super::needed::{Stations, half_chord, needed};
 use super::retreat;
 use super::uncut::{Scratch, uncut};
 use crate::lanes::{Job, in_lanes};
@@ -89,15 +89,12 @@ impl Work<'_> {
 
     /// Row of a head of which it is known what it needs.
     #[inline(always)]
-    fn row<R: Real>(&self, k: usize, found: [f64; 5], scratch: &mut Scratch, row: &mut [f64]) {
-        let head = self.head(k);
-        let [half, at, side, from, to] = found;
-        let p = self.knife.place(&head, at).p[0];
-        let c = (head.radius * head.radius - p * p).max(0.0).sqrt();
-        let [x, y] = self.point(p, side * c);
+    fn row<R: Real>(&self, k: usize, found: [f64; 6], scratch: &mut Scratch, row: &mut [f64]) {
+        let [half, at, p, s, from, to] = found;
+        let [x, y] = self.point(p, s);
         row.copy_from_slice(&[2.0 * half, x, y, 0.0, 0.0, 0.0]);
         if let Some(short) = self.half.filter(|&short| short < half) {
-            let turns = self.knife.turns(self.longest);
+            let (head, turns) = (self.head(k), self.knife.turns(self.longest));
             let area = uncut::<R>(self.knife, &head, short, [from, to], turns, self.stations, at, scratch);
             row[3..5].copy_from_slice(&area);
         }
@@ -116,7 +113,7 @@ impl Job for Chunk<'_> {
     #[inline(always)]
     fn run<R: Real>(self) {
         let n = self.out.len() / RESULTS;
-        let mut lanes = vec![0.0; 5 * R::LANES];
+        let mut lanes = vec![0.0; 6 * R::LANES];
         let mut scratch = Scratch::default();
         for at in (0..n).step_by(R::LANES) {
             let found = R::outline(
@@ -142,7 +139,7 @@ impl Chunk<'_> {
     /// What the heads from one on need, as many as there are lanes, and between which times they are passed; beyond the
     /// last they are repeated.
     #[inline(always)]
-    fn lanes<R: Real>(&self, first: usize) -> [R; 5] {
+    fn lanes<R: Real>(&self, first: usize) -> [R; 6] {
         let Work { knife, heads, stations, longest, .. } = self.work;
         let load = |column: &[f64]| {
             let mut lanes = [0.0; 2 * LANES_MAX];
@@ -154,7 +151,8 @@ impl Chunk<'_> {
         let head = Head { radius: load(heads.radius), offset: load(heads.offset), phase: load(heads.phase) };
         let window = [knife.time(&head, -head.radius), knife.time(&head, head.radius)];
         let found = needed(knife, &head, window, knife.turns(*longest), stations);
-        [found.half, found.at, found.side, window[0], window[1]]
+        let p = knife.place(&head, found.at).p[0];
+        [found.half, found.at, p, found.side * half_chord(head.radius, p), window[0], window[1]]
     }
 }
 

@@ -1,13 +1,14 @@
 //! An edge that runs backwards at times crosses some chords more than once: chord by chord, what its places there leave.
 //!
 //! The way p(t) is cut where it turns back; on each branch a chord is crossed once. Between the chords at which branches end
-//! their number does not change, so what is left is smooth over p but for kinks, at which Gauss's rule of short panels errs by
-//! little.
+//! their number does not change; with p as a pendulum's between two of them, p = m + w sin u, what is left is smooth over u,
+//! also where the edge stands for a moment, but for kinks, at which Gauss's rule of short panels errs by little.
 
 use super::knife::{Head, Knife};
 use super::needed::Stations;
 use super::uncut::crossing;
 use crate::gauss::{B, C};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// What is left of a head, and what it needs.
 #[derive(Clone, Copy, Debug, Default)]
@@ -44,13 +45,13 @@ pub fn cover(knife: &Knife, head: &Head<f64>, half: Option<f64>, stations: &Stat
     let mut levels: Vec<f64> =
         branches.iter().flat_map(|each| each.p).filter(|p| p.abs() < r).chain([-r, r]).collect();
     levels.sort_by(f64::total_cmp);
-    let chord = |u: f64| Chord::at(knife, head, &branches, r * u.sin());
     let mut left = Left { half: f64::NEG_INFINITY, ..Left::default() };
     for pair in levels.windows(2).filter(|pair| pair[1] - pair[0] > 1e-14 * r) {
-        let [from, to] = [pair[0], pair[1]].map(|p| (p / r).clamp(-1.0, 1.0).asin());
-        most(&mut left, [from, to], &chord);
+        let (middle, width) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+        let chord = |u: f64| Chord::at(knife, head, &branches, middle + width * u.sin());
+        most(&mut left, chord);
         if let Some(half) = half {
-            let area = area([from, to], r, |u| chord(u).left(half));
+            let area = area(width, |u| chord(u).left(half));
             for (sum, more) in left.area.iter_mut().zip(area) {
                 *sum += more;
             }
@@ -64,17 +65,25 @@ fn branches(knife: &Knife, head: &Head<f64>, stations: &Stations) -> Vec<Branch>
     let ends = [-head.radius, head.radius].map(|level| knife.bracket(head, level));
     let (from, to) = (ends[0][0].min(ends[1][0]), ends[0][2].max(ends[1][2]));
     let speed = |t: f64| knife.place(head, t).p[1];
+    let bend = |t: f64| knife.place(head, t).p[2];
     let mut cuts = vec![from];
     knife.stretches(head, [from, to], knife.turns(from.abs().max(to.abs())), |[start, end]| {
         if end > start {
             let (middle, width) = (0.5 * (start + end), 0.5 * (end - start));
-            let mut before = (start, speed(start + 1e-9 * width));
-            for &[sin, _] in &stations.turns {
-                let t = middle + width * sin;
-                let here = (t, speed(t));
-                if (here.1 > 0.0) != (before.1 > 0.0) {
-                    cuts.push(crossing([before.0, here.0], [before.1, here.1], CLOSE, speed));
+            let at = |t: f64| (t, knife.place(head, t).p);
+            let mut before = at(start + 1e-9 * width);
+            // Beside a corner the speed is that of the stretch.
+            let last = middle + width * (1.0 - 1e-9);
+            for t in stations.turns.iter().map(|[sin, _]| middle + width * sin).chain([last]) {
+                let here = at(t);
+                let mut from = before;
+                if (before.1[2] > 0.0) != (here.1[2] > 0.0) {
+                    // The edge is slowest, or fastest, in between: there it may run backwards for a moment.
+                    let t = crossing([before.0, here.0], [before.1[2], here.1[2]], CLOSE, bend);
+                    cuts.extend(turn(from, at(t), speed));
+                    from = at(t);
                 }
+                cuts.extend(turn(from, here, speed));
                 before = here;
             }
             cuts.push(end);
@@ -82,6 +91,12 @@ fn branches(knife: &Knife, head: &Head<f64>, stations: &Stations) -> Vec<Branch>
     });
     let place = |t: f64| knife.place(head, t).p[0];
     cuts.windows(2).map(|t| Branch { t: [t[0], t[1]], p: [place(t[0]), place(t[1])] }).collect()
+}
+
+/// When the edge turns back between two times, if it does.
+fn turn(from: (f64, [f64; 3]), to: (f64, [f64; 3]), speed: impl Fn(f64) -> f64) -> Option<f64> {
+    let turns = (from.1[1] > 0.0) != (to.1[1] > 0.0);
+    turns.then(|| crossing([from.0, to.0], [from.1[1], to.1[1]], CLOSE, speed))
 }
 
 /// A chord of the head, and the middles of the edge along it when it crosses, increasing.
@@ -132,12 +147,12 @@ impl Chord {
 }
 
 /// Keeps the chord that needs most, of those between two.
-fn most(left: &mut Left, [from, to]: [f64; 2], chord: &impl Fn(f64) -> Chord) {
-    let step = (to - from) / PANELS as f64;
+fn most(left: &mut Left, chord: impl Fn(f64) -> Chord) {
+    let step = PI / PANELS as f64;
     let need = |u: f64| chord(u).needs().0;
-    let best = (0..PANELS).map(|k| from + (k as f64 + 0.5) * step).map(|u| (need(u), u));
+    let best = (0..PANELS).map(|k| (k as f64 + 0.5) * step - FRAC_PI_2).map(|u| (need(u), u));
     let Some((_, start)) = best.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
-    let u = golden([(start - step).max(from), (start + step).min(to)], need);
+    let u = golden([(start - step).max(-FRAC_PI_2), (start + step).min(FRAC_PI_2)], need);
     let found = chord(u);
     let (half, s) = found.needs();
     if half > left.half {
@@ -164,15 +179,15 @@ fn golden([mut a, mut b]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     if fx > fy { x } else { y }
 }
 
-/// ∫ left dp with p = r sin u.
-fn area([from, to]: [f64; 2], r: f64, left: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
-    let step = (to - from) / PANELS as f64;
+/// ∫ left dp with p = m + w sin u.
+fn area(width: f64, left: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
+    let step = PI / PANELS as f64;
     let mut sum = [0.0; 3];
     for panel in 0..PANELS {
         for (c, b) in C.into_iter().zip(B) {
-            let u = from + (panel as f64 + c) * step;
+            let u = (panel as f64 + c) * step - FRAC_PI_2;
             for (sum, left) in sum.iter_mut().zip(left(u)) {
-                *sum += b * step * left * r * u.cos();
+                *sum += b * step * left * width * u.cos();
             }
         }
     }

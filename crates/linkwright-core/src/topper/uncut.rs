@@ -9,7 +9,7 @@ use super::needed::{Stations, half_chord};
 use crate::gauss::{B, C};
 use crate::real::Real;
 
-/// Length of u that a part of Gauss's rule takes, at most: of order 8, it leaves some 1e-12 of a head.
+/// Length of u, and of the law's phase, that a part of Gauss's rule takes at most: of order 8, it leaves 1e-12 of a head.
 const PART: f64 = 0.25;
 
 /// Steps of the search for a kink: regula falsi (Illinois) gains a digit and a half each.
@@ -53,13 +53,33 @@ pub fn uncut<R: Real>(
                 let (middle, width) = (0.5 * (start + end), 0.5 * (end - start));
                 let swing = Swing { knife, head, half, middle, width };
                 swing.look::<R>(stations, top, scratch);
-                swing.kinks(scratch);
+                swing.kinks::<R>(scratch);
                 let more = swing.area::<R>(scratch);
                 area = [area[0] + more[0], area[1] + more[1]];
             }
         },
     );
     area
+}
+
+/// What an end of the edge lies beyond an end of the chord by: these times q and the half chord, less half of the edge.
+const ENDS: [[f64; 2]; 4] = [[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]];
+
+/// Brackets of kinks: both ends, the function there, what it is made of.
+#[derive(Default)]
+struct Brackets {
+    rows: [[f64; 16]; 6],
+    n: usize,
+}
+
+impl Brackets {
+    #[inline(always)]
+    fn push(&mut self, [a, b]: [f64; 2], [fa, fb]: [f64; 2], [along, across]: [f64; 2]) {
+        for (row, x) in self.rows.iter_mut().zip([a, b, fa, fb, along, across]) {
+            row[self.n] = x;
+        }
+        self.n += 1;
+    }
 }
 
 /// A stretch of time, run through as t = m + w sin u.
@@ -108,42 +128,71 @@ impl Swing<'_> {
     /// How far the chord's ends lie beyond the edge's, behind and ahead; and how far its other ends do.
     #[inline(always)]
     fn beyond(&self, q: f64, chord: f64) -> [f64; 4] {
-        [q + chord - self.half, chord - q - self.half, q - chord - self.half, -q - chord - self.half]
+        ENDS.map(|[along, across]| along * q + across * chord - self.half)
     }
 
     /// Both ends, and where an end of the edge crosses the rim, increasing.
     #[inline(always)]
-    fn kinks(&self, scratch: &mut Scratch) {
+    fn kinks<R: Real>(&self, scratch: &mut Scratch) {
         let Scratch { places, kinks, .. } = scratch;
         kinks.clear();
-        kinks.push(places[0][0]);
+        let mut found = Brackets::default();
         for pair in places.windows(2) {
             let [here, there] = [pair[0], pair[1]].map(|[_, q, chord]| self.beyond(q, chord));
-            let first = kinks.len();
             for k in 0..4 {
                 if (here[k] > 0.0) != (there[k] > 0.0) {
-                    let crossed = crossing(
-                        [pair[0][0], pair[1][0]],
-                        [here[k], there[k]],
-                        CLOSE,
-                        #[inline(always)]
-                        |u| {
-                            let [chord, q, _] = self.at(u);
-                            self.beyond(q, chord)[k]
-                        },
-                    );
-                    kinks.push(crossed);
+                    found.push([pair[0][0], pair[1][0]], [here[k], there[k]], ENDS[k]);
+                    if found.n == R::LANES {
+                        kinks.extend_from_slice(&self.crossings::<R>(&found)[..found.n]);
+                        found.n = 0;
+                    }
                 }
             }
-            kinks[first..].sort_by(f64::total_cmp);
         }
+        if found.n > 0 {
+            kinks.extend_from_slice(&self.crossings::<R>(&found)[..found.n]);
+        }
+        kinks.push(places[0][0]);
         kinks.push(places[places.len() - 1][0]);
+        kinks.sort_by(f64::total_cmp);
+    }
+
+    /// Where an end of the edge crosses the rim, a bracket each: regula falsi (Illinois) in lanes.
+    #[inline(always)]
+    fn crossings<R: Real>(&self, found: &Brackets) -> [f64; 16] {
+        let mut rows = found.rows;
+        for row in &mut rows {
+            // Lanes without a bracket repeat the first.
+            let first = row[0];
+            row[found.n..].fill(first);
+        }
+        let [mut a, mut b, mut fa, mut fb, along, across] = rows.map(
+            #[inline(always)]
+            |row| R::load(&row),
+        );
+        let (zero, tiny) = (R::splat(0.0), R::splat(f64::MIN_POSITIVE));
+        for _ in 0..SEARCH {
+            let x = fb.abs().select_lt(tiny, b, b - fb * (b - a) / (fb - fa));
+            let [chord, q, _] = self.at(x);
+            let fx = q * along + chord * across - R::splat(self.half);
+            let far = (x - b).abs().max_lane();
+            // On the side of b the other end counts half; else b becomes the other end.
+            let same = fx * fb;
+            let (at, value) = (same.select_lt(zero, b, a), same.select_lt(zero, fb, fa * 0.5));
+            (a, fa, b, fb) = (at, value, x, fx);
+            if far < CLOSE {
+                break;
+            }
+        }
+        let mut at = [0.0; 16];
+        b.store(&mut at);
+        at
     }
 
     /// Area left on both sides.
     #[inline(always)]
     fn area<R: Real>(&self, scratch: &mut Scratch) -> [f64; 2] {
-        self.nodes(scratch);
+        self.nodes::<R>(scratch);
         let zero = R::splat(0.0);
         let (mut behind, mut ahead) = (zero, zero);
         for (u, weight) in scratch.nodes.chunks_exact(R::LANES).zip(scratch.weights.chunks_exact(R::LANES)) {
@@ -158,26 +207,41 @@ impl Swing<'_> {
 
     /// Gauss's nodes of all panels in which something is left, filled up to whole lanes with nodes of no weight.
     #[inline(always)]
-    fn nodes(&self, scratch: &mut Scratch) {
+    fn nodes<R: Real>(&self, scratch: &mut Scratch) {
         let Scratch { kinks, nodes, weights, .. } = scratch;
         nodes.clear();
         weights.clear();
-        for pair in kinks.windows(2) {
-            let [chord, q, _] = self.at(0.5 * (pair[0] + pair[1]));
-            let [behind, ahead, ..] = self.beyond(q, chord);
-            if behind <= 0.0 && ahead <= 0.0 {
-                continue;
+        for panels in kinks.windows(2).collect::<Vec<_>>().chunks(R::LANES) {
+            let mut middles = [0.0; 16];
+            for (middle, pair) in middles.iter_mut().zip(panels) {
+                *middle = 0.5 * (pair[0] + pair[1]);
             }
-            let parts = ((pair[1] - pair[0]) / PART).ceil().max(1.0);
-            let step = (pair[1] - pair[0]) / parts;
-            for part in 0..parts as usize {
-                nodes.extend(C.iter().map(|c| pair[0] + (part as f64 + c) * step));
-                weights.extend(B.iter().map(|b| b * step));
+            let [chord, q, _] = self.at(R::load(&middles));
+            let (mut chords, mut along) = ([0.0; 16], [0.0; 16]);
+            chord.store(&mut chords);
+            q.store(&mut along);
+            for (k, pair) in panels.iter().enumerate() {
+                // Beyond either end, whichever.
+                if along[k].abs() + chords[k] > self.half {
+                    self.panel([pair[0], pair[1]], nodes, weights);
+                }
             }
         }
         let whole = nodes.len().next_multiple_of(16);
         nodes.resize(whole, 0.0);
         weights.resize(whole, 0.0);
+    }
+
+    /// Gauss's nodes of a panel: parts that are short in u, and in the phase of the law.
+    #[inline(always)]
+    fn panel(&self, [from, to]: [f64; 2], nodes: &mut Vec<f64>, weights: &mut Vec<f64>) {
+        let turned = self.knife.rate * self.width * (to.sin() - from.sin());
+        let parts = ((to - from).max(turned) / PART).ceil().max(1.0);
+        let step = (to - from) / parts;
+        for part in 0..parts as usize {
+            nodes.extend(C.iter().map(|c| from + (part as f64 + c) * step));
+            weights.extend(B.iter().map(|b| b * step));
+        }
     }
 }
 

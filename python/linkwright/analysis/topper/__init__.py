@@ -9,6 +9,9 @@
 | `slicing` | draw-cut ratio, cutting speed, use of the edge |
 | `knife_drive` | inertia force of the knife, torque of its drive |
 | `topper`, `cautions` | all of these as one; what it does not do |
+| `roots`, `passes` | the roots of a field; an edge over all of them |
+| `field`, `field_verdict` | share of heads cut, haulm left, loss; limits that are not kept |
+| `intervals`, `share_curve` | what holds the true shares and means; share against length |
 | `constant_speed` | the exact length for a knife that does not turn back over a head |
 | `head_pass` | one pass over a head, and the outline of what is left of it |
 | `length_chart` | lengths over root diameter and knife speed, for some forward speeds |

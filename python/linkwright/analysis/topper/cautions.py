@@ -32,7 +32,9 @@ def topper_findings(described: Topper, found: TopperStudy) -> Iterator[str]:
         Sentences.
     """
     length = described.edge_length
-    if not np.isfinite(found.length_exact):
+    if found.obstacle:
+        yield found.obstacle
+    elif not np.isfinite(found.length_exact):
         yield "The edge moves along itself and cuts nothing: no length is enough."
     elif found.length_exact > length * (1 + _SAME) and found.uncut_share > _NOTHING:
         yield (

@@ -42,11 +42,11 @@ def constant_speed_lengths(
 
     Parameters
     ----------
-    diameter, offset : array_like
+    diameter, offset : array_like, shape (...)
         d of the head and greatest offset Δ [m].
-    edge_angle : array_like
+    edge_angle : array_like, shape (...)
         α [rad].
-    forward_speed, knife_speed : array_like
+    forward_speed, knife_speed : array_like, shape (...)
         v > 0 and v_h ≥ 0 [m/s]; all broadcast.
 
     Returns

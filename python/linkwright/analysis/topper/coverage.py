@@ -43,6 +43,14 @@ FINE = 128
 # confused.
 COARSE = 16
 
+# Far aslant, the point that is reached last lies within cot α of the end of the pass: so many stations see
+# it, times tan α; no more than the second for an edge that hardly goes on.
+_ASLANT, _MOST = 4, 100_000
+
+# Turns of the law over a head up to which an edge that retreats is followed: the work grows with their
+# square.
+_TURNS = 8
+
 # First look at the worst head: phases, and offsets.
 _PHASES, _OFFSETS = 360, 5
 
@@ -118,6 +126,37 @@ class Edge:
         mean = self.forward_speed * np.cos(self.angle) - self.knife.drift * np.sin(self.angle)
         return bool(abs(mean) <= 4e-16 * np.hypot(self.forward_speed, self.knife.drift))
 
+    def turns(self, diameter: float, offset: float) -> float:
+        """Turns of the law while the edge may be over a head up to the offset from the row."""
+        swing = (0.5 * self.knife.stroke + offset) * abs(np.sin(self.angle))
+        mean = self.forward_speed * np.cos(self.angle) - self.knife.drift * np.sin(self.angle)
+        return float(self.knife.frequency * (diameter + 2 * swing) / abs(mean)) if self.knife.rate else 0.0
+
+
+def hardly_goes_on(edge: Edge, diameter: float, offset: float) -> str | None:
+    """Why an edge cannot be followed: it goes over a head again and again, and hardly on.
+
+    Parameters
+    ----------
+    edge : Edge
+        The edge.
+    diameter, offset : float
+        d and Δ [m].
+
+    Returns
+    -------
+    str or None
+        A sentence with its numbers; None for an edge that can be followed.
+    """
+    turns = edge.turns(diameter, offset)
+    if not edge.retreats or turns <= _TURNS:
+        return None
+    return (
+        f"The edge, at {np.degrees(edge.angle):.4g}° to the transverse axis, hardly goes on: it runs over a "
+        f"head and back while the knife goes {turns:.3g} times to and fro, and is followed for {_TURNS}: "
+        "what it cuts is not computed; set it less aslant, or move the knife more slowly."
+    )
+
 
 def coverage(
     edge: Edge,
@@ -134,13 +173,13 @@ def coverage(
     ----------
     edge : Edge
         The edge.
-    diameter, offset, phase : array_like
+    diameter, offset, phase : array_like, shape (n,) or (1,)
         d of the discs [m], their centres to the left of the row [m], phase of the knife when the middle of
         the edge is abreast of the centre [rad]; one, or one a head.
     length : float, optional
         Of the edge [m]; without it, only what is needed is looked at.
     fine : int
-        Stations a turn of the law.
+        Stations a turn of the law; an edge far aslant takes more.
 
     Returns
     -------
@@ -165,7 +204,8 @@ def coverage(
         return Coverage(
             np.where(discs > 0, np.inf, 0.0), none, none, none, none, discs * (length is not None)
         )
-    table = edge.kernel.cover(radius, place, angle, length=length, fine=fine).T
+    stations = max(fine, min(_MOST, int(_ASLANT * abs(np.tan(edge.angle)))))
+    table = edge.kernel.cover(radius, place, angle, length=length, fine=stations).T
     # A head without a disc has no point to be cut.
     table[:, discs == 0] = 0.0
     return Coverage(*table)

@@ -23,12 +23,12 @@ def head_diameter(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:
 
     Parameters
     ----------
-    root_diameter, cut_height : array_like
+    root_diameter, cut_height : array_like, shape (...)
         D and h_p [m]; they broadcast.
 
     Returns
     -------
-    ndarray
+    ndarray, shape (...)
         [m]; zero where the cut passes above or below the root.
     """
     D, h = np.asarray(root_diameter, dtype=float), np.asarray(cut_height, dtype=float)
@@ -40,12 +40,12 @@ def cap_volume(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:
 
     Parameters
     ----------
-    root_diameter, cut_height : array_like
+    root_diameter, cut_height : array_like, shape (...)
         D and h_p [m]; they broadcast.
 
     Returns
     -------
-    ndarray
+    ndarray, shape (...)
         [m³]; zero where the cut passes above the root, all of the root where it passes below.
     """
     D = np.asarray(root_diameter, dtype=float)

@@ -121,16 +121,16 @@ class Knife:
 
         Parameters
         ----------
-        time : array_like
+        time : array_like, shape (...)
             [s]
-        phase : array_like
+        phase : array_like, shape (...)
             At the time zero [rad]; it broadcasts.
         order : int
             0, 1 or 2: how often it is differentiated by the time.
 
         Returns
         -------
-        ndarray
+        ndarray, shape (...)
             [m, m/s or m/s²]
         """
         t = np.asarray(time, dtype=float)

@@ -110,12 +110,12 @@ def length_published(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -
 
     Parameters
     ----------
-    band, edge_angle, ratio : array_like
+    band, edge_angle, ratio : array_like, shape (...)
         d + 2Δ [m], α [rad], v_h/v [–]; they broadcast.
 
     Returns
     -------
-    ndarray
+    ndarray, shape (...)
         [m]
     """
     along = np.asarray(ratio) * np.cos(edge_angle)
@@ -127,12 +127,12 @@ def length_consistent(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) 
 
     Parameters
     ----------
-    band, edge_angle, ratio : array_like
+    band, edge_angle, ratio : array_like, shape (...)
         d + 2Δ [m], α [rad], v_h/v [–]; they broadcast.
 
     Returns
     -------
-    ndarray
+    ndarray, shape (...)
         [m]
     """
     sin = np.abs(np.sin(edge_angle))

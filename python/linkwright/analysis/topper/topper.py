@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.coverage import Edge, coverage, worst_head
+from linkwright.analysis.topper.coverage import Edge, coverage, hardly_goes_on, worst_head
 from linkwright.analysis.topper.head import cap_volume, head_diameter
 from linkwright.analysis.topper.knife import knives
 from linkwright.analysis.topper.knife_drive import KnifeDrive, knife_drive
@@ -98,6 +98,9 @@ class TopperStudy(Result):
         Of the bodies on the knife [kg], and greatest inertia force [N], where a mechanism moves it.
     drive_torque_max, drive_torque_min, drive_torque_mean, drive_power_mean : float or None
         At the crank, at the design speed [N m, W].
+    obstacle : str or None
+        Why what is cut could not be computed: lengths for the motion of the knife and shares that are left
+        are then NaN.
     """
 
     phase: Floats
@@ -149,6 +152,7 @@ class TopperStudy(Result):
     drive_torque_min: float | None
     drive_torque_mean: float | None
     drive_power_mean: float | None
+    obstacle: str | None
 
 
 def topper(machine: Machine) -> TopperStudy:
@@ -180,14 +184,16 @@ def topper(machine: Machine) -> TopperStudy:
         raise InputError(f"{machine.name} has no [topper]: expected one")
     d = float(head_diameter(described.root_diameter, described.cut_height))
     edges = edges_of(machine, described)
+    reasons = [hardly_goes_on(edge, d, described.offset) for edge in edges]
+    obstacle = next((each for each in reasons if each), None)
+    cut = _unknown() if obstacle else _cut(described, edges, d)
     return TopperStudy(
         head_diameter=d,
         cap_volume=float(cap_volume(described.root_diameter, described.cut_height)),
         **_knife(edges[0], d),
         **_lengths(described, edges[0], d),
-        **_needed(described, edges, d),
-        **_left(described, edges, d),
-        **_by_phase(described, edges, d),
+        obstacle=obstacle,
+        **cut,
         **_slices(described, edges, d),
         **_driven(knife_drive(machine, edges[0].knife)),
     )
@@ -248,6 +254,21 @@ def _lengths(described: Topper, edge: Edge, d: float) -> dict[str, Any]:
         "length_at_rest": float(steady[0, 0]),
         "length_exact_constant_speed": float(steady[:, 1].max()),
     }
+
+
+def _cut(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
+    """What heads need, and what is left of them."""
+    return _needed(described, edges, d) | _left(described, edges, d) | _by_phase(described, edges, d)
+
+
+def _unknown() -> dict[str, Any]:
+    """The same of an edge that cannot be followed."""
+    scalars = ("length_exact", "worst_phase", "worst_offset", "last_x", "last_y", "length_best_phase")
+    left = ("uncut_share", "uncut_phase", "uncut_offset", "uncut_right", "uncut_left", "uncut_between")
+    nothing = np.full(_PHASES + 1, np.nan)
+    curves = {"length_by_phase": nothing, "uncut_by_phase": nothing}
+    numbers = dict.fromkeys((*scalars, *left, "best_phase", "uncut_share_mean"), float("nan"))
+    return {"phase": np.linspace(0.0, 2 * np.pi, _PHASES + 1)} | curves | numbers
 
 
 def _needed(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:

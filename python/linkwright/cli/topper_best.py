@@ -1,0 +1,116 @@
+"""``linkwright topper best FILE``: the best knife of a topper within its limits."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.cli.common import File, Json, Sets
+from linkwright.cli.topper_field import Folder, Seed
+
+if TYPE_CHECKING:
+    from linkwright.sizing.topper import KnifeSearch
+
+
+class Objective(StrEnum):
+    """What is best."""
+
+    shortest = "shortest"
+    fastest = "fastest"
+
+
+Best = Annotated[
+    Objective,
+    typer.Option(
+        "--objective",
+        help="The shortest edge at the forward speed of the file, or the greatest forward speed with an edge "
+        "of at most length_max.",
+    ),
+]
+
+
+def best(
+    file: File,
+    objective: Best = Objective.shortest,
+    set: Sets = None,
+    seed: Seed = None,
+    json: Json = False,
+    out: Folder = None,
+) -> None:
+    """The best angle, length and speed of the knife for a field of roots, within [topper.limits].
+
+    What is found is looked at over other roots, and more finely. Exit code 1 if no knife keeps the limits.
+    """
+    from linkwright.cli.bar import bar
+    from linkwright.files.read import read
+    from linkwright.sizing.topper import best_knife
+
+    machine = read(file, set or [])
+    with bar("knives") as watch:
+        found = best_knife(machine, objective=objective.value, seed=seed, watch=watch)
+    findings, warnings = _told(found)
+    shown = _object(machine.name, found, findings, warnings)
+    if json:
+        typer.echo(shown, nl=False)
+    else:
+        _print(machine.name, found, findings, warnings)
+    if out is not None:
+        _write(found, shown, out, quiet=json)
+    if findings:
+        raise typer.Exit(1)
+
+
+def _told(found: KnifeSearch) -> tuple[list[str], list[str]]:
+    """What cannot be, and what to know of the best knife."""
+    from linkwright.report.topper_best_tables import best_warnings
+
+    if found.failing is not None:
+        return [found.failing.words + "."], []
+    return [], list(best_warnings(found))
+
+
+def _object(name: str, found: KnifeSearch, findings: list[str], warnings: list[str]) -> str:
+    """One JSON object."""
+    from json import dumps
+
+    from linkwright.analysis.result import finite
+
+    failing = found.failing
+    results: dict[str, Any] = {
+        "objective": found.objective,
+        "tried": found.tried,
+        **({} if found.best is None else found.best.to_dict()),
+        "failing": failing and {key: getattr(failing, key) for key in ("limit", "wanted", "reached")},
+    }
+    told = {"findings": findings, "warnings": [*findings, *warnings]}
+    shown = {"machine": name, "results": {"topper_best": finite(results)}, **told}
+    return dumps(shown, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def _print(name: str, found: KnifeSearch, findings: list[str], warnings: list[str]) -> None:
+    """A table, and the knife as lines of a machine file."""
+    from linkwright.cli.tables import print_tables
+    from linkwright.report.topper_best_tables import best_lines, best_table
+
+    tables = [] if found.best is None else [best_table(found, found.best)]
+    print_tables(name, tables, findings, warnings)
+    if found.best is not None:
+        typer.echo("\n" + best_lines(found.best), nl=False)
+
+
+def _write(found: KnifeSearch, shown: str, folder: Path, *, quiet: bool) -> None:
+    """Results, map and figure; says where they are."""
+    from linkwright.cli.topper_field import write_folder
+    from linkwright.plot import best_knife_figure
+    from linkwright.report.topper_best_tables import best_lines, map_csv
+
+    texts = {"results.json": shown, "map.csv": map_csv(found)}
+    if found.best is not None:
+        texts["topper.toml"] = best_lines(found.best)
+    figures = {}
+    if len(found.map_angle) > 1 and len(found.map_speed) > 1:
+        figures["map"] = best_knife_figure(found)
+    write_folder(folder, texts, figures, quiet=quiet)

@@ -1,0 +1,217 @@
+"""``linkwright topper field FILE``: a topper over a field of roots."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from linkwright.analysis.topper.field import TopperField
+    from linkwright.machine import Machine
+    from linkwright.sweep.topper import FieldSweep
+
+Over = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--over",
+        metavar="NAME=LOW:HIGH:N",
+        help='What varies, such as edge_length=0.1:0.3:21 or edge_angle="0 deg":"40 deg":9: edge_length, '
+        "edge_angle, forward_speed, knife_speed, cut_height. A second one: all combinations.",
+        show_default=False,
+    ),
+]
+Seed = Annotated[
+    int | None, typer.Option("--seed", metavar="N", help="In place of the field's.", show_default=False)
+]
+Level = Annotated[
+    float, typer.Option("--level", metavar="P", help="Probability that the intervals hold the truth.")
+]
+Folder = Annotated[
+    Path | None,
+    typer.Option(
+        "--out",
+        metavar="DIR",
+        help="Write results.json, curves as CSV, and figures as SVG and PNG there.",
+        show_default=False,
+    ),
+]
+
+# Lengths at which the haulm that is left is looked at for its figure.
+_LENGTHS = 31
+
+
+def topper() -> None:
+    """Topper knives over fields of roots, and the best knife; `linkwright run FILE` has the knife itself.
+
+    Roots are those of [topper.field] in the machine file: random ones by distributions, or measured ones.
+    """
+
+
+def field(
+    file: File,
+    set: Sets = None,
+    over: Over = None,
+    seed: Seed = None,
+    level: Level = 0.95,
+    json: Json = False,
+    out: Folder = None,
+) -> None:
+    """A field of roots: share of heads cut right through, haulm that is left, loss, length for all shares.
+
+    Exit code 1 if the file has [topper.limits] that are not kept.
+    """
+    from linkwright.analysis.topper.field import require_topper, topper_field
+    from linkwright.analysis.topper.field_verdict import field_cautions, field_findings
+    from linkwright.analysis.topper.topper import edges_of
+    from linkwright.cli.bar import bar
+    from linkwright.files.read import read
+    from linkwright.sweep.topper import sweep_field
+
+    machine, axes = read(file, set or []), _axes(over or [])
+    described = require_topper(machine)
+    with bar("heads") as watch:
+        found = topper_field(machine, seed=seed, level=level, watch=watch)
+    swept = None
+    if axes:
+        with bar("variants") as watch:
+            swept = sweep_field(machine, axes, seed=seed, level=level, watch=watch)
+    findings = list(field_findings(found, described))
+    warnings = list(field_cautions(found, described, edges_of(machine, described)[0].knife))
+    shown = _object(machine.name, found, swept, findings, warnings)
+    if json:
+        typer.echo(shown, nl=False)
+    else:
+        _print(machine, found, swept, findings, warnings)
+    if out is not None:
+        _write(machine, found, swept, shown, out, seed=seed, quiet=json)
+    if findings:
+        raise typer.Exit(1)
+
+
+def _axes(wanted: list[str]) -> dict[str, Any]:
+    """Values of all entries that vary."""
+    axes = dict(_axis(each) for each in wanted)
+    if len(axes) < len(wanted):
+        raise InputError("--over: found the same name twice, expected each once")
+    if len(axes) > 2:
+        raise InputError(f"--over: found {len(axes)} names, expected two at most")
+    return axes
+
+
+def _axis(text: str) -> tuple[str, Any]:
+    """Name and values of one ``NAME=LOW:HIGH:N``."""
+    import numpy as np
+
+    from linkwright.machine.base import suggestion
+    from linkwright.sweep.topper import ENTRIES
+
+    name, _, values = text.partition("=")
+    parts = [part.strip().strip("\"'") for part in values.split(":")]
+    if name not in ENTRIES:
+        raise InputError(f'--over {text}: found "{name}", expected {suggestion(name, ENTRIES)}')
+    if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
+        remedy = "such as edge_length=0.1:0.3:21 for 21 values from 0.1 to 0.3 m"
+        raise InputError(f'--over {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
+    low, high = (option_value(f"--over {text}", part, ENTRIES[name]) for part in parts[:2])
+    return name, np.linspace(low, high, int(parts[2]))
+
+
+def _object(
+    name: str, found: TopperField, swept: FieldSweep | None, findings: list[str], warnings: list[str]
+) -> str:
+    """One JSON object."""
+    from json import dumps
+
+    from linkwright.analysis.result import finite
+
+    results: dict[str, Any] = {"topper_field": found.to_dict()}
+    if swept is not None:
+        columns = {key: column.tolist() for key, column in swept.columns().items()}
+        results["topper_field_sweep"] = {"shape": list(swept.shape), **columns}
+    told = {"findings": findings, "warnings": [*findings, *warnings]}
+    shown = {"machine": name, "results": finite(results), **told}
+    return dumps(shown, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def _print(
+    machine: Machine,
+    found: TopperField,
+    swept: FieldSweep | None,
+    findings: list[str],
+    warnings: list[str],
+) -> None:
+    """Tables for people."""
+    from linkwright.cli.tables import print_tables
+    from linkwright.report.topper_field_tables import field_tables, sweep_table
+
+    tables = list(field_tables(found))
+    if swept is not None:
+        tables.append(sweep_table(swept))
+    print_tables(machine.name, tables, findings, warnings)
+
+
+def _write(
+    machine: Machine,
+    found: TopperField,
+    swept: FieldSweep | None,
+    shown: str,
+    folder: Path,
+    *,
+    seed: int | None,
+    quiet: bool,
+) -> None:
+    """Results, curves and figures; says where they are."""
+    import numpy as np
+
+    from linkwright.cli.bar import bar
+    from linkwright.plot import field_haulm_figure, field_length_figure, field_share_figure, sweep_figures
+    from linkwright.report.topper_field_tables import columns_csv
+    from linkwright.sweep.topper import sweep_field
+
+    lengths = np.linspace(0, found.length[-1], _LENGTHS)[1:]
+    with bar("lengths") as watch:
+        over = sweep_field(machine, {"edge_length": lengths}, seed=seed, level=found.level, watch=watch)
+    texts = {"results.json": shown, "share.csv": columns_csv(found.curves())}
+    texts["haulm.csv"] = columns_csv(over.columns())
+    figures = {
+        "share": field_share_figure(found),
+        "length_needed": field_length_figure(found),
+        "haulm_and_loss": field_haulm_figure(found, over),
+    }
+    if swept is not None:
+        texts["sweep.csv"] = columns_csv(swept.columns())
+        figures |= sweep_figures(swept)
+    write_folder(folder, texts, figures, quiet=quiet)
+
+
+def write_folder(
+    folder: Path, texts: Mapping[str, str], figures: Mapping[str, Figure], *, quiet: bool
+) -> None:
+    """Write texts, and figures as SVG and PNG; say where they are.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be written to.
+    """
+    from linkwright.plot import svg
+
+    drawn = {f"{name}.svg": svg(figure) for name, figure in figures.items()}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in {**texts, **drawn}.items():
+            (folder / name).write_text(text, encoding="utf-8")
+        for name, figure in figures.items():
+            figure.savefig(folder / f"{name}.png", dpi=150)
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
+    names = [*texts, *drawn, *(f"{name}.png" for name in figures)]
+    typer.echo("Written:\n" + "\n".join(f"  {folder / name}" for name in names), err=quiet)
