@@ -205,3 +205,17 @@ def test_machine_data_has_the_topper_and_its_motion() -> None:
     assert entries["edge length"] == "0.28 m"
     motion = {entry.word: entry.value for entry in parts["motion"].entries}
     assert motion == {"kind": "harmonic", "stroke": "0.06 m"}
+    # Limits of the best knife that nobody set are no data of the machine.
+    assert set(parts) == {"topper", "motion"}
+
+
+def test_field_is_among_the_data() -> None:
+    spread = '{kind="normal", mean="110 mm", deviation="18 mm", least="50 mm"}'
+    field = f'topper.field={{kind="random", root_diameter={spread}, spacing="0.3 m", roots=500}}'
+    limits = "topper.limits.complete_min=0.9"
+    machine = read(MACHINES / "topper.toml", [field, limits])
+    parts = {part.name: part for part in machine_parts(machine)}
+    assert list(parts) == ["topper", "motion", "field", "field: root diameter", "field: spacing", "limits"]
+    entries = {entry.word: entry.value for entry in parts["field: root diameter"].entries}
+    assert entries["deviation"] == "0.018 m"
+    assert "500 random roots in 100 rows" in summary(machine)
