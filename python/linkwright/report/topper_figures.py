@@ -23,7 +23,7 @@ from linkwright.plot.topper_lengths import length_chart_figure, verdict_figure
 from linkwright.plot.topper_view import top_view_figure
 from linkwright.report.captioned import Captioned
 from linkwright.report.quantities import degrees, number
-from linkwright.report.topper_tables import mm, percent, stroke_of
+from linkwright.report.topper_tables import leaves, mm, percent, stroke_of
 
 # Phases of a curve.
 _PHASES = 361
@@ -43,7 +43,7 @@ class _Cut:
 
     @property
     def leaves(self) -> bool:
-        return self.found.uncut_share > 0
+        return leaves(self.found)
 
     @property
     def head(self) -> tuple[float, float]:
@@ -70,16 +70,16 @@ def topper_figures(study: Study) -> Iterator[Captioned]:
     if study.topper is None or study.machine.topper is None:
         return
     cut = _Cut(study, study.machine.topper, study.topper)
-    yield _view(cut)
-    if cut.edges[0].knife.rate:
-        yield _phases(cut)
+    moves = cut.edges[0].knife.rate > 0
+    if not cut.found.obstacle:
+        yield _view(cut)
+        yield from [_phases(cut)] if moves else []
     yield _chart(cut)
     yield _verdict(cut)
-    # An edge that moves along itself has no use.
+    # An edge that moves along itself has no use, and what cannot be followed none that is known.
     if math.isfinite(cut.found.length_exact):
         yield _use(cut)
-    if cut.edges[0].knife.rate:
-        yield _slicing(cut)
+    yield from [_slicing(cut)] if moves else []
 
 
 def _view(cut: _Cut) -> Captioned:
