@@ -57,6 +57,14 @@ from linkwright.plot.topper import edge_use_figure, phase_figure, slicing_figure
 from linkwright.plot.topper_field import field_haulm_figure, field_length_figure, field_share_figure
 from linkwright.plot.topper_lengths import bands_figure, length_chart_figure
 from linkwright.plot.topper_sweep import best_knife_figure, sweep_figures
+from linkwright.plot.topper_field import (
+    best_knife_figure,
+    field_haulm_figure,
+    field_length_figure,
+    field_share_figure,
+    sweep_figures,
+)
+from linkwright.plot.topper_lengths import length_chart_figure, verdict_figure
 from linkwright.plot.topper_view import top_view_figure
 from linkwright.plot.torsion import modes_figure
 from linkwright.plot.torsion_forced import (
@@ -71,7 +79,6 @@ from linkwright.plot.torsion_transient import transient_figure, waterfall_figure
 
 __all__ = [
     "attempt_figure",
-    "bands_figure",
     "best_knife_figure",
     "cam_figure",
     "cam_force_figure",
@@ -118,6 +125,7 @@ __all__ = [
     "torsion_unevenness_figure",
     "transient_figure",
     "transmission_figure",
+    "verdict_figure",
     "vibration_figure",
     "waterfall_figure",
 ]
