@@ -55,16 +55,8 @@ from linkwright.plot.steady import speed_figure, time_figure, torque_figure
 from linkwright.plot.svg import svg
 from linkwright.plot.topper import edge_use_figure, phase_figure, slicing_figure
 from linkwright.plot.topper_field import field_haulm_figure, field_length_figure, field_share_figure
-from linkwright.plot.topper_lengths import bands_figure, length_chart_figure
-from linkwright.plot.topper_sweep import best_knife_figure, sweep_figures
-from linkwright.plot.topper_field import (
-    best_knife_figure,
-    field_haulm_figure,
-    field_length_figure,
-    field_share_figure,
-    sweep_figures,
-)
 from linkwright.plot.topper_lengths import length_chart_figure, verdict_figure
+from linkwright.plot.topper_sweep import best_knife_figure, sweep_figures
 from linkwright.plot.topper_view import top_view_figure
 from linkwright.plot.torsion import modes_figure
 from linkwright.plot.torsion_forced import (
