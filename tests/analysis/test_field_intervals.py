@@ -90,6 +90,18 @@ def test_quantiles_are_order_statistics() -> None:
     assert high[0] == pytest.approx(61, abs=1)
 
 
+def test_quantiles_beyond_the_heads_that_can_be_cut() -> None:
+    # 5.1 % cannot be cut: that may be chance for 95 % of the heads, not for 99 %.
+    needed = np.concatenate([np.linspace(0.1, 0.2, 9490), np.full(510, np.inf)])
+    found = ShareCurve(needed, alone(10_000)).lengths((0.5, 0.95, 0.99))
+    assert np.isinf(found.value).tolist() == [False, True, True]
+    assert np.isinf(found.low).tolist() == [False, False, True]
+    assert np.isinf(found.high).tolist() == [False, True, True]
+    assert found.low[1] == pytest.approx(0.2, abs=0.001)
+    none = ShareCurve(np.full(10, np.inf), alone(10)).lengths((0.5,))
+    assert all(np.isinf(each[0]) for each in none)
+
+
 def covered(entries: dict[str, object], truth: dict[str, float], seeds: int) -> dict[str, float]:
     """How often intervals of small fields hold the truth."""
     small = machine('[topper.field]\nkind = "random"\n', **entries)

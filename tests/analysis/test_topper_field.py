@@ -181,6 +181,21 @@ def test_spacing_locked_to_the_stroke_gives_rows_one_phase() -> None:
     assert told(topper_field(usual), usual) == ""
 
 
+def test_table_of_the_page_is_what_comes_out() -> None:
+    root = Path(__file__).parents[2]
+    page = (root / "docs" / "theory" / "topper_field.md").read_text(encoding="utf-8")
+    text = {"topper.edge_length": 0.18, "topper.field": {"kind": "random"}}
+    bells = {
+        "topper.field.root_diameter": {"kind": "normal", "mean": 0.11, "deviation": 0.015, "least": 0.06},
+        "topper.field.cut_height": {"kind": "normal", "mean": 0.03, "deviation": 0.005, "least": 0.005},
+    }
+    for spacing in (None, 0.3, 1.9 * 0.12 / 0.55):
+        apart = {} if spacing is None else {"topper.field.spacing": spacing}
+        found = topper_field(lw.read(root / "machines" / "topper.toml", {**text, **bells, **apart}))
+        ends = f"{100 * found.share_complete_low:.1f} to {100 * found.share_complete_high:.1f} %"
+        assert f"| {100 * found.share_complete:.1f} % | {ends} |" in page
+
+
 def test_spacing_moves_the_phase_on() -> None:
     text = (
         SCATTER

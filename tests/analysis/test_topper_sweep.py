@@ -9,7 +9,7 @@ from topper_fields import machine
 import linkwright as lw
 from linkwright.analysis.topper.field import topper_field
 from linkwright.analysis.topper.head import cap_volume
-from linkwright.errors import InputError
+from linkwright.errors import FindingError, InputError
 from linkwright.sweep.topper import edges_with, sweep_field
 
 RANDOM = '[topper.field]\nkind = "random"\nroots = 2000\nspacing = "0.31 m"\n'
@@ -89,6 +89,20 @@ def test_heights_are_shifted_to_their_mean() -> None:
     constant = sweep_field(machine(RANDOM), {"cut_height": [0.02, 0.04]})
     assert constant.loss_mean.tolist() == pytest.approx(cap_volume(0.11, [0.02, 0.04]).tolist(), rel=1e-12)
     assert swept.loss_mean[2] == pytest.approx(constant.loss_mean[1], rel=0.02)
+
+
+def test_an_edge_that_hardly_goes_on_is_left_out() -> None:
+    # Far aslant the edge runs back with each stroke: tan 88° times the speed of the knife is 13 v.
+    small = RANDOM.replace("2000", "200")
+    swept = sweep_field(machine(small), {"edge_angle": np.radians([20.0, 88.0])})
+    assert np.isfinite(swept.share_complete).tolist() == [True, False]
+    for run in (lambda: sweep_field(machine(small), {"edge_angle": [1.536]}), far_aslant):
+        with pytest.raises(FindingError, match="hardly goes on"):
+            run()
+
+
+def far_aslant() -> None:
+    topper_field(machine(RANDOM, edge_angle="88 deg"))
 
 
 @pytest.mark.parametrize(

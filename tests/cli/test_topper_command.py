@@ -110,6 +110,15 @@ def test_files_of_a_field(file: str, tmp_path: Path) -> None:
     assert "loss_mean [m³]" in head
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("height", [-0.01, 0.03])
+def test_heads_that_are_all_alike_are_drawn(file: str, tmp_path: Path, height: float) -> None:
+    sets = ("--set", f"topper.field.cut_height={height}", "--set", "topper.motion.phase=1")
+    result = run("field", file, *sets, "--set", "topper.field.offset=0", "--out", str(tmp_path / "out"))
+    assert result.exit_code == 0
+    assert len(list((tmp_path / "out").glob("*.png"))) == 3
+
+
 def test_limits_give_the_exit_code(file: str) -> None:
     sound = run("field", file, "--set", "topper.limits.complete_min=0.5")
     assert sound.exit_code == 0
@@ -147,6 +156,24 @@ def test_best_knife(file: str, tmp_path: Path) -> None:
     assert field["share_complete"] == pytest.approx(best["share_complete"], abs=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("limits", "words"),
+    [
+        ({}, "No slicing_min is asked for"),
+        ({"slicing_min": 0.4}, "A slanted edge that rests slices as much"),
+        ({"slicing_min": 0.4, "knife_speed_min": 0.8, "angle_max": 0.1}, "No such"),
+    ],
+)
+def test_what_to_know_of_the_best(file: str, limits: dict[str, float], words: str) -> None:
+    asked = {"complete_min": 0.9, **limits}
+    sets = [word for key, x in asked.items() for word in ("--set", f"topper.limits.{key}={x}")]
+    warnings = " ".join(told("best", file, *sets)["warnings"])
+    if words == "No such":
+        assert "rests" not in warnings
+    else:
+        assert words in warnings
+
+
 def test_no_knife_keeps_the_limits(file: str) -> None:
     sets = ("--set", "topper.limits.knife_speed_max=0", "--set", "topper.limits.slicing_min=3")
     result = run("best", file, *sets, "--json")
@@ -157,6 +184,16 @@ def test_no_knife_keeps_the_limits(file: str) -> None:
     assert failing["reached"] == pytest.approx(3**0.5)
     assert "slicing_min = 3" in found["findings"][0]
     assert "edge_length" not in found["results"]["topper_best"]
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_map_without_any_knife(file: str, tmp_path: Path) -> None:
+    # Half of the heads are missed: no edge is long enough anywhere.
+    shallow = 'topper.field.cut_height={kind="normal", mean=0, deviation=0.01}'
+    result = run("best", file, "--set", shallow, "--out", str(tmp_path / "none"))
+    assert result.exit_code == 1
+    assert "cut deeper" in result.output
+    assert {path.name for path in (tmp_path / "none").iterdir()} == {"results.json", "map.csv"}
 
 
 def test_fastest(file: str) -> None:
@@ -202,6 +239,12 @@ def test_a_measured_root_that_cannot_be(file: str, tmp_path: Path) -> None:
     assert f"{points}:3: topper.field.cut_height.1" in result.output
     points.write_text("root_diameter [mm], cut_height [mm], offset [mm]\n100, 20, 3\n90, 25, -4\n")
     assert told("field", file)["results"]["topper_field"]["clusters"] == "roots"
+
+
+def test_a_file_alone_is_run() -> None:
+    machine = str(Path(__file__).parents[2] / "machines" / "topper.toml")
+    whole = json.loads(CliRunner().invoke(application(), ["run", machine, "--json"]).stdout)
+    assert told(machine)["results"]["topper"] == whole["results"]["topper"]
 
 
 def test_folder_that_cannot_be_written(file: str) -> None:

@@ -10,14 +10,16 @@ import pytest
 from linkwright.analysis.topper.head_pass import HeadPass, head_pass
 from linkwright.analysis.topper.length_chart import length_chart
 from linkwright.analysis.topper.topper import TopperStudy, edges_of, topper
+from linkwright.analysis.topper.verdict import Stroke
+from linkwright.analysis.topper.verdict_chart import verdict_chart
 from linkwright.files import read
 from linkwright.plot import (
-    bands_figure,
     edge_use_figure,
     length_chart_figure,
     phase_figure,
     slicing_figure,
     top_view_figure,
+    verdict_figure,
 )
 
 MACHINE = Path(__file__).parents[2] / "machines" / "topper.toml"
@@ -104,9 +106,26 @@ def test_slicing_leaves_out_where_the_edge_retreats() -> None:
     assert labels(ratio) == ["retreats"]
 
 
-def test_bands_are_drawn_where_there_are_some() -> None:
-    angles = np.radians([0.0, 20.0, 40.0])
-    bands = {"published": np.array([[0.0, 0.3, 0.2], [0.0, 0.4, 0.3]])}
-    (axes,) = bands_figure(angles, bands, {"published": "printed"}, (np.radians(20), 0.14)).axes
-    assert axes.lines[0].get_xdata() == pytest.approx([20, 40])
-    assert axes.lines[2].get_xydata()[0] == pytest.approx([20, 140])
+def test_verdict_has_a_dot_for_the_machine_and_bands_of_all_ways() -> None:
+    machine = read(MACHINE)
+    assert machine.topper is not None
+    chart = verdict_chart(machine.topper, Stroke(0.06, np.pi / 2))
+    bands, heads = verdict_figure(chart).axes
+    assert {"printed bound (10)", "exact, every phase of the stroke", "this machine"} <= set(labels(bands))
+    assert bands.lines[-1].get_xydata()[0] == pytest.approx([20, 137.98], rel=1e-4)
+    assert heads.lines[-1].get_xydata()[0] == pytest.approx([30, 20])
+    # Without a stroke there is no length for every phase.
+    assert len(verdict_chart(machine.topper).bands) == 3
+
+
+def test_verdict_chart_is_that_of_the_lengths() -> None:
+    machine = read(MACHINE)
+    assert machine.topper is not None
+    chart = verdict_chart(machine.topper, Stroke(0.06, np.pi / 2))
+    d = 2 * np.sqrt(chart.cut_heights * (0.11 - chart.cut_heights))
+    every = (0.06 + d + 2 * chart.offsets[:, None]) / np.cos(np.radians(20))
+    assert chart.longest["every_phase"] == pytest.approx(every)
+    low, high = (np.interp(np.radians(20), chart.angles, each) for each in chart.bands["every_phase"])
+    # L cos α − S, between points of the chart.
+    assert low == pytest.approx(0.25 * np.cos(np.radians(20)) - 0.06, rel=1e-4)
+    assert high == pytest.approx(0.30 * np.cos(np.radians(20)) - 0.06, rel=1e-4)

@@ -37,11 +37,15 @@ CASES: dict[str, tuple[str, tuple[str, ...]]] = {
     "phase given": ("topper", ("topper.motion.phase=90 deg", "topper.edge_length=0.18 m")),
     "stands": ("topper", (*ONE_WAY, "topper.edge_angle=45 deg", "topper.knife_speed=1.9")),
     "retreats": ("topper", ("topper.edge_angle=60 deg", "topper.edge_length=0.15 m")),
+    "hardly goes on": (
+        "topper",
+        ("topper.edge_angle=80 deg", "topper.knife_speed=5", "topper.motion.stroke=2 mm"),
+    ),
     "on the row": ("topper", ("topper.offset=0", "topper.edge_angle=0")),
 }
 
 # Pages take a second each.
-PAGES = ("own", "short", "crank", "one way", "stands")
+PAGES = ("own", "short", "crank", "one way", "stands", "hardly goes on")
 
 
 @cache
@@ -118,16 +122,18 @@ def test_page_is_about_the_topper(case: str) -> None:
     text = page(case)
     figures = set(re.findall(r'id="figure-(\w+)"', text))
     moves = case not in ("one way", "stands")
-    always = {"topper_view", "topper_lengths", "topper_verdict"}
-    assert always <= figures
-    assert ("topper_phase" in figures) == ("topper_slicing" in figures) == moves
-    assert ("topper_use" in figures) == (case != "stands")
+    followed = case != "hardly goes on"
+    assert {"topper_lengths", "topper_verdict"} <= figures
+    assert ("topper_view" in figures) == followed
+    assert ("topper_phase" in figures) == (moves and followed)
+    assert ("topper_slicing" in figures) == moves
+    assert ("topper_use" in figures) == (followed and case != "stands")
     assert "Paper 5" in text
     # What moves a topper alone is no drive line.
     assert ("reduced to the crank" in text) == (case == "crank")
     assert ("Paper 1" in text) == (case == "crank")
     assert ('id="scene"' in text) == (case == "crank")
-    assert 'id="topper-scene"' in text
+    assert ('id="topper-scene"' in text) == followed
 
 
 @pytest.mark.parametrize("case", PAGES)
@@ -180,6 +186,16 @@ def test_curves_of_different_lengths_have_files_of_their_own() -> None:
     assert np.array(edge[1:], dtype=float)[:, 1].tolist() == found.edge_use.tolist()
 
 
+def test_an_edge_that_cannot_be_followed_keeps_what_is_known() -> None:
+    found = studied("hardly goes on")
+    assert found.topper is not None
+    assert found.topper.obstacle in found.findings
+    listed = rows(shown("hardly goes on")["topper_lengths"])
+    assert listed["exact"] == ("–", "–", "not computed: the edge hardly goes on")
+    assert listed["knife at rest"][0] == f"{number(1e3 * found.topper.length_at_rest, 4)} mm"
+    assert curves_csv(found.topper).splitlines()[1] == "0.0,,"
+
+
 def test_frame_has_the_curves_over_the_phase() -> None:
     pytest.importorskip("pandas")
     found = studied("own").topper
@@ -205,3 +221,17 @@ def test_machine_data_has_the_topper_and_its_motion() -> None:
     assert entries["edge length"] == "0.28 m"
     motion = {entry.word: entry.value for entry in parts["motion"].entries}
     assert motion == {"kind": "harmonic", "stroke": "0.06 m"}
+    # Limits of the best knife that nobody set are no data of the machine.
+    assert set(parts) == {"topper", "motion"}
+
+
+def test_field_is_among_the_data() -> None:
+    spread = '{kind="normal", mean="110 mm", deviation="18 mm", least="50 mm"}'
+    field = f'topper.field={{kind="random", root_diameter={spread}, spacing="0.3 m", roots=500}}'
+    limits = "topper.limits.complete_min=0.9"
+    machine = read(MACHINES / "topper.toml", [field, limits])
+    parts = {part.name: part for part in machine_parts(machine)}
+    assert list(parts) == ["topper", "motion", "field", "field: root diameter", "field: spacing", "limits"]
+    entries = {entry.word: entry.value for entry in parts["field: root diameter"].entries}
+    assert entries["deviation"] == "0.018 m"
+    assert "500 random roots in 100 rows" in summary(machine)

@@ -63,7 +63,7 @@ def _topper(machine: Machine) -> list[tuple[str, str]]:
     edge = (
         f"{_mm(cut.edge_length)} at {degrees(cut.edge_angle):.4g}°, {cut.forward_speed:.4g} m/s along the row"
     )
-    return [("head", head), ("edge", edge), ("knife", _knife(cut))]
+    return [("head", head), ("edge", edge), ("knife", _knife(cut)), ("field", _field(cut))]
 
 
 def _knife(cut: Topper) -> str:
@@ -76,6 +76,15 @@ def _knife(cut: Topper) -> str:
     stroke = f", stroke {_mm(motion.stroke)}" if motion.stroke else ", one direction over a head"
     word = "harmonic" if motion.kind == "harmonic" else "constant speed"
     return f"{word}{stroke}, {cut.knife_speed:.4g} m/s across the row in the mean"
+
+
+def _field(cut: Topper) -> str:
+    """How many roots are looked at."""
+    if cut.field is None:
+        return ""
+    if cut.field.kind == "random":
+        return f"{cut.field.roots} random roots in {cut.field.rows} rows"
+    return f"{len(cut.field.root_diameter)} measured roots, each in {cut.field.phases} phases"
 
 
 def _mm(value: float) -> str:

@@ -120,7 +120,7 @@ def _files(study: Study, folder: Path) -> list[str]:
     texts = {"results.json": dumps(study.to_dict(curves=True), allow_nan=False, ensure_ascii=False) + "\n"}
     tables = {f"{name}.csv": curves_csv(result) for name, result in study.results().items()}
     texts |= {name: text for name, text in tables.items() if text}
-    if study.topper is not None:
+    if study.topper is not None and not study.topper.obstacle:
         texts["topper_edge.csv"] = edge_csv(study.topper)
     texts["report.html"] = report_html(study, command=command_line())
     try:

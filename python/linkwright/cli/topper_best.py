@@ -103,6 +103,8 @@ def _print(name: str, found: KnifeSearch, findings: list[str], warnings: list[st
 
 def _write(found: KnifeSearch, shown: str, folder: Path, *, quiet: bool) -> None:
     """Results, map and figure; says where they are."""
+    import numpy as np
+
     from linkwright.cli.topper_field import write_folder
     from linkwright.plot import best_knife_figure
     from linkwright.report.topper_best_tables import best_lines, map_csv
@@ -111,6 +113,7 @@ def _write(found: KnifeSearch, shown: str, folder: Path, *, quiet: bool) -> None
     if found.best is not None:
         texts["topper.toml"] = best_lines(found.best)
     figures = {}
-    if len(found.map_angle) > 1 and len(found.map_speed) > 1:
+    # A line is no map, nor is a plane without any edge that would do.
+    if min(found.map_length.shape) > 1 and np.isfinite(found.map_length).any():
         figures["map"] = best_knife_figure(found)
     write_folder(folder, texts, figures, quiet=quiet)

@@ -20,8 +20,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from statistics import NormalDist
-from typing import Annotated, Literal
+from functools import cache
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,10 +32,12 @@ from linkwright.machine.base import Checked, fault
 from linkwright.machine.element import PositiveLength
 from linkwright.units import LENGTH, Length, Quantity, not_negative
 
+if TYPE_CHECKING:
+    from statistics import NormalDist
+
 Floats = NDArray[np.float64]
 Deviation = Annotated[float, not_negative(LENGTH)]
 
-_NORMAL = NormalDist()
 _PLAIN = Quantity(LENGTH)
 
 _BOTH = "an even scatter is given by least and greatest, or by mean and deviation"
@@ -65,7 +67,7 @@ class Scatter(Checked):
 
         Parameters
         ----------
-        shares : array_like
+        shares : array_like, shape (n,)
             Between 0 and 1; random ones give random values.
 
         Returns
@@ -155,10 +157,10 @@ class BellScatter(Scatter):
         low, high = self._scores
         # Upper tails by their mirror images, where F has more digits.
         sign = -1.0 if low > 0 else 1.0
-        start, end = sorted((_NORMAL.cdf(sign * low), _NORMAL.cdf(sign * high)))
+        start, end = sorted((_normal().cdf(sign * low), _normal().cdf(sign * high)))
         part = even if sign > 0 else 1.0 - even
         within = np.clip(start + (end - start) * part, max(start, _LAST), min(end, 1 - _LAST))
-        scores = np.fromiter(map(_NORMAL.inv_cdf, within.ravel()), float, within.size).reshape(within.shape)
+        scores = np.fromiter(map(_normal().inv_cdf, within.ravel()), float, within.size).reshape(within.shape)
         return np.clip(self._unscored(sign * scores), *self.ends)
 
     @property
@@ -197,7 +199,7 @@ class BellScatter(Scatter):
         """Share of the distribution between the ends."""
         low, high = self._scores
         sign = -1.0 if low > 0 else 1.0
-        return abs(_NORMAL.cdf(sign * high) - _NORMAL.cdf(sign * low))
+        return abs(_normal().cdf(sign * high) - _normal().cdf(sign * low))
 
 
 class NormalScatter(BellScatter):
@@ -231,6 +233,14 @@ class LognormalScatter(BellScatter):
     def _unscored(self, score: Floats) -> Floats:
         middle, deviation = self._bell
         return np.asarray(np.exp(middle + deviation * score))
+
+
+@cache
+def _normal() -> NormalDist:
+    """The standard normal distribution, loaded when the first bell is met: most machines have none."""
+    from statistics import NormalDist
+
+    return NormalDist()
 
 
 def _order_faults(least: float, greatest: float) -> Iterator[InitErrorDetails]:

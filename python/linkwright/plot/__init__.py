@@ -20,7 +20,7 @@
 | `torsion_scheme` | equivalent schemes of trains, by `scheme_layout`, `scheme_page`, `scheme_words` |
 | `topper`, `topper_view` | knives of toppers over the phase, and from above |
 | `topper_lengths` | lengths of their edges, and for which heads published ones do |
-| `topper_field` | fields of roots under a topper, maps of knives |
+| `topper_field`, `topper_sweep` | fields of roots under a topper; its knife varied, the best one |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
 | `svg` | a figure as SVG text |
@@ -54,14 +54,9 @@ from linkwright.plot.run_up import attempt_figure, run_up_figure
 from linkwright.plot.steady import speed_figure, time_figure, torque_figure
 from linkwright.plot.svg import svg
 from linkwright.plot.topper import edge_use_figure, phase_figure, slicing_figure
-from linkwright.plot.topper_field import (
-    best_knife_figure,
-    field_haulm_figure,
-    field_length_figure,
-    field_share_figure,
-    sweep_figures,
-)
-from linkwright.plot.topper_lengths import bands_figure, length_chart_figure
+from linkwright.plot.topper_field import field_haulm_figure, field_length_figure, field_share_figure
+from linkwright.plot.topper_lengths import length_chart_figure, verdict_figure
+from linkwright.plot.topper_sweep import best_knife_figure, sweep_figures
 from linkwright.plot.topper_view import top_view_figure
 from linkwright.plot.torsion import modes_figure
 from linkwright.plot.torsion_forced import (
@@ -76,7 +71,6 @@ from linkwright.plot.torsion_transient import transient_figure, waterfall_figure
 
 __all__ = [
     "attempt_figure",
-    "bands_figure",
     "best_knife_figure",
     "cam_figure",
     "cam_force_figure",
@@ -123,6 +117,7 @@ __all__ = [
     "torsion_unevenness_figure",
     "transient_figure",
     "transmission_figure",
+    "verdict_figure",
     "vibration_figure",
     "waterfall_figure",
 ]

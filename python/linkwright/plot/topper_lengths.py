@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.topper.verdict import WAYS
 from linkwright.plot.style import (
     BLUE,
     GREEN,
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from linkwright.analysis.topper.length_chart import LengthChart, Lines
+    from linkwright.analysis.topper.verdict_chart import VerdictChart
 
 Floats = NDArray[np.float64]
 
@@ -98,43 +99,55 @@ def _top(chart: LengthChart) -> float:
 
 
 @styled
-def bands_figure(
-    angles: Floats,
-    bands: Mapping[str, Floats],
-    words: Mapping[str, str],
-    own: tuple[float, float],
-) -> Figure:
-    """Draw for which bands of heads lengths lie in a range, over the angle of the edge.
+def verdict_figure(chart: VerdictChart) -> Figure:
+    """Draw for which heads each way of computing gives lengths within the range that is claimed.
 
     Parameters
     ----------
-    angles : ndarray, shape (n,)
-        α [rad].
-    bands : mapping of str to ndarray, shape (2, n)
-        Way → least and greatest band d + 2Δ [m]; zero where there is none.
-    words : mapping of str to str
-        Way → its words.
-    own : tuple of float
-        α and d + 2Δ of the machine [rad, m].
+    chart : VerdictChart
+        What to draw.
 
     Returns
     -------
     Figure
-        One panel, a shade for each way; a dot for the machine.
+        Bands over the angle, and offsets over the cut height at the machine's angle; dots for the machine.
     """
-    figure, (axes,) = panels(1, height=3.8)
-    degrees = np.degrees(angles)
-    for way, (low, high) in bands.items():
+    figure, (bands, heads) = panels(1, height=3.9, columns=2)
+    _bands(bands, chart)
+    _heads(heads, chart)
+    figure.legend(*bands.get_legend_handles_labels(), loc="outside upper left", ncols=3, handlelength=1.8)
+    return figure
+
+
+def _bands(axes: Axes, chart: VerdictChart) -> None:
+    degrees = np.degrees(chart.angles)
+    for way, (low, high) in chart.bands.items():
         there = high > 0
-        shade: dict[str, Any] = {"color": _COLOURS[way], "alpha": 0.3, "linewidth": 0, "label": words[way]}
+        shade: dict[str, Any] = {"color": _COLOURS[way], "alpha": 0.3, "linewidth": 0, "label": WAYS[way]}
         axes.fill_between(degrees[there], _MILLI * low[there], _MILLI * high[there], **shade)
         for edge in (low, high):
             axes.plot(degrees[there], _MILLI * edge[there], color=_COLOURS[way], linewidth=1.1)
-    axes.plot(np.degrees(own[0]), _MILLI * own[1], "o", color=RED, markersize=7, label="this machine")
-    axes.set_xlim(degrees[0], degrees[-1])
+    own = np.degrees(chart.edge_angle), _MILLI * chart.band
+    axes.plot(*own, "o", color=RED, markersize=7, label="this machine")
+    axes.set_xlim(degrees[0], max(degrees[-1], 1.02 * own[0]))
     # Bands of the printed bound grow without limit near α = 0; the scale keeps to the machine and the rest.
-    axes.set_ylim(0, _MILLI * max(0.4, 1.6 * own[1]))
-    axes.set_xlabel("angle of the edge to the transverse axis |α| [°]")
+    axes.set_ylim(0, max(400, 1.6 * own[1]))
+    axes.set_xlabel("angle of the edge |α| [°]")
     axes.set_ylabel("band of the heads d + 2Δ [mm]")
-    figure.legend(loc="outside upper left", ncols=3, handlelength=1.8)
-    return figure
+
+
+def _heads(axes: Axes, chart: VerdictChart) -> None:
+    x, y = _MILLI * chart.cut_heights, _MILLI * chart.offsets
+    for way, longest in chart.longest.items():
+        # Lengths without bounds lie beyond all levels.
+        drawn = np.where(np.isfinite(longest), longest, 1e3)
+        if drawn.max() > chart.lengths[0] and drawn.min() < chart.lengths[1]:
+            levels = list(chart.lengths)
+            axes.contourf(x, y, drawn, levels=levels, colors=[_COLOURS[way]], alpha=0.3)
+            axes.contour(x, y, drawn, levels=levels, colors=[_COLOURS[way]], linewidths=1.1)
+    axes.plot(_MILLI * chart.cut_height, _MILLI * chart.offset, "o", color=RED, markersize=7)
+    axes.set_xlim(x[0], x[-1])
+    axes.set_ylim(y[0], y[-1])
+    axes.set_xlabel("cut height $h_p$ [mm]")
+    axes.set_ylabel("offset Δ [mm]")
+    axes.set_title(f"at α = {np.degrees(chart.edge_angle):.4g}°")

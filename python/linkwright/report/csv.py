@@ -19,7 +19,8 @@ def curves_csv(result: Result) -> str:
     Returns
     -------
     str
-        One column a curve, such as ``speed [rad/s]``; numbers that read back exactly; empty without curves.
+        One column a curve, such as ``speed [rad/s]``; numbers that read back exactly, empty cells where there
+        is none; empty without curves.
     """
     if isinstance(result, Forces):
         return forces_csv(result)
@@ -27,8 +28,13 @@ def curves_csv(result: Result) -> str:
     if not curves:
         return ""
     rows = zip(*(curve.tolist() for curve in curves.values()), strict=True)
-    lines = [",".join(head(name) for name in curves), *(",".join(map(repr, row)) for row in rows)]
+    lines = [",".join(head(name) for name in curves), *(",".join(map(_cell, row)) for row in rows)]
     return "\n".join(lines) + "\n"
+
+
+def _cell(value: float) -> str:
+    """A number that reads back exactly; nothing for none."""
+    return "" if value != value else repr(value)
 
 
 def edge_csv(found: TopperStudy) -> str:
@@ -96,5 +102,5 @@ def forces_csv(forces: Forces) -> str:
         columns[f"{name}_moment [N m]"] = pair.moment
     columns |= {f"{name}_drive [N m or N]": values for name, values in forces.drives.items()}
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-    lines = [",".join("" if value != value else repr(value) for value in row) for row in rows]
+    lines = [",".join(map(_cell, row)) for row in rows]
     return "\n".join([",".join(columns), *lines]) + "\n"

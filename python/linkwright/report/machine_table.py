@@ -60,9 +60,18 @@ def machine_parts(machine: Machine) -> list[Part]:
 
 
 def _topper(machine: Machine) -> Iterator[Part]:
-    """A topper, then the motion of its knife."""
-    if machine.topper is not None:
-        yield from _nested("Topper", machine, ("topper",))
+    """A topper, then the motion of its knife, its field, and limits of the best knife if there are some."""
+    cut = machine.topper
+    if cut is None:
+        return
+    yield _part("Topper", machine, ("topper",))
+    yield _part("Topper", machine, ("topper", "motion"))
+    if cut.field is not None:
+        for part in _nested("Topper", machine, ("topper", "field")):
+            is_whole = part.name == "field"
+            yield part if is_whole else part._replace(name=f"field: {part.name.replace('_', ' ')}")
+    if "limits" in cut.model_fields_set:
+        yield _part("Topper", machine, ("topper", "limits"))
 
 
 def _drive(machine: Machine) -> Iterator[Part]:

@@ -22,6 +22,7 @@ from linkwright.analysis.topper.coverage import Edge
 from linkwright.analysis.topper.head_pass import worse_edge
 from linkwright.analysis.topper.topper import TopperStudy, edges_of
 from linkwright.machine import Topper
+from linkwright.report.topper_tables import leaves
 
 Floats = NDArray[np.float64]
 Scene = dict[str, Any]
@@ -63,10 +64,10 @@ def topper_scene(study: Study) -> Scene | None:
         ``phase`` at the time zero [rad]; ``angle``, ``length`` and ``speed`` of the edge [rad, m, m/s];
         ``diameter``, ``offset`` and ``heads``, x and y of centres [m]; ``span``, first and last time [s];
         ``box``, least and greatest x and y [m]; ``seconds`` that the page takes. None without a topper, or
-        where its knife moves nowhere.
+        where its edge cannot be followed.
     """
     found, described = study.topper, study.machine.topper
-    if found is None or described is None:
+    if found is None or described is None or found.obstacle:
         return None
     offset, phase = _worst(found)
     edges = edges_of(study.machine, described)
@@ -96,7 +97,7 @@ def topper_scene(study: Study) -> Scene | None:
 
 def _worst(found: TopperStudy) -> tuple[float, float]:
     """Offset and phase of the head of which most is left, or else of that which needs most."""
-    if found.uncut_share > 0:
+    if leaves(found):
         return found.uncut_offset, found.uncut_phase
     return found.worst_offset, found.worst_phase
 

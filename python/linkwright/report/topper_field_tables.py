@@ -104,7 +104,7 @@ def _between(low: str, high: str) -> str:
 
 
 def _length(value: float) -> str:
-    return f"{number(value, 4)} m" if math.isfinite(value) else "none"
+    return "none" if math.isinf(value) else f"{number(value, 4)} m"
 
 
 def sweep_table(swept: FieldSweep) -> Table:

@@ -15,17 +15,15 @@ from linkwright.analysis.topper.head_pass import head_pass, worse_edge
 from linkwright.analysis.topper.length_chart import length_chart
 from linkwright.analysis.topper.slicing import slicing_over_phase
 from linkwright.analysis.topper.topper import TopperStudy, edges_of
-from linkwright.analysis.topper.verdict import PAPER, WAYS, bands_of
+from linkwright.analysis.topper.verdict import PAPER, WAYS, length_verdict
+from linkwright.analysis.topper.verdict_chart import verdict_chart
 from linkwright.machine import Topper
 from linkwright.plot.topper import edge_use_figure, phase_figure, slicing_figure
-from linkwright.plot.topper_lengths import bands_figure, length_chart_figure
+from linkwright.plot.topper_lengths import length_chart_figure, verdict_figure
 from linkwright.plot.topper_view import top_view_figure
 from linkwright.report.captioned import Captioned
 from linkwright.report.quantities import degrees, number
-from linkwright.report.topper_tables import mm, percent, stroke_of
-
-# Angles of the chart of bands.
-_ANGLES = np.radians(np.linspace(0.0, 62.0, 311))
+from linkwright.report.topper_tables import leaves, mm, percent, stroke_of
 
 # Phases of a curve.
 _PHASES = 361
@@ -45,7 +43,7 @@ class _Cut:
 
     @property
     def leaves(self) -> bool:
-        return self.found.uncut_share > 0
+        return leaves(self.found)
 
     @property
     def head(self) -> tuple[float, float]:
@@ -72,16 +70,16 @@ def topper_figures(study: Study) -> Iterator[Captioned]:
     if study.topper is None or study.machine.topper is None:
         return
     cut = _Cut(study, study.machine.topper, study.topper)
-    yield _view(cut)
-    if cut.edges[0].knife.rate:
-        yield _phases(cut)
+    moves = cut.edges[0].knife.rate > 0
+    if not cut.found.obstacle:
+        yield _view(cut)
+        yield from [_phases(cut)] if moves else []
     yield _chart(cut)
     yield _verdict(cut)
-    # An edge that moves along itself has no use.
+    # An edge that moves along itself has no use, and what cannot be followed none that is known.
     if math.isfinite(cut.found.length_exact):
         yield _use(cut)
-    if cut.edges[0].knife.rate:
-        yield _slicing(cut)
+    yield from [_slicing(cut)] if moves else []
 
 
 def _view(cut: _Cut) -> Captioned:
@@ -143,20 +141,21 @@ def _chart(cut: _Cut) -> Captioned:
 
 
 def _verdict(cut: _Cut) -> Captioned:
-    described, d = cut.described, cut.found.head_diameter
-    band, stroke = d + 2 * described.offset, stroke_of(cut.found)
-    ways = [way for way in WAYS if stroke or way != "every_phase"]
-    bands = {way: bands_of(PAPER, way, _ANGLES, 2 * described.offset / band, stroke) for way in ways}
-    figure = bands_figure(_ANGLES, bands, WAYS, (abs(described.edge_angle), band))
+    described, stroke = cut.described, stroke_of(cut.found)
+    chart = verdict_chart(described, stroke)
     low, high = PAPER.lengths
     (slow, fast), (least, most) = PAPER.forward_speeds, PAPER.knife_speeds
+    judged = length_verdict(PAPER, described.edge_angle, cut.found.head_diameter, described.offset, stroke)
+    ways = [WAYS[each.way] for each in judged.demands if each.holds]
     words = (
         f"Paper 5 gives {low:.2f} to {high:.2f} m for v from {slow:g} to {fast:g} m/s and knife speeds from "
         f"{least:g} to {most:g} m/s, and does not print angle, cut height and offset. Shaded: for which of "
-        "them the longest edge over these speeds lies in that range, each way of computing it; offsets have "
-        "this machine's share in the band."
+        "them the longest edge over these speeds lies in that range, each way of computing it; on the left "
+        "offsets have this machine's share in the band, on the right the root is this machine's. For its own "
+        f"heads, the dot, the range holds {'by the ' + ', the '.join(ways) if ways else 'in no way'}."
     )
-    return Captioned("topper_verdict", f"Where the published {low:.2f} to {high:.2f} m hold", words, figure)
+    title = f"Where the published {low:.2f} to {high:.2f} m hold"
+    return Captioned("topper_verdict", title, words, verdict_figure(chart))
 
 
 def _use(cut: _Cut) -> Captioned:

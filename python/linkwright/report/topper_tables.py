@@ -17,6 +17,9 @@ _HEADS = ("quantity", "", "value", "remark")
 # A length that exceeds the edge by less than this share is the edge's: rounding.
 _SAME = 1e-12
 
+# A share of the head that is rounding.
+_NOTHING = 1e-12
+
 # A draw-cut ratio beyond this is that of an edge that moves along itself, but for rounding.
 _NO_BOUND = 1e9
 
@@ -66,37 +69,33 @@ def stroke_of(found: TopperStudy) -> Stroke | None:
 
 def _lengths(found: TopperStudy, described: Topper) -> Table:
     """All lengths beside what they mean, and whether the edge has them."""
-    own, phase = described.edge_length, described.motion.phase
+    own = described.edge_length
+    steady = found.length_exact_constant_speed
     listed = [
         ("printed in paper 5", "(10)", found.length_published, "compares times, not what is covered"),
-        (
-            "what its condition (4) gives",
-            "(4)",
-            found.length_consistent,
-            "the step from (4) to (5) put right",
-        ),
+        ("what its condition (4) gives", "(4)", found.length_consistent, "step from (4) to (5) put right"),
         ("knife at rest", "v_h = 0", found.length_at_rest, "(d + 2Δ)/cos α"),
-        (
-            "exact at constant speed",
-            "",
-            found.length_exact_constant_speed,
-            "no turn over a head, worse direction",
-        ),
+        ("exact at constant speed", "", steady, "no turn over a head, worse direction"),
+        *(() if found.obstacle else _moved(found, described)),
     ]
-    if found.stroke:
-        listed.append(
-            ("exact, best phase", f"φ = {degrees(found.best_phase)}", found.length_best_phase, "worst offset")
-        )
-        remark = f"worst offset, phase {degrees(found.worst_phase)}"
-        word = "exact, every phase" if phase is None else "exact, phase given"
-        listed.append((word, "L", found.length_exact, remark))
-    else:
-        listed.append(("exact", "L", found.length_exact, "worst offset"))
     rows: list[Row] = [
         (word, symbol, _length(value), _is_met(own, value), remark) for word, symbol, value, remark in listed
     ]
+    if found.obstacle:
+        rows.append(("exact", "L", "–", "–", "not computed: the edge hardly goes on"))
     title = f"Length of the edge; it has {mm(own)}"
     return Table("topper_lengths", title, ("least length", "", "value", "is met", "remark"), rows)
+
+
+def _moved(found: TopperStudy, described: Topper) -> Iterator[tuple[str, str, float, str]]:
+    """Exact lengths for the motion of the knife: word, symbol, value, remark."""
+    if not found.stroke:
+        yield "exact", "L", found.length_exact, "worst offset"
+        return
+    best = f"φ = {degrees(found.best_phase)}"
+    yield "exact, best phase", best, found.length_best_phase, "worst offset"
+    word = "exact, every phase" if described.motion.phase is None else "exact, phase given"
+    yield word, "L", found.length_exact, f"worst offset, phase {degrees(found.worst_phase)}"
 
 
 def _length(value: float) -> str:
@@ -107,25 +106,28 @@ def _is_met(own: float, value: float) -> str:
     return "yes" if value <= own * (1 + _SAME) else "no"
 
 
+def leaves(found: TopperStudy) -> bool:
+    """Whether anything is left of a head: a share of some size; what is smaller is rounding."""
+    return found.uncut_share > _NOTHING
+
+
 def _head(found: TopperStudy, described: Topper) -> Table:
     """The head, and what is left of it."""
+    volume = f"{number(1e6 * found.cap_volume, 4)} cm³"
     rows: list[Row] = [
         ("diameter of the head", "d", mm(found.head_diameter), "in the plane of the cut"),
-        (
-            "slice that is cut off",
-            "V",
-            f"{number(1e6 * found.cap_volume, 4)} cm³",
-            "of the root above the cut",
-        ),
+        ("volume of the slice", "V", volume, "of the root above the cut"),
         ("band of the heads", "d + 2Δ", mm(found.head_diameter + 2 * described.offset), ""),
     ]
-    if found.uncut_share > 0:
-        rows += list(_left(found, described))
-    else:
-        rows.append(("left of a head at worst", "", "nothing", "at every offset and phase"))
-        if math.isfinite(found.length_exact):
-            at = f"x = {mm(_settled(found.last_x, found))}, y = {mm(_settled(found.last_y, found))}"
-            rows.append(("point farthest from the edge's middle", "", at, "from the head's centre"))
+    if leaves(found):
+        rows += _left(found, described)
+    elif not found.obstacle:
+        is_free = found.stroke and described.motion.phase is None
+        rows.append(
+            ("left of a head at worst", "", "nothing", "at every offset" + (" and phase" if is_free else ""))
+        )
+        at = f"x = {mm(_settled(found.last_x, found))}, y = {mm(_settled(found.last_y, found))}"
+        rows.append(("point farthest from the edge's middle", "", at, "from the head's centre"))
     return Table("topper_head", "Head and cut", _HEADS, rows)
 
 

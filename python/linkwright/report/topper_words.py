@@ -79,9 +79,14 @@ def topper_headline(study: Study) -> Iterator[tuple[str, str, str]]:
         return
     yield "head diameter d", number(1e3 * found.head_diameter, 4), "mm"
     needed = found.length_exact
-    yield "edge needed", *((number(1e3 * needed, 4), "mm") if math.isfinite(needed) else ("none does", ""))
+    if not found.obstacle:
+        yield (
+            "edge needed",
+            *((number(1e3 * needed, 4), "mm") if math.isfinite(needed) else ("none does", "")),
+        )
     yield "edge L", number(1e3 * described.edge_length, 4), "mm"
-    yield "left at worst", number(100 * found.uncut_share, 3), "%"
+    if not found.obstacle:
+        yield "left at worst", number(100 * found.uncut_share, 3), "%"
     if found.stroke:
         yield "strokes to and fro", number(found.frequency, 3), "1/s"
 

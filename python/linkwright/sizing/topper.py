@@ -77,7 +77,7 @@ class BestKnife(Result):
     seed_verified : int
         Seed of the other roots.
     is_verified : bool
-        Whether the intervals over the other roots hold the limits.
+        Whether the other roots keep the limits, but for what the intervals over both leave open.
     at_bounds : tuple of str
         Bounds of the search on which it lies.
     """
@@ -239,15 +239,16 @@ def _verified(trials: Trials, chosen: Trial, search: KnifeGrid, seed: int | None
         haulm_verified_low=check.haulm_mean_low,
         haulm_verified_high=check.haulm_mean_high,
         seed_verified=other,
-        is_verified=_holds(check, topper.limits),
+        is_verified=_holds(own, check, topper.limits),
         at_bounds=_at_bounds(chosen, search),
     )
 
 
-def _holds(check: TopperField, limits: TopperLimits) -> bool:
-    """Whether the intervals over other roots hold the limits."""
-    haulm = limits.haulm_max is None or check.haulm_mean_low <= limits.haulm_max
-    return haulm and check.share_complete_high >= limits.complete_min
+def _holds(own: TopperField, check: TopperField, limits: TopperLimits) -> bool:
+    """Whether other roots keep the limits but for chance, which both samples have their part in."""
+    most = math.inf if limits.haulm_max is None else max(limits.haulm_max, own.haulm_mean_high)
+    least = min(limits.complete_min, own.share_complete_low)
+    return check.haulm_mean_low <= most and check.share_complete_high >= least
 
 
 def _at_bounds(chosen: Trial, search: KnifeGrid) -> tuple[str, ...]:

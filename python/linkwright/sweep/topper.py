@@ -20,7 +20,7 @@ from linkwright.analysis.topper.knife import knives
 from linkwright.analysis.topper.passes import Watch, pass_over
 from linkwright.analysis.topper.roots import Roots, draw_roots
 from linkwright.analysis.topper.topper import edges_of
-from linkwright.errors import InputError
+from linkwright.errors import FindingError, InputError
 from linkwright.machine import ConstantKnife, Machine, MemberKnife, Topper
 from linkwright.machine.base import suggestion
 from linkwright.units import ANGLE, LENGTH, VELOCITY, Kind, worded
@@ -46,6 +46,8 @@ _MOST = 100_000
 @dataclass(frozen=True)
 class FieldSweep(Result):
     """Variants of a knife over the same roots; arrays (n,), of two entries the second varies first.
+
+    What is found is NaN for an edge that runs over heads and back again and again, and hardly goes on.
 
     Attributes
     ----------
@@ -134,6 +136,8 @@ def sweep_field(
     ------
     InputError
         No topper, no such entry, values that are none of it, too many of them.
+    FindingError
+        No variant can be computed.
     """
     topper = require_topper(machine)
     axes = {name: _axis(name, values) for name, values in over.items()}
@@ -146,14 +150,29 @@ def sweep_field(
     for i in range(n):
         part = None if watch is None else _part(watch, i, n)
         entries = {name: float(column[i]) for name, column in columns.items()}
-        found.append(_variant(machine, topper, roots, entries, level=level, fine=fine, watch=part))
-    arrays: dict[str, Any] = {name: np.array([getattr(each, name) for each in found]) for name in _FOUND}
+        found.append(_tried(machine, topper, roots, entries, level=level, fine=fine, watch=part))
+    refused = [each for each in found if isinstance(each, FindingError)]
+    if len(refused) == n:
+        raise refused[0]
+    arrays: dict[str, Any] = {
+        name: np.array([getattr(each, name, np.nan) for each in found]) for name in _FOUND
+    }
     return FieldSweep(entries=columns, shape=shape, level=level, **arrays)
 
 
 def _part(watch: Watch, i: int, n: int) -> Watch:
     """What watches one of the variants."""
     return lambda done: watch((i + done) / n)
+
+
+def _tried(
+    machine: Machine, topper: Topper, roots: Roots, entries: Mapping[str, float], **how: Any
+) -> TopperField | FindingError:
+    """One variant over the roots, or why it cannot be computed."""
+    try:
+        return _variant(machine, topper, roots, entries, **how)
+    except FindingError as error:
+        return error
 
 
 def _variant(

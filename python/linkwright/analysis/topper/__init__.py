@@ -16,4 +16,5 @@
 | `head_pass` | one pass over a head, and the outline of what is left of it |
 | `length_chart` | lengths over root diameter and knife speed, for some forward speeds |
 | `verdict` | for which heads lengths that are said to do for ranges of speeds do |
+| `verdict_chart` | the same about a machine's own angle, cut and offset |
 """

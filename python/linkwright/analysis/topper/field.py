@@ -187,6 +187,8 @@ def topper_field(
         No topper, a seed below 0, a level that is no probability.
     AssemblyError
         The mechanism of the knife does not close all round.
+    FindingError
+        The edge runs over heads and back again and again, and hardly goes on.
     """
     topper = require_topper(machine)
     _require(seed, level)

@@ -8,8 +8,9 @@ from linkwright.analysis.topper.field import TopperField
 from linkwright.analysis.topper.knife import Knife
 from linkwright.machine import RandomField, Topper
 
-# Phases of a row that count as few, and how far they may wander along it [turns].
-_FEW, _WANDER = 4, 0.25
+# Phases of a row that count as few, how far they may wander along it [turns], and roots that share each at
+# least.
+_FEW, _WANDER, _SHARING = 4, 0.25, 4
 
 
 def field_findings(found: TopperField, topper: Topper) -> Iterator[str]:
@@ -88,7 +89,7 @@ def _locked(field: RandomField, forward_speed: float, knife: Knife) -> Iterator[
     in_row = field.roots / field.rows
     for phases in range(1, _FEW + 1):
         drift = abs(phases * turns - round(phases * turns)) / phases
-        if drift * in_row <= _WANDER:
+        if drift * in_row <= _WANDER and in_row >= _SHARING * phases:
             met = "in one phase" if phases == 1 else f"in no more than {phases} phases"
             yield (
                 f"The knife makes {turns:.5g} cycles from root to root: roots of a row meet it {met}, and "

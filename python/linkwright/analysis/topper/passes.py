@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.topper.coverage import COARSE, Edge, coverage
+from linkwright.analysis.topper.coverage import COARSE, Edge, coverage, hardly_goes_on
 from linkwright.analysis.topper.roots import Roots
+from linkwright.errors import FindingError
 
 Floats = NDArray[np.float64]
 
@@ -66,7 +67,13 @@ def pass_over(
     -------
     Pass
         A value for each root.
+
+    Raises
+    ------
+    FindingError
+        The edge runs over heads and back again and again, and hardly goes on.
     """
+    _require_advance(edges, roots)
     phase = roots.phase(edges[0].knife.rate, edges[0].forward_speed)
     diameter, missed = roots.diameter, roots.is_missed
     needed, left = np.zeros(len(phase)), np.zeros(len(phase))
@@ -84,6 +91,15 @@ def pass_over(
     if length is not None:
         left[missed] = 1.0
     return Pass(needed, left)
+
+
+def _require_advance(edges: Sequence[Edge], roots: Roots) -> None:
+    """Refuse an edge that cannot be followed over the largest head farthest from the row."""
+    largest, farthest = float(roots.diameter.max()), float(np.abs(roots.offset).max())
+    for edge in edges:
+        reason = hardly_goes_on(edge, largest, farthest)
+        if reason is not None:
+            raise FindingError(reason)
 
 
 def _shared(edges: Sequence[Edge], phase: Floats, diameter: Floats) -> list[tuple[Edge, NDArray[np.intp]]]:

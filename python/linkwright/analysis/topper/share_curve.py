@@ -2,7 +2,7 @@ r"""The share of heads that are cut right through, against the length of the edg
 
 It is the distribution function of the lengths needed.
 
-The interval of a quantile is that of the share at this length, read off the same curve.
+The interval of a quantile is that of the share at its length, read off the same curve.
 
 References
 ----------
@@ -93,8 +93,12 @@ class ShareCurve:
             From 0 to 1, increasing.
         """
         found = self.quantiles(shares)
-        _, low, high = self.at(found)
-        return Interval(found, self.quantiles(low.tolist()), self.quantiles(high.tolist()))
+        # Beyond the heads that can be cut there is no length; their own share is as uncertain.
+        finite = self.needed[np.isfinite(self.needed)]
+        share, low, high = self.at(np.minimum(found, finite.max(initial=0.0)))
+        asked = np.asarray(shares)
+        ends = (asked - (share - low), asked + (high - share))
+        return Interval(found, *(self.quantiles(np.clip(end, 0.0, 1.0).tolist()) for end in ends))
 
     def worth(self) -> float | None:
         """Independent heads that the shares at the lengths for 50 and 90 % are worth, the fewer of both.
