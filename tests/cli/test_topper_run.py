@@ -133,6 +133,15 @@ def test_a_retreating_edge_is_warned_of() -> None:
     assert any("backwards" in text for text in found["warnings"])
 
 
+def test_what_is_not_computed_is_null() -> None:
+    code, found = run("--set", "topper.edge_angle=89.9 deg")
+    result = found["results"]["topper"]
+    assert code == 1
+    assert result["length_exact"] is result["uncut_share"] is None
+    assert result["length_exact_constant_speed"] > result["length_published"] > 0
+    assert found["findings"] == [result["obstacle"]]
+
+
 def test_a_knife_that_turns_back_at_once_has_no_greatest_acceleration() -> None:
     code, found = run("--set", "topper.motion.kind=constant")
     assert code == 0

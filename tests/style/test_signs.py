@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.analysis.topper.coverage import Coverage, coverage
+from linkwright.analysis.topper.topper import edges_of
 
 MACHINE = """
 format = 1
@@ -79,6 +81,47 @@ def test_gear_efficiency_acts_by_direction() -> None:
         at_motor, at_crank = compile_machine(lw.loads(text + gearbox + more)).motor_torques([5.0, 12.0])
         assert at_motor == pytest.approx([5.0, -2.0])
         assert at_crank == pytest.approx([5.0 * 10 * 0.8, -2.0 * 10 * factor])
+
+
+TOPPER = """
+format = 1
+name = "Edge"
+[topper]
+root_diameter = 0.1
+cut_height = 0.05
+edge_angle = "{angle} deg"
+edge_length = 0.1
+forward_speed = 2
+knife_speed = {speed}
+motion = {{ kind = "harmonic", stroke = 0.06 }}
+"""
+
+
+def heads(offset: float, phase: float, angle: float = 0, speed: float = 0.01) -> Coverage:
+    """One head of 0.1 m under an edge of 0.1 m."""
+    machine = lw.loads(TOPPER.format(angle=angle, speed=speed))
+    assert machine.topper is not None
+    edge = edges_of(machine, machine.topper)[0]
+    return coverage(edge, 0.1, offset, phase, length=0.1)
+
+
+def test_offsets_of_roots_count_to_the_left() -> None:
+    found = heads(offset=0.02, phase=0)
+    assert found.uncut_left[0] > 0 == found.uncut_right[0]
+    assert found.last_y[0] == pytest.approx(0.05, abs=1e-3)
+
+
+def test_a_sine_goes_to_the_left_from_phase_zero() -> None:
+    """A quarter of a turn on it is at its left end, and leaves the right side of a head."""
+    found = heads(offset=0, phase=np.pi / 2)
+    assert found.uncut_right[0] > 0 == found.uncut_left[0]
+
+
+def test_the_left_end_leads_at_positive_angles() -> None:
+    """Going to the left, towards its leading end, it hardly goes on, and leaves more."""
+    ahead, behind = (heads(0, phase, angle=40, speed=0.5) for phase in (0, np.pi))
+    assert ahead.length_needed[0] > behind.length_needed[0]
+    assert heads(0, 0, angle=-40, speed=0.5).length_needed[0] == pytest.approx(behind.length_needed[0])
 
 
 LINKAGE = """

@@ -312,7 +312,7 @@ def _left(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
 def _by_phase(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
     """What each phase needs and leaves, at its worst offset."""
     phases = np.linspace(0.0, 2 * np.pi, _PHASES + 1)
-    offsets = np.linspace(-described.offset, described.offset, _OFFSETS)
+    offsets = np.linspace(-described.offset, described.offset, _OFFSETS if described.offset else 1)
     phi, delta = np.meshgrid(phases, offsets, indexing="ij")
     length = described.edge_length
     found = [coverage(edge, d, delta.ravel(), phi.ravel(), length=length) for edge in edges]
