@@ -14,11 +14,11 @@ from linkwright.analysis.study import study
 from linkwright.files import loads, read, template, templates
 from linkwright.report.scene import scene
 
-# A torsional train has no mechanism to be drawn.
+# A torsional train, and a knife that follows a law, have no mechanism to be drawn.
 GALLERY = [
     path
     for path in sorted((Path(__file__).parents[2] / "examples").glob("*/machine.toml"))
-    if not read(path).is_train_alone
+    if not (read(path).is_train_alone or read(path).is_topper_alone)
 ]
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 MECHANISMS = [name for name in templates() if not loads(template(name)).is_topper_alone]

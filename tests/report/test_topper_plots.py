@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from linkwright.analysis.topper.constant_speed import constant_speed_lengths
 from linkwright.analysis.topper.head_pass import HeadPass, head_pass
 from linkwright.analysis.topper.length_chart import length_chart
 from linkwright.analysis.topper.topper import TopperStudy, edges_of, topper
@@ -129,3 +130,9 @@ def test_verdict_chart_is_that_of_the_lengths() -> None:
     # L cos α − S, between points of the chart.
     assert low == pytest.approx(0.25 * np.cos(np.radians(20)) - 0.06, rel=1e-4)
     assert high == pytest.approx(0.30 * np.cos(np.radians(20)) - 0.06, rel=1e-4)
+    # With the machine's share of Δ in the band, such heads need the lengths claimed at the greatest v_h/v.
+    share = 2 * 0.02 / chart.band
+    for each, length in zip(chart.bands["constant_speed"], chart.lengths, strict=True):
+        band = float(np.interp(np.radians(20), chart.angles, each))
+        needed = constant_speed_lengths(band * (1 - share), band * share / 2, np.radians(20), 1.6, 0.8)
+        assert needed.max() == pytest.approx(length, rel=1e-4)

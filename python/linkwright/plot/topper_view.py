@@ -29,6 +29,9 @@ _REACH = 1.25
 # Width over height of the panel.
 _PANEL = 1.5
 
+# An edge far aslant comes from far away: beyond so many diameters it is not drawn.
+_FAR = 3.5
+
 # Room about what is drawn, over the head's diameter.
 _ROOM = 0.12
 
@@ -141,7 +144,8 @@ def _edges(axes: Axes, seen: HeadPass, shown: slice) -> None:
 
 def _frame(axes: Axes, seen: HeadPass, shown: slice, greatest_offset: float) -> None:
     """Limits with room, and names of the axes."""
-    ends, room = _MILLI * seen.ends[:, shown].reshape(-1, 2), _ROOM * _MILLI * seen.diameter
+    far, room = _FAR * _MILLI * seen.diameter, _ROOM * _MILLI * seen.diameter
+    ends = np.clip(_MILLI * seen.ends[:, shown].reshape(-1, 2), -far, far)
     radius = 0.5 * _MILLI * seen.diameter
     x = [*ends[:, 0], -radius, radius]
     # The arrow goes on beyond the last place.

@@ -42,6 +42,9 @@ _FAR = 8.0
 # Room before and behind the heads, over the diameter.
 _ROOM = 0.6
 
+# What is farther from the heads than this is not seen, over the diameter.
+_SEEN = 8.0
+
 # Seconds on the page for the way over one head.
 _SECONDS = 2.0
 
@@ -90,7 +93,7 @@ def topper_scene(study: Study) -> Scene | None:
         "offset": described.offset,
         "heads": [_rounded(np.array(each), _FINE * d) for each in heads],
         "span": [end / described.forward_speed for end in ends],
-        "box": _box(edge, found, described, ends),
+        "box": _box(edge, found, described, ends, x),
         "seconds": _SECONDS * len(heads),
     }
 
@@ -140,7 +143,9 @@ def _reach(edge: Edge, found: TopperStudy, described: Topper) -> float:
     return along / abs(mean)
 
 
-def _box(edge: Edge, found: TopperStudy, described: Topper, ends: tuple[float, float]) -> list[float]:
+def _box(
+    edge: Edge, found: TopperStudy, described: Topper, ends: tuple[float, float], heads: list[float]
+) -> list[float]:
     """Least x, least y, greatest x, greatest y of the edge over its way, and of the heads."""
     lean, across = (
         0.5 * described.edge_length * each
@@ -149,7 +154,9 @@ def _box(edge: Edge, found: TopperStudy, described: Topper, ends: tuple[float, f
     drifts = abs(edge.knife.drift) * ends[1] / described.forward_speed
     knife = across + 0.5 * edge.knife.stroke + drifts
     high = max(knife, 0.5 * found.head_diameter + described.offset)
-    return [ends[0] - lean, -high, ends[1] + lean, high]
+    far = _SEEN * found.head_diameter
+    least, greatest = max(ends[0] - lean, heads[0] - far), min(ends[1] + lean, heads[-1] + far)
+    return [least, -min(high, far), greatest, min(high, far)]
 
 
 def _rounded(values: Floats, fineness: float) -> list[float]:

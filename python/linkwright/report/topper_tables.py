@@ -234,7 +234,8 @@ def _verdict(found: TopperStudy, described: Topper) -> Table:
 
 def _judged(each: Demand) -> Row:
     word = WAYS[each.way]
-    spread = f"{mm(each.length_least)} to {_length(each.length_greatest)}"
+    greatest = mm(each.length_greatest) if math.isfinite(each.length_greatest) else "no bound"
+    spread = f"{mm(each.length_least)} to {greatest}"
     if not math.isfinite(each.length_least):
         spread = "none does"
     elif math.isclose(each.length_least, each.length_greatest, rel_tol=_SAME):
