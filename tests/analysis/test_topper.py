@@ -304,6 +304,48 @@ def test_a_cam_keeps_the_knife_at_one_speed() -> None:
     assert 1 < found.knife_speed_max / found.knife_speed < 0.5 * np.pi
 
 
+MEMBER = """
+format = 1
+name = "Knife on any member"
+drive = {{ speed = "275 rpm" }}
+[mechanism.linear_drivers.k]
+law = "{law}"
+[topper]
+root_diameter = "110 mm"
+cut_height = "30 mm"
+offset = "20 mm"
+edge_angle = "20 deg"
+edge_length = "0.28 m"
+forward_speed = "1.9 m/s"
+motion = {{ kind = "member", of = "k" }}
+"""
+
+
+@pytest.mark.parametrize(
+    ("law", "stroke", "speed"),
+    [
+        ("0.03*sin(phi)", 0.06, 0.06 * 2),
+        ("0.5 + 0.03*sin(2*phi)", 0.06, 0.06 * 4),
+        ("0.06*abs(sin(phi))", 0.06, 0.06 * 4),
+        ("0.01", 0.0, 0.0),
+        ("0*phi", 0.0, 0.0),
+    ],
+)
+def test_any_member_that_comes_back(law: str, stroke: float, speed: float) -> None:
+    """A sum of harmonics, a law with corners, a member that rests: way in a turn by hand."""
+    found = topper(lw.loads(MEMBER.format(law=law)))
+    assert found.stroke == pytest.approx(stroke, abs=1e-12)
+    assert found.knife_speed == pytest.approx(speed * 275 / 60, abs=1e-12)
+    assert found.length_exact == pytest.approx((stroke + DISC + 2 * DELTA) / np.cos(ALPHA), rel=1e-9)
+
+
+@pytest.mark.parametrize("law", ["0.06*phi/(2*pi)", "0.03*sin(phi/2)", "0.03*sin(1.01*phi)"])
+def test_a_member_that_does_not_come_back_is_refused(law: str) -> None:
+    found = study(lw.loads(MEMBER.format(law=law)))
+    assert found.topper is None
+    assert "in each turn" in found.findings[0]
+
+
 def test_use_of_the_edge_adds_up_to_the_head() -> None:
     """Places times their way through a head: its area, to the step of the places."""
     found = cut()

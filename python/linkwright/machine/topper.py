@@ -47,7 +47,9 @@ class Topper(Checked):
     """Heads of roots in a row, and the knife that tops them."""
 
     root_diameter: PositiveLength = Field(description="Diameter D of the root.")
-    cut_height: PositiveLength = Field(description="Height h_p of the slice.")
+    cut_height: PositiveLength = Field(
+        description="Height h_p of the slice, from the top of the root down to the plane of the cut."
+    )
     offset: Annotated[float, not_negative(LENGTH)] = Field(
         0.0, description="Greatest distance Δ of a root's axis from the axis of the row, on either side."
     )

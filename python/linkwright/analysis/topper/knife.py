@@ -24,6 +24,7 @@ from linkwright.analysis.closure import require_full_turn
 from linkwright.analysis.kinematics import kinematics_of
 from linkwright.engine import compile_machine
 from linkwright.engine.topper import KnifeWay
+from linkwright.errors import FindingError
 from linkwright.machine import Machine, MemberKnife
 from linkwright.machine.topper import Topper
 from linkwright.machine.topper_motion import ConstantKnife
@@ -44,8 +45,11 @@ _HARMONICS = 180
 # Share of the greatest speed by which the speed has to change at once to be a blow.
 _JUMP = 1e-6
 
-# Beside a joint of a cam its acceleration is taken from before it [rad].
+# Beside a corner of the motion derivatives are taken from either side of it [rad].
 _BESIDE = 1e-9
+
+# Crank angles at which two turns of a member are compared, and the share of its way that is rounding.
+_PLACES, _AGAIN = np.array([0.1, 1.0, 1.9, 2.9, 3.7, 4.6, 5.5]), 1e-6
 
 
 @dataclass(frozen=True)
@@ -164,6 +168,8 @@ def knives(machine: Machine, topper: Topper) -> tuple[Knife, ...]:
     ------
     AssemblyError
         The mechanism does not close all round.
+    FindingError
+        The member does not come back with each turn.
     """
     motion, speed = topper.motion, topper.knife_speed or 0.0
     if isinstance(motion, MemberKnife):
@@ -210,6 +216,7 @@ def _moved(machine: Machine, member: str) -> Knife:
         slide = kinematics_of(compiled, phi, [("slides", member)]).slides[member]
         return slide.position, slide.d1, slide.d2
 
+    _require_repeats(motion, member)
     corners = _joints(machine)
     if member in machine.mechanism.cams:
         cam = machine.mechanism.cams[member]
@@ -219,7 +226,18 @@ def _moved(machine: Machine, member: str) -> Knife:
         least, greatest = _smooth(found, rate).law.extremes()
         found[0, 0] -= 0.5 * (least.value + greatest.value)
         return _smooth(found, rate)
-    return _centred(_in_pieces(motion, corners), corners, rate)
+    return _centred(*_in_pieces(motion, corners), rate)
+
+
+def _require_repeats(motion: Callable[[Floats], tuple[Floats, Floats, Floats]], member: str) -> None:
+    """Refuse a member that does not do the same in each turn of the crank."""
+    once, again = (motion(_PLACES + turn)[0] for turn in (0.0, _TURN))
+    missed = float(np.abs(again - once).max())
+    if missed > _AGAIN * max(1e-3, float(np.ptp(once))):
+        raise FindingError(
+            f'the knife\'s member "{member}" does not do the same in each turn of the crank: it is up to '
+            f"{missed:.4g} m elsewhere a turn later; take a member that comes back with each turn"
+        )
 
 
 def _centred(law: MotionLaw, corners: tuple[float, ...], rate: float) -> Knife:
@@ -242,24 +260,28 @@ def _harmonics(samples: Floats) -> Floats | None:
     pairs[0] *= 0.5
     size = np.hypot(*pairs.T)
     counted = np.flatnonzero(size > _ROUNDING * max(size[1:].max(), np.finfo(float).tiny))
-    last = int(counted[-1])
+    last = int(counted[-1]) if len(counted) else 0
     return np.ascontiguousarray(pairs[: last + 1]) if last <= _HARMONICS else None
 
 
 def _in_pieces(
     motion: Callable[[Floats], tuple[Floats, Floats, Floats]], corners: tuple[float, ...]
-) -> MotionLaw:
-    """Polynomials through position and two derivatives at even angles and at corners."""
+) -> tuple[MotionLaw, tuple[float, ...]]:
+    """Polynomials through position and two derivatives at even angles and at corners; all corners."""
     knots: Floats = np.unique(np.concatenate([np.linspace(0.0, _TURN, _KNOTS + 1), corners]))
     knots = knots[np.concatenate([[True], np.diff(knots) > 2 * _BESIDE])]
     knots[-1] = _TURN
-    starts, ends = motion(np.asarray(knots[:-1])), motion(np.asarray(knots[1:] - _BESIDE))
-    value = np.append(starts[0], starts[0][0])
+    # Where the motion has a corner, each piece has the derivatives of its own side.
+    starts, ends = motion(np.asarray(knots[:-1] + _BESIDE)), motion(np.asarray(knots[1:] - _BESIDE))
+    place = motion(np.asarray(knots[:-1]))[0]
+    value = np.append(place, place[0])
+    leaps = [np.abs(starts[k] - np.roll(ends[k], 1)) > _JUMP * np.abs(starts[k]).max() for k in (1, 2)]
+    corners = tuple(sorted({*corners, *knots[:-1][leaps[0] | leaps[1]].tolist()}))
     pieces = [
         _quintic(high - low, (value[i], starts[1][i], starts[2][i]), (value[i + 1], ends[1][i], ends[2][i]))
         for i, (low, high) in enumerate(pairwise(knots))
     ]
-    return MotionLaw(tuple(knots.tolist()), tuple(pieces))
+    return MotionLaw(tuple(knots.tolist()), tuple(pieces)), corners
 
 
 def _quintic(length: float, start: Ends, end: Ends) -> Piece:
