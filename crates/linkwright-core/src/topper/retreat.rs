@@ -22,11 +22,15 @@ pub struct Left {
     pub area: [f64; 3],
 }
 
-/// Panels of Gauss's rule between two chords at which branches end: with some kinks in them, they leave 1e-5 of a head.
-const PANELS: usize = 64;
+/// Panels of Gauss's rule over a head: with some kinks in them, they leave 1e-5 of it; and between two chords at least.
+const PANELS: usize = 128;
+const LEAST: usize = 16;
+
+/// Share of the radius by which a chord between two stations may need more than they say.
+const NEAR: f64 = 0.05;
 
 /// Steps of the search for the chord that needs most: the golden section gains a digit in five.
-const GOLDEN: usize = 60;
+const GOLDEN: usize = 40;
 
 /// Times of crossings are known to this, in seconds: rounding.
 const CLOSE: f64 = 1e-15;
@@ -45,13 +49,18 @@ pub fn cover(knife: &Knife, head: &Head<f64>, half: Option<f64>, stations: &Stat
     let mut levels: Vec<f64> =
         branches.iter().flat_map(|each| each.p).filter(|p| p.abs() < r).chain([-r, r]).collect();
     levels.sort_by(f64::total_cmp);
-    let mut left = Left { half: f64::NEG_INFINITY, ..Left::default() };
-    for pair in levels.windows(2).filter(|pair| pair[1] - pair[0] > 1e-14 * r) {
-        let (middle, width) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
-        let chord = |u: f64| Chord::at(knife, head, &branches, middle + width * u.sin());
-        most(&mut left, chord);
-        if let Some(half) = half {
-            let area = area(width, |u| chord(u).left(half));
+    let spans: Vec<[f64; 2]> = levels
+        .windows(2)
+        .filter(|pair| pair[1] - pair[0] > 1e-14 * r)
+        .map(|pair| [0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0])])
+        .collect();
+    let panels = (PANELS / spans.len().max(1)).max(LEAST);
+    let chord =
+        |[middle, width]: [f64; 2], u: f64| Chord::at(knife, head, &branches, middle + width * u.sin());
+    let mut left = most(&spans, panels, r, &chord);
+    if let Some(half) = half {
+        for &span in &spans {
+            let area = area(span[1], panels, |u| chord(span, u).left(half));
             for (sum, more) in left.area.iter_mut().zip(area) {
                 *sum += more;
             }
@@ -146,18 +155,26 @@ impl Chord {
     }
 }
 
-/// Keeps the chord that needs most, of those between two.
-fn most(left: &mut Left, chord: impl Fn(f64) -> Chord) {
-    let step = PI / PANELS as f64;
-    let need = |u: f64| chord(u).needs().0;
-    let best = (0..PANELS).map(|k| (k as f64 + 0.5) * step - FRAC_PI_2).map(|u| (need(u), u));
-    let Some((_, start)) = best.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
-    let u = golden([(start - step).max(-FRAC_PI_2), (start + step).min(FRAC_PI_2)], need);
-    let found = chord(u);
-    let (half, s) = found.needs();
-    if half > left.half {
-        (left.half, left.p, left.s) = (half, found.p, s);
+/// The chord that needs most: the highest of all panels, and of those that come near it, is climbed.
+fn most(spans: &[[f64; 2]], panels: usize, r: f64, chord: &impl Fn([f64; 2], f64) -> Chord) -> Left {
+    let step = PI / panels as f64;
+    let mut looked = Vec::with_capacity(spans.len());
+    for &span in spans {
+        let needs = |u: f64| chord(span, u).needs().0;
+        let found = (0..panels).map(|k| (k as f64 + 0.5) * step - FRAC_PI_2).map(|u| (needs(u), u));
+        looked.extend(found.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(need, u)| (need, u, span)));
     }
+    let highest = looked.iter().map(|each| each.0).fold(f64::NEG_INFINITY, f64::max);
+    let mut left = Left { half: f64::NEG_INFINITY, ..Left::default() };
+    for (_, start, span) in looked.into_iter().filter(|each| each.0 > highest - NEAR * r) {
+        let ends = [(start - step).max(-FRAC_PI_2), (start + step).min(FRAC_PI_2)];
+        let found = chord(span, golden(ends, |u| chord(span, u).needs().0));
+        let (half, s) = found.needs();
+        if half > left.half {
+            (left.half, left.p, left.s) = (half, found.p, s);
+        }
+    }
+    left
 }
 
 /// Where a function with one top between two places has it.
@@ -180,10 +197,10 @@ fn golden([mut a, mut b]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// ∫ left dp with p = m + w sin u.
-fn area(width: f64, left: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
-    let step = PI / PANELS as f64;
+fn area(width: f64, panels: usize, left: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
+    let step = PI / panels as f64;
     let mut sum = [0.0; 3];
-    for panel in 0..PANELS {
+    for panel in 0..panels {
         for (c, b) in C.into_iter().zip(B) {
             let u = (panel as f64 + c) * step - FRAC_PI_2;
             for (sum, left) in sum.iter_mut().zip(left(u)) {

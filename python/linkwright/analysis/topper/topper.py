@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.coverage import Edge, coverage, hardly_goes_on, worst_head
+from linkwright.analysis.topper.coverage import SPARING, Edge, coverage, hardly_goes_on, worst_head
 from linkwright.analysis.topper.head import cap_volume, head_diameter
 from linkwright.analysis.topper.knife import knives
 from linkwright.analysis.topper.knife_drive import KnifeDrive, knife_drive
@@ -25,7 +25,8 @@ Floats = NDArray[np.float64]
 # Phases of the curves, and offsets at which the worst is looked for.
 _PHASES, _OFFSETS = 180, 9
 
-# Phases and offsets of the mean, amid even steps so that all count alike: it is good to three digits.
+# Phases and offsets of the mean, amid even steps so that all count alike: it is good to three digits, of an
+# edge that retreats to two.
 _MEAN_PHASES, _MEAN_OFFSETS = 90, 41
 
 
@@ -312,7 +313,8 @@ def _left(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
 def _by_phase(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
     """What each phase needs and leaves, at its worst offset."""
     phases = np.linspace(0.0, 2 * np.pi, _PHASES + 1)
-    offsets = np.linspace(-described.offset, described.offset, _OFFSETS if described.offset else 1)
+    n_offsets = _OFFSETS // SPARING + 1 if any(edge.retreats for edge in edges) else _OFFSETS
+    offsets = np.linspace(-described.offset, described.offset, n_offsets if described.offset else 1)
     phi, delta = np.meshgrid(phases, offsets, indexing="ij")
     length = described.edge_length
     found = [coverage(edge, d, delta.ravel(), phi.ravel(), length=length) for edge in edges]
@@ -333,9 +335,10 @@ def _by_phase(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
 def _mean_left(described: Topper, edges: list[Edge], d: float) -> float:
     """Mean share that is left, over offsets, over directions, and over phases if none is given."""
     offset, phase = described.offset, described.motion.phase
-    offsets = offset * _amid(_MEAN_OFFSETS) if offset else np.zeros(1)
+    sparing = SPARING if any(edge.retreats for edge in edges) else 1
+    offsets = offset * _amid(_MEAN_OFFSETS // sparing) if offset else np.zeros(1)
     moves = phase is None and any(edge.knife.rate for edge in edges)
-    phases = np.pi * (1 + _amid(_MEAN_PHASES)) if moves else np.array([phase or 0.0])
+    phases = np.pi * (1 + _amid(_MEAN_PHASES // sparing)) if moves else np.array([phase or 0.0])
     phi, delta = (each.ravel() for each in np.meshgrid(phases, offsets))
     left = [coverage(edge, d, delta, phi, length=described.edge_length).uncut for edge in edges]
     return float(np.mean(left) / (0.25 * np.pi * d**2))
