@@ -110,6 +110,12 @@ def test_mechanism_adds_its_drive() -> None:
     assert "reduction" in shown("crank")
 
 
+def test_a_drive_without_losses_takes_no_power() -> None:
+    free = study(read(MACHINES / "topper_crank.toml", ["loads={}"]))
+    listed = rows({table.name: table for table in tables(free)}["topper_drive"])
+    assert listed["mean power"][0] == "0 W"
+
+
 def test_verdict_is_that_of_the_paper_for_these_heads() -> None:
     listed = rows(shown("own")["topper_verdict"])
     # Every phase: (60 + 97.98 + 40) mm/cos 20°, at all speeds; bands L cos 20° − 60 mm for 250 and 300 mm.
@@ -191,7 +197,7 @@ def test_an_edge_that_cannot_be_followed_keeps_what_is_known() -> None:
     assert found.topper is not None
     assert found.topper.obstacle in found.findings
     listed = rows(shown("hardly goes on")["topper_lengths"])
-    assert listed["exact"] == ("–", "–", "not computed: the edge hardly goes on")
+    assert listed["exact"] == ("–", "–", "not computed: too many strokes over a head")
     assert listed["knife at rest"][0] == f"{number(1e3 * found.topper.length_at_rest, 4)} mm"
     assert curves_csv(found.topper).splitlines()[1] == "0.0,,"
 

@@ -82,7 +82,7 @@ def _lengths(found: TopperStudy, described: Topper) -> Table:
         (word, symbol, _length(value), _is_met(own, value), remark) for word, symbol, value, remark in listed
     ]
     if found.obstacle:
-        rows.append(("exact", "L", "–", "–", "not computed: the edge hardly goes on"))
+        rows.append(("exact", "L", "–", "–", "not computed: too many strokes over a head"))
     title = f"Length of the edge; it has {mm(own)}"
     return Table("topper_lengths", title, ("least length", "", "value", "is met", "remark"), rows)
 
@@ -215,8 +215,13 @@ def _ratio(found: TopperStudy, name: str, remark: str) -> Row:
 
 def _drive(found: TopperStudy) -> Table:
     rows = rows_of(found, "knife_mass", "inertia_force_max")
-    names = ("drive_torque_max", "drive_torque_min", "drive_torque_mean", "drive_power_mean")
-    rows += [row(found, name, "at the crank" if name == "drive_torque_max" else "") for name in names]
+    rows += [row(found, "drive_torque_max", "at the crank"), *rows_of(found, "drive_torque_min")]
+    # Without losses the mean is zero but for rounding.
+    is_lossless = abs(found.drive_torque_mean or 0.0) * _NO_BOUND < abs(found.drive_torque_max or 0.0)
+    for name in ("drive_torque_mean", "drive_power_mean"):
+        shown = SHOWN[name]
+        nothing = (shown.word, shown.symbol, f"0 {shown.unit}", "nothing is lost")
+        rows.append(nothing if is_lossless else row(found, name))
     return Table("topper_drive", "Drive of the knife at the design speed", _HEADS, rows)
 
 
