@@ -153,8 +153,8 @@ def hardly_goes_on(edge: Edge, diameter: float, offset: float) -> str | None:
         return None
     way = "Set it less aslant" if edge.retreats else "Give it a longer stroke"
     return (
-        f"The edge hardly goes on: the knife goes {turns:.3g} times to and fro while it is over one head, and "
-        f"is followed for {most}; what it cuts is not computed. {way}, or move the knife more slowly."
+        f"The edge hardly goes on: the knife goes {turns:.3g} times to and fro while it is over one head, "
+        f"and is followed for {most}; what it cuts is not computed. {way}, or move the knife more slowly."
     )
 
 
