@@ -201,6 +201,7 @@ def test_a_knife_that_hardly_goes_on_keeps_what_is_known(change: str, remedy: st
     assert found.topper is not None
     assert np.isfinite([found.topper.length_published, found.topper.length_exact_constant_speed]).all()
     assert np.isnan([found.topper.length_exact, found.topper.uncut_share]).all()
+    assert "hardly goes on" in found.findings[0]
     assert remedy in found.findings[0]
 
 

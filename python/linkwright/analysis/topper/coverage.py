@@ -155,10 +155,10 @@ def hardly_goes_on(edge: Edge, diameter: float, offset: float) -> str | None:
     turns, most = edge.turns(diameter, offset), _TURNS_RETREATING if edge.retreats else _TURNS
     if turns <= most:
         return None
-    way = "set the edge less aslant" if edge.retreats else "give it a longer stroke"
+    way = "Set it less aslant" if edge.retreats else "Give it a longer stroke"
     return (
-        f"The knife goes {turns:.3g} times to and fro while its edge is over one head, and is followed for "
-        f"{most}: what it cuts is not computed; {way}, or move the knife more slowly."
+        f"The edge hardly goes on: the knife goes {turns:.3g} times to and fro while it is over one head, "
+        f"and is followed for {most}; what it cuts is not computed. {way}, or move the knife more slowly."
     )
 
 
