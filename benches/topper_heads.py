@@ -8,7 +8,8 @@ import numpy as np
 from common import Row, seconds
 from peers import topper as peer
 
-from linkwright.analysis.topper.coverage import COARSE, Edge, coverage
+from linkwright.analysis.topper.coverage import COARSE, coverage
+from linkwright.analysis.topper.edge import Edge
 from linkwright.analysis.topper.knife import knives
 from linkwright.files.library import library_path
 from linkwright.files.read import read

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.analysis.topper.topper import edges_of
+from linkwright.analysis.topper.edge import edges_of
 from linkwright.machine import HarmonicKnife
 
 

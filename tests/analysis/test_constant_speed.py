@@ -21,11 +21,27 @@ from knife_sweep import (
 from numpy.typing import NDArray
 from scipy.integrate import quad
 
-from linkwright.analysis.topper.constant_speed import constant_speed_lengths, retreats
+from linkwright.analysis.topper.constant_speed import constant_speed_lengths
+from linkwright.analysis.topper.edge import Edge
 from linkwright.analysis.topper.head import cap_volume, head_diameter
+from linkwright.analysis.topper.knife import knives
 from linkwright.analysis.topper.published import length_consistent, length_published, published_lengths
+from linkwright.machine import Machine, Topper
 
 Floats = NDArray[np.float64]
+
+# A knife that does not turn back over a head.
+TOPPER = Topper.model_validate(
+    {
+        "root_diameter": 0.11,
+        "cut_height": 0.03,
+        "edge_length": 0.28,
+        "forward_speed": 1.9,
+        "knife_speed": 0.55,
+        "motion": {"kind": "constant"},
+    }
+)
+MACHINE = Machine(format=1, name="Topper", topper=TOPPER)
 
 # Rounding of a handful of operations.
 EXACT = 1e-12
@@ -236,16 +252,18 @@ def test_lengths_scale_and_only_the_ratio_of_speeds_matters(
 
 @given(st.floats(-1.5, 1.5), forward, across)
 def test_retreats_where_the_edge_stands_still_or_runs_back(alpha: float, v: float, v_h: float) -> None:
+    ways = knives(MACHINE, TOPPER.with_entries({"knife_speed": v_h}))
+    edges = [Edge(knife, alpha, v) for knife in ways]
     forth = advance(alpha, v, v_h)
+    assert min(edge.least_advance for edge in edges) == pytest.approx(forth, abs=1e-12)
     if abs(forth) > 1e-9:
-        assert retreats(alpha, v, v_h) == (forth < 0)
-    assert retreats(alpha, v, v_h) == retreats(-alpha, v, v_h)
-    assert not retreats(0.0, v, v_h)
+        assert any(edge.retreats for edge in edges) == (forth < 0)
 
 
 def test_edge_that_stands_still_counts_as_retreating() -> None:
-    assert retreats(math.atan(0.5), 1.0, 1 / math.tan(math.atan(0.5)) * (1 + 1e-15))
-    assert not retreats(math.atan(0.5), 1.0, 1.999)
+    knife = knives(MACHINE, TOPPER.with_entries({"knife_speed": 2 * (1 + 1e-15)}))[0]
+    assert Edge(knife, math.atan(0.5), 1.0).retreats
+    assert not Edge(knife, math.atan(0.4999), 1.0).retreats
 
 
 # --- the head -----------------------------------------------------------------------------------------------

@@ -31,8 +31,10 @@ from knife_sweep import (
 
 import linkwright as lw
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.coverage import COARSE, Coverage, Edge, coverage, worst_head
+from linkwright.analysis.topper.coverage import COARSE, Coverage, coverage
+from linkwright.analysis.topper.edge import Edge
 from linkwright.analysis.topper.knife import Knife, knives
+from linkwright.analysis.topper.worst_head import worst_head
 from linkwright.errors import InputError
 
 LAWS: dict[str, Law] = {
@@ -298,7 +300,7 @@ def worst_by_product(case: Case) -> float:
     def needed(edge: Edge, offsets: np.ndarray, phases: np.ndarray) -> np.ndarray:
         return coverage(edge, case.diameter / 1000, offsets, phases).length_needed
 
-    found = worst_head([case.edge()], case.diameter / 1000, abs(case.offset) / 1000, None, needed)
+    found = worst_head([case.edge()], abs(case.offset) / 1000, None, needed)
     again = needed(found.edge, np.array([found.offset]), np.array([found.phase]))
     assert again == pytest.approx(found.value, rel=1e-9)
     assert abs(found.offset) <= abs(case.offset) / 1000

@@ -12,13 +12,13 @@ from topper_fields import TOPPER, machine
 import linkwright as lw
 from linkwright.analysis.topper import passes
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
+from linkwright.analysis.topper.edge import edges_of
 from linkwright.analysis.topper.field import TopperField, topper_field
 from linkwright.analysis.topper.field_verdict import field_cautions, field_findings
 from linkwright.analysis.topper.head import cap_volume, head_diameter
 from linkwright.analysis.topper.knife import knives
 from linkwright.analysis.topper.passes import pass_over
 from linkwright.analysis.topper.roots import draw_roots
-from linkwright.analysis.topper.topper import edges_of
 from linkwright.errors import InputError, MachineError
 
 Floats = NDArray[np.float64]

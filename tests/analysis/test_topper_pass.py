@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from linkwright.analysis.topper.coverage import Edge, coverage
+from linkwright.analysis.topper.coverage import coverage
+from linkwright.analysis.topper.edge import Edge, edges_of
 from linkwright.analysis.topper.head_pass import HeadPass, head_pass, worse_edge
 from linkwright.analysis.topper.length_chart import length_chart
 from linkwright.analysis.topper.slicing import edge_use, slicing_over_phase
-from linkwright.analysis.topper.topper import edges_of, topper
+from linkwright.analysis.topper.topper import topper
 from linkwright.files import read
 from linkwright.machine import Machine
 

@@ -9,7 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.coverage import Edge, coverage
+from linkwright.analysis.topper.coverage import coverage
+from linkwright.analysis.topper.edge import Edge
 from linkwright.analysis.topper.knife import Knife, knives
 from linkwright.analysis.topper.published import length_consistent, length_published
 from linkwright.analysis.topper.verdict import (

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from linkwright.analysis.study import study
-from linkwright.analysis.topper.topper import edges_of
+from linkwright.analysis.topper.edge import edges_of
 from linkwright.files import loads, read, template
 from linkwright.report.scene_topper import topper_scene
 

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
+from linkwright.analysis.topper.edge import edges_of
 from linkwright.analysis.topper.head_pass import HeadPass, head_pass
 from linkwright.analysis.topper.length_chart import length_chart
-from linkwright.analysis.topper.topper import TopperStudy, edges_of, topper
+from linkwright.analysis.topper.topper import TopperStudy, topper
 from linkwright.analysis.topper.verdict import Stroke
 from linkwright.analysis.topper.verdict_chart import verdict_chart
 from linkwright.files import read

@@ -7,7 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.analysis.topper.coverage import Coverage, coverage
-from linkwright.analysis.topper.topper import edges_of
+from linkwright.analysis.topper.edge import edges_of
 
 MACHINE = """
 format = 1

@@ -68,9 +68,9 @@ def field(
 
     Exit code 1 if the file has [topper.limits] that are not kept.
     """
-    from linkwright.analysis.topper.field import require_topper, topper_field
+    from linkwright.analysis.topper.edge import edges_of, require_topper
+    from linkwright.analysis.topper.field import topper_field
     from linkwright.analysis.topper.field_verdict import field_cautions, field_findings
-    from linkwright.analysis.topper.topper import edges_of
     from linkwright.cli.bar import bar
     from linkwright.files.read import read
     from linkwright.sweep.topper import sweep_field

@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.study import Study
-from linkwright.analysis.topper.coverage import Edge
+from linkwright.analysis.topper.edge import Edge, edges_of
 from linkwright.analysis.topper.head_pass import worse_edge
-from linkwright.analysis.topper.topper import TopperStudy, edges_of
+from linkwright.analysis.topper.topper import TopperStudy
 from linkwright.machine import Topper
 from linkwright.report.topper_tables import leaves
 

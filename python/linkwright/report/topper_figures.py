@@ -10,11 +10,11 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.analysis.study import Study
-from linkwright.analysis.topper.coverage import Edge
+from linkwright.analysis.topper.edge import Edge, edges_of
 from linkwright.analysis.topper.head_pass import head_pass, worse_edge
 from linkwright.analysis.topper.length_chart import length_chart
 from linkwright.analysis.topper.slicing import slicing_over_phase
-from linkwright.analysis.topper.topper import TopperStudy, edges_of
+from linkwright.analysis.topper.topper import TopperStudy
 from linkwright.analysis.topper.verdict import PAPER, WAYS, length_verdict
 from linkwright.analysis.topper.verdict_chart import verdict_chart
 from linkwright.machine import Topper

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.topper.coverage import Edge
+from linkwright.analysis.topper.edge import Edge
 from linkwright.analysis.topper.knife import Knife
 from linkwright.analysis.topper.passes import pass_over
 from linkwright.analysis.topper.roots import Roots

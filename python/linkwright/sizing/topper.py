@@ -31,7 +31,8 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.coverage import FINE
-from linkwright.analysis.topper.field import TopperField, field_result, require_topper
+from linkwright.analysis.topper.edge import require_topper
+from linkwright.analysis.topper.field import TopperField, field_result
 from linkwright.analysis.topper.passes import Watch, pass_over
 from linkwright.analysis.topper.roots import draw_roots, field_of
 from linkwright.machine import Machine, MemberKnife, TopperLimits

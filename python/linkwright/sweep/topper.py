@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.result import Result
-from linkwright.analysis.topper.coverage import COARSE, Edge
-from linkwright.analysis.topper.field import TopperField, field_result, require_topper
+from linkwright.analysis.topper.coverage import COARSE
+from linkwright.analysis.topper.edge import Edge, edges_of, require_topper
+from linkwright.analysis.topper.field import TopperField, field_result
 from linkwright.analysis.topper.knife import knives
 from linkwright.analysis.topper.passes import Watch, pass_over
 from linkwright.analysis.topper.roots import Roots, draw_roots
-from linkwright.analysis.topper.topper import edges_of
 from linkwright.errors import FindingError, InputError
 from linkwright.machine import ConstantKnife, Machine, MemberKnife, Topper
 from linkwright.machine.base import suggestion

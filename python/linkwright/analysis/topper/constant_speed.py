@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 
 # Normal speed over the speed of the edge below which it moves along itself: the rounding of its terms.
-_ALONG_ITSELF = 4e-16
+ALONG_ITSELF = 4e-16
 
 
 def constant_speed_lengths(
@@ -61,17 +61,4 @@ def constant_speed_lengths(
     advance = np.abs(np.stack([along - across, along + across]))
     with np.errstate(divide="ignore"):
         found = (d * speed + 2 * delta * v) / advance
-    return np.where(advance > _ALONG_ITSELF * speed, found, np.inf)
-
-
-def retreats(edge_angle: float, forward_speed: float, greatest_speed: float) -> bool:
-    """Whether the edge runs backwards, normal to itself, at the greatest speed of the knife.
-
-    Parameters
-    ----------
-    edge_angle : float
-        α [rad].
-    forward_speed, greatest_speed : float
-        v, and the greatest speed across the row in either direction [m/s].
-    """
-    return bool(greatest_speed * abs(np.tan(edge_angle)) >= forward_speed)
+    return np.where(advance > ALONG_ITSELF * speed, found, np.inf)

@@ -26,13 +26,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
-from linkwright.analysis.topper.coverage import COARSE, Edge
+from linkwright.analysis.topper.coverage import COARSE
+from linkwright.analysis.topper.edge import Edge, edges_of, require_topper
 from linkwright.analysis.topper.intervals import Clusters, Interval
 from linkwright.analysis.topper.passes import Pass, Watch, pass_over
 from linkwright.analysis.topper.roots import Roots, draw_roots, field_of
 from linkwright.analysis.topper.share_curve import QUANTILES, ShareCurve
 from linkwright.analysis.topper.slicing import slicing
-from linkwright.analysis.topper.topper import edges_of
 from linkwright.errors import InputError
 from linkwright.machine import Machine, Topper
 
@@ -196,19 +196,6 @@ def topper_field(
     edges = edges_of(machine, topper)
     found = pass_over(edges, roots, length=topper.edge_length, fine=fine, watch=watch)
     return field_result(topper, edges, roots, found, level)
-
-
-def require_topper(machine: Machine) -> Topper:
-    """The topper of a machine.
-
-    Raises
-    ------
-    InputError
-        It has none.
-    """
-    if machine.topper is None:
-        raise InputError(f"{machine.name} has no [topper]: expected one")
-    return machine.topper
 
 
 def _require(seed: int | None, level: float) -> None:

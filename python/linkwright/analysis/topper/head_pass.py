@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
-from linkwright.analysis.topper.coverage import Edge, coverage
+from linkwright.analysis.topper.coverage import coverage
+from linkwright.analysis.topper.edge import Edge
 
 Floats = NDArray[np.float64]
 
@@ -101,16 +102,16 @@ def head_pass(edge: Edge, diameter: float, offset: float, phase: float, length: 
     HeadPass
         From before the head to behind it.
     """
-    sin, cos, v = float(np.sin(edge.angle)), float(np.cos(edge.angle)), edge.forward_speed
+    sin, cos = float(np.sin(edge.angle)), float(np.cos(edge.angle))
     end = _end(edge, 0.5 * diameter, abs(offset))
     time = np.linspace(-end, end, _TIMES)
-    y = edge.knife.at(time, phase)
-    p, q = v * time * cos - (y - offset) * sin, v * time * sin + (y - offset) * cos
+    x, y = edge.forward_speed * time, edge.knife.at(time, phase)
+    q, p = edge.place(time, phase, offset)
     parts = _left(p, q, 0.5 * diameter, 0.5 * length, stands=edge.stands)
     shapes = [_outline(chain) for parts_of in parts for chain in _chains(parts_of)]
     turn = np.array([[cos, -sin], [sin, cos]])
     outlines = tuple(shape @ turn + np.array([0.0, offset]) for shape in shapes)
-    return HeadPass(time, v * time, y, q, p, edge.angle, length, diameter, offset, float(phase), outlines)
+    return HeadPass(time, x, y, q, p, edge.angle, length, diameter, offset, float(phase), outlines)
 
 
 def worse_edge(edges: Sequence[Edge], diameter: float, offset: float, phase: float, length: float) -> Edge:
@@ -139,10 +140,8 @@ def _end(edge: Edge, radius: float, offset: float) -> float:
     """Time after which the edge is surely beyond the head."""
     if edge.stands:
         return 2 * _STANDING * radius / edge.forward_speed
-    sin, cos = np.sin(edge.angle), np.cos(edge.angle)
     aside = 0.5 * edge.knife.stroke + offset
-    pace = abs(edge.forward_speed * cos - edge.knife.drift * sin)
-    return float((1.05 * radius + aside * abs(sin)) / pace)
+    return float((1.05 * radius + aside * abs(np.sin(edge.angle))) / abs(edge.mean_advance))
 
 
 def _left(p: Floats, q: Floats, radius: float, half: float, *, stands: bool) -> list[list[Part]]:

@@ -18,9 +18,12 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.coverage import Edge, coverage, worst_head
+from linkwright.analysis.topper.coverage import coverage
+from linkwright.analysis.topper.edge import Edge
+from linkwright.analysis.topper.every_phase import every_phase_length
 from linkwright.analysis.topper.head import head_diameter
 from linkwright.analysis.topper.published import length_consistent, length_published
+from linkwright.analysis.topper.worst_head import worst_head
 from linkwright.machine import Topper
 
 Floats = NDArray[np.float64]
@@ -138,10 +141,9 @@ def _moved(described: Topper, edges: Sequence[Edge], diameter: float, pace: floa
         return float("nan")
     phase, offset = described.motion.phase, described.offset
     if phase is None:
-        # Some head meets the knife at the end of its stroke, just at the point farthest to the other side.
-        return float((paced[0].knife.stroke + diameter + 2 * offset) / np.cos(described.edge_angle))
+        return float(every_phase_length(diameter, offset, described.edge_angle, paced[0].knife.stroke))
 
     def needs(edge: Edge, beside: Floats, angle: Floats) -> Floats:
         return coverage(edge, diameter, beside, angle).length_needed
 
-    return worst_head(paced, diameter, offset, phase, needs).value
+    return worst_head(paced, offset, phase, needs).value

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.topper.coverage import COARSE, Edge, coverage, hardly_goes_on
+from linkwright.analysis.topper.coverage import COARSE, coverage
+from linkwright.analysis.topper.edge import Edge, hardly_goes_on
 from linkwright.analysis.topper.roots import Roots
 from linkwright.errors import FindingError
 

@@ -1,7 +1,6 @@
 r"""How the edge slices: draw-cut ratio, cutting speed, and which part of the edge cuts how much.
 
-All points of the edge move alike, with :math:`u_n = v\cos\alpha - \dot y\sin\alpha` normal to it and
-:math:`u_t = v\sin\alpha + \dot y\cos\alpha` along it. The draw-cut ratio is
+All points of the edge move alike, with u_t along it and u_n normal to it (`edge`). The draw-cut ratio is
 
 .. math:: \frac{|u_t|}{u_n} = |\tan(\alpha + \beta)|, \qquad \tan\beta = \dot y/v.
 
@@ -23,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.topper.coverage import Edge
+from linkwright.analysis.topper.edge import Edge
 
 Floats = NDArray[np.float64]
 
@@ -87,16 +86,9 @@ def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
     ratio, speed : ndarray, shape (n,)
         [–], NaN where the edge retreats; speed against the head [m/s].
     """
-    along, normal = _velocity(edge, phases)
+    along, normal = edge.velocity(0.0, phases)
     ahead = np.where(normal > 0, normal, np.nan)
     return np.abs(along) / ahead, np.hypot(along, normal)
-
-
-def _velocity(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
-    """Speed of the edge along itself and along its normal."""
-    v, across = edge.forward_speed, edge.knife.at(0.0, phases, 1)
-    sin, cos = np.sin(edge.angle), np.cos(edge.angle)
-    return v * sin + across * cos, v * cos - across * sin
 
 
 def _ratios(edge: Edge) -> tuple[float, float, float]:
@@ -107,7 +99,7 @@ def _ratios(edge: Edge) -> tuple[float, float, float]:
     least = 0.0 if leans[0] * leans[1] <= 0 else min(reaches)
     greatest = np.inf if edge.retreats else max(reaches)
     phases = np.asarray((np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES), dtype=np.float64)
-    along, normal = _velocity(edge, phases)
+    along, normal = edge.velocity(0.0, phases)
     # An edge that moves along itself has no speed normal to it.
     mean = np.inf if edge.stands else np.abs(along).mean() / np.abs(normal).mean()
     return least, float(mean), float(greatest)
@@ -150,19 +142,17 @@ def _use(edge: Edge, diameter: float, offset: float) -> tuple[Floats, Floats]:
     """The same for one direction."""
     if edge.stands:
         return np.array([-0.5, 0.5]) * diameter, np.zeros(2)
-    knife, sin, cos = edge.knife, np.sin(edge.angle), np.cos(edge.angle)
-    radius, v = 0.5 * diameter, edge.forward_speed
+    knife, radius = edge.knife, 0.5 * diameter
     heads, offsets = (_HEADS, _OFFSETS) if knife.rate else (1, _OFFSETS_ALONE)
     # Amid even steps, so that all count alike.
     phase = (np.arange(heads) + 0.5)[:, None, None] * (2 * np.pi / heads)
     delta = offset * ((2 * np.arange(offsets) + 1) / offsets - 1)[:, None]
     swing = 0.5 * knife.stroke + offset
-    end = (radius + swing * abs(sin)) / abs(v * cos - knife.drift * sin)
+    end = (radius + swing * abs(np.sin(edge.angle))) / abs(edge.mean_advance)
     step = 2 * end / _TIMES
     t = -end + (np.arange(_TIMES) + 0.5) * step
-    y = knife.at(t, phase) - delta
-    p, q = v * t * cos - y * sin, v * t * sin + y * cos
-    pace = np.abs(v * cos - knife.at(t, phase, 1) * sin) * step / (heads * offsets)
+    q, p = edge.place(t, phase, delta)
+    pace = np.abs(edge.velocity(t, phase)[1]) * step / (heads * offsets)
     chord = np.sqrt(np.clip(radius**2 - p**2, 0.0, None))
     reach = float((np.abs(q) + chord)[chord > 0].max(initial=radius))
     place = np.linspace(-reach, reach, _PLACES)

@@ -11,23 +11,15 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.coverage import SPARING, Edge, coverage, hardly_goes_on, worst_head
+from linkwright.analysis.topper.edge import Edge, edges_of, hardly_goes_on, require_topper
+from linkwright.analysis.topper.every_head import every_head, unknown_heads
 from linkwright.analysis.topper.head import cap_volume, head_diameter
-from linkwright.analysis.topper.knife import knives
 from linkwright.analysis.topper.knife_drive import KnifeDrive, knife_drive
 from linkwright.analysis.topper.published import published_lengths
 from linkwright.analysis.topper.slicing import edge_use, slicing
-from linkwright.errors import InputError
 from linkwright.machine import Machine, Topper
 
 Floats = NDArray[np.float64]
-
-# Phases of the curves, and offsets at which the worst is looked for.
-_PHASES, _OFFSETS = 180, 9
-
-# Phases and offsets of the mean, amid even steps so that all count alike: it is good to three digits, of an
-# edge that retreats to two.
-_MEAN_PHASES, _MEAN_OFFSETS = 90, 41
 
 
 @dataclass(frozen=True)
@@ -180,14 +172,12 @@ def topper(machine: Machine) -> TopperStudy:
     ----------
     .. [1] Paper 5 for the published lengths; the exact ones are derived in the modules beside this.
     """
-    described = machine.topper
-    if described is None:
-        raise InputError(f"{machine.name} has no [topper]: expected one")
+    described = require_topper(machine)
     d = float(head_diameter(described.root_diameter, described.cut_height))
     edges = edges_of(machine, described)
     reasons = [hardly_goes_on(edge, d, described.offset) for edge in edges]
     obstacle = next((each for each in reasons if each), None)
-    cut = _unknown() if obstacle else _cut(described, edges, d)
+    cut = unknown_heads() if obstacle else every_head(described, edges, d)
     return TopperStudy(
         head_diameter=d,
         cap_volume=float(cap_volume(described.root_diameter, described.cut_height)),
@@ -198,30 +188,6 @@ def topper(machine: Machine) -> TopperStudy:
         **_slices(described, edges, d),
         **_driven(knife_drive(machine, edges[0].knife)),
     )
-
-
-def edges_of(machine: Machine, described: Topper) -> list[Edge]:
-    """The edge of a topper; in both directions if its knife does not turn back over a head.
-
-    Parameters
-    ----------
-    machine : Machine
-        What may move the knife.
-    described : Topper
-        The topper.
-
-    Returns
-    -------
-    list of Edge
-        One or two.
-
-    Raises
-    ------
-    AssemblyError
-        The mechanism of the knife does not close all round.
-    """
-    ways = knives(machine, described)
-    return [Edge(way, described.edge_angle, described.forward_speed) for way in ways]
 
 
 def _knife(edge: Edge, d: float) -> dict[str, Any]:
@@ -255,98 +221,6 @@ def _lengths(described: Topper, edge: Edge, d: float) -> dict[str, Any]:
         "length_at_rest": float(steady[0, 0]),
         "length_exact_constant_speed": float(steady[:, 1].max()),
     }
-
-
-def _cut(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
-    """What heads need, and what is left of them."""
-    return _needed(described, edges, d) | _left(described, edges, d) | _by_phase(described, edges, d)
-
-
-def _unknown() -> dict[str, Any]:
-    """The same of an edge that cannot be followed."""
-    scalars = ("length_exact", "worst_phase", "worst_offset", "last_x", "last_y", "length_best_phase")
-    left = ("uncut_share", "uncut_phase", "uncut_offset", "uncut_right", "uncut_left", "uncut_between")
-    nothing = np.full(_PHASES + 1, np.nan)
-    curves = {"length_by_phase": nothing, "uncut_by_phase": nothing}
-    numbers = dict.fromkeys((*scalars, *left, "best_phase", "uncut_share_mean"), float("nan"))
-    return {"phase": np.linspace(0.0, 2 * np.pi, _PHASES + 1)} | curves | numbers
-
-
-def _needed(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
-    """The head that needs most, and the phase that needs least."""
-    phase = described.motion.phase
-
-    def needs(edge: Edge, offset: Floats, angle: Floats) -> Floats:
-        return coverage(edge, d, offset, angle).length_needed
-
-    worst = worst_head(edges, d, described.offset, phase, needs)
-    there = coverage(worst.edge, d, worst.offset, worst.phase)
-    return {
-        "length_exact": worst.value,
-        "worst_phase": worst.phase,
-        "worst_offset": worst.offset,
-        "last_x": float(there.last_x[0]),
-        "last_y": float(there.last_y[0]),
-    }
-
-
-def _left(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
-    """The head of which most is left, and the mean."""
-    area, length = 0.25 * np.pi * d**2, described.edge_length
-
-    def left(edge: Edge, offset: Floats, angle: Floats) -> Floats:
-        return coverage(edge, d, offset, angle, length=length).uncut / area
-
-    worst = worst_head(edges, d, described.offset, described.motion.phase, left)
-    there = coverage(worst.edge, d, worst.offset, worst.phase, length=length)
-    return {
-        # All of it, but for rounding.
-        "uncut_share": min(worst.value, 1.0),
-        "uncut_phase": worst.phase,
-        "uncut_offset": worst.offset,
-        "uncut_right": float(there.uncut_right[0] / area),
-        "uncut_left": float(there.uncut_left[0] / area),
-        "uncut_between": float(there.uncut_between[0] / area),
-    }
-
-
-def _by_phase(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
-    """What each phase needs and leaves, at its worst offset."""
-    phases = np.linspace(0.0, 2 * np.pi, _PHASES + 1)
-    n_offsets = _OFFSETS // SPARING + 1 if any(edge.retreats for edge in edges) else _OFFSETS
-    offsets = np.linspace(-described.offset, described.offset, n_offsets if described.offset else 1)
-    phi, delta = np.meshgrid(phases, offsets, indexing="ij")
-    length = described.edge_length
-    found = [coverage(edge, d, delta.ravel(), phi.ravel(), length=length) for edge in edges]
-    needed = np.stack([each.length_needed.reshape(phi.shape) for each in found])
-    left = np.stack([each.uncut.reshape(phi.shape) for each in found]) / (0.25 * np.pi * d**2)
-    by_phase = needed.max(axis=(0, 2))
-    best = int(np.argmin(by_phase))
-    return {
-        "phase": phases,
-        "length_by_phase": by_phase,
-        "uncut_by_phase": left.max(axis=(0, 2)),
-        "length_best_phase": float(by_phase[best]),
-        "best_phase": float(phases[best]),
-        "uncut_share_mean": _mean_left(described, edges, d),
-    }
-
-
-def _mean_left(described: Topper, edges: list[Edge], d: float) -> float:
-    """Mean share that is left, over offsets, over directions, and over phases if none is given."""
-    offset, phase = described.offset, described.motion.phase
-    sparing = SPARING if any(edge.retreats for edge in edges) else 1
-    offsets = offset * _amid(_MEAN_OFFSETS // sparing) if offset else np.zeros(1)
-    moves = phase is None and any(edge.knife.rate for edge in edges)
-    phases = np.pi * (1 + _amid(_MEAN_PHASES // sparing)) if moves else np.array([phase or 0.0])
-    phi, delta = (each.ravel() for each in np.meshgrid(phases, offsets))
-    left = [coverage(edge, d, delta, phi, length=described.edge_length).uncut for edge in edges]
-    return float(np.mean(left) / (0.25 * np.pi * d**2))
-
-
-def _amid(n: int) -> Floats:
-    """Middles of even steps from −1 to 1, (n,)."""
-    return np.asarray((2 * np.arange(n) + 1) / n - 1, dtype=np.float64)
 
 
 def _slices(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:

@@ -5,10 +5,6 @@ the edge advances, and beyond that fall again. In between lies :math:`\rho\tan|\
 does. At a given angle, and a given share :math:`2\Delta/b` of the offsets in the band b = d + 2Δ of the
 heads, each length is :math:`f b + a`, so that lengths are turned into bands by :math:`b = (L - a)/f`.
 
-For every phase of a knife with the stroke S whose edge never retreats,
-
-.. math:: L = \frac{S + d + 2\Delta}{\cos\alpha}.
-
 References
 ----------
 .. [1] Paper 5, its result for L_h.
@@ -25,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.result import Result, finite
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
+from linkwright.analysis.topper.every_phase import every_phase_length
 from linkwright.analysis.topper.published import length_consistent, length_published
 
 Floats = NDArray[np.float64]
@@ -259,4 +256,4 @@ def _length(
     if stroke is None:
         raise ValueError("a length for every phase needs the stroke")
     advances = stroke.peak * ratio * np.abs(np.tan(edge_angle)) < 1
-    return np.asarray(np.where(advances, (stroke.length + d + 2 * delta) / np.cos(edge_angle), np.inf))
+    return np.where(advances, every_phase_length(d, delta, edge_angle, stroke.length), np.inf)
