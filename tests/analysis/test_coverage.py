@@ -231,7 +231,7 @@ def test_uncut_share_is_that_of_the_swept_points(name: str, part: float) -> None
 def test_what_is_left_on_each_side_is_that_of_the_slices(name: str, part: float) -> None:
     case = CASES[name]
     length = part * case.needed()
-    expected, error = uncut_by_slices(case.over(), length)
+    expected, error = uncut_by_slices(case.over(), length, slices=6000)
     # The kernel's own word for an edge that retreats: 1e-5 of the head.
     assert case.shares(length) == pytest.approx(expected, abs=3 * error + (1e-7, 1e-5)[case.edge().retreats])
 
@@ -244,8 +244,7 @@ def test_enough_leaves_nothing_and_a_hair_less_leaves_something(name: str) -> No
     assert case.shares(length * 0.999).sum() > 0
 
 
-@pytest.mark.parametrize("part", [0.3, 0.6])
-@pytest.mark.parametrize("strokes", [3.0, 12.0, 40.0])
+@pytest.mark.parametrize(("strokes", "part"), [(3.0, 0.3), (12.0, 0.6), (40.0, 0.3)])
 @pytest.mark.parametrize("angle", [0.0, 12.0])
 def test_many_strokes_over_a_head(strokes: float, angle: float, part: float) -> None:
     """Knife speed such that the stroke is made so many times while the edge goes on by the diameter."""

@@ -165,3 +165,13 @@ def test_a_rod_that_is_too_short_leaves_no_topper() -> None:
     assert code == 1
     assert "topper" not in found["results"]
     assert "lengthen the rod" in found["findings"][0]
+
+
+@pytest.mark.parametrize(
+    "words", [("motion",), ("motion", "--at", "30 deg"), ("forces", "--speed", "100 rpm")]
+)
+def test_what_needs_a_crank_says_so(words: tuple[str, ...]) -> None:
+    command, *options = words
+    done = CliRunner().invoke(application(), [command, str(MACHINES / "topper.toml"), *options])
+    assert done.exit_code == 2
+    assert "topper without a [mechanism]: no crank moves its knife" in done.output

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +31,7 @@ CASES: dict[str, tuple[str, tuple[str, ...]]] = {
 }
 
 
+@cache
 def drawn(case: str) -> dict[str, Any]:
     name, overrides = CASES[case]
     found = topper_scene(study(read(MACHINES / f"{name}.toml", list(overrides))))

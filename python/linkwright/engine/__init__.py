@@ -215,12 +215,9 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
     ShapeError
         Arrays of different length, or an array in a table.
     InputError
-        The machine is a torsional train alone.
+        The machine is a torsional train, or a topper whose knife moves by a law, and nothing else.
     """
-    if machine.is_train_alone:
-        raise InputError(
-            f"{machine.name} is a train without a [mechanism]: its analyses are those of torsion"
-        )
+    _require_mechanism(machine)
     parts = _parts(machine)
     key = (id(machine), motor, brake)
     known = _known.get(key)
@@ -239,6 +236,19 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
         _known.pop(next(iter(_known)), None)
     _known[key] = (parts, compiled)
     return compiled
+
+
+def _require_mechanism(machine: Machine) -> None:
+    """Refuse what no crank moves."""
+    if machine.is_train_alone:
+        raise InputError(
+            f"{machine.name} is a train without a [mechanism]: its analyses are those of torsion"
+        )
+    if machine.is_topper_alone:
+        raise InputError(
+            f"{machine.name} is a topper without a [mechanism]: no crank moves its knife; `linkwright run` "
+            "and `linkwright topper` have what the knife does"
+        )
 
 
 def _translate(machine: Machine, *, motor: bool, brake: bool) -> Compiled:

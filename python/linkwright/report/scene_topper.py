@@ -22,7 +22,7 @@ from linkwright.analysis.topper.edge import Edge, edges_of
 from linkwright.analysis.topper.head_pass import worse_edge
 from linkwright.analysis.topper.topper import TopperStudy
 from linkwright.machine import Topper
-from linkwright.report.topper_tables import leaves
+from linkwright.report.topper_tables import shown_head
 
 Floats = NDArray[np.float64]
 Scene = dict[str, Any]
@@ -72,7 +72,7 @@ def topper_scene(study: Study) -> Scene | None:
     found, described = study.topper, study.machine.topper
     if found is None or described is None or found.obstacle:
         return None
-    offset, phase = _worst(found)
+    offset, phase = shown_head(found)
     edges = edges_of(study.machine, described)
     edge = worse_edge(edges, found.head_diameter, offset, phase, described.edge_length)
     places = np.linspace(0.0, 2 * math.pi, (_PLACES if edge.knife.rate else 1) + 1)
@@ -96,13 +96,6 @@ def topper_scene(study: Study) -> Scene | None:
         "box": _box(edge, found, described, ends, x),
         "seconds": _SECONDS * len(heads),
     }
-
-
-def _worst(found: TopperStudy) -> tuple[float, float]:
-    """Offset and phase of the head of which most is left, or else of that which needs most."""
-    if leaves(found):
-        return found.uncut_offset, found.uncut_phase
-    return found.worst_offset, found.worst_phase
 
 
 def _row(edge: Edge, found: TopperStudy, described: Topper, offset: float) -> list[tuple[float, float]]:
@@ -137,10 +130,7 @@ def _reach(edge: Edge, found: TopperStudy, described: Topper) -> float:
     along = half * (1 + 2 * _ROOM) + aside * abs(math.sin(described.edge_angle))
     if edge.stands:
         return 4 * half
-    mean = math.cos(described.edge_angle) - edge.knife.drift / described.forward_speed * math.sin(
-        described.edge_angle
-    )
-    return along / abs(mean)
+    return along * edge.forward_speed / abs(edge.mean_advance)
 
 
 def _box(

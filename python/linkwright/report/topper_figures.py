@@ -23,7 +23,7 @@ from linkwright.plot.topper_lengths import length_chart_figure, verdict_figure
 from linkwright.plot.topper_view import top_view_figure
 from linkwright.report.captioned import Captioned
 from linkwright.report.quantities import degrees, number
-from linkwright.report.topper_tables import leaves, mm, percent, stroke_of
+from linkwright.report.topper_tables import leaves, mm, percent, shown_head, stroke_of
 
 # Phases of a curve.
 _PHASES = 361
@@ -47,11 +47,8 @@ class _Cut:
 
     @property
     def head(self) -> tuple[float, float]:
-        """Offset and phase of the head of which most is left, or else of that which needs most."""
-        found = self.found
-        if self.leaves:
-            return found.uncut_offset, found.uncut_phase
-        return found.worst_offset, found.worst_phase
+        """Offset and phase of the head that is drawn."""
+        return shown_head(self.found)
 
 
 def topper_figures(study: Study) -> Iterator[Captioned]:

@@ -111,6 +111,13 @@ def leaves(found: TopperStudy) -> bool:
     return found.uncut_share > _NOTHING
 
 
+def shown_head(found: TopperStudy) -> tuple[float, float]:
+    """Offset and phase of the head of which most is left, or else of that which needs most."""
+    if leaves(found):
+        return found.uncut_offset, found.uncut_phase
+    return found.worst_offset, found.worst_phase
+
+
 def _head(found: TopperStudy, described: Topper) -> Table:
     """The head, and what is left of it."""
     volume = f"{number(1e6 * found.cap_volume, 4)} cm³"

@@ -150,7 +150,7 @@ def sweep_field(
     for i in range(n):
         part = None if watch is None else _part(watch, i, n)
         entries = {name: float(column[i]) for name, column in columns.items()}
-        found.append(_tried(machine, topper, roots, entries, level=level, fine=fine, watch=part))
+        found.append(_tried(machine, topper, roots, entries, level, fine=fine, watch=part))
     refused = [each for each in found if isinstance(each, FindingError)]
     if len(refused) == n:
         raise refused[0]
@@ -166,20 +166,19 @@ def _part(watch: Watch, i: int, n: int) -> Watch:
 
 
 def _tried(
-    machine: Machine, topper: Topper, roots: Roots, entries: Mapping[str, float], **how: Any
+    machine: Machine, topper: Topper, roots: Roots, entries: Mapping[str, float], level: float, **how: Any
 ) -> TopperField | FindingError:
     """One variant over the roots, or why it cannot be computed."""
     try:
-        return _variant(machine, topper, roots, entries, **how)
+        return _variant(machine, topper, roots, entries, level, **how)
     except FindingError as error:
         return error
 
 
 def _variant(
-    machine: Machine, topper: Topper, roots: Roots, entries: Mapping[str, float], **how: Any
+    machine: Machine, topper: Topper, roots: Roots, entries: Mapping[str, float], level: float, **how: Any
 ) -> TopperField:
     """One variant over the roots."""
-    level = how.pop("level")
     height = entries.get("cut_height")
     if height is not None:
         roots = replace(roots, cut_height=roots.cut_height + (height - roots.cut_height.mean()))
