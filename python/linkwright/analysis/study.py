@@ -213,7 +213,9 @@ def _topped(known: Study, cut: TopperStudy | None) -> Study:
     if described is None or cut is None:
         return known
     findings = (*known.findings, *topper_findings(described, cut))
-    return replace(known, topper=cut, findings=findings, warnings=(*topper_cautions(cut), *known.warnings))
+    return replace(
+        known, topper=cut, findings=findings, warnings=(*topper_cautions(described, cut), *known.warnings)
+    )
 
 
 def _cams(machine: Machine, found: _Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:

@@ -125,6 +125,11 @@ def columns_of(path: Path, key: str) -> tuple[dict[str, list[Any]], list[int]]:
             [Problem(key, found, expected, path=str(path), line=lines[0][0] if lines else 1)]
         )
     names = [head[1] for head in heads if head is not None]
+    twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
+    if twice is not None:
+        found, line = show(",".join(lines[0][1])), lines[0][0]
+        remedy = f'"{twice}" stands there twice'
+        raise MachineFileError([Problem(key, found, "each column once", remedy, str(path), line)])
     for line, row in lines[1:]:
         for problem in _row_problems(key, names, row):
             raise MachineFileError([replace(problem, path=str(path), line=line)])

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
+from pydantic_core import InitErrorDetails
 
-from linkwright.machine.base import Description
+from linkwright.machine.base import Checked, Description, fault
 from linkwright.machine.element import PositiveLength
 from linkwright.units import Angle
 
@@ -21,7 +23,7 @@ class KnifeMotion(Description):
     )
 
 
-class ConstantKnife(KnifeMotion):
+class ConstantKnife(KnifeMotion, Checked):
     """The same speed across the row, to and fro."""
 
     kind: Literal["constant"] = Field(description="Constant speed.")
@@ -30,6 +32,11 @@ class ConstantKnife(KnifeMotion):
         description="Distance between the ends. Without it, the knife does not turn back over a head: the "
         "worse of the two directions is looked at.",
     )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.phase is not None and self.stroke is None:
+            remedy = "a knife that does not turn back has no phase: give the stroke, or leave the phase out"
+            yield fault("phase", found=self.phase, expected="nothing", remedy=remedy)
 
 
 class HarmonicKnife(KnifeMotion):

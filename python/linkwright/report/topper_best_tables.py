@@ -97,6 +97,11 @@ def best_warnings(found: KnifeSearch) -> Iterator[str]:
             "A slanted edge that rests slices as much as is asked for; bound its angle, or set "
             f"knife_speed_min, where {math.degrees(best.edge_angle):.3g}° is too much, or the knife moves."
         )
+    if best.knife_speed == 0:
+        yield (
+            "At rest the knife stands in the middle of its stroke. Once it moves, however slowly, heads meet "
+            "it anywhere in its stroke, and the edge must be longer by up to the stroke over cos α."
+        )
     listed = [key for key in best.at_bounds if key not in ("knife_speed_min", "angle_min")]
     if listed:
         yield f"The best lies on a bound of the search: {', '.join(listed)}."

@@ -74,7 +74,7 @@ def topper_figures(study: Study) -> Iterator[Captioned]:
     yield _chart(cut)
     yield _verdict(cut)
     # An edge that moves along itself has no use, and what cannot be followed none that is known.
-    if math.isfinite(cut.found.length_exact):
+    if math.isfinite(cut.found.length_exact) and not cut.found.obstacle:
         yield _use(cut)
     yield from [_slicing(cut)] if moves else []
 

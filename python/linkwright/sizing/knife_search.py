@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.topper.passes import Watch
+from linkwright.machine import MemberKnife, Topper
 from linkwright.sizing.knife_trial import Trial, Trials
 
 Floats = NDArray[np.float64]
@@ -26,6 +27,13 @@ _SPEEDS, _HALVINGS = 9, 10
 _EACH = _COARSE[0] * _COARSE[1] + _ROUNDS * _CLOSE**2
 _ONCE = MAP[0] * MAP[1] + (_ROUNDS - _SKIPPED) * _CLOSE**2
 _ALL = {"shortest": _ONCE + _ROUNDS * _CLOSE**2, "fastest": _ONCE + (_SPEEDS + _HALVINGS) * _EACH}
+
+# Share of the greatest speed at which the slowest knife on a mechanism is looked at.
+_SLOWEST = 0.01
+
+
+def _is_moved(topper: Topper) -> bool:
+    return isinstance(topper.motion, MemberKnife)
 
 
 class KnifeGrid:
@@ -49,7 +57,9 @@ class KnifeGrid:
         self._watch, self._all = watch, _ALL[objective]
         limits = trials.topper.limits
         self._slicing = limits.slicing_min
-        self.low = np.array([limits.angle_min, limits.knife_speed_min])
+        # A mechanism turns: its knife does not rest.
+        slowest = _SLOWEST * limits.knife_speed_max if _is_moved(trials.topper) else 0.0
+        self.low = np.array([limits.angle_min, max(limits.knife_speed_min, slowest)])
         self.high = np.array([limits.angle_max, limits.knife_speed_max])
         self.speeds = (limits.forward_speed_min, limits.forward_speed_max)
 

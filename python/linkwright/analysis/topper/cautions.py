@@ -44,14 +44,16 @@ def _head(found: TopperStudy) -> str:
     """The head of which most is left."""
     place, side = abs(found.uncut_offset), "left" if found.uncut_offset > 0 else "right"
     where = f"a head {place:.4g} m to the {side} of the row" if place else "a head on the row"
-    return f"{where}, at the phase {np.degrees(found.uncut_phase):.4g}°" if found.stroke else where
+    return f"{where}, at the phase {round(np.degrees(found.uncut_phase), 3):.6g}°" if found.stroke else where
 
 
-def topper_cautions(found: TopperStudy) -> Iterator[str]:
+def topper_cautions(described: Topper, found: TopperStudy) -> Iterator[str]:
     """What should be known although every head is cut.
 
     Parameters
     ----------
+    described : Topper
+        The topper.
     found : TopperStudy
         The study.
 
@@ -60,6 +62,11 @@ def topper_cautions(found: TopperStudy) -> Iterator[str]:
     str
         Sentences.
     """
+    if described.cut_height > 0.5 * described.root_diameter:
+        yield (
+            f"The cut passes below the middle of the root, {described.cut_height:.4g} m below its top: the "
+            "head is narrower there than the root above it."
+        )
     if found.edge_retreats:
         speed = -found.least_advance
         yield (

@@ -121,7 +121,11 @@ def coverage(
 
 def _stations(edge: Edge, fine: int, diameter: float, offset: float) -> int:
     """Stations a turn: more far aslant; fewer if each stretch between corners has them all."""
-    aslant = min(_MOST, int(_ASLANT * abs(np.tan(edge.angle))))
+    lean = np.abs(np.tan(edge.angle))
+    if not edge.retreats:
+        speeds = np.array(edge.knife.speeds)
+        lean = max(lean, np.abs(np.tan(edge.angle + np.arctan2(speeds, edge.forward_speed))).max())
+    aslant = int(min(_MOST, _ASLANT * lean))
     if edge.knife.corners and not edge.retreats:
         fine = max(2, int(fine / max(1.0, edge.turns(diameter, offset))))
     return max(fine, aslant)

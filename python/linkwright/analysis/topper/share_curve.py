@@ -98,7 +98,9 @@ class ShareCurve:
         share, low, high = self.at(np.minimum(found, finite.max(initial=0.0)))
         asked = np.asarray(shares)
         ends = (asked - (share - low), asked + (high - share))
-        return Interval(found, *(self.quantiles(np.clip(end, 0.0, 1.0).tolist()) for end in ends))
+        low, high = (self.quantiles(np.clip(end, 0.0, 1.0).tolist()) for end in ends)
+        # A greater share needs no less: what bounds the one bounds the other.
+        return Interval(found, np.maximum.accumulate(low), np.minimum.accumulate(high[::-1])[::-1])
 
     def worth(self) -> float | None:
         """Independent heads that the shares at the lengths for 50 and 90 % are worth, the fewer of both.

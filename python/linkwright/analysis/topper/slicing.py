@@ -58,17 +58,21 @@ def slicing(edges: Sequence[Edge]) -> Slicing:
     Parameters
     ----------
     edges : sequence of Edge
-        The edge; the mean is that over its directions.
+        The edge; of its directions each counts for half of the time.
 
     Returns
     -------
     Slicing
         Extremes and mean.
     """
-    ratios = [_ratios(edge) for edge in edges]
     slow, fast = zip(*(_speeds(edge) for edge in edges), strict=True)
-    least, mean, greatest = zip(*ratios, strict=True)
-    return Slicing(min(least), float(np.mean(mean)), max(greatest), min(slow), max(fast))
+    least, greatest = zip(*(_ratios(edge) for edge in edges), strict=True)
+    phases = np.asarray((np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES), dtype=np.float64)
+    ways = [np.abs(edge.velocity(0.0, phases)).mean(axis=1) for edge in edges]
+    along, normal = np.sum(ways, axis=0)
+    # An edge that moves along itself has no speed normal to it.
+    mean = np.inf if any(edge.stands for edge in edges) else float(along / normal)
+    return Slicing(min(least), mean, max(greatest), min(slow), max(fast))
 
 
 def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
@@ -91,18 +95,14 @@ def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
     return np.abs(along) / ahead, np.hypot(along, normal)
 
 
-def _ratios(edge: Edge) -> tuple[float, float, float]:
-    """Least, mean and greatest draw-cut ratio."""
+def _ratios(edge: Edge) -> tuple[float, float]:
+    """Least and greatest draw-cut ratio."""
     way, v = edge.knife, edge.forward_speed
     leans = [edge.angle + float(np.arctan2(speed, v)) for speed in way.speeds]
     reaches = [abs(float(np.tan(lean))) for lean in leans]
     least = 0.0 if leans[0] * leans[1] <= 0 else min(reaches)
     greatest = np.inf if edge.retreats else max(reaches)
-    phases = np.asarray((np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES), dtype=np.float64)
-    along, normal = edge.velocity(0.0, phases)
-    # An edge that moves along itself has no speed normal to it.
-    mean = np.inf if edge.stands else np.abs(along).mean() / np.abs(normal).mean()
-    return least, float(mean), float(greatest)
+    return least, float(greatest)
 
 
 def _speeds(edge: Edge) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from linkwright.analysis.result import Result
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
 from linkwright.analysis.topper.edge import Edge, edges_of, hardly_goes_on, require_topper
 from linkwright.analysis.topper.every_head import every_head, unknown_heads
+from linkwright.analysis.topper.every_phase import every_phase_length
 from linkwright.analysis.topper.head import cap_volume, head_diameter
 from linkwright.analysis.topper.knife_drive import KnifeDrive, knife_drive
 from linkwright.analysis.topper.published import published_lengths
@@ -95,8 +96,8 @@ class TopperStudy(Result):
     drive_torque_max, drive_torque_min, drive_torque_mean, drive_power_mean : float or None
         At the crank, at the design speed [N m, W].
     obstacle : str or None
-        Why what is cut could not be computed: lengths for the motion of the knife and shares that are left
-        are then NaN.
+        Why what is cut could not be computed: lengths for the motion of the knife, but for that in every
+        phase of an edge that never retreats, and shares that are left are then NaN.
     """
 
     phase: Floats
@@ -182,7 +183,7 @@ def topper(machine: Machine) -> TopperStudy:
     edges = edges_of(machine, described)
     reasons = [hardly_goes_on(edge, d, described.offset) for edge in edges]
     obstacle = next((each for each in reasons if each), None)
-    cut = unknown_heads() if obstacle else every_head(described, edges, d)
+    cut = _closed(described, edges[0], d) if obstacle else every_head(described, edges, d)
     return TopperStudy(
         head_diameter=d,
         cap_volume=float(cap_volume(described.root_diameter, described.cut_height)),
@@ -209,6 +210,15 @@ def leaves(found: TopperStudy) -> bool:
         False for a share that is rounding, and for one that could not be computed.
     """
     return found.uncut_share > NOTHING
+
+
+def _closed(described: Topper, edge: Edge, d: float) -> dict[str, Any]:
+    """What is known without following the edge: the length for every phase, if it never retreats."""
+    cut = unknown_heads()
+    if described.motion.phase is None and not edge.retreats:
+        needed = every_phase_length(d, described.offset, edge.angle, edge.knife.stroke)
+        cut["length_exact"] = float(needed)
+    return cut
 
 
 def _knife(edge: Edge, d: float) -> dict[str, Any]:
