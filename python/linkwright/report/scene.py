@@ -55,8 +55,10 @@ def scene(study: Study) -> Scene | None:
         are those of steady motion. None if the mechanism closes nowhere, or nothing moves.
     """
     machine = study.machine
+    if not any(getattr(machine.linkage, table) for table in DRIVERS):
+        return None
     found = closure(machine)
-    if not any(getattr(machine.linkage, table) for table in DRIVERS) or not found.ranges:
+    if not found.ranges:
         return None
     motion = kinematics(machine, _angles(found))
     drawn = _points(machine, motion)
