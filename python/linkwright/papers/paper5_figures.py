@@ -13,6 +13,7 @@ from linkwright.analysis.topper.published import length_consistent, length_publi
 from linkwright.analysis.topper.verdict import WAYS, bands_of, lengths_over
 from linkwright.papers.paper5_step import factors
 from linkwright.plot.style import BLUE, GREEN, INK, ORANGE, PURPLE, legend_above, level, panels, styled
+from linkwright.plot.topper_lengths import COLOURS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,9 +25,6 @@ if TYPE_CHECKING:
     from linkwright.papers.paper5_surface import Surface
 
 Floats = NDArray[np.float64]
-
-# One way, one colour.
-_COLOURS = dict(zip(WAYS, (ORANGE, PURPLE, BLUE, GREEN), strict=True))
 
 # Steps of the lines of equal length [mm].
 _STEP = 20
@@ -132,10 +130,10 @@ def _bands(paper: Paper5) -> Figure:
         low, high = _MILLI * bands_of(found.claim, way, np.radians(degrees), found.shares[0], found.stroke)
         there = high > 0
         axes.fill_between(
-            degrees[there], low[there], high[there], color=_COLOURS[way], alpha=0.3, linewidth=0, label=words
+            degrees[there], low[there], high[there], color=COLOURS[way], alpha=0.3, linewidth=0, label=words
         )
         for edge in (low, high):
-            axes.plot(degrees[there], edge[there], color=_COLOURS[way], linewidth=1.1)
+            axes.plot(degrees[there], edge[there], color=COLOURS[way], linewidth=1.1)
     level(axes, _MILLI * found.chosen.band, "roots chosen here, the largest", INK)
     axes.set_xlim(0, 62)
     axes.set_ylim(0, 620)
@@ -155,7 +153,7 @@ def _heads(paper: Paper5) -> Figure:
     h_p, delta = (np.linspace(low, high, 121) for low, high in ends)
     d = head_diameter(data["chosen"]["root_diameters"][1], h_p)
     for each, angle in zip(axes, angles, strict=True):
-        for way, colour in _COLOURS.items():
+        for way, colour in COLOURS.items():
             L = lengths_over(found.claim, way, np.radians(angle), d, delta[:, None], found.stroke)[1]
             each.contourf(
                 _MILLI * h_p, _MILLI * delta, L, levels=found.claim.lengths, colors=[colour], alpha=0.3
@@ -168,7 +166,7 @@ def _heads(paper: Paper5) -> Figure:
         each.set_xlabel("cut height $h_p$ [mm]")
         each.tick_params(labelleft=each is axes[0])
     axes[0].set_ylabel("offset Δ [mm]")
-    handles = [_patch(_COLOURS[way], words) for way, words in WAYS.items()]
+    handles = [_patch(COLOURS[way], words) for way, words in WAYS.items()]
     dot = _line(INK, "chosen here", marker="o", markersize=4, linestyle="none")
     figure.legend(handles=[*handles, dot], loc="outside upper center", ncols=3)
     return figure

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.topper.topper import NOTHING
 from linkwright.plot.style import (
     BLUE,
     GREEN,
@@ -40,9 +41,6 @@ _PHASE = "phase of the knife when it is abreast of the head [°]"
 # Lengths beyond so many times those of heads and edge are not drawn.
 _FAR = 1.8
 
-# A share of the head that is rounding.
-_NOTHING = 1e-12
-
 # A draw-cut ratio beyond this says no more than that the edge hardly advances.
 _RATIO = 10.0
 
@@ -65,7 +63,7 @@ def phase_figure(study: TopperStudy, edge_length: float, phase: float | None = N
     Figure
         One panel, or two.
     """
-    leaves = float(study.uncut_by_phase.max()) > _NOTHING
+    leaves = float(study.uncut_by_phase.max()) > NOTHING
     figure, axes = panels(2 if leaves else 1, height=5.2 if leaves else 3.4)
     degrees, needed = np.degrees(study.phase), _MILLI * study.length_by_phase
     axes[0].plot(degrees, needed, color=GREEN, label="needed")

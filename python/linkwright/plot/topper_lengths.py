@@ -32,8 +32,8 @@ Floats = NDArray[np.float64]
 
 _MILLI = 1e3
 
-# One way to a length, one colour, as in the figures to the paper.
-_COLOURS = {"published": ORANGE, "consistent": PURPLE, "constant_speed": BLUE, "every_phase": GREEN}
+# One way to a length, one colour, here and in the figures to paper 5.
+COLOURS = {"published": ORANGE, "consistent": PURPLE, "constant_speed": BLUE, "every_phase": GREEN}
 
 _TITLES = {"published": "printed (10)", "consistent": "from (4)", "constant_speed": "exact"}
 
@@ -123,10 +123,10 @@ def _bands(axes: Axes, chart: VerdictChart) -> None:
     degrees = np.degrees(chart.angles)
     for way, (low, high) in chart.bands.items():
         there = high > 0
-        shade: dict[str, Any] = {"color": _COLOURS[way], "alpha": 0.3, "linewidth": 0, "label": WAYS[way]}
+        shade: dict[str, Any] = {"color": COLOURS[way], "alpha": 0.3, "linewidth": 0, "label": WAYS[way]}
         axes.fill_between(degrees[there], _MILLI * low[there], _MILLI * high[there], **shade)
         for edge in (low, high):
-            axes.plot(degrees[there], _MILLI * edge[there], color=_COLOURS[way], linewidth=1.1)
+            axes.plot(degrees[there], _MILLI * edge[there], color=COLOURS[way], linewidth=1.1)
     own = np.degrees(chart.edge_angle), _MILLI * chart.band
     axes.plot(*own, "o", color=RED, markersize=7, label="this machine")
     axes.set_xlim(degrees[0], max(degrees[-1], 1.02 * own[0]))
@@ -143,8 +143,8 @@ def _heads(axes: Axes, chart: VerdictChart) -> None:
         drawn = np.where(np.isfinite(longest), longest, 1e3)
         if drawn.max() > chart.lengths[0] and drawn.min() < chart.lengths[1]:
             levels = list(chart.lengths)
-            axes.contourf(x, y, drawn, levels=levels, colors=[_COLOURS[way]], alpha=0.3)
-            axes.contour(x, y, drawn, levels=levels, colors=[_COLOURS[way]], linewidths=1.1)
+            axes.contourf(x, y, drawn, levels=levels, colors=[COLOURS[way]], alpha=0.3)
+            axes.contour(x, y, drawn, levels=levels, colors=[COLOURS[way]], linewidths=1.1)
     axes.plot(_MILLI * chart.cut_height, _MILLI * chart.offset, "o", color=RED, markersize=7)
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])

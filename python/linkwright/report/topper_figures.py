@@ -14,7 +14,7 @@ from linkwright.analysis.topper.edge import Edge, edges_of
 from linkwright.analysis.topper.head_pass import head_pass, worse_edge
 from linkwright.analysis.topper.length_chart import length_chart
 from linkwright.analysis.topper.slicing import slicing_over_phase
-from linkwright.analysis.topper.topper import TopperStudy
+from linkwright.analysis.topper.topper import TopperStudy, leaves
 from linkwright.analysis.topper.verdict import PAPER, WAYS, length_verdict
 from linkwright.analysis.topper.verdict_chart import verdict_chart
 from linkwright.machine import Topper
@@ -23,7 +23,7 @@ from linkwright.plot.topper_lengths import length_chart_figure, verdict_figure
 from linkwright.plot.topper_view import top_view_figure
 from linkwright.report.captioned import Captioned
 from linkwright.report.quantities import degrees, number
-from linkwright.report.topper_tables import leaves, mm, percent, shown_head, stroke_of
+from linkwright.report.topper_tables import mm, percent, shown_head, stroke_of
 
 # Phases of a curve.
 _PHASES = 361
@@ -74,7 +74,7 @@ def topper_figures(study: Study) -> Iterator[Captioned]:
     yield _chart(cut)
     yield _verdict(cut)
     # An edge that moves along itself has no use, and what cannot be followed none that is known.
-    if math.isfinite(cut.found.length_exact):
+    if math.isfinite(cut.found.length_exact) and not cut.found.obstacle:
         yield _use(cut)
     yield from [_slicing(cut)] if moves else []
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from linkwright.analysis.study import Study
-from linkwright.analysis.topper.topper import TopperStudy
+from linkwright.analysis.topper.topper import TopperStudy, leaves
 from linkwright.analysis.topper.verdict import PAPER, WAYS, Demand, Stroke, length_verdict
 from linkwright.machine import Topper
 from linkwright.report.quantities import SHOWN, degrees, number
@@ -16,9 +16,6 @@ _HEADS = ("quantity", "", "value", "remark")
 
 # A length that exceeds the edge by less than this share is the edge's: rounding.
 _SAME = 1e-12
-
-# A share of the head that is rounding.
-_NOTHING = 1e-12
 
 # A draw-cut ratio beyond this is that of an edge that moves along itself, but for rounding.
 _NO_BOUND = 1e9
@@ -104,11 +101,6 @@ def _length(value: float) -> str:
 
 def _is_met(own: float, value: float) -> str:
     return "yes" if value <= own * (1 + _SAME) else "no"
-
-
-def leaves(found: TopperStudy) -> bool:
-    """Whether anything is left of a head: a share of some size; what is smaller is rounding."""
-    return found.uncut_share > _NOTHING
 
 
 def shown_head(found: TopperStudy) -> tuple[float, float]:

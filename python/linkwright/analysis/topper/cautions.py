@@ -6,14 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.analysis.topper.topper import TopperStudy
+from linkwright.analysis.topper.topper import TopperStudy, leaves
 from linkwright.machine import Topper
 
 # Lengths that differ by less than this share are the same: rounding of their formulas.
 _SAME = 1e-12
-
-# Ends of a head that is cut all through differ from its rim by rounding.
-_NOTHING = 1e-12
 
 
 def topper_findings(described: Topper, found: TopperStudy) -> Iterator[str]:
@@ -36,7 +33,7 @@ def topper_findings(described: Topper, found: TopperStudy) -> Iterator[str]:
         yield found.obstacle
     elif not np.isfinite(found.length_exact):
         yield "The edge moves along itself and cuts nothing: no length is enough."
-    elif found.length_exact > length * (1 + _SAME) and found.uncut_share > _NOTHING:
+    elif found.length_exact > length * (1 + _SAME) and leaves(found):
         yield (
             f"The edge of {length:.6g} m does not cut through every head: it leaves up to "
             f"{100 * found.uncut_share:.3g} % of {_head(found)}; it needs {found.length_exact:.6g} m."

@@ -170,6 +170,8 @@ def edges_of(machine: Machine, described: Topper) -> list[Edge]:
     ------
     AssemblyError
         The mechanism of the knife does not close all round.
+    FindingError
+        The member that is the knife does not come back with each turn.
     """
     ways = knives(machine, described)
     return [Edge(way, described.edge_angle, described.forward_speed) for way in ways]

@@ -3,8 +3,7 @@ r"""The law y(t) by which the knife of a topper goes to and fro across the row.
 The mean speed v_h counts the way in both senses, :math:`v_h = 2 S f` for one stroke S to and fro a cycle; so
 a sine of stroke S has :math:`2\pi f = \pi v_h/S` and its greatest speed is :math:`\tfrac{\pi}{2} v_h`. The
 phase is zero in the middle of the stroke, the knife going to the left; that of a knife moved by a mechanism
-is the crank angle. A knife at rest stands in the middle of its
-stroke, or where a given phase puts it.
+is the crank angle. A knife at rest stands in the middle of its stroke, or where a given phase puts it.
 
 Smooth laws are sums of harmonics, all others laws in pieces: those of a mechanism with cams are polynomials
 of degree 5 through position, velocity and acceleration at each degree and at every joint of a cam, which

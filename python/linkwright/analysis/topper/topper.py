@@ -22,6 +22,9 @@ from linkwright.machine import Machine, Topper
 
 Floats = NDArray[np.float64]
 
+# A share of the head that is rounding: ends of one that is cut all through differ from its rim by as much.
+NOTHING = 1e-12
+
 
 @dataclass(frozen=True)
 class TopperStudy(Result):
@@ -168,6 +171,8 @@ def topper(machine: Machine) -> TopperStudy:
         The machine has no topper.
     AssemblyError
         The mechanism of the knife does not close all round.
+    FindingError
+        The member that is the knife does not come back with each turn.
 
     References
     ----------
@@ -189,6 +194,22 @@ def topper(machine: Machine) -> TopperStudy:
         **_slices(described, edges, d),
         **_driven(knife_drive(machine, edges[0].knife)),
     )
+
+
+def leaves(found: TopperStudy) -> bool:
+    """Whether anything is left of a head.
+
+    Parameters
+    ----------
+    found : TopperStudy
+        The study.
+
+    Returns
+    -------
+    bool
+        False for a share that is rounding, and for one that could not be computed.
+    """
+    return found.uncut_share > NOTHING
 
 
 def _closed(described: Topper, edge: Edge, d: float) -> dict[str, Any]:
