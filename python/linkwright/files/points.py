@@ -18,8 +18,12 @@ from typing import Any
 from linkwright.errors import MachineFileError, Problem
 from linkwright.units import show
 
-# Kinds of tables whose points may be in a file.
-_KINDS = ("spline", "table", "measured")
+# Kinds of tables whose points may be in a file, and a head for each.
+_EXAMPLES = {
+    "spline": "angle [deg], lift [mm]",
+    "table": "angle [deg], lift [mm]",
+    "measured": "root_diameter [mm], cut_height [mm], offset [mm]",
+}
 
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 
@@ -77,9 +81,9 @@ def with_points(tables: dict[str, Any], folder: Path) -> list[Column]:
     """
     columns: list[Column] = []
     for place, table in _tables(tables, ()):
-        if table.get("kind") in _KINDS and isinstance(table.get("file"), str):
+        if table.get("kind") in list(_EXAMPLES) and isinstance(table.get("file"), str):
             path = folder / table.pop("file")
-            lists, lines = columns_of(path, ".".join((*place, "file")))
+            lists, lines = columns_of(path, ".".join((*place, "file")), table["kind"])
             table.update(lists)
             columns += [Column((*place, name), path, lines[0], tuple(lines[1:])) for name in lists]
     return columns
@@ -94,7 +98,7 @@ def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...]
         yield from _tables(below, (*place, str(key)))
 
 
-def columns_of(path: Path, key: str) -> tuple[dict[str, list[Any]], list[int]]:
+def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, list[Any]], list[int]]:
     """The columns of a file of comma-separated values.
 
     Parameters
@@ -103,6 +107,8 @@ def columns_of(path: Path, key: str) -> tuple[dict[str, list[Any]], list[int]]:
         The file.
     key : str
         Entry that names it, for messages; empty if none does.
+    kind : str
+        Of the table that names it, for the example of a head.
 
     Returns
     -------
@@ -120,7 +126,7 @@ def columns_of(path: Path, key: str) -> tuple[dict[str, list[Any]], list[int]]:
     heads = [_HEAD.fullmatch(cell) for cell in lines[0][1]] if lines else []
     if len(lines) < 2 or not all(heads):
         found = show(",".join(lines[0][1])) if lines else "an empty file"
-        expected = 'a head such as "angle [deg], lift [mm]", and a row for each point'
+        expected = f'a head such as "{_EXAMPLES[kind]}", and a row for each point, parted by commas'
         raise MachineFileError(
             [Problem(key, found, expected, path=str(path), line=lines[0][0] if lines else 1)]
         )

@@ -130,6 +130,10 @@ class MeasuredField(RootField):
         for i, diameter in enumerate(self.root_diameter):
             if diameter <= 0:
                 yield fault("root_diameter", i, found=diameter, expected=_POSITIVE)
+            elif diameter > _LARGEST:
+                remedy = "without a unit it counts in metres: name the unit in the head, root_diameter [mm]"
+                expected = f"up to {_LARGEST:g} m"
+                yield fault("root_diameter", i, found=diameter, expected=expected, remedy=remedy)
         for i, (height, diameter) in enumerate(zip(self.cut_height, self.root_diameter, strict=False)):
             if height >= diameter > 0:
                 expected = f"less than root_diameter, {diameter:.6g} m"
@@ -139,6 +143,9 @@ class MeasuredField(RootField):
             if distance <= 0:
                 yield fault("spacing", i, found=distance, expected=_POSITIVE)
 
+
+# No root is as large as this [m]: its unit is missing.
+_LARGEST = 1.0
 
 _POSITIVE = Quantity(LENGTH).expected.replace("a length", "a length greater than 0,")
 
