@@ -174,21 +174,21 @@ def _write(
 
     from linkwright.cli.bar import bar
     from linkwright.plot import field_haulm_figure, field_length_figure, field_share_figure, sweep_figures
-    from linkwright.report.topper_field_tables import columns_csv
+    from linkwright.report.topper_field_tables import field_csv
     from linkwright.sweep.topper import sweep_field
 
     lengths = np.linspace(0, found.length[-1], _LENGTHS)[1:]
     with bar("lengths") as watch:
         over = sweep_field(machine, {"edge_length": lengths}, seed=seed, level=found.level, watch=watch)
-    texts = {"results.json": shown, "share.csv": columns_csv(found.curves())}
-    texts["haulm.csv"] = columns_csv(over.columns())
+    texts = {"results.json": shown, "share.csv": field_csv(found.curves())}
+    texts["haulm.csv"] = field_csv(over.columns())
     figures = {
         "share": field_share_figure(found),
         "length_needed": field_length_figure(found),
         "haulm_and_loss": field_haulm_figure(found, over),
     }
     if swept is not None:
-        texts["sweep.csv"] = columns_csv(swept.columns())
+        texts["sweep.csv"] = field_csv(swept.columns())
         figures |= sweep_figures(swept)
     write_folder(folder, texts, figures, quiet=quiet)
 

@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
 from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.topper import TopperStudy
 from linkwright.report.quantities import SHOWN
+
+Floats = NDArray[np.float64]
 
 
 def curves_csv(result: Result) -> str:
@@ -25,11 +32,24 @@ def curves_csv(result: Result) -> str:
     if isinstance(result, Forces):
         return forces_csv(result)
     curves = result.curves()
-    if not curves:
-        return ""
-    rows = zip(*(curve.tolist() for curve in curves.values()), strict=True)
-    lines = [",".join(head(name) for name in curves), *(",".join(map(_cell, row)) for row in rows)]
-    return "\n".join(lines) + "\n"
+    return columns_csv({head(name): curve for name, curve in curves.items()}) if curves else ""
+
+
+def columns_csv(columns: Mapping[str, Floats]) -> str:
+    """Columns as CSV.
+
+    Parameters
+    ----------
+    columns : mapping of str to ndarray, shape (n,)
+        Head, with the unit, → values.
+
+    Returns
+    -------
+    str
+        Numbers that read back exactly; empty cells for NaN.
+    """
+    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+    return "\n".join([",".join(columns), *(",".join(map(_cell, row)) for row in rows)]) + "\n"
 
 
 def _cell(value: float) -> str:
@@ -50,9 +70,7 @@ def edge_csv(found: TopperStudy) -> str:
     str
         Two columns.
     """
-    rows = zip(found.edge_place.tolist(), found.edge_use.tolist(), strict=True)
-    lines = [f"{head('edge_place')},{head('edge_use')}", *(",".join(map(repr, row)) for row in rows)]
-    return "\n".join(lines) + "\n"
+    return columns_csv({head(name): getattr(found, name) for name in ("edge_place", "edge_use")})
 
 
 def head(name: str) -> str:
@@ -101,6 +119,4 @@ def forces_csv(forces: Forces) -> str:
         columns |= {f"{name}_{axis} [N]": pair.force[:, k] for k, axis in enumerate("xy")}
         columns[f"{name}_moment [N m]"] = pair.moment
     columns |= {f"{name}_drive [N m or N]": values for name, values in forces.drives.items()}
-    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-    lines = [",".join(map(_cell, row)) for row in rows]
-    return "\n".join([",".join(columns), *lines]) + "\n"
+    return columns_csv(columns)

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.report.quantities import number
 from linkwright.report.table import Row, Table
-from linkwright.report.topper_field_tables import columns_csv
+from linkwright.report.topper_field_tables import field_csv
 from linkwright.sizing.topper import BestKnife, KnifeSearch
 
 
@@ -144,9 +144,9 @@ def map_csv(found: KnifeSearch) -> str:
     Returns
     -------
     str
-        A line for each knife; ``nan`` where the edge runs backwards.
+        A line for each knife; empty cells where the edge runs backwards.
     """
     angle, speed = np.meshgrid(found.map_angle, found.map_speed, indexing="ij")
     columns = {"edge_angle": angle, "knife_speed": speed, "length": found.map_length}
     columns["slicing_ratio_mean"] = found.map_slicing
-    return columns_csv({name: column.ravel() for name, column in columns.items()})
+    return field_csv({name: column.ravel() for name, column in columns.items()})

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.topper.field import TopperField
+from linkwright.report.csv import columns_csv
 from linkwright.report.quantities import number
 from linkwright.report.table import Row, Table
 from linkwright.sweep.topper import FieldSweep
@@ -154,8 +155,8 @@ def _shown(name: str, value: float) -> str:
     return f"{number(value)} {WORDS[name][2]}"
 
 
-def columns_csv(columns: Mapping[str, Floats]) -> str:
-    """Columns as CSV.
+def field_csv(columns: Mapping[str, Floats]) -> str:
+    """Columns of a field, of a sweep or of a search as CSV.
 
     Parameters
     ----------
@@ -165,8 +166,6 @@ def columns_csv(columns: Mapping[str, Floats]) -> str:
     Returns
     -------
     str
-        SI, with the unit of each column in its head; numbers that read back exactly.
+        SI, with the unit of each column in its head.
     """
-    heads = [f"{name} [{_UNITS.get(name, '-')}]" for name in columns]
-    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-    return "\n".join([",".join(heads), *(",".join(map(repr, row)) for row in rows)]) + "\n"
+    return columns_csv({f"{name} [{_UNITS.get(name, '-')}]": column for name, column in columns.items()})
