@@ -189,14 +189,19 @@ def test_a_retreating_edge_by_brute_force(degrees: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "remedy"),
-    [("topper.edge_angle=89.9 deg", "less aslant"), ("topper.motion.stroke=1 um", "longer stroke")],
+    ("change", "remedy", "needed"),
+    [
+        ("topper.edge_angle=89.9 deg", "less aslant", np.nan),
+        # The edge never retreats: every phase needs what it needs, however many strokes there are.
+        ("topper.motion.stroke=1 um", "longer stroke", (1e-6 + DISC + 2 * DELTA) / np.cos(ALPHA)),
+    ],
 )
-def test_a_knife_that_hardly_goes_on_keeps_what_is_known(change: str, remedy: str) -> None:
+def test_a_knife_that_hardly_goes_on_keeps_what_is_known(change: str, remedy: str, needed: float) -> None:
     found = study(lw.read(MACHINES / "topper.toml", [change]))
     assert found.topper is not None
     assert np.isfinite([found.topper.length_published, found.topper.length_exact_constant_speed]).all()
-    assert np.isnan([found.topper.length_exact, found.topper.uncut_share]).all()
+    assert found.topper.length_exact == pytest.approx(needed, rel=1e-14, nan_ok=True)
+    assert np.isnan(found.topper.uncut_share)
     assert "hardly goes on" in found.findings[0]
     assert remedy in found.findings[0]
 
@@ -225,12 +230,13 @@ def test_drive_torque_is_that_of_the_reduction() -> None:
     """M_d = ½J′ω² + M_r at constant speed; without the load that depends on the speed."""
     machine = lw.read(MACHINES / "topper_crank.toml")
     machine = lw.replace(machine, {"loads": {"guides": machine.loads["guides"]}})
-    found, reduced = topper(machine), lw.reduction(machine, n=720)
+    # So fine that no extreme is missed by more than (2π/n)²/2 of its curvature.
+    found, reduced = topper(machine), lw.reduction(machine, n=36_000)
     omega = 275 * np.pi / 30
     torque = 0.5 * reduced.inertia_reduced_d1 * omega**2 + reduced.torque_load
-    assert found.drive_torque_max == pytest.approx(torque.max(), rel=1e-9)
-    assert found.drive_torque_min == pytest.approx(torque.min(), rel=1e-9)
-    assert found.drive_torque_mean == pytest.approx(torque[:-1].mean(), rel=1e-9)
+    assert found.drive_torque_max == pytest.approx(torque.max(), rel=1e-6)
+    assert found.drive_torque_min == pytest.approx(torque.min(), rel=1e-6)
+    assert found.drive_torque_mean == pytest.approx(torque[:-1].mean(), rel=1e-4)
     # Dry friction takes 4 r F in a turn.
     assert found.drive_torque_mean == pytest.approx(4 * 0.03 * 12 / (2 * np.pi), rel=1e-4)
     assert found.drive_power_mean == pytest.approx(found.drive_torque_mean * omega)
@@ -352,3 +358,33 @@ def test_use_of_the_edge_adds_up_to_the_head() -> None:
     assert area == pytest.approx(0.25 * np.pi * DISC**2, rel=0.01)
     # No place is used beyond what the worst head needs.
     assert 0.9 < found.edge_place[-1] / (0.5 * found.length_exact) <= 1
+
+
+def test_a_resting_knife_stands_where_its_phase_says() -> None:
+    """At 30° a sine of stroke S stands S/4 beside the row, and the edge must reach over its far side."""
+    law = 'topper.motion={kind="harmonic", stroke="60 mm", phase="30 deg"}'
+    found = cut("topper.knife_speed=0", law)
+    assert found.length_exact == pytest.approx((DISC + 2 * DELTA + 0.5 * S) / np.cos(ALPHA), rel=1e-12)
+    assert cut("topper.knife_speed=0").length_exact == pytest.approx(found.length_at_rest, rel=1e-12)
+
+
+def test_both_directions_slice_as_slow_strokes_do() -> None:
+    """At 30° a sine of stroke S stands S/4 beside the row, and the edge must reach over its far side."""
+    one_way = cut(ONE_WAY, "topper.edge_angle=-24 deg", "topper.forward_speed=0.9")
+    long = cut(
+        'topper.motion={kind="constant", stroke="50 m"}',
+        "topper.edge_angle=-24 deg",
+        "topper.forward_speed=0.9",
+    )
+    assert one_way.slicing_ratio_mean == pytest.approx(long.slicing_ratio_mean, rel=1e-3)
+
+
+def test_a_fast_knife_in_one_direction() -> None:
+    """Far more across than along, the point reached last lies close to the end of the pass."""
+    found = cut(ONE_WAY, "topper.knife_speed=1e4", "topper.edge_angle=0")
+    assert found.length_exact == pytest.approx(found.length_exact_constant_speed, rel=1e-9)
+
+
+def test_a_cut_below_the_middle_of_the_root_is_warned_of() -> None:
+    warned = study(lw.read(MACHINES / "topper.toml", ["topper.cut_height=80 mm"])).warnings
+    assert any("below the middle of the root" in text for text in warned)
