@@ -255,8 +255,10 @@ def test_many_strokes_over_a_head(strokes: float, angle: float, part: float) -> 
     assert case.shares(length) == pytest.approx(expected, abs=3 * error + 1e-7)
 
 
-@pytest.mark.parametrize("beyond", [1e-2, 1e-4, 1e-6, -1e-6, -1e-4, -1e-2])
-@pytest.mark.parametrize("law", ["harmonic", "triangular"])
+@pytest.mark.parametrize(
+    ("law", "beyond"),
+    [*(("harmonic", each) for each in (1e-2, 1e-4, 1e-6, -1e-6, -1e-4, -1e-2)), ("triangular", 1e-4)],
+)
 def test_edge_that_all_but_stands_still_at_times(law: str, beyond: float) -> None:
     """v = (1 − beyond) v_max tan α: the edge hardly advances, or runs back for a moment."""
     fastest = 0.9 * (math.pi / 2 if law == "harmonic" else 1.0)

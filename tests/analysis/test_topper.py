@@ -362,3 +362,33 @@ def test_use_of_the_edge_adds_up_to_the_head() -> None:
     assert area == pytest.approx(0.25 * np.pi * DISC**2, rel=0.01)
     # No place is used beyond what the worst head needs.
     assert 0.9 < found.edge_place[-1] / (0.5 * found.length_exact) <= 1
+
+
+def test_a_resting_knife_stands_where_its_phase_says() -> None:
+    """At 30° a sine of stroke S stands S/4 beside the row, and the edge must reach over its far side."""
+    law = 'topper.motion={kind="harmonic", stroke="60 mm", phase="30 deg"}'
+    found = cut("topper.knife_speed=0", law)
+    assert found.length_exact == pytest.approx((DISC + 2 * DELTA + 0.5 * S) / np.cos(ALPHA), rel=1e-12)
+    assert cut("topper.knife_speed=0").length_exact == pytest.approx(found.length_at_rest, rel=1e-12)
+
+
+def test_both_directions_slice_as_slow_strokes_do() -> None:
+    """At 30° a sine of stroke S stands S/4 beside the row, and the edge must reach over its far side."""
+    one_way = cut(ONE_WAY, "topper.edge_angle=-24 deg", "topper.forward_speed=0.9")
+    long = cut(
+        'topper.motion={kind="constant", stroke="50 m"}',
+        "topper.edge_angle=-24 deg",
+        "topper.forward_speed=0.9",
+    )
+    assert one_way.slicing_ratio_mean == pytest.approx(long.slicing_ratio_mean, rel=1e-3)
+
+
+def test_a_fast_knife_in_one_direction() -> None:
+    """Far more across than along, the point reached last lies close to the end of the pass."""
+    found = cut(ONE_WAY, "topper.knife_speed=1e4", "topper.edge_angle=0")
+    assert found.length_exact == pytest.approx(found.length_exact_constant_speed, rel=1e-9)
+
+
+def test_a_cut_below_the_middle_of_the_root_is_warned_of() -> None:
+    warned = study(lw.read(MACHINES / "topper.toml", ["topper.cut_height=80 mm"])).warnings
+    assert any("below the middle of the root" in text for text in warned)

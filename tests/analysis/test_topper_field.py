@@ -319,3 +319,16 @@ def test_wrong_arguments() -> None:
         topper_field(topped, level=1.0)
     with pytest.raises(InputError, match=r"has no \[topper\]"):
         topper_field(lw.loads(lw.files.template("slider-crank")))
+
+
+def test_intervals_of_greater_shares_are_not_lower(tmp_path: Path) -> None:
+    """With three roots, each in all phases, intervals are as wide as can be."""
+    (tmp_path / "roots.csv").write_text(
+        "root_diameter [mm], cut_height [mm], offset [mm]\n90, 25, -8\n110, 31, 3\n128, 35, 12\n",
+        encoding="utf-8",
+    )
+    text = f'{TOPPER}\n[topper.field]\nkind = "measured"\nfile = "roots.csv"\n'
+    (tmp_path / "machine.toml").write_text(text, encoding="utf-8")
+    found = topper_field(lw.read(tmp_path / "machine.toml"))
+    for ends in (found.quantile_length_low, found.quantile_length_high):
+        assert (np.diff(np.asarray(ends, dtype=float)) >= 0).all()
