@@ -375,7 +375,7 @@ def test_a_resting_knife_stands_where_its_phase_says() -> None:
 
 
 def test_both_directions_slice_as_slow_strokes_do() -> None:
-    """At 30° a sine of stroke S stands S/4 beside the row, and the edge must reach over its far side."""
+    """A stroke so long that turning back does not count: one way each half of the time."""
     one_way = cut(ONE_WAY, "topper.edge_angle=-24 deg", "topper.forward_speed=0.9")
     long = cut(
         'topper.motion={kind="constant", stroke="50 m"}',

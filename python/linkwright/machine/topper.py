@@ -59,7 +59,9 @@ class Topper(Checked):
     edge_length: PositiveLength = Field(description="Working length L of the edge.")
     forward_speed: Annotated[float, positive(VELOCITY)] = Field(description="Speed v along the row.")
     knife_speed: Annotated[float, not_negative(VELOCITY)] | None = Field(
-        None, description="Mean speed v_h of the knife across the row. A mechanism gives it itself."
+        None,
+        description="Mean speed v_h of the knife across the row; at 0 it rests amid its stroke, or where "
+        "a given phase puts it. A mechanism gives it itself.",
     )
     motion: AnyKnifeMotion = Field(description="How the knife moves across the row.")
     field: AnyField | None = Field(None, description="Roots that are not all alike.")
