@@ -85,7 +85,7 @@ def advance(alpha: float, v: float, v_h: float) -> float:
 @pytest.mark.parametrize("name", KNIVES)
 @pytest.mark.parametrize("direction", [1, -1])
 def test_length_is_that_of_the_swept_points(name: str, direction: int) -> None:
-    # The brute force closes in on the point that needs most, within 1e-5 of the head; lengths are round there.
+    # The brute force closes in on the point that needs most to 1e-5 of the head; lengths are round there.
     passes = [over(name, direction, each) for each in (-OFFSET, 0.0, OFFSET)]
     swept = max(needed_length(each, n=12, rounds=16) for each in passes)
     assert both(name)[(1 - direction) // 2] == pytest.approx(swept, rel=1e-7)
