@@ -5,14 +5,17 @@
 //! ```
 //!
 //! Sampled at 8H places, f is nearly a parabola through three of them. Tops of these that may be the highest, as Bernstein's
-//! bounds of the derivatives have it, are taken to the last digit by Newton. Samples are taken in lanes, a wave each.
+//! bounds of the derivatives have it, are taken to the last digit by Newton. Samples are taken in lanes, a wave each,
+//! many waves in threads.
 //!
 //! Source: Zygmund, *Trigonometric Series*, chapter X, for the bounds.
 
 use super::forced::Complex;
 use crate::lanes::{Job, in_lanes};
 use crate::real::Real;
+use rayon::prelude::*;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Samples in a period of the highest harmonic.
 const FINE: usize = 8;
@@ -41,12 +44,28 @@ pub fn extremes(coefficients: &[Complex], waves: usize) -> Vec<Extremes> {
     if waves == 0 {
         return Vec::new();
     }
-    in_lanes(Sampled { coefficients, waves })
+    let harmonics = coefficients.len() / waves;
+    let quarter = (FINE / 4 * harmonics.saturating_sub(1)).max(1);
+    let table = turns(4 * quarter, quarter, harmonics);
+    let tasks = (0..waves.div_ceil(TASK)).into_par_iter();
+    let found: Vec<Vec<Extremes>> = tasks
+        .map(|task| {
+            let range = task * TASK..((task + 1) * TASK).min(waves);
+            in_lanes(Sampled { coefficients, waves, range, quarter, table: &table })
+        })
+        .collect();
+    found.concat()
 }
+
+/// Waves a task: some half a millisecond of work.
+const TASK: usize = 64;
 
 struct Sampled<'a> {
     coefficients: &'a [Complex],
     waves: usize,
+    range: Range<usize>,
+    quarter: usize,
+    table: &'a [[[f64; 2]; BLOCK]],
 }
 
 impl Job for Sampled<'_> {
@@ -54,25 +73,23 @@ impl Job for Sampled<'_> {
 
     #[inline(always)]
     fn run<R: Real>(self) -> Vec<Extremes> {
-        let Sampled { coefficients, waves } = self;
-        let harmonics = coefficients.len() / waves;
-        let quarter = (FINE / 4 * harmonics.saturating_sub(1)).max(1);
-        let places = 4 * quarter;
-        let table = turns(places, quarter, harmonics);
+        let Sampled { coefficients, waves, range, quarter, table } = self;
+        let (harmonics, places) = (coefficients.len() / waves, 4 * quarter);
         let zero = R::splat(0.0);
         // Even and odd harmonics in turn: an odd number of them has one of zero at its end.
         let mut c = vec![(zero, zero); harmonics.next_multiple_of(2)];
         let mut samples = vec![0.0; places * R::LANES];
         let mut buffer = vec![0.0; 2 * R::LANES];
-        let mut found = Vec::with_capacity(waves);
-        for first in (0..waves).step_by(R::LANES) {
+        let mut found = Vec::with_capacity(range.len());
+        let end = range.end;
+        for first in range.step_by(R::LANES) {
             R::outline(
                 #[inline(always)]
                 || {
                     for (c, row) in c.iter_mut().zip(coefficients.chunks_exact(waves)) {
                         let (re, im) = buffer.split_at_mut(R::LANES);
                         for (lane, (re, im)) in re.iter_mut().zip(im.iter_mut()).enumerate() {
-                            [*re, *im] = row[(first + lane).min(waves - 1)];
+                            [*re, *im] = row[(first + lane).min(end - 1)];
                         }
                         *c = (R::load(re), R::load(im));
                     }
@@ -96,7 +113,7 @@ impl Job for Sampled<'_> {
                     }
                 },
             );
-            for lane in 0..R::LANES.min(waves - first) {
+            for lane in 0..R::LANES.min(end - first) {
                 let mut wave: Vec<Complex> =
                     (0..harmonics).map(|h| coefficients[h * waves + first + lane]).collect();
                 wave.resize(harmonics.next_multiple_of(ABREAST), [0.0; 2]);
