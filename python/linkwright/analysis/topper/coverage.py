@@ -121,11 +121,8 @@ def coverage(
 
 def _stations(edge: Edge, fine: int, diameter: float, offset: float) -> int:
     """Stations a turn: more far aslant; fewer if each stretch between corners has them all."""
-    lean = np.abs(np.tan(edge.angle))
-    if not edge.retreats:
-        speeds = np.array(edge.knife.speeds)
-        lean = max(lean, np.abs(np.tan(edge.angle + np.arctan2(speeds, edge.forward_speed))).max())
-    aslant = int(min(_MOST, _ASLANT * lean))
+    leans = [edge.angle] if edge.retreats else [edge.angle, *edge.leans]
+    aslant = int(min(_MOST, _ASLANT * np.abs(np.tan(leans)).max()))
     if edge.knife.corners and not edge.retreats:
         fine = max(2, int(fine / max(1.0, edge.turns(diameter, offset))))
     return max(fine, aslant)

@@ -120,12 +120,20 @@ class Edge:
         speed = np.hypot(self.forward_speed, self.knife.drift)
         return bool(abs(self.mean_advance) <= ALONG_ITSELF * speed)
 
+    @property
+    def leans(self) -> tuple[float, float]:
+        """Angle α + β of the way to the edge's normal, at the least and greatest speed of the knife [rad]."""
+        low, high = (self.angle + float(np.arctan2(w, self.forward_speed)) for w in self.knife.speeds)
+        return low, high
+
+    def half_pass(self, diameter: float, offset: float) -> float:
+        """Time from abreast of a head, up to the offset from the row, until it is surely passed [s]."""
+        swing = (0.5 * self.knife.stroke + offset) * abs(np.sin(self.angle))
+        return float((0.5 * diameter + swing) / abs(self.mean_advance))
+
     def turns(self, diameter: float, offset: float) -> float:
         """Turns of the law while the edge may be over a head up to the offset from the row."""
-        if not self.knife.rate:
-            return 0.0
-        swing = (0.5 * self.knife.stroke + offset) * abs(np.sin(self.angle))
-        return float(self.knife.frequency * (diameter + 2 * swing) / abs(self.mean_advance))
+        return 2 * self.knife.frequency * self.half_pass(diameter, offset) if self.knife.rate else 0.0
 
 
 def require_topper(machine: Machine) -> Topper:

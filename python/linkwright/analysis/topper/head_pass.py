@@ -140,8 +140,7 @@ def _end(edge: Edge, radius: float, offset: float) -> float:
     """Time after which the edge is surely beyond the head."""
     if edge.stands:
         return 2 * _STANDING * radius / edge.forward_speed
-    aside = 0.5 * edge.knife.stroke + offset
-    return float((1.05 * radius + aside * abs(np.sin(edge.angle))) / abs(edge.mean_advance))
+    return edge.half_pass(2.1 * radius, offset)
 
 
 def _left(p: Floats, q: Floats, radius: float, half: float, *, stands: bool) -> list[list[Part]]:

@@ -97,8 +97,7 @@ def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
 
 def _ratios(edge: Edge) -> tuple[float, float]:
     """Least and greatest draw-cut ratio."""
-    way, v = edge.knife, edge.forward_speed
-    leans = [edge.angle + float(np.arctan2(speed, v)) for speed in way.speeds]
+    leans = edge.leans
     reaches = [abs(float(np.tan(lean))) for lean in leans]
     least = 0.0 if leans[0] * leans[1] <= 0 else min(reaches)
     greatest = np.inf if edge.retreats else max(reaches)
@@ -147,8 +146,7 @@ def _use(edge: Edge, diameter: float, offset: float) -> tuple[Floats, Floats]:
     # Amid even steps, so that all count alike.
     phase = (np.arange(heads) + 0.5)[:, None, None] * (2 * np.pi / heads)
     delta = offset * ((2 * np.arange(offsets) + 1) / offsets - 1)[:, None]
-    swing = 0.5 * knife.stroke + offset
-    end = (radius + swing * abs(np.sin(edge.angle))) / abs(edge.mean_advance)
+    end = edge.half_pass(diameter, offset)
     step = 2 * end / _TIMES
     t = -end + (np.arange(_TIMES) + 0.5) * step
     q, p = edge.place(t, phase, delta)
