@@ -6,6 +6,7 @@ import zlib
 from collections.abc import Callable
 from typing import NamedTuple
 
+import drive_laws
 import numpy as np
 import plans
 import random_parts
@@ -42,6 +43,8 @@ KINDS: dict[str, Kind] = {
     "plan": Kind(plans.plan, 1500, 2),
     "train": Kind(random_parts.train, 60, 2),
     "cam": Kind(random_parts.cam, 60, 2),
+    "drive": Kind(drive_laws.drive, 30, 8),
+    "batch": Kind(drive_laws.batch, 60, 4),
     "topper": Kind(random_parts.topper, 4, 1),
 }
 
