@@ -130,7 +130,7 @@ def test_a_follower_that_leaves_is_told_and_its_cam_still_judged() -> None:
 DRIVES = {
     "none": "",
     "constant speed": '[drive.motor]\nkind = "constant_speed"\nspeed = {speed}',
-    "direct current": '[drive.motor]\nkind = "dc"\ntorque_stall = 1e6\nspeed_no_load = {speed}\ninertia = 1e3',
+    "direct current": '[drive.motor]\nkind = "dc"\ntorque_stall = 1e6\nspeed_no_load = {speed}\ninertia = 9',
 }
 
 

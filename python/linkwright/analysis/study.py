@@ -264,7 +264,7 @@ def _is_motion_alone(machine: Machine) -> bool:
 
 def _moved(machine: Machine, found: Findings) -> Study:
     """A linkage by its dimensions alone."""
-    found.of(require_full_turn, compile_machine(machine), machine)
+    found.of(lambda: require_full_turn(compile_machine(machine), machine))
     alone = "The machine has no masses, loads or motor: its motion alone is computed."
     return Study(machine, warnings=() if machine.pumping_unit else (alone,))
 
