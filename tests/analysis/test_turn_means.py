@@ -53,8 +53,8 @@ def test_square_harmonics_and_work_of_a_known_function() -> None:
     found = curve.harmonics(np.array([0.0, 1.0, 3.0, 40.0]))
     # Means of f e^{−iνφ}: half the amplitude, −i for a sine.
     np.testing.assert_allclose(found, [[1, 0, -0.5j, 0], [0, 0.5, 0, 0]], atol=1e-13)
-    # ∫cos = sin, and half of the first beside it: φ runs up to the peak of sin φ + ½ sin 3φ + ½.
-    work = curve.work(1, 0, 0.5)
+    # ∫cos = sin, which has no mean, and half of the first beside it.
+    work = curve.excess(1, 0, 0.5)
     phi = np.linspace(0, 2 * np.pi, 1_000_001)
     brute = np.sin(phi) + 0.5 * np.sin(3 * phi) + 0.5
     assert work.extreme(+1)[0] == pytest.approx(brute.max(), abs=1e-10)

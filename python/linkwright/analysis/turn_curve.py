@@ -116,13 +116,13 @@ class TurnCurve:
         at = first[np.argmin(angles[first])]
         return float(sign * values[at]), float(angles[at])
 
-    def work(self, k: int, other: int, factor: float) -> TurnCurve:
-        """A continuous quantity :math:`\\int f_k\\,d\\varphi + c f_o`, from zero at the first end.
+    def excess(self, k: int, other: int, factor: float) -> TurnCurve:
+        r"""A continuous quantity :math:`\int (f_k - \bar f_k)\,d\varphi + c f_o`, from the first end.
 
         Parameters
         ----------
         k : int
-            Quantity under the integral.
+            Quantity whose excess over its mean is integrated.
         other : int
             Quantity that is added.
         factor : float
@@ -133,12 +133,13 @@ class TurnCurve:
         TurnCurve
             One quantity.
         """
-        half = self._half()[:, None]
-        rising = chebyshev.chebint(self.series[:, k].T, lbnd=-1).T * half
+        n = self.series.shape[-1]
+        surplus = self.series[:, k].copy()
+        surplus[:, 0] -= self.mean()[k]
+        rising = chebyshev.chebint(surplus.T, lbnd=-1).T * self._half()[:, None]
         # All polynomials T_n are 1 at the end of a piece.
-        start = np.concatenate([[0.0], np.cumsum(rising.sum(axis=1))[:-1]])
-        rising[:, 0] += start
-        rising[:, : self.series.shape[-1]] += factor * self.series[:, other]
+        rising[:, 0] += np.concatenate([[0.0], np.cumsum(rising.sum(axis=1))[:-1]])
+        rising[:, :n] += factor * self.series[:, other]
         peak = np.abs(rising).sum(axis=1).max(keepdims=True)
         return TurnCurve(self.ends, rising[:, None], peak, peak, self.error[[k]])
 
