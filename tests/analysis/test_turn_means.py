@@ -10,7 +10,7 @@ import pytest
 import linkwright as lw
 from linkwright.analysis.reduction import reduction
 from linkwright.analysis.steady_state import steady_state
-from linkwright.analysis.turn_curve import turn_curve
+from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import compile_machine
 from linkwright.errors import ConvergenceError, FindingError
 from linkwright.files import loads
@@ -106,14 +106,15 @@ kind = "constant_speed"
 speed = 20.0
 """
 
-# Springs beside whose anchor the crank pin passes at a hundredth of its radius, a link by a table, gas, weight,
-# a force fixed in the frame.
+# Springs near and through whose anchor the crank pin passes, one by a table, one that twists, weight, a force
+# fixed in the frame.
 CONSERVATIVE = {
     "near": '[mechanism.points.N]\nx = 0.101\ny = 0.0\n[loads.s]\nkind = "spring"\nbetween = ["A", "N"]\n'
     "stiffness = 1e5\nfree_length = 0.005",
     "through": '[mechanism.points.N]\nx = 0.1\ny = 0.0\n[loads.s]\nkind = "spring"\nbetween = ["A", "N"]\n'
     "stiffness = 1e5\nfree_length = 0.1",
-    "table": '[loads.s]\nkind = "spring"\nbetween = ["P", "O"]\nlength = [0.2, 0.31, 0.4]\nforce = [-20, 5, 90]',
+    "table": '[loads.s]\nkind = "spring"\nbetween = ["P", "O"]\n'
+    "length = [0.2, 0.31, 0.4]\nforce = [-20, 5, 90]",
     "torsion": '[loads.s]\nkind = "torsional_spring"\non = "B.rocker"\nstiffness = 70.0\nfree_angle = 1.0',
     "weight": '[loads.s]\nkind = "gravity"\nacceleration = 9.81\ndirection = "-70 deg"',
     "force": '[loads.s]\nkind = "force"\non = "P"\nforce = 100.0\ndirection = 0.5',

@@ -26,7 +26,8 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.roots import zeros
-from linkwright.analysis.turn_curve import TurnCurve, turn_curve
+from linkwright.analysis.turn_curve import TurnCurve
+from linkwright.analysis.turn_fit import turn_curve
 from linkwright.errors import FindingError
 from linkwright.machine import PolishedRodLoad, PumpingUnit
 

@@ -18,7 +18,7 @@ from linkwright.analysis.closure import require_full_turn, turn_angles
 from linkwright.analysis.gear_torque import GearTorque, gear_torque
 from linkwright.analysis.kinematics import motion_arrays
 from linkwright.analysis.result import Result
-from linkwright.analysis.turn_curve import turn_curve
+from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import InputError
 from linkwright.machine import Machine, Mechanism, PumpingUnit

@@ -18,7 +18,7 @@ from linkwright.analysis.closure import require_full_turn, turn_angles
 from linkwright.analysis.period import turns_to_repeat
 from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_sound_loads
-from linkwright.analysis.turn_curve import turn_curve
+from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import Compiled, compile_machine
 from linkwright.machine import Machine
 

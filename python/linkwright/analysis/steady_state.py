@@ -17,7 +17,7 @@ from linkwright.analysis.closure import require_full_turn, require_one_turn, tur
 from linkwright.analysis.reduction import NO_INERTIA, mean_laws, mean_over_turn
 from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_same_turns, require_sound_loads
-from linkwright.analysis.turn_curve import turn_curve
+from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine

@@ -26,7 +26,7 @@ from linkwright.analysis.closure import turn_angles
 from linkwright.analysis.result import Result
 from linkwright.analysis.run_up import RunUp, run_up
 from linkwright.analysis.steady_state import SteadyState, steady_state
-from linkwright.analysis.turn_curve import turn_curve
+from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import Compiled, compile_machine, drive_inertia
 from linkwright.errors import ConvergenceError, FindingError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
@@ -201,7 +201,7 @@ def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, floa
 
 
 def constant_inertia(machine: Machine) -> float:
-    """Inertia of all that turns in a constant ratio to the crank: drive, and bodies of constant reduced inertia.
+    """Inertia of what turns in a constant ratio to the crank: drive, and bodies of constant reduced inertia.
 
     Parameters
     ----------

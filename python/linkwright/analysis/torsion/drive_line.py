@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.closure import require_full_turn, require_one_turn
 from linkwright.analysis.reduction import law_harmonics, mean_laws, mean_over_turn
 from linkwright.analysis.sound_loads import require_same_turns, require_sound_loads
-from linkwright.analysis.turn_curve import turn_curve
+from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import InputError
 from linkwright.machine import ConstantSpeedMotor, Machine, Train
@@ -200,7 +200,8 @@ def _resistance_harmonics(compiled: Compiled, nu: Floats, omega: Floats) -> Comp
     turn = turn_curve(lambda phi: _parts(compiled, phi), compiled.kinks(), "torque of the mechanism")
     # Each part has its power of the speed.
     found: Complex = turn.harmonics(nu).T @ np.array([omega**0, omega, omega**2])
-    return found + law_harmonics(compiled, omega, nu).T if compiled.has_laws else found
+    found += law_harmonics(compiled, omega, nu).T
+    return found
 
 
 def _parts(compiled: Compiled, phi: Floats) -> Floats:
