@@ -126,7 +126,7 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     nu, omega = _orders(orders), _positive(speed)
     compiled = mechanism_alone(machine)
     size = np.where(nu == 0, 1.0, 2.0) * (nu == np.round(nu))
-    found = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
+    found: Complex = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
     found[nu == 0] -= compiled.speed_load(omega)
     return found[:, 0] if np.ndim(speed) == 0 else found
 
