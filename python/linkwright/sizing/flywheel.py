@@ -9,7 +9,8 @@ at its mean,
         - \tfrac12 J_\mathrm{red}(\varphi)\,\omega_m^2, \qquad
     J_f + J_0 = \frac{\Delta A_\max - \Delta A_\min}{\delta\,\omega_m^2}
 
-with :math:`J_0` the inertia that turns with the crank already. The answer is not this estimate: it is the
+with :math:`J_0` the inertia that turns in a constant ratio to the crank already: of the drive, and of bodies
+on the crank and on gears. The answer is not this estimate: it is the
 root of δ(J_f) − δ over the exact steady motion, which the estimate only starts.
 """
 
@@ -19,15 +20,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from linkwright.analysis.reduction import reduction_of
+from linkwright.analysis.closure import turn_angles
 from linkwright.analysis.result import Result
 from linkwright.analysis.run_up import RunUp, run_up
 from linkwright.analysis.steady_state import SteadyState, steady_state
-from linkwright.engine import compile_machine, drive_inertia
+from linkwright.analysis.turn_fit import turn_curve
+from linkwright.engine import Compiled, compile_machine, drive_inertia
 from linkwright.errors import ConvergenceError, FindingError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
 from linkwright.sizing.fit import with_flywheel
+
+Floats = NDArray[np.float64]
 
 # Relative accuracy of the flywheel's unevenness; four digits better than anything it is compared with.
 _CLOSE = 1e-9
@@ -36,6 +41,11 @@ _CLOSE = 1e-9
 _DOUBLINGS = 40
 
 _ITERATIONS = 60
+
+# Angles at which a body's reduced inertia is compared, a prime number so that no symmetry hides a variation,
+# and the share by which a constant varies with rounding.
+_ANGLES = 37
+_CONSTANT = 1e-12
 
 
 @dataclass(frozen=True)
@@ -173,7 +183,8 @@ def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, floa
 
     Notes
     -----
-    ω_m is the design speed, or the speed without load where none is given. By trapezoids over 1440 intervals.
+    ω_m is the design speed, or the speed without load where none is given. The extremes of ΔA are exact: they
+    are where the mean torque equals the torque of load and inertia, and at kinks.
 
     References
     ----------
@@ -181,15 +192,41 @@ def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, floa
     """
     assert machine.drive is not None
     compiled = compile_machine(machine)
-    reduced = reduction_of(compiled, 1440)
     omega_m = machine.drive.speed or compiled.speed_guess
-    phi = reduced.crank_angle
-    M_r = reduced.torque_load + reduced.viscous * omega_m + compiled.law_torques(phi, omega_m)[0]
-    surplus = np.trapezoid(M_r, phi) / (2 * np.pi) - M_r
-    A = np.concatenate([[0.0], np.cumsum(0.5 * (surplus[1:] + surplus[:-1]) * np.diff(phi))])
-    dA = A - 0.5 * reduced.inertia_reduced * omega_m**2
-    work = float(dA.max() - dA.min())
-    return work / (unevenness * omega_m**2) - float(drive_inertia(machine.drive)), work
+    turn = turn_curve(lambda phi: _load_and_inertia(compiled, phi, omega_m), compiled.kinks(), "excess work")
+    # The curve of −ΔA.
+    stored = turn.excess(0, 1, 0.5 * omega_m**2)
+    work = stored.extreme(+1)[0] - stored.extreme(-1)[0]
+    return work / (unevenness * omega_m**2) - constant_inertia(machine), work
+
+
+def constant_inertia(machine: Machine) -> float:
+    """Inertia of what turns in a constant ratio to the crank: drive, and bodies of constant reduced inertia.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    float
+        At the crank [kg m²].
+    """
+    total = 0.0 if machine.drive is None else float(drive_inertia(machine.drive))
+    phi = turn_angles(_ANGLES)
+    for name, body in machine.bodies.items():
+        alone = machine.with_entries({"drive": None, "loads": {}, "bodies": {name: body}})
+        J = compile_machine(alone).reductions(phi)[0]
+        total += float(J.max()) if np.ptp(J) <= _CONSTANT * J.max() else 0.0
+    return total
+
+
+def _load_and_inertia(compiled: Compiled, phi: Floats, omega: float) -> Floats:
+    """Resisting torque at a speed, and reduced inertia, (2, n)."""
+    J, _, load, dry, viscous = compiled.reductions(phi)
+    M_r = load + dry + viscous * omega + compiled.law_torques(phi, omega)[0]
+    return np.stack([M_r, J])
 
 
 def _unevenness(machine: Machine) -> float | None:
