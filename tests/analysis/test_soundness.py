@@ -12,7 +12,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.analysis.soundness import soundness
-from linkwright.errors import InputError
+from linkwright.errors import FindingError, InputError
 from linkwright.machine import Machine
 
 ROOT = Path(__file__).parents[2]
@@ -72,6 +72,14 @@ def test_a_check_says_what_is_broken(name: str, changes: dict[str, Any], words: 
     found = soundness(machine).findings
     assert any(re.search(words, text) for text in found), found
     assert told(machine) <= set(found)
+
+
+def test_a_check_sees_what_a_field_of_roots_refuses() -> None:
+    path = ROOT / "examples" / "topper_field" / "machine.toml"
+    machine = changed(path, {"topper.knife_speed": 30.0})
+    with pytest.raises(FindingError) as refused:
+        lw.topper_field(machine)
+    assert str(refused.value) in soundness(machine).findings
 
 
 # Machines with neither motor nor loads to solve for, whose lengths are drawn anew.

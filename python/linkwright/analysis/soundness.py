@@ -7,7 +7,7 @@
 | pumping unit | the crank turns all round | `PolishedRod` |
 | rotator | the lever does as its regime asks | `rod_rotator` |
 | cams | undercut, crossed, locked, hollow, no room for a second follower | `cam_profile`, `cam_faults` |
-| knife of a topper | advances, and is long enough for every head | `topper` |
+| knife of a topper | advances, over its field too; long enough for all | `topper`, `require_advance` |
 | train, drive line that twists | has natural frequencies | `free_vibration` |
 
 Each is the function that the study itself calls, so what is a finding here is one there, and the other way
@@ -30,6 +30,9 @@ from linkwright.analysis.rod_rotator import rod_rotator
 from linkwright.analysis.run_up import start_of
 from linkwright.analysis.sound_loads import require_same_turns, require_turn
 from linkwright.analysis.topper.cautions import topper_findings
+from linkwright.analysis.topper.edge import edges_of
+from linkwright.analysis.topper.passes import require_advance
+from linkwright.analysis.topper.roots import draw_roots
 from linkwright.analysis.topper.topper import topper
 from linkwright.analysis.torsion.free import FreeVibration, free_vibration
 from linkwright.engine import Compiled
@@ -101,6 +104,8 @@ def _knife(machine: Machine, found: Findings) -> Iterator[str]:
         return
     cut = found.of(topper, machine, charts=False)
     found.add(topper_findings(described, cut) if cut else ())
+    if cut and described.field is not None:
+        found.of(lambda: require_advance(edges_of(machine, described), draw_roots(described)))
     yield "knife of the topper: its advance, and its length for every head"
 
 
