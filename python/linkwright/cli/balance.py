@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from linkwright.cli.common import File, Force, Json, Sets, option_value, put
+from linkwright.cli.common import File, Json, Sets, option_value
 from linkwright.cli.forces import Speed
+from linkwright.cli.out import Force, out_option, put
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -45,12 +46,7 @@ Radius = Annotated[
         show_default=False,
     ),
 ]
-OutFile = Annotated[
-    Path | None,
-    typer.Option(
-        "--out", metavar="FILE", help="Write the machine with counterweights there.", show_default=False
-    ),
-]
+OutFile = Annotated[Path | None, out_option("Write the machine with counterweights there.", "FILE")]
 
 
 def balance(

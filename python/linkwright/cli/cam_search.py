@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from linkwright.cli.common import File, Json, Sets
+from linkwright.cli.console import console
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -172,16 +173,14 @@ def _print_json(machine: Machine, found: Cams, keeps: NDArray[np.bool_], best: l
 def _print(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
     """The smallest cams as a table."""
     import numpy as np
-    from rich.console import Console
     from rich.table import Table
 
-    console = Console()
-    console.print(
-        f"{len(keeps)} cams looked at, {int(found.is_sound.sum())} sound, {int(keeps.sum())} keep the limits",
-        highlight=False,
+    out = console()
+    out.print(
+        f"{len(keeps)} cams looked at, {int(found.is_sound.sum())} sound, {int(keeps.sum())} keep the limits"
     )
     if not best:
-        console.print("FINDING  None keeps the limits: vary more, or allow more.", highlight=False)
+        out.print("FINDING  None keeps the limits: vary more, or allow more.")
         return
     units = {"face_tilt": ("deg", 180 / np.pi), "lift_factor": ("", 1.0)}
     table = Table(box=None, header_style="", pad_edge=False)
@@ -199,4 +198,4 @@ def _print(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
             "–" if convex is None else f"{1e3 * convex:.5g} mm",
         ]
         table.add_row(*cells)
-    console.print(table)
+    out.print(table)

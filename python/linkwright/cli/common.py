@@ -40,8 +40,6 @@ Sets = Annotated[
     ),
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object in SI, and nothing else.")]
-Out = Annotated[Path | None, typer.Option("--out", metavar="PATH", help="Write there.", show_default=False)]
-Force = Annotated[bool, typer.Option("--force", help="Replace a file that exists.")]
 
 
 def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
@@ -101,32 +99,3 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
-
-
-def put(text: str, out: Path | None, *, force: bool = False) -> None:
-    """Print a text, or write it to a file.
-
-    Parameters
-    ----------
-    text : str
-        What to put; ends in a line break.
-    out : path or None
-        The file; None for standard output.
-    force : bool
-        Replace a file that exists.
-
-    Raises
-    ------
-    InputError
-        The file exists, or cannot be written.
-    """
-    if out is None:
-        typer.echo(text, nl=False)
-        return
-    try:
-        with out.open("w" if force else "x", encoding="utf-8") as file:
-            file.write(text)
-    except FileExistsError:
-        raise InputError(f"{out}: exists already; --force replaces it") from None
-    except OSError as error:
-        raise InputError(f"{out}: cannot be written ({error.strerror or error})") from None

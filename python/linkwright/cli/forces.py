@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.out import Force, out_option, output_folder, write_folder
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
     from linkwright.analysis.kinetostatics.friction import Friction
     from linkwright.analysis.kinetostatics.result import Forces
+    from linkwright.files.output import OutputFolder
     from linkwright.machine import Machine
 
 Speed = Annotated[
@@ -35,15 +37,7 @@ Span = Annotated[
     ),
 ]
 Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not peaks alone.")]
-Folder = Annotated[
-    Path | None,
-    typer.Option(
-        "--out",
-        metavar="DIR",
-        help="Write results.json, forces.csv and figures as SVG there.",
-        show_default=False,
-    ),
-]
+Folder = Annotated[Path | None, out_option("Write results.json, forces.csv and figures as SVG there.")]
 Cases = Annotated[
     list[str] | None,
     typer.Option(
@@ -81,6 +75,7 @@ def forces(
     json: Json = False,
     curves: Curves = False,
     out: Folder = None,
+    force: Force = False,
 ) -> None:
     """Compute the forces in a machine.
 
@@ -90,6 +85,7 @@ def forces(
     from linkwright.cli.tables import print_tables
     from linkwright.report.force_tables import cases_table, contribution_table, envelope_table
 
+    folder = output_folder(out, force=force)
     found = _cases(file, set or [], case or [], friction or [], _motion(speed, angles, pressure_angle))
     findings = [_named(name, each, found) for name, result in found.items() for each in result.findings]
     first = next(iter(found.values()))
@@ -99,8 +95,8 @@ def forces(
         print_tables("", [cases_table(found)], findings)
     else:
         print_tables("", [envelope_table(first), contribution_table(first)], findings)
-    if out is not None:
-        _write(found, findings, out, quiet=json)
+    if folder is not None:
+        _write(found, findings, folder, quiet=json)
     if findings:
         raise typer.Exit(1)
 
@@ -207,7 +203,7 @@ def _print_json(cases: dict[str, Forces], findings: list[str], *, curves: bool) 
     typer.echo(dumps(_object(cases, findings, curves=curves), allow_nan=False, ensure_ascii=False))
 
 
-def _write(cases: dict[str, Forces], findings: list[str], folder: Path, *, quiet: bool) -> None:
+def _write(cases: dict[str, Forces], findings: list[str], folder: OutputFolder, *, quiet: bool) -> None:
     """JSON, tables and figures; says where they are."""
     from json import dumps
 
@@ -226,11 +222,4 @@ def _write(cases: dict[str, Forces], findings: list[str], folder: Path, *, quiet
         texts[f"polar{end}.svg"] = svg(polar_figure(result))
     if len(cases) > 1:
         texts["load_cases.svg"] = svg(cases_figure(cases))
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in texts.items():
-            (folder / name).write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
-    listed = "\n".join(f"  {folder / name}" for name in texts)
-    typer.echo(f"Written:\n{listed}", err=quiet)
+    write_folder(folder, texts, quiet=quiet)

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import Force, Json, Out, Sets, option_value, put
+from linkwright.cli.common import Json, Sets, option_value
+from linkwright.cli.out import Force, Out, put
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -80,6 +81,7 @@ def _pose(machine: Machine, at: str, omega: float, *, json: bool, csv: bool) -> 
 
     from linkwright.analysis.pose import pose
     from linkwright.analysis.result import finite
+    from linkwright.files.csv_text import csv_text
     from linkwright.units import ANGLE
 
     found = pose(machine, option_value("--at", at, ANGLE), speed=omega)
@@ -87,9 +89,8 @@ def _pose(machine: Machine, at: str, omega: float, *, json: bool, csv: bool) -> 
         return dumps(finite(found.to_dict()), allow_nan=False, ensure_ascii=False) + "\n"
     rows = list(_pose_rows(found))
     if csv:
-        lines = ["name,quantity,position,velocity,acceleration"]
-        lines += [",".join((name, what, *map(repr, numbers))) for name, what, numbers in rows]
-        return "\n".join(lines) + "\n"
+        heads = ("name", "quantity", "position", "velocity", "acceleration")
+        return csv_text(heads, ((name, what, *numbers) for name, what, numbers in rows))
     lines = [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
     lines += [
         f"{name + ' ' + what:<24}" + "".join(f"{value:>16.8g}" for value in numbers)
