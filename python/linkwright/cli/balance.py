@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.forces import Speed
 from linkwright.cli.out import Force, out_option, put
 from linkwright.errors import InputError
@@ -52,6 +52,7 @@ OutFile = Annotated[Path | None, out_option("Write the machine with counterweigh
 def balance(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     links: Links = None,
     slider: Partial = None,
     share: Share = 0.5,
@@ -71,7 +72,7 @@ def balance(
     from linkwright.files.write import dumps
     from linkwright.report.force_tables import balance_tables
 
-    found = _found(read(file, set or ()), links, slider, share, radius, speed)
+    found = _found(read(file, set or (), allow_outside=allow_outside), links, slider, share, radius, speed)
     if json:
         _print_json(found)
     else:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.out import Force, out_option, output_folder, write_folder
 from linkwright.errors import ExchangeError, InputError
 
@@ -43,6 +43,7 @@ Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too,
 def cam_file(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     curves: Curves = False,
     out: Folder = None,
@@ -63,7 +64,7 @@ def cam_file(
     folder = output_folder(out, force=force)
     options = _options(tolerance, step, by, form, formats)
     with progress("computing"):
-        study = _studied(file, set or [])
+        study = _studied(file, set or [], allow_outside=allow_outside)
     drawn: dict[str, _Drawn] = {}
     findings: list[str] = []
     if folder is not None:
@@ -101,12 +102,12 @@ def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dic
     return {**lengths, "step": option_value("--step", step, ANGLE), "by": by, "form": form, "formats": wanted}
 
 
-def _studied(file: Path, sets: list[str]) -> Study:
+def _studied(file: Path, sets: list[str], *, allow_outside: bool) -> Study:
     """Everything about a machine that has cams."""
     from linkwright.analysis.study import study
     from linkwright.files.read import read
 
-    machine = read(file, sets)
+    machine = read(file, sets, allow_outside=allow_outside)
     if not machine.mechanism.cams:
         raise InputError(f"{file}: the machine has no cam; describe one as [mechanism.cams.NAME]")
     return study(machine)

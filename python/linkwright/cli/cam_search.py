@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets
+from linkwright.cli.common import File, Json, Outside, Sets
 from linkwright.cli.console import console
 from linkwright.errors import InputError
 
@@ -62,6 +62,7 @@ def search(
     vary: Vary = None,
     law: Laws = None,
     set: Sets = None,
+    allow_outside: Outside = False,
     cam: CamName = None,
     pressure_angle: Steep = None,
     curvature_radius: Tight = None,
@@ -78,7 +79,7 @@ def search(
     from linkwright.sweep.cams import search_cams
     from linkwright.units import ANGLE, LENGTH, parse
 
-    machine = read(file, set or [])
+    machine = read(file, set or [], allow_outside=allow_outside)
     name, chosen = the_cam(machine, cam)
     steep = chosen.limit if pressure_angle is None else parse(pressure_angle, ANGLE)
     tight = (chosen.curvature_limit or 0.0) if curvature_radius is None else parse(curvature_radius, LENGTH)

@@ -6,20 +6,20 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from linkwright.cli.common import File, Sets
+from linkwright.cli.common import File, Outside, Sets
 
 if TYPE_CHECKING:
     from linkwright.machine import Machine, Topper
 
 
-def check(file: File, set: Sets = None) -> None:
+def check(file: File, set: Sets = None, allow_outside: Outside = False) -> None:
     """Check a machine file.
 
     Says what is in it, or all that is wrong with it.
     """
     from linkwright.files.read import read
 
-    machine = read(file, set or ())
+    machine = read(file, set or (), allow_outside=allow_outside)
     typer.echo(f"OK  {file}\n\n{summary(machine)}")
 
 

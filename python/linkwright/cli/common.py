@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
 
 import typer
 
+from linkwright.cli.console import plain
 from linkwright.errors import InputError, LinkwrightError, UnitError
 
 if TYPE_CHECKING:
@@ -37,6 +38,12 @@ Sets = Annotated[
         help="Override an entry of the file, such as drive.gearbox.ratio=10 or "
         'mechanism.cranks.A2.phase="80 deg". May be given again.',
         show_default=False,
+    ),
+]
+Outside = Annotated[
+    bool,
+    typer.Option(
+        "--allow-outside", help="Let entries `file` of the machine file lead out of the folder that it is in."
     ),
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object in SI, and nothing else.")]
@@ -61,13 +68,13 @@ def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
         try:
             return command(*args, **kwargs)
         except LinkwrightError as error:
-            typer.echo(error, err=True)
+            typer.echo(plain(str(error)), err=True)
             raise typer.Exit(error.exit_code) from None
         except BrokenPipeError:
             # Whoever read the output has enough.
             raise
         except OSError as error:
-            typer.echo(f"cannot read or write: {error}", err=True)
+            typer.echo(plain(f"cannot read or write: {error}"), err=True)
             raise typer.Exit(InputError.exit_code) from None
         except KeyboardInterrupt:
             raise typer.Exit(_INTERRUPTED) from None

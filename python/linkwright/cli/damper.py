@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.out import Force, out_option, output_folder, write_folder
 
 if TYPE_CHECKING:
@@ -64,6 +64,7 @@ def damper(
     kind: Kinds = Kind.viscous,
     loss_factor: Loss = None,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     out: Folder = None,
     force: Force = False,
@@ -76,7 +77,7 @@ def damper(
     from linkwright.units import INERTIA
 
     folder = output_folder(out, force=force)
-    machine = read(file, set or [])
+    machine = read(file, set or [], allow_outside=allow_outside)
     ring = option_value("--ring-inertia", ring_inertia, INERTIA)
     found = design_damper(machine, on, ring, mode=mode, kind=kind.value, loss_factor=loss_factor)
     shown = _object(machine.name, found)

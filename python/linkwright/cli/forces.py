@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.out import Force, out_option, output_folder, write_folder
 from linkwright.errors import InputError
 
@@ -67,6 +68,7 @@ _ANGLES = 360
 def forces(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     speed: Speed = None,
     angles: Span = None,
     case: Cases = None,
@@ -83,10 +85,15 @@ def forces(
     along the steady motion, or at a constant speed.
     """
     from linkwright.cli.tables import print_tables
+    from linkwright.files.read import read
     from linkwright.report.force_tables import cases_table, contribution_table, envelope_table
 
     folder = output_folder(out, force=force)
-    found = _cases(file, set or [], case or [], friction or [], _motion(speed, angles, pressure_angle))
+
+    def read_with(entries: list[str]) -> Machine:
+        return read(file, [*(set or []), *entries], allow_outside=allow_outside)
+
+    found = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
     findings = [_named(name, each, found) for name, result in found.items() for each in result.findings]
     first = next(iter(found.values()))
     if json:
@@ -124,18 +131,17 @@ def _motion(speed: str | None, span: str | None, pressure_angle: str) -> dict[st
 
 
 def _cases(
-    file: Path, sets: list[str], cases: list[str], frictions: list[str], options: dict[str, Any]
+    read_with: Callable[[list[str]], Machine], cases: list[str], frictions: list[str], options: dict[str, Any]
 ) -> dict[str, Forces]:
     """Forces by case; of the machine as it is, where there are none."""
     from linkwright.analysis.forces import forces as compute
-    from linkwright.files.read import read
 
-    machine = read(file, sets)
+    machine = read_with([])
     options["friction"] = _frictions(machine, frictions)
     if not cases:
         return {machine.name: compute(machine, **options)}
     named = dict(_case(text) for text in cases)
-    return {name: compute(read(file, [*sets, *entries]), **options) for name, entries in named.items()}
+    return {name: compute(read_with(entries), **options) for name, entries in named.items()}
 
 
 def _case(text: str) -> tuple[str, list[str]]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import Json, Sets, option_value
+from linkwright.cli.common import Json, Outside, Sets, option_value
 from linkwright.cli.out import Force, Out, put
 from linkwright.errors import InputError
 
@@ -47,6 +47,7 @@ _STEPS_MAX = 1_000_000
 def motion(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     at: At = None,
     speed: Speed = "1 rad/s",
     law: LawText = None,
@@ -68,7 +69,7 @@ def motion(
         raise InputError(f"--steps: found {steps}, expected a number from 1 to {_STEPS_MAX}")
     if at is not None and law is not None:
         raise InputError("--at and --law: one pose or a motion, not both")
-    machine, omega = read(file, set or []), option_value("--speed", speed, SPEED)
+    machine, omega = read(file, set or [], allow_outside=allow_outside), option_value("--speed", speed, SPEED)
     if at is not None:
         put(_pose(machine, at, omega, json=json, csv=csv), out, force=force)
     else:

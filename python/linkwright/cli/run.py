@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.out import Force, out_option, output_folder, say_written
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ Step = Annotated[
 def run(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     curves: Curves = False,
     out: Folder = None,
@@ -47,17 +48,17 @@ def run(
     folder = output_folder(out, force=force)
     steps = step if method == "baranov" else None
     if json:
-        result = _studied(file, set or [], accuracy, steps)
+        result = _studied(file, set or [], accuracy, steps, allow_outside=allow_outside)
         _print_json(result, curves=curves)
     else:
-        result = _shown(file, set or [], accuracy, steps)
+        result = _shown(file, set or [], accuracy, steps, allow_outside=allow_outside)
     if folder is not None:
         _write(result, folder, quiet=json)
     if result.findings:
         raise typer.Exit(1)
 
 
-def _studied(file: Path, sets: list[str], accuracy: float, step: str | None) -> Study:
+def _studied(file: Path, sets: list[str], accuracy: float, step: str | None, *, allow_outside: bool) -> Study:
     """Read the file and study the machine."""
     # A start makes some 100 000 objects that all stay; looking among them for rubbish takes time.
     gc.disable()
@@ -67,17 +68,17 @@ def _studied(file: Path, sets: list[str], accuracy: float, step: str | None) -> 
         from linkwright.units import ANGLE
 
         angle = None if step is None else option_value("--step", step, ANGLE)
-        return study(read(file, sets), accuracy=accuracy, step=angle)
+        return study(read(file, sets, allow_outside=allow_outside), accuracy=accuracy, step=angle)
     finally:
         gc.enable()
 
 
-def _shown(file: Path, sets: list[str], accuracy: float, step: str | None) -> Study:
+def _shown(file: Path, sets: list[str], accuracy: float, step: str | None, *, allow_outside: bool) -> Study:
     """Study the machine and print tables for people."""
     from linkwright.cli.tables import print_study, progress
 
     with progress("computing"):
-        result = _studied(file, sets, accuracy, step)
+        result = _studied(file, sets, accuracy, step, allow_outside=allow_outside)
     print_study(result)
     return result
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.console import console, progress_bar, styled
 from linkwright.cli.out import Force, out_option, put
 
@@ -64,6 +64,7 @@ _BEYOND = 2
 def size(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     power_reserve: Reserve = 1.1,
     unevenness: Unevenness = 0.05,
     by: By = "all",
@@ -83,7 +84,7 @@ def size(
     from linkwright.sizing.flywheel import choose_flywheel
     from linkwright.sizing.motor import choose_motor
 
-    machine = read(file, set or ())
+    machine = read(file, set or (), allow_outside=allow_outside)
     motor = choose_motor(
         machine,
         reserve=power_reserve,

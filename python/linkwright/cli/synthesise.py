@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import Json, Sets, option_value
+from linkwright.cli.common import Json, Outside, Sets, option_value
 from linkwright.cli.console import progress_bar
 from linkwright.cli.out import Force, out_option, put
 from linkwright.cli.synthesis_words import plain, print_catalogue, print_json, words
@@ -120,6 +120,7 @@ def dead_centre(
 def function(
     task: TaskFile,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     curves: Curves = False,
     out: OutFile = None,
@@ -130,13 +131,14 @@ def function(
     from linkwright.synthesis.function_generator import function_generator
     from linkwright.synthesis.task import FunctionTask
 
-    found = function_generator(read_as(FunctionTask, task, set or ()))
+    found = function_generator(read_as(FunctionTask, task, set or (), allow_outside=allow_outside))
     _finish("function_generator", found, json, out, force, curves=curves)
 
 
 def path(
     task: TaskFile,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     curves: Curves = False,
     out: OutFile = None,
@@ -147,7 +149,7 @@ def path(
     from linkwright.synthesis.path import path_generator
     from linkwright.synthesis.task import PathTask
 
-    read = read_as(PathTask, task, set or ())
+    read = read_as(PathTask, task, set or (), allow_outside=allow_outside)
     with _tracked() as track:
         found = path_generator(read, track=track)
     _finish("path_generator", found, json, out, force, curves=curves)
@@ -156,6 +158,7 @@ def path(
 def motion(
     task: TaskFile,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     curves: Curves = False,
     out: OutFile = None,
@@ -166,7 +169,7 @@ def motion(
     from linkwright.synthesis.pose import pose_guide
     from linkwright.synthesis.task import PoseTask
 
-    found = pose_guide(read_as(PoseTask, task, set or ()))
+    found = pose_guide(read_as(PoseTask, task, set or (), allow_outside=allow_outside))
     _finish("pose_guide", found, json, out, force, curves=curves)
 
 

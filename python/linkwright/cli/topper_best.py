@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets
+from linkwright.cli.common import File, Json, Outside, Sets
 from linkwright.cli.out import Force, output_folder, write_folder
 from linkwright.cli.topper_field import Folder, Seed
 
@@ -37,6 +37,7 @@ def best(
     file: File,
     objective: Best = Objective.shortest,
     set: Sets = None,
+    allow_outside: Outside = False,
     seed: Seed = None,
     json: Json = False,
     out: Folder = None,
@@ -51,7 +52,7 @@ def best(
     from linkwright.sizing.topper import best_knife
 
     folder = output_folder(out, force=force)
-    machine = read(file, set or [])
+    machine = read(file, set or [], allow_outside=allow_outside)
     with bar("knives") as watch:
         found = best_knife(machine, objective=objective.value, seed=seed, watch=watch)
     findings, warnings = _told(found)

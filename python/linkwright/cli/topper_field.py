@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.out import Force, out_option, output_folder, write_folder
 from linkwright.errors import InputError
 
@@ -51,6 +51,7 @@ def topper() -> None:
 def field(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     over: Over = None,
     seed: Seed = None,
     level: Level = 0.95,
@@ -70,7 +71,7 @@ def field(
     from linkwright.sweep.topper import sweep_field
 
     folder = output_folder(out, force=force)
-    machine, axes = read(file, set or []), _axes(over or [])
+    machine, axes = read(file, set or [], allow_outside=allow_outside), _axes(over or [])
     described = require_topper(machine)
     with bar("heads") as watch:
         found = topper_field(machine, seed=seed, level=level, watch=watch)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets
+from linkwright.cli.common import File, Json, Outside, Sets
 from linkwright.cli.out import Force, out_option, output_folder, write_folder
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ Holzer = Annotated[
 def torsion(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     holzer: Holzer = None,
     out: Folder = None,
@@ -47,7 +48,7 @@ def torsion(
     from linkwright.files.read import read
 
     folder = output_folder(out, force=force)
-    machine = read(file, set or [])
+    machine = read(file, set or [], allow_outside=allow_outside)
     with progress("computing"):
         study = torsion_study(machine, holzer=holzer or ())
     shown = _object(study)
