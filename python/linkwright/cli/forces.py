@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from linkwright.cli.common import File, Json, Outside, Sets, option_value
+from linkwright.cli.crank_speed import speed_words, speeds_of
 from linkwright.cli.out import Force, out_option, output_folder, write_folder
 from linkwright.errors import InputError
 
@@ -93,17 +94,20 @@ def forces(
     def read_with(entries: list[str]) -> Machine:
         return read(file, [*(set or []), *entries], allow_outside=allow_outside)
 
-    found = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
+    found, machine = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
+    speeds = {name: speeds_of(each, machine, speed) for name, each in found.items()}
     findings = [_named(name, each, found) for name, result in found.items() for each in result.findings]
     first = next(iter(found.values()))
     if json:
-        _print_json(found, findings, curves=curves)
+        _print_json(found, speeds, findings, curves=curves)
     elif len(found) > 1:
-        print_tables("", [cases_table(found)], findings)
+        head = "\n".join(f"{name}: {speed_words(each)}" for name, each in speeds.items())
+        print_tables(head, [cases_table(found)], findings)
     else:
-        print_tables("", [envelope_table(first), contribution_table(first)], findings)
+        head = speed_words(next(iter(speeds.values())))
+        print_tables(head, [envelope_table(first), contribution_table(first)], findings)
     if folder is not None:
-        _write(found, findings, folder, quiet=json)
+        _write(found, speeds, findings, folder, quiet=json)
     if findings:
         raise typer.Exit(1)
 
@@ -132,16 +136,17 @@ def _motion(speed: str | None, span: str | None, pressure_angle: str) -> dict[st
 
 def _cases(
     read_with: Callable[[list[str]], Machine], cases: list[str], frictions: list[str], options: dict[str, Any]
-) -> dict[str, Forces]:
-    """Forces by case; of the machine as it is, where there are none."""
+) -> tuple[dict[str, Forces], Machine]:
+    """Forces by case, of the machine as it is where there are none; and the machine."""
     from linkwright.analysis.forces import forces as compute
 
     machine = read_with([])
     options["friction"] = _frictions(machine, frictions)
     if not cases:
-        return {machine.name: compute(machine, **options)}
+        return {machine.name: compute(machine, **options)}, machine
     named = dict(_case(text) for text in cases)
-    return {name: compute(read_with(entries), **options) for name, entries in named.items()}
+    found = {name: compute(read_with(entries), **options) for name, entries in named.items()}
+    return found, machine
 
 
 def _case(text: str) -> tuple[str, list[str]]:
@@ -191,7 +196,9 @@ def _friction(entries: str, *, is_pin: bool) -> Friction:
     return Friction(**values)
 
 
-def _object(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> dict[str, Any]:
+def _object(
+    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], findings: list[str], *, curves: bool
+) -> dict[str, Any]:
     """What is printed and written as JSON."""
     from linkwright.analysis.envelope import envelope
     from linkwright.analysis.result import finite
@@ -199,17 +206,26 @@ def _object(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> d
     results = {}
     for name, result in cases.items():
         rows = {each.name: {k: v for k, v in vars(each).items() if k != "name"} for each in envelope(result)}
-        results[name] = finite(result.to_dict(curves=curves) | {"envelope": rows})
+        results[name] = finite(result.to_dict(curves=curves) | speeds[name] | {"envelope": rows})
     return {"results": results, "findings": findings}
 
 
-def _print_json(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> None:
+def _print_json(
+    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], findings: list[str], *, curves: bool
+) -> None:
     from json import dumps
 
-    typer.echo(dumps(_object(cases, findings, curves=curves), allow_nan=False, ensure_ascii=False))
+    typer.echo(dumps(_object(cases, speeds, findings, curves=curves), allow_nan=False, ensure_ascii=False))
 
 
-def _write(cases: dict[str, Forces], findings: list[str], folder: OutputFolder, *, quiet: bool) -> None:
+def _write(
+    cases: dict[str, Forces],
+    speeds: dict[str, dict[str, Any]],
+    findings: list[str],
+    folder: OutputFolder,
+    *,
+    quiet: bool,
+) -> None:
     """JSON, tables and figures; says where they are."""
     from json import dumps
 
@@ -217,7 +233,9 @@ def _write(cases: dict[str, Forces], findings: list[str], folder: OutputFolder, 
     from linkwright.report.csv import forces_csv
 
     texts = {
-        "results.json": dumps(_object(cases, findings, curves=True), allow_nan=False, ensure_ascii=False)
+        "results.json": dumps(
+            _object(cases, speeds, findings, curves=True), allow_nan=False, ensure_ascii=False
+        )
         + "\n"
     }
     for number, result in enumerate(cases.values(), start=1):
