@@ -30,7 +30,7 @@ References
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,16 +39,13 @@ from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.confidence import coverage_factor
 from linkwright.analysis.torsion.cylinder_response import cylinder_response
 from linkwright.analysis.torsion.excited import Excited
+from linkwright.analysis.torsion.least_squares import Fit, least_squares
 from linkwright.analysis.torsion.measured_speed import MeasuredSpeed
 from linkwright.errors import InputError, ShapeError
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
-# Singular values below this share of the largest are rounding.
-_ROUNDING = 1e-10
-# Part of a cylinder in what cannot be told from which on its factor is not told.
-_OPEN = 1e-6
 # Cosine between responses from which on two cylinders are called alike.
 _ALIKE = 0.99
 # Orders that differ by a smaller share are one.
@@ -175,43 +172,75 @@ def diagnosis(
     names = _names(at, sources, cylinders)
     rest = at.torques.harmonics[:, :, 0] - sources.sum(axis=0)
     every = cylinder_response(at, np.concatenate([sources, rest[None]]), measured.disc, rigid=rigid)
-    columns = every[:, _places(at, measured)]
-    noise = np.ones(len(measured.orders)) if measured.noise is None else measured.noise
-    A = _stacked(columns[:-1] / noise).T
+    columns = every[:, places(at.torques.orders, measured)]
+    A = equations(columns[:-1], measured).T
     # What is sought is how far factors are from 1, so that what cannot be told stays healthy.
-    y = _stacked((measured.harmonics - columns.sum(axis=0)) / noise)
-    return _solved(A, y, names, is_known=measured.noise is not None)
+    y = equations(measured.harmonics - columns.sum(axis=0), measured)
+    return diagnosed(least_squares(A, y, is_known=measured.noise is not None), A, names, measured)
 
 
-def _solved(A: Floats, y: Floats, names: tuple[str, ...], *, is_known: bool) -> Diagnosis:
-    """Least squares with what it can tell."""
-    U, s, Vt = np.linalg.svd(A, full_matrices=True)
-    # A cylinder that adds nothing has no singular value at all if equations are fewer.
-    rank = int((s > _ROUNDING * s.max(initial=0.0)).sum())
-    freedom = len(y) - rank
-    if not is_known and freedom < 1:
+def equations(harmonics: Complexes, measured: MeasuredSpeed) -> Floats:
+    """Real and imaginary parts over their noise.
+
+    Parameters
+    ----------
+    harmonics : ndarray of complex, shape (..., orders)
+        Speeds at the orders measured [rad/s].
+    measured : MeasuredSpeed
+        With the noise; without one it is taken as 1 rad/s.
+
+    Returns
+    -------
+    ndarray, shape (..., 2 orders)
+        Equations for least squares.
+    """
+    scaled = harmonics if measured.noise is None else harmonics / measured.noise
+    found: Floats = np.concatenate([scaled.real, scaled.imag], axis=-1)
+    return found
+
+
+def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpeed) -> Diagnosis:
+    """What a fit says of the cylinders.
+
+    Parameters
+    ----------
+    fit : Fit
+        How far the factors are from 1.
+    A : ndarray, shape (equations, cylinders)
+        Its equations.
+    names : tuple of str
+        Of the cylinders.
+    measured : MeasuredSpeed
+        What was fitted.
+
+    Returns
+    -------
+    Diagnosis
+        Factors with their uncertainty.
+
+    Raises
+    ------
+    InputError
+        Noise is neither known nor left over.
+    """
+    is_known = measured.noise is not None
+    if not is_known and fit.freedom < 1:
         remedy = f"measure more than {len(names) / 2:.4g} orders, or give the noise"
         raise InputError(
-            f"{len(y) // 2} orders for {len(names)} cylinders leave nothing to tell noise by: {remedy}"
+            f"{len(measured.orders)} orders for {len(names)} cylinders leave nothing to tell noise by: {remedy}"
         )
-    change = Vt[:rank].T @ ((U[:, :rank].T @ y) / s[:rank])
-    left = y - A @ change
-    misfit = float(np.sqrt(left @ left / freedom)) if freedom else float("nan")
-    covariance = (Vt[:rank].T / s[:rank] ** 2) @ Vt[:rank] * (1.0 if is_known else misfit**2)
-    open_part = np.linalg.norm(Vt[rank:], axis=0) > _OPEN
-    deviation = np.where(open_part, np.inf, np.sqrt(np.diag(covariance)))
     found = Diagnosis(
         cylinders=names,
-        factor=np.where(open_part, 1.0, 1 + change),
-        deviation=deviation,
-        covariance=covariance,
-        condition=float(s[0] / s[-1]) if rank == len(names) else float("inf"),
-        misfit=misfit,
-        freedom=freedom,
+        factor=np.where(fit.is_open, 1.0, 1 + fit.values),
+        deviation=fit.deviation,
+        covariance=fit.covariance,
+        condition=fit.condition,
+        misfit=fit.misfit,
+        freedom=fit.freedom,
         is_noise_known=is_known,
         warnings=(),
     )
-    return Diagnosis(**{**vars(found), "warnings": tuple(_warnings(found, A, open_part))})
+    return replace(found, warnings=tuple(_warnings(found, A, fit.is_open)))
 
 
 def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list[str]:
@@ -239,12 +268,6 @@ def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list
     return listed
 
 
-def _stacked(rows: Complexes) -> Floats:
-    """Real and imaginary parts as equations, (…, 2 orders)."""
-    found: Floats = np.concatenate([rows.real, rows.imag], axis=-1)
-    return found
-
-
 def _names(at: Excited, sources: Complexes, cylinders: Sequence[str] | None) -> tuple[str, ...]:
     """Names of the cylinders, of arrays that fit."""
     if len(at.torques.speeds) != 1:
@@ -261,9 +284,26 @@ def _names(at: Excited, sources: Complexes, cylinders: Sequence[str] | None) -> 
     return names
 
 
-def _places(at: Excited, measured: MeasuredSpeed) -> NDArray[np.intp]:
-    """Where the measured orders stand among those of the train."""
-    orders = at.torques.orders
+def places(orders: Floats, measured: MeasuredSpeed) -> NDArray[np.intp]:
+    """Where the measured orders stand among others.
+
+    Parameters
+    ----------
+    orders : ndarray, shape (orders,)
+        Of the torques of a train.
+    measured : MeasuredSpeed
+        Of one of its discs.
+
+    Returns
+    -------
+    ndarray of int
+        One for each measured order.
+
+    Raises
+    ------
+    InputError
+        The train has not got one of them.
+    """
     place = np.abs(orders[:, None] - measured.orders).argmin(axis=0)
     apart = np.abs(orders[place] - measured.orders) > _EQUAL * measured.orders
     if apart.any():

@@ -1,22 +1,34 @@
-"""Which cylinder of an engine is weak: what the firing of each adds to its torque, from the machine file."""
+r"""Which cylinder of an engine is weak: its factors by Gauss and Newton's method.
+
+Harmonics of a speed depend on the factors x of the cylinders, y = f(x), nearly but not quite linearly: what
+the loads take off, and the stiffness of couplings of a curve, are those of the mean torque that the weakened
+engine gives. From a healthy engine on,
+
+.. math:: x \leftarrow 1 + A^+ \left(y - f(x) + A\,(x - 1)\right), \qquad A = \partial f/\partial x
+
+until x stays, so that operating point and diagnosis belong together. A at the end tells the uncertainty.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.torsion.diagnosis import Diagnosis, diagnosis
-from linkwright.analysis.torsion.engine_torques import cylinder_torques
-from linkwright.analysis.torsion.excited import Excited, excited
+from linkwright.analysis.torsion.diagnosis import Diagnosis, diagnosed, equations, places
+from linkwright.analysis.torsion.engine_speed import EngineSpeed
+from linkwright.analysis.torsion.least_squares import least_squares
 from linkwright.analysis.torsion.measured_speed import MeasuredSpeed
-from linkwright.errors import InputError
+from linkwright.errors import ConvergenceError
 from linkwright.machine import Machine
-from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 
-Complexes = NDArray[np.complex128]
+Floats = NDArray[np.float64]
 
-# Orders that differ by less are one.
-_EQUAL = 1e-9
+# Steps of the method: a few, and some dozens where curves of couplings bend at the operating point.
+_ROUNDS = 60
+# Factors have settled when they change by less than this, or than this share of their deviation.
+_SETTLED, _SETTLED_SHARE = 1e-9, 1e-4
+# A step that fits worse is halved, at most so often.
+_HALVINGS = 10
 
 
 def engine_diagnosis(
@@ -45,39 +57,61 @@ def engine_diagnosis(
     ------
     InputError
         The machine has no engine, or the measurement does not fit its train.
+    ConvergenceError
+        No factors belong to their own operating point.
     """
-    train = machine.train
-    if train is None or train.engine is None:
-        raise InputError(
-            f"{machine.name} has no [train.engine]: expected one whose cylinders are to be judged"
-        )
-    healthy = train.engine.model_copy(update={"factors": {}})
-    sound = machine.model_copy(update={"train": train.model_copy(update={"engine": healthy})})
-    at = excited(sound, np.array([speed]))
-    return diagnosis(at, firing_sources(healthy, at), measured, rigid=rigid)
+    return fitted(EngineSpeed(machine, speed, measured.disc, rigid=rigid), measured)
 
 
-def firing_sources(engine: ReciprocatingEngine, at: Excited) -> Complexes:
-    """Torque that the combustion of each healthy cylinder adds on its throw.
+def fitted(model: EngineSpeed, measured: MeasuredSpeed) -> Diagnosis:
+    """Factors whose speed is closest to a measured one.
 
     Parameters
     ----------
-    engine : ReciprocatingEngine
-        The engine, whose throws are the first discs of the train.
-    at : Excited
-        The train, at one speed.
+    model : EngineSpeed
+        The engine, made ready once for any number of measurements.
+    measured : MeasuredSpeed
+        At its disc.
 
     Returns
     -------
-    ndarray of complex, shape (cylinders, orders, discs)
-        At the orders of the train's torques, by number of the cylinder [N m].
+    Diagnosis
+        As `engine_diagnosis`.
+
+    Raises
+    ------
+    InputError
+        The measurement does not fit the train.
+    ConvergenceError
+        No factors belong to their own operating point.
     """
-    orders = at.torques.orders
-    gas = cylinder_torques(engine, at.torques.speeds, float(orders.max()))
-    found = np.zeros((engine.n_cylinders, len(orders), len(at.referred.discs)), complex)
-    added = (gas.firing - gas.motored)[:, :, 0]
-    place = np.abs(gas.orders[:, None] - orders).argmin(axis=0)
-    fits = np.abs(gas.orders[place] - orders) <= _EQUAL * orders
-    for c, cylinder in enumerate(engine.places):
-        found[c, fits, cylinder.throw] = added[c, place[fits]]
-    return found
+    names = tuple(str(n + 1) for n in range(model.engine.n_cylinders))
+    factors, is_known = np.ones(len(names)), measured.noise is not None
+    for _ in range(_ROUNDS):
+        orders, here, slopes = model.about(factors)
+        at = places(orders, measured)
+        A = equations(slopes[:, at], measured).T
+        left = equations(measured.harmonics - here[at], measured)
+        fit = least_squares(A, left + A @ (factors - 1), is_known=is_known)
+        step = 1 + fit.values - factors
+        if (np.abs(step) <= np.maximum(_SETTLED, _SETTLED_SHARE * fit.deviation)).all():
+            return diagnosed(fit, A, names, measured)
+        factors = factors + _share(model, measured, factors, step) * step
+    worst = int(np.argmax(np.abs(step)))
+    raise ConvergenceError(
+        f"the factors do not settle: that of cylinder {names[worst]} still changes by {step[worst]:.3g} at "
+        f"{factors[worst]:.4g}, as the stiffness of couplings follows the mean torque; give the noise, or "
+        "smoother points of their curves",
+        method="Gauss-Newton",
+        iterations=_ROUNDS,
+    )
+
+
+def _share(model: EngineSpeed, measured: MeasuredSpeed, factors: Floats, step: Floats) -> float:
+    """Share of a step, halved until the speed fits no worse than before."""
+    shares = 0.5 ** np.arange(_HALVINGS)
+    orders, found = model.harmonics(factors[:, None] + step[:, None] * np.append(0.0, shares))
+    left = equations(measured.harmonics - found[:, places(orders, measured)], measured)
+    size = (left**2).sum(axis=1)
+    fits = np.flatnonzero(size[1:] <= size[0])
+    return float(shares[fits[0] if len(fits) else -1])

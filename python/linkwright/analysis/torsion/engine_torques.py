@@ -94,10 +94,30 @@ def engine_sources(engine: ReciprocatingEngine, speeds: Floats, highest: float =
     list of Source
         One a throw, in order.
     """
-    gas = cylinder_torques(engine, speeds, highest)
-    factor = np.array([engine.factor(n + 1) for n in range(engine.n_cylinders)])[:, None, None]
-    torque = gas.motored + factor * (gas.firing - gas.motored)
-    moving = _moving_parts(engine, speeds, gas.orders)
+    factors = np.array([engine.factor(n + 1) for n in range(engine.n_cylinders)])
+    return throw_sources(engine, cylinder_torques(engine, speeds, highest), factors[:, None])
+
+
+def throw_sources(engine: ReciprocatingEngine, gas: CylinderTorques, factors: Floats) -> list[Source]:
+    """Torques on the throws of an engine whose cylinders burn more or less.
+
+    Parameters
+    ----------
+    engine : ReciprocatingEngine
+        The engine.
+    gas : CylinderTorques
+        Of its cylinders, at some speeds.
+    factors : ndarray, shape (cylinders, speeds)
+        Share of the combustion of each at each speed; one column stands for all speeds, and many columns
+        with one speed of the gas are as many states of the engine at that speed.
+
+    Returns
+    -------
+    list of Source
+        One a throw, in order, with a column for each speed or state.
+    """
+    torque = gas.motored + factors[:, None] * (gas.firing - gas.motored)
+    moving = _moving_parts(engine, gas.banks[0].speeds, gas.orders)
     found = []
     for n, angle in enumerate(engine.throws):
         own = sum(torque[c] for c, place in enumerate(engine.places) if place.throw == n)
