@@ -30,13 +30,12 @@ References
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.result import Result
-from linkwright.analysis.torsion.confidence import coverage_factor
+from linkwright.analysis.torsion.cylinder_factors import Diagnosis
 from linkwright.analysis.torsion.cylinder_response import cylinder_response
 from linkwright.analysis.torsion.excited import Excited
 from linkwright.analysis.torsion.least_squares import Fit, least_squares
@@ -50,82 +49,6 @@ Complexes = NDArray[np.complex128]
 _ALIKE = 0.99
 # Orders that differ by a smaller share are one.
 _EQUAL = 1e-9
-
-
-@dataclass(frozen=True)
-class Diagnosis(Result):
-    """How strongly each cylinder fires.
-
-    Attributes
-    ----------
-    cylinders : tuple of str
-        Their names.
-    factor : ndarray, shape (cylinders,)
-        Firing part over that of a healthy cylinder; 1 where it cannot be told.
-    deviation : ndarray, shape (cylinders,)
-        Standard deviation of each; infinite where it cannot be told.
-    covariance : ndarray, shape (cylinders, cylinders)
-        Of the factors, as far as they can be told.
-    condition : float
-        Largest over smallest singular value; infinite where cylinders cannot be told apart.
-    misfit : float
-        What is left over for each degree of freedom, over the noise if that is known, else [rad/s]; NaN
-        without any degree of freedom.
-    freedom : int
-        Equations less factors told.
-    is_noise_known : bool
-        Whether the noise was given, or estimated.
-    warnings : tuple of str
-        What limits the diagnosis.
-    """
-
-    cylinders: tuple[str, ...]
-    factor: Floats
-    deviation: Floats
-    covariance: Floats
-    condition: float
-    misfit: float
-    freedom: int
-    is_noise_known: bool
-    warnings: tuple[str, ...]
-
-    def half_width(self, level: float = 0.95) -> Floats:
-        """Half width of the interval about each factor.
-
-        Parameters
-        ----------
-        level : float
-            Probability that it holds the truth, for each cylinder by itself.
-
-        Returns
-        -------
-        ndarray, shape (cylinders,)
-        """
-        return coverage_factor(level, None if self.is_noise_known else self.freedom) * self.deviation
-
-    def weak(self, level: float = 0.95) -> tuple[str, ...]:
-        """Cylinders that fire less than a healthy one, the weakest first.
-
-        Parameters
-        ----------
-        level : float
-            Probability that none is named in a healthy engine; shared out to the cylinders (Bonferroni).
-
-        Returns
-        -------
-        tuple of str
-            Those whose intervals, one-sided, lie below 1.
-        """
-        each = 1 - 2 * (1 - level) / len(self.cylinders)
-        below = self.factor + self.half_width(each) < 1
-        order = np.argsort(self.factor)
-        return tuple(self.cylinders[n] for n in order if below[n])
-
-    @property
-    def relative(self) -> Floats:
-        """Factors over their mean, shape (cylinders,): where the load of the engine is not known."""
-        found: Floats = self.factor / self.factor.mean()
-        return found
 
 
 def diagnosis(
@@ -205,8 +128,9 @@ def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpe
     Parameters
     ----------
     fit : Fit
-        How far the factors are from 1.
-    A : ndarray, shape (equations, cylinders)
+        How far the factors are from 1; behind them, where they are fitted, delays and how far the compression
+        is from 1.
+    A : ndarray, shape (equations, parameters)
         Its equations.
     names : tuple of str
         Of the cylinders.
@@ -227,20 +151,33 @@ def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpe
     if not is_known and fit.freedom < 1:
         remedy = f"measure more than {len(names) / 2:.4g} orders, or give the noise"
         raise InputError(
-            f"{len(measured.orders)} orders for {len(names)} cylinders leave nothing to tell noise by: {remedy}"
+            f"{len(measured.orders)} orders for {len(names)} cylinders leave nothing to tell noise by: "
+            f"{remedy}"
         )
+    n, (delay, compression) = len(names), _further(fit, len(names))
     found = Diagnosis(
         cylinders=names,
-        factor=np.where(fit.is_open, 1.0, 1 + fit.values),
-        deviation=fit.deviation,
-        covariance=fit.covariance,
+        factor=np.where(fit.is_open[:n], 1.0, 1 + fit.values[:n]),
+        deviation=fit.deviation[:n],
+        covariance=fit.covariance[:n, :n],
         condition=fit.condition,
         misfit=fit.misfit,
         freedom=fit.freedom,
         is_noise_known=is_known,
         warnings=(),
+        delay=delay[0],
+        delay_deviation=delay[1],
+        compression=None if compression[0] is None else 1 + compression[0],
+        compression_deviation=compression[1],
     )
-    return replace(found, warnings=tuple(_warnings(found, A, fit.is_open)))
+    return replace(found, warnings=tuple(_warnings(found, A[:, :n], fit.is_open[:n])))
+
+
+def _further(fit: Fit, n: int) -> list[tuple[Floats, Floats] | tuple[None, None]]:
+    """Values and deviations of delay and compression, if they were fitted."""
+    if len(fit.values) == n:
+        return [(None, None), (None, None)]
+    return [(fit.values[at : at + n], fit.deviation[at : at + n]) for at in (n, 2 * n)]
 
 
 def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list[str]:
@@ -260,8 +197,7 @@ def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list
     blind = ~open_part & (found.half_width() > 1)
     if blind.any():
         listed.append(f"cylinders {', '.join(names[blind])}: not even a misfire would show against the noise")
-    # A misfit has the mean 1 and the deviation 1/√(2f); three of them are rare.
-    if found.is_noise_known and found.freedom and found.misfit > 1 + 3 / np.sqrt(2 * found.freedom):
+    if found.is_refuted:
         listed.append(
             f"what is left over is {found.misfit:.3g} times the noise: the train or its torques differ"
         )

@@ -90,3 +90,16 @@ def least_squares(A: Floats, y: Floats, *, is_known: bool) -> Fit:
         misfit=misfit,
         freedom=freedom,
     )
+
+
+def scaled(fit: Fit, factor: float) -> Fit:
+    """The same fit with larger uncertainty.
+
+    Parameters
+    ----------
+    fit : Fit
+        The fit.
+    factor : float
+        By which its deviations are larger.
+    """
+    return fit._replace(deviation=factor * fit.deviation, covariance=factor**2 * fit.covariance)
