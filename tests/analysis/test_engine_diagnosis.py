@@ -145,7 +145,7 @@ def test_survey_looks_at_the_run_and_at_every_resonance(v12: lw.Machine) -> None
 
 @pytest.mark.parametrize(
     ("disc", "factor", "deviation", "misfit", "weakest"),
-    [("front", -34, 0.001, 245, "1"), ("flywheel", 10.0, 0.002, 71, None)],
+    [("front", -34, 0.001, 245, "1"), ("flywheel", 10.0, 0.002, 72, None)],
 )
 def test_numbers_of_the_page_on_diagnosis(
     v12: lw.Machine, disc: str, factor: float, deviation: float, misfit: float, weakest: str | None

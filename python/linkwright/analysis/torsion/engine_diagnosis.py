@@ -102,19 +102,23 @@ def fitted(model: EngineSpeed, measured: MeasuredSpeed) -> Diagnosis:
         No factors belong to their own operating point.
     """
     names = tuple(str(n + 1) for n in range(model.engine.n_cylinders))
-    values, is_settled = _settled(model, measured, np.zeros(len(names)))
+    healthy = np.zeros(len(names))
+    if model.rigid:
+        # What neglecting torsion costs: its factors are no engine that would have an operating point.
+        return diagnosed(*_linear_fit(model, measured, healthy), names, measured)
+    values, is_settled = _settled(model, measured, healthy)
     fit, A = _linear_fit(model, measured, values)
     if not is_settled:
         raise ConvergenceError(_unsettled(values, fit.values), method="Gauss-Newton", iterations=_ROUNDS)
     warnings = []
-    if not model.rigid and (start := _wider(model, measured, values, fit)) is not None:
+    if (start := _wider(model, measured, values, fit)) is not None:
         wider, is_settled = _settled(model, measured, start)
         if is_settled:
             fit, A = _linear_fit(model, measured, wider)
         else:
             warnings.append("factors do not explain what was measured, nor do delay and compression settle")
     found = diagnosed(fit, A, names, measured)
-    if found.is_refuted and not model.rigid:
+    if found.is_refuted:
         # Noise is what neither the train nor its cylinders explain.
         spread = diagnosed(scaled(fit, fit.misfit), A, names, measured)
         found = replace(found, deviation=spread.deviation, covariance=spread.covariance)
