@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from linkwright.cli.common import File, Sets
+from linkwright.cli.common import File, Outside, Sets
 from linkwright.errors import AssemblyError
 
 if TYPE_CHECKING:
     from linkwright.machine import Machine, Mechanism, Topper
 
 
-def check(file: File, set: Sets = None) -> None:
+def check(file: File, set: Sets = None, allow_outside: Outside = False) -> None:
     """Check a machine file.
 
     Says what is in it, or all that is wrong with it; and what its geometry does not allow, as far as that can
@@ -22,7 +22,7 @@ def check(file: File, set: Sets = None) -> None:
     from linkwright.analysis.soundness import soundness
     from linkwright.files.read import read
 
-    machine = read(file, set or ())
+    machine = read(file, set or (), allow_outside=allow_outside)
     found = soundness(machine)
     count = len(found.findings)
     verdict = f"{count} FINDING{'S' if count > 1 else ''}" if count else "OK"
