@@ -9,7 +9,7 @@ from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
 
 # Share by which a linkage may miss what was asked for. Lengths and places are good to some 1e-16 of the
-# longest link; a crank of a ten-thousandth of it, whose dead centres lie among such numbers, keeps seven digits.
+# longest link; a crank of a ten-thousandth of it, with dead centres among such numbers, keeps seven digits.
 MET = 1e-6
 
 
