@@ -8,10 +8,10 @@ An angle is kept apart from a plain number: a speed in ``1/min`` or ``Hz`` is re
 whether that counts turns or radians. `COMMON` holds the usual spellings, so that most files are read without
 loading pint, which costs more than everything else together; any other spelling goes to pint.
 
-Every kind has a range of sizes, from far below the smallest instrument to far above the largest plant, so that
-products of a dozen numbers neither overflow nor vanish. It is declared here with the kind, held by every reader, and
-printed in `docs/units.md`. A quantity with a sign may be as small as it likes: places and angles that arithmetic left
-at 1e-17 are zeros; what cannot be negative is zero, or of at least the smallest size.
+Every kind has a range of sizes, from far below the smallest instrument to far above the largest plant, so
+that products of a dozen numbers neither overflow nor vanish. It is declared here with the kind, held by every
+reader, and printed in `docs/units.md`. A quantity with a sign may be as small as it likes: places and angles
+that arithmetic left at 1e-17 are zeros; what cannot be negative is zero, or of at least the smallest size.
 """
 
 from __future__ import annotations
@@ -152,7 +152,7 @@ MASS_PER_LENGTH = Kind("a mass per length", "kg/m", "kilograms per metre", "80 k
 SECTION_MODULUS = Kind("a section modulus", "m^3", "cubic metres", "25 cm^3", _M3, 1e-18, 1e6)
 DENSITY = Kind("a density", "kg/m^3", "kilograms per cubic metre", "7850 kg/m^3", _KG_M3, 1e-3, 1e6)
 PRESSURE = Kind("a pressure", "Pa", "pascals", "210 GPa", _PA, 1e-3, 1e15)
-STIFFNESS = Kind("a stiffness", "N/m", "newtons per metre", "2000 N/m", _N_PER_M, 1e-6, 1e15)
+STIFFNESS = Kind("a stiffness", "N/m", "newtons per metre", "2000 N/m", _N_PER_M, 1e-15, 1e15)
 TORSIONAL_STIFFNESS = Kind(
     "a torsional stiffness",
     "N m/rad",
@@ -174,6 +174,8 @@ TORSIONAL_DAMPING = Kind(
     1e15,
     angle_free=True,
 )
+# Of vibration, counted in cycles; of a shaft it would leave open whether turns or radians are meant.
+FREQUENCY = Kind("a frequency", "Hz", "hertz", "50 Hz", _PER_SECOND, 1e-9, 1e6)
 TEMPERATURE = Kind("an absolute temperature", "K", "kelvins", "330 K", _K, 1e-3, 1e6)
 RATIO = Kind("a ratio", "", "", "90 %", _ONE, 1e-9, 1e9)
 # What is counted, such as teeth, or set by its author, such as an exponent: no share of anything.
@@ -221,6 +223,7 @@ KINDS = (
     TORSIONAL_STIFFNESS,
     DAMPING,
     TORSIONAL_DAMPING,
+    FREQUENCY,
     TEMPERATURE,
     RATIO,
     LIFT_D1,
@@ -331,7 +334,7 @@ def parse(value: object, kind: Kind) -> float:
     Raises
     ------
     UnitError
-        The value is no such quantity: wrong type, beyond the range of the kind, unknown unit, wrong dimension.
+        The value is no such quantity: wrong type or dimension, unknown unit, beyond the range of the kind.
 
     Examples
     --------
@@ -629,6 +632,11 @@ FRACTION = Bound(" above 0 and up to 1,", {"exclusiveMinimum": 0, "maximum": 1},
 INSIDE_ONE = Bound(
     " between 0 and 1,", {"exclusiveMinimum": 0, "exclusiveMaximum": 1}, lambda value: 0 < value < 1
 )
+ACUTE = Bound(
+    " between -90 and 90 deg,",
+    {"exclusiveMinimum": -math.pi / 2, "exclusiveMaximum": math.pi / 2},
+    lambda value: -math.pi / 2 < value < math.pi / 2,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -649,12 +657,25 @@ class Quantity:
             number = parse(value, self.kind)
         except UnitError as error:
             raise _reported(error.problem, self.expected) from None
-        if not self.bound.holds(number):
-            raise _reported(Problem(found=show(value)), self.expected)
-        # Of what cannot be negative, a speck is a slip; with a sign it is what arithmetic left of zero.
-        if 0 < number < self.kind.least and not self.bound.holds(-number):
-            raise _reported(Problem(found=show(value), remedy=range_words(self.kind)), self.expected)
+        if not self.holds(number):
+            raise _reported(Problem(found=show(value), remedy=self.remedy(number)), self.expected)
         return number
+
+    def holds(self, number: float) -> bool:
+        """Whether an SI value is such a quantity: finite, within its bound and the range of its kind."""
+        in_bound = math.isfinite(number) and self.bound.holds(number)
+        return in_bound and abs(number) <= self.kind.most and not self._is_speck(number)
+
+    def remedy(self, number: float) -> str:
+        """The range of the kind, if that is what an SI value is beyond; empty if its bound says it all."""
+        if not math.isfinite(number):
+            return "the number must be finite"
+        beyond = abs(number) > self.kind.most or self._is_speck(number)
+        return range_words(self.kind) if beyond else ""
+
+    def _is_speck(self, number: float) -> bool:
+        """Of what cannot be negative, a speck is a slip; with a sign it is what arithmetic left of zero."""
+        return 0 < number < self.kind.least and not self.bound.holds(-number)
 
     def steps(self) -> CoreSchema:
         """The steps of validation: our reader, then a float."""
@@ -663,7 +684,8 @@ class Quantity:
     def json_schema(self) -> dict[str, Any]:
         """What an editor may offer for the value."""
         noun, unit = self.kind.noun, self.kind.unit_word
-        number = {"type": "number", "description": f"{noun} in {unit}" if unit else noun, **self.bound.schema}
+        limits = {"minimum": -self.kind.most, "maximum": self.kind.most, **self.bound.schema}
+        number = {"type": "number", "description": f"{noun} in {unit}" if unit else noun, **limits}
         text = {"type": "string", "description": f"{noun} with its unit", "examples": [self.kind.example]}
         return {"anyOf": [number, text]}
 

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.reduction import reduction_of
 from linkwright.analysis.result import Result
 from linkwright.analysis.run_up import RunUp, run_up
@@ -28,6 +29,7 @@ from linkwright.engine import compile_machine, drive_inertia
 from linkwright.errors import ConvergenceError, FindingError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
 from linkwright.sizing.fit import with_flywheel
+from linkwright.units import RATIO, Bound, Quantity
 
 # Relative accuracy of the flywheel's unevenness; four digits better than anything it is compared with.
 _CLOSE = 1e-9
@@ -36,6 +38,13 @@ _CLOSE = 1e-9
 _DOUBLINGS = 40
 
 _ITERATIONS = 60
+
+
+# δ = (ω_max − ω_min)/ω_m with the mean of the extremes is 2 where the crank comes to rest.
+UNEVENNESS = Quantity(
+    RATIO,
+    Bound(" between 0 and 2,", {"exclusiveMinimum": 0, "exclusiveMaximum": 2}, lambda value: 0 < value < 2),
+)
 
 
 @dataclass(frozen=True)
@@ -117,8 +126,7 @@ def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
     ----------
     .. [1] Artobolevsky, Theory of Mechanisms and Machines: flywheel by Mertsalov's method.
     """
-    if not 0 < unevenness < 2:
-        raise InputError(f"unevenness {unevenness:g}: expected a number between 0 and 2, such as 0.05")
+    in_range(unevenness=(unevenness, UNEVENNESS))
     if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: a flywheel is sized for a motor; add [drive.motor]")
     bare = with_flywheel(machine, 0.0)
