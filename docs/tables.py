@@ -1,7 +1,7 @@
 """Write the tables of the pages that are said by the code already: ``python docs/tables.py``.
 
-In `docs/file_format.md` a table stands between ``<!-- keys: NAME -->`` and ``<!-- end -->``, where NAME is a class
-of `linkwright.machine`; in `docs/units.md` the ranges of all quantities between ``<!-- ranges -->`` and
+In `docs/file_format.md` a table stands between ``<!-- keys: NAME -->`` and ``<!-- end -->``, where NAME is a
+class of `linkwright.machine`; in `docs/units.md` the ranges of all quantities between ``<!-- ranges -->`` and
 ``<!-- end -->``. A test fails if a page is not what this file would write.
 """
 
@@ -35,7 +35,7 @@ def written(text: str) -> str:
 
 def ranges() -> str:
     """The sizes that each quantity may have."""
-    head = "| quantity | unit | smallest but for 0 | largest |\n| --- | --- | --- | --- |\n"
+    head = "| quantity | unit | smallest | largest |\n| --- | --- | --- | --- |\n"
     rows = ((kind.noun, kind.unit or "–", *size_words(kind)) for kind in (*KINDS, COUNT))
     return head + "".join("| " + " | ".join(row) + " |\n" for row in rows)
 

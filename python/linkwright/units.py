@@ -10,8 +10,8 @@ loading pint, which costs more than everything else together; any other spelling
 
 Every kind has a range of sizes, from far below the smallest instrument to far above the largest plant, so
 that products of a dozen numbers neither overflow nor vanish. It is declared here with the kind, held by every
-reader, and printed in `docs/units.md`. A quantity with a sign may be as small as it likes: places and angles
-that arithmetic left at 1e-17 are zeros; what cannot be negative is zero, or of at least the smallest size.
+reader, and printed in `docs/units.md`. Specks below the smallest size are what arithmetic leaves of zero: a
+quantity with a sign keeps them, one that may be zero is zero there, and one that may not is refused.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class Kind:
     dimension : Dimension
         Of the SI unit.
     least, most : float
-        Smallest size of what cannot be negative, but for zero, and largest size of all [SI unit].
+        Smallest size that counts, and largest [SI unit].
     angle_free : bool
         The radian may be written or left out: N·m/rad and N·m are the same torque per angle.
     """
@@ -577,10 +577,10 @@ def range_words(kind: Kind) -> str:
     Returns
     -------
     str
-        Such as ``"a length is 0, or 1e-9 to 1e6 m in size"``.
+        Such as ``"a length is between 1e-9 and 1e6 m in size"``.
     """
     least, most = size_words(kind)
-    return f"{kind.word} is 0, or {least} to {most} {kind.unit}".rstrip() + " in size"
+    return f"{kind.word} is between {least} and {most} {kind.unit}".rstrip() + " in size"
 
 
 def size_words(kind: Kind) -> tuple[str, str]:
@@ -659,23 +659,27 @@ class Quantity:
             raise _reported(error.problem, self.expected) from None
         if not self.holds(number):
             raise _reported(Problem(found=show(value), remedy=self.remedy(number)), self.expected)
-        return number
+        return 0.0 if self._is_speck(number) else number
 
     def holds(self, number: float) -> bool:
         """Whether an SI value is such a quantity: finite, within its bound and the range of its kind."""
         in_bound = math.isfinite(number) and self.bound.holds(number)
-        return in_bound and abs(number) <= self.kind.most and not self._is_speck(number)
+        return in_bound and abs(number) <= self.kind.most and not self._is_nothing(number)
 
     def remedy(self, number: float) -> str:
         """The range of the kind, if that is what an SI value is beyond; empty if its bound says it all."""
         if not math.isfinite(number):
             return "the number must be finite"
-        beyond = abs(number) > self.kind.most or self._is_speck(number)
+        beyond = abs(number) > self.kind.most or self._is_nothing(number)
         return range_words(self.kind) if beyond else ""
 
     def _is_speck(self, number: float) -> bool:
-        """Of what cannot be negative, a speck is a slip; with a sign it is what arithmetic left of zero."""
+        """Whether a size that cannot be negative is too small to count."""
         return 0 < number < self.kind.least and not self.bound.holds(-number)
+
+    def _is_nothing(self, number: float) -> bool:
+        """Whether it is so where zero is no answer either."""
+        return self._is_speck(number) and not self.bound.holds(0.0)
 
     def steps(self) -> CoreSchema:
         """The steps of validation: our reader, then a float."""
