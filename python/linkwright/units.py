@@ -294,6 +294,8 @@ COMMON: dict[Dimension, dict[str, float]] = {
 _FACTORS = {text: (factor, dimension) for dimension, row in COMMON.items() for text, factor in row.items()}
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+# A number without a unit: digits, a point, an exponent.
+NUMBER = re.compile(_NUMBER, re.ASCII)
 _VALUE = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
 _VALUES = re.compile(rf"({_NUMBER}(?:[\s,;]+{_NUMBER})*)\s*(.*)", re.DOTALL)
 _DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+\s*[^\d\s,]*")

@@ -171,24 +171,10 @@ def _law(text: str) -> tuple[Law, float]:
     """A formula, or the table in a file; and its start."""
     path = Path(text)
     if path.suffix.lower() == ".csv":
-        return _table_law(path), 0.0
+        from linkwright.analysis.law import TableLaw
+        from linkwright.files.law_table import read_law_table
+
+        return TableLaw(*read_law_table(path)), 0.0
     from linkwright.analysis.law_formula import FormulaLaw
 
     return FormulaLaw(text), 0.0
-
-
-def _table_law(path: Path) -> Law:
-    """A table of times [s] and angles [rad]; a first line that is no numbers is its head."""
-    from linkwright.analysis.law import TableLaw
-
-    rows = []
-    for k, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
-        parts = line.replace(";", ",").split(",")
-        try:
-            time, angle = (float(part) for part in parts)
-        except ValueError:
-            if k == 1 or not line.strip():
-                continue
-            raise InputError(f"{path}:{k}: found {line!r}, expected a time and an angle") from None
-        rows.append((time, angle))
-    return TableLaw([time for time, _ in rows], [angle for _, angle in rows])
