@@ -57,6 +57,42 @@ def test_wrong_usage(arguments: list[str]) -> None:
     assert run(*arguments).exit_code == 2
 
 
+# Every option that takes an angle or a speed of rotation, and where its bare number stands.
+BARE = (
+    ("motion {press} --at 30", '--at "30 deg"'),
+    ("motion {press} --speed 9", '--speed "9 rpm"'),
+    ("forces {press} --speed 9", '--speed "9 rpm"'),
+    ("forces {press} --speed=1rpm --angles=-1,30", '--angles "-1 deg"'),
+    ("forces {press} --pressure-angle 20", '--pressure-angle "20 deg"'),
+    ("balance {press} --links A1 --speed 9", '--speed "9 rpm"'),
+    ("run {press} --method baranov --step 1", '--step "1 deg"'),
+    ("cam {cam} --step 1", '--step "1 deg"'),
+    ("cam search {cam} --vary face_tilt=1:2:3", '"1 deg"'),
+    ("synthesise dead-centre --swing 60", '--swing "60 deg"'),
+    ("topper field {topper} --over edge_angle=0:30:3", '"30 deg"'),
+    ("torsion diagnose {engine} {press} --on flywheel --noise 1", '--noise "1 rpm"'),
+)
+
+
+@pytest.mark.parametrize(("words", "remedy"), BARE)
+def test_an_angle_or_a_speed_needs_its_unit(words: str, remedy: str) -> None:
+    machines = TWO_CARTS.parent
+    files = {
+        "press": TWO_CARTS,
+        "cam": machines / "roller_cam.toml",
+        "topper": machines / "topper.toml",
+        "engine": machines / "v8_diesel.toml",
+    }
+    done = run(*(word.format(**files) for word in words.split()))
+    assert done.exit_code == 2
+    assert remedy in done.stderr
+
+
+def test_in_a_file_and_after_set_bare_numbers_are_si() -> None:
+    done = run("motion", TWO_CARTS, "--set", "drive.speed=9", "--at", "0", "--json")
+    assert json.loads(done.stdout)["speed"] == 9
+
+
 @pytest.mark.parametrize("name", templates())
 def test_new_writes_a_sound_file(name: str, tmp_path: Path) -> None:
     assert loads(run("new", name).stdout) == loads(run("new", name).stdout)

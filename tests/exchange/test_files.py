@@ -237,6 +237,7 @@ CSV_FAULTS: dict[str, tuple[Callable[[str], str], str]] = {
     ),
     "a cam angle": (_cell(40, 0, 1e-6), "line 41: the place is .* from the curve at its cam angle"),
     "a curvature": (_cell(50, 5, 1e-4), "line 51: the curvature is 0.0001/mm from that of the curve"),
+    "no curvature": (_cell(50, 5, math.nan), "line 51: the curvature is nan/mm from that of the curve"),
     "the last row": (
         lambda text: text[: text.rstrip().rfind("\n") + 1],
         "last row is not the place of the first",

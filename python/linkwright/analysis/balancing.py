@@ -132,7 +132,9 @@ def balance(
     Raises
     ------
     MachineError
-        A link that does not exist or does not turn about a fixed point; a radius that is not positive.
+        A link that does not exist or does not turn about a fixed point.
+    InputError
+        A speed of 0, or a radius that is not positive.
 
     References
     ----------

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets
+from linkwright.cli.common import File, Json, Sets, option_value
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
 
     from linkwright.machine.base import suggestion
     from linkwright.sweep.cams import ENTRIES
-    from linkwright.units import ANGLE, LENGTH, RATIO, parse
+    from linkwright.units import ANGLE, LENGTH, RATIO
 
     name, _, values = text.partition("=")
     kinds = {"face_tilt": ANGLE, "lift_factor": RATIO}
@@ -125,18 +125,8 @@ def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
     if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
         remedy = "such as base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
         raise InputError(f'--vary {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
-    low, high = (
-        parse(part if not _is_number(part) else float(part), kinds.get(name, LENGTH)) for part in parts[:2]
-    )
+    low, high = (option_value(f"--vary {text}", part, kinds.get(name, LENGTH)) for part in parts[:2])
     return name, np.linspace(low, high, int(parts[2]))
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _exact(machine: Machine, name: str, found: Cams, i: int) -> CamProfile:

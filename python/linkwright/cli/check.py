@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import typer
 
 from linkwright.cli.common import File, Sets
+from linkwright.errors import AssemblyError
 
 if TYPE_CHECKING:
-    from linkwright.machine import Machine, Topper
+    from linkwright.machine import Machine, Mechanism, Topper
 
 
 def check(file: File, set: Sets = None) -> None:
@@ -42,7 +43,7 @@ def summary(machine: Machine) -> str:
     if not machine.is_topper_alone:
         rows += [("motor", _motor(machine)), *_mechanism(machine)]
     if not (machine.is_train_alone or machine.is_topper_alone):
-        rows += [("mobility", str(mobility(machine.linkage)))]
+        rows += [("mobility", str(mobility(_whole(machine))))]
     rows += _train(machine)
     rows += [("bodies", ", ".join(machine.bodies)), ("loads", _loads(machine))]
     return "\n".join(f"  {word:<14} {text}" for word, text in rows if text)
@@ -107,10 +108,18 @@ def _mechanism(machine: Machine) -> list[tuple[str, str]]:
     # A cam is told as such, not as the driver that it is in the whole mechanism.
     cams = machine.mechanism.cams
     known = {
-        table: [name for name in getattr(machine.linkage, table) if name not in cams] for table in TABLES
+        table: [name for name in getattr(_whole(machine), table) if name not in cams] for table in TABLES
     }
     known["cams"] = list(cams)
     return [(table.replace("_", " "), ", ".join(names)) for table, names in known.items()]
+
+
+def _whole(machine: Machine) -> Mechanism:
+    """The whole mechanism; without a rotator that has no lengths, which is a finding."""
+    try:
+        return machine.linkage
+    except AssemblyError:
+        return machine.with_entries({"rod_rotator": None}).linkage
 
 
 def _train(machine: Machine) -> list[tuple[str, str]]:

@@ -78,15 +78,25 @@ def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
 
 
 def option_value(option: str, text: str, kind: Kind) -> float:
-    """The value of an option that is a quantity; a bare number is SI.
+    """The value of an option that is a quantity; a bare number is SI, where it can mean but one unit.
 
     Raises
     ------
     InputError
-        It is not such a quantity; names the option.
+        It is not such a quantity, or an angle or a speed without its unit; names the option.
     """
-    from linkwright.units import parse
+    from linkwright.units import ANGLE, SPEED, parse
 
+    if _is_number(text) and float(text) != 0:
+        # On a command line people mean degrees as often as radians; zero is the same in both.
+        for each, units in ((ANGLE, ("deg", "rad")), (SPEED, ("rpm", "rad/s"))):
+            if kind.dimension == each.dimension:
+                one, other = (f'"{text} {unit}"' for unit in units)
+                before = "" if "=" in option else f"{option} "
+                raise InputError(
+                    f"{option}: found {text}, which may be {units[0]} or {units[1]}; give its unit, "
+                    f"{before}{one} or {before}{other}"
+                )
     try:
         return parse(float(text) if _is_number(text) else text, kind)
     except UnitError as error:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.crank_speed import speed_words, speeds_of
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -90,17 +91,22 @@ def forces(
     from linkwright.cli.tables import print_tables
     from linkwright.report.force_tables import cases_table, contribution_table, envelope_table
 
-    found = _cases(file, set or [], case or [], friction or [], _motion(speed, angles, pressure_angle))
+    found, machine = _cases(
+        file, set or [], case or [], friction or [], _motion(speed, angles, pressure_angle)
+    )
+    speeds = {name: speeds_of(each, machine, speed) for name, each in found.items()}
     findings = [_named(name, each, found) for name, result in found.items() for each in result.findings]
     first = next(iter(found.values()))
     if json:
-        _print_json(found, findings, curves=curves)
+        _print_json(found, speeds, findings, curves=curves)
     elif len(found) > 1:
-        print_tables("", [cases_table(found)], findings)
+        head = "\n".join(f"{name}: {speed_words(each)}" for name, each in speeds.items())
+        print_tables(head, [cases_table(found)], findings)
     else:
-        print_tables("", [envelope_table(first), contribution_table(first)], findings)
+        head = speed_words(next(iter(speeds.values())))
+        print_tables(head, [envelope_table(first), contribution_table(first)], findings)
     if out is not None:
-        _write(found, findings, out, quiet=json)
+        _write(found, speeds, findings, out, quiet=json)
     if findings:
         raise typer.Exit(1)
 
@@ -129,17 +135,18 @@ def _motion(speed: str | None, span: str | None, pressure_angle: str) -> dict[st
 
 def _cases(
     file: Path, sets: list[str], cases: list[str], frictions: list[str], options: dict[str, Any]
-) -> dict[str, Forces]:
-    """Forces by case; of the machine as it is, where there are none."""
+) -> tuple[dict[str, Forces], Machine]:
+    """Forces by case, of the machine as it is where there are none; and the machine."""
     from linkwright.analysis.forces import forces as compute
     from linkwright.files.read import read
 
     machine = read(file, sets)
     options["friction"] = _frictions(machine, frictions)
     if not cases:
-        return {machine.name: compute(machine, **options)}
+        return {machine.name: compute(machine, **options)}, machine
     named = dict(_case(text) for text in cases)
-    return {name: compute(read(file, [*sets, *entries]), **options) for name, entries in named.items()}
+    found = {name: compute(read(file, [*sets, *entries]), **options) for name, entries in named.items()}
+    return found, machine
 
 
 def _case(text: str) -> tuple[str, list[str]]:
@@ -189,7 +196,9 @@ def _friction(entries: str, *, is_pin: bool) -> Friction:
     return Friction(**values)
 
 
-def _object(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> dict[str, Any]:
+def _object(
+    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], findings: list[str], *, curves: bool
+) -> dict[str, Any]:
     """What is printed and written as JSON."""
     from linkwright.analysis.envelope import envelope
     from linkwright.analysis.result import finite
@@ -197,17 +206,26 @@ def _object(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> d
     results = {}
     for name, result in cases.items():
         rows = {each.name: {k: v for k, v in vars(each).items() if k != "name"} for each in envelope(result)}
-        results[name] = finite(result.to_dict(curves=curves) | {"envelope": rows})
+        results[name] = finite(result.to_dict(curves=curves) | speeds[name] | {"envelope": rows})
     return {"results": results, "findings": findings}
 
 
-def _print_json(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> None:
+def _print_json(
+    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], findings: list[str], *, curves: bool
+) -> None:
     from json import dumps
 
-    typer.echo(dumps(_object(cases, findings, curves=curves), allow_nan=False, ensure_ascii=False))
+    typer.echo(dumps(_object(cases, speeds, findings, curves=curves), allow_nan=False, ensure_ascii=False))
 
 
-def _write(cases: dict[str, Forces], findings: list[str], folder: Path, *, quiet: bool) -> None:
+def _write(
+    cases: dict[str, Forces],
+    speeds: dict[str, dict[str, Any]],
+    findings: list[str],
+    folder: Path,
+    *,
+    quiet: bool,
+) -> None:
     """JSON, tables and figures; says where they are."""
     from json import dumps
 
@@ -215,7 +233,9 @@ def _write(cases: dict[str, Forces], findings: list[str], folder: Path, *, quiet
     from linkwright.report.csv import forces_csv
 
     texts = {
-        "results.json": dumps(_object(cases, findings, curves=True), allow_nan=False, ensure_ascii=False)
+        "results.json": dumps(
+            _object(cases, speeds, findings, curves=True), allow_nan=False, ensure_ascii=False
+        )
         + "\n"
     }
     for number, result in enumerate(cases.values(), start=1):

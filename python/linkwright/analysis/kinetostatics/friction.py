@@ -53,7 +53,9 @@ def checked(friction: Mapping[str, Friction], pairs: Mapping[str, Pair]) -> dict
     Raises
     ------
     MachineError
-        A pair that does not exist or has no friction of this kind; a number that is negative or missing.
+        A pair that does not exist or has no friction of this kind; a number that is missing.
+    InputError
+        A number that is negative or beyond its range.
     """
     problems = [found for name, each in friction.items() if (found := _problem(name, each, pairs))]
     if problems:
