@@ -125,7 +125,7 @@ _K = Dimension(K=1)
 _ONE = Dimension()
 
 LENGTH = Kind("a length", "m", "metres", "0.2 m", _M, 1e-9, 1e6)
-ANGLE = Kind("an angle", "rad", "radians", "30 deg", _RAD, 1e-9, 1e6)
+ANGLE = Kind("an angle", "rad", "radians", "30 deg", _RAD, 1e-9, 1e7)
 MASS = Kind("a mass", "kg", "kilograms", "1000 kg", _KG, 1e-12, 1e12)
 TIME = Kind("a time", "s", "seconds", "0.5 s", _S, 1e-9, 1e9)
 SPEED = Kind("an angular speed", "rad/s", "radians per second", "1000 rpm", _RAD_S, 1e-9, 1e6)

@@ -218,14 +218,14 @@ class FunctionLaw:
         """
         variable = Taylor.variable(np.asarray(times, dtype=float))
         try:
+            # Where the law has no value or is beyond all numbers, `motion` says when.
             with np.errstate(all="ignore"):
-                found = self.function(variable)
+                return variable._like(self.function(variable)).derivatives
         except TypeError as error:
             raise ShapeError(
                 f"the law uses a function without a known derivative ({error}); write it with arithmetic and "
                 "numpy's elementary functions, or give it as a table"
             ) from None
-        return variable._like(found).derivatives
 
 
 def as_law(law: Law | Callable[[Any], Any] | Sequence[ArrayLike]) -> Law:

@@ -144,9 +144,11 @@ def _pose_rows(found: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
 def _turn(machine: Machine, speed: CrankSpeed, steps: int, *, json: bool, csv: bool) -> str:
     """A revolution at a constant speed."""
     from linkwright.analysis.law import constant_speed
+    from linkwright.units import SPEED
 
-    if speed.value <= 0:
-        raise InputError(f"--speed: found {speed.value:g} rad/s, expected a speed above zero for a turn")
+    if speed.value < SPEED.least:
+        expected = f"a speed above zero for a turn, {SPEED.least:g} rad/s or more"
+        raise InputError(f"--speed: found {speed.value:g} rad/s, expected {expected}")
     times = (0.0, 2 * pi / speed.value)
     told = {"crank_speed": speed.value, "speed_source": speed.source}
     head = f"one revolution of the crank in {times[1]:.6g} s, {speed}"

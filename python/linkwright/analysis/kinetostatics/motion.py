@@ -109,5 +109,5 @@ def _at_speed(speed: float, acceleration: float, angles: ArrayLike) -> Motion:
         raise ShapeError(f"crank angles in radians are needed, found {angles!r}") from None
     if phi.ndim != 1 or not phi.size or not np.isfinite(phi).all():
         raise ShapeError(f"a list of finite crank angles is needed, found an array of shape {phi.shape}")
-    time = phi / speed if speed else phi
+    time = phi / speed if abs(speed) >= SPEED.least else phi
     return Motion(phi, np.full_like(phi, speed), np.full_like(phi, acceleration), time)
