@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
+from linkwright.cli.console import console
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -61,6 +62,7 @@ def search(
     vary: Vary = None,
     law: Laws = None,
     set: Sets = None,
+    allow_outside: Outside = False,
     cam: CamName = None,
     pressure_angle: Steep = None,
     curvature_radius: Tight = None,
@@ -77,7 +79,7 @@ def search(
     from linkwright.sweep.cams import search_cams
     from linkwright.units import ANGLE, LENGTH, parse
 
-    machine = read(file, set or [])
+    machine = read(file, set or [], allow_outside=allow_outside)
     name, chosen = the_cam(machine, cam)
     steep = chosen.limit if pressure_angle is None else parse(pressure_angle, ANGLE)
     tight = (chosen.curvature_limit or 0.0) if curvature_radius is None else parse(curvature_radius, LENGTH)
@@ -162,16 +164,14 @@ def _print_json(machine: Machine, found: Cams, keeps: NDArray[np.bool_], best: l
 def _print(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
     """The smallest cams as a table."""
     import numpy as np
-    from rich.console import Console
     from rich.table import Table
 
-    console = Console()
-    console.print(
-        f"{len(keeps)} cams looked at, {int(found.is_sound.sum())} sound, {int(keeps.sum())} keep the limits",
-        highlight=False,
+    out = console()
+    out.print(
+        f"{len(keeps)} cams looked at, {int(found.is_sound.sum())} sound, {int(keeps.sum())} keep the limits"
     )
     if not best:
-        console.print("FINDING  None keeps the limits: vary more, or allow more.", highlight=False)
+        out.print("FINDING  None keeps the limits: vary more, or allow more.")
         return
     units = {"face_tilt": ("deg", 180 / np.pi), "lift_factor": ("", 1.0)}
     table = Table(box=None, header_style="", pad_edge=False)
@@ -189,4 +189,4 @@ def _print(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
             "–" if convex is None else f"{1e3 * convex:.5g} mm",
         ]
         table.add_row(*cells)
-    console.print(table)
+    out.print(table)

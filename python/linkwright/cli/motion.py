@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from math import degrees, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import Force, Json, Out, Sets, option_value, put
+from linkwright.cli.common import Json, Outside, Sets, option_value
 from linkwright.cli.crank_speed import CrankSpeed, crank_speed
+from linkwright.cli.out import Force, Out, put
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -61,6 +61,7 @@ _STEPS_MAX = 1_000_000
 def motion(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     at: At = None,
     speed: Speed = None,
     law: LawText = None,
@@ -85,7 +86,7 @@ def motion(
         raise InputError("--speed and --law: the law gives the speed; expected one of them")
     if duration is not None and (law is None or _is_table(law)):
         raise InputError("--duration: it belongs to a --law that is a formula")
-    machine = read(file, set or [])
+    machine = read(file, set or [], allow_outside=allow_outside)
     if law is not None:
         text = _under_law(machine, law, duration or "1 s", steps, json=json, csv=csv)
     elif at is not None:
@@ -98,6 +99,7 @@ def motion(
 def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool) -> str:
     """One pose as a table, CSV or JSON."""
     from linkwright.analysis.pose import pose
+    from linkwright.files.csv_text import csv_text
     from linkwright.units import ANGLE
 
     found = pose(machine, option_value("--at", at, ANGLE), speed=speed.value)
@@ -107,7 +109,8 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
     rows = [("crank angle", "φ [rad]", (phi, found.speed, found.acceleration)), *_pose_rows(found)]
     if csv:
         typer.echo(speed, err=True)
-        return _csv(rows)
+        heads = ("name", "quantity", "position", "velocity", "acceleration")
+        return csv_text(heads, ((name, what, *numbers) for name, what, numbers in rows))
     lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad, {speed}"]
     lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
     lines += [
@@ -116,13 +119,6 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
     ]
     if found.near_limit:
         lines.append(f"near a limit: {', '.join(found.near_limit)}")
-    return "\n".join(lines) + "\n"
-
-
-def _csv(rows: Iterable[tuple[str, str, tuple[float, ...]]]) -> str:
-    """A pose with a quantity in each row."""
-    lines = ["name,quantity,position,velocity,acceleration"]
-    lines += [",".join((name, what, *map(repr, numbers))) for name, what, numbers in rows]
     return "\n".join(lines) + "\n"
 
 
