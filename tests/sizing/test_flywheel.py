@@ -55,6 +55,15 @@ def test_the_run_up_pays_for_it() -> None:
     assert "lengthens the run-up" in found.warnings[0]
 
 
+@pytest.mark.parametrize(("wanted", "words"), [(0.02, "with the flywheel of"), (0.5, "the machine does not")])
+def test_a_run_up_that_fails_is_told_with_its_reason(wanted: float, words: str) -> None:
+    """With a flywheel, and where none is needed."""
+    found = choose_flywheel(replace(machine_of("two_carts"), {"run_up.turns_max": 0.5}), wanted)
+    assert found.run_up is None
+    assert words in found.warnings[0]
+    assert "has not settled" in found.warnings[0]
+
+
 def test_the_estimate_is_met_where_the_motor_does_not_answer() -> None:
     """With a motor of constant torque and a great flywheel Mertsalov's method is exact in the limit.
 

@@ -173,7 +173,9 @@ class SteadyState(Result):
         return max(abs(self.acceleration_min), abs(self.acceleration_max))
 
 
-def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> SteadyState:
+def steady_state(
+    machine: Machine, *, accuracy: float = 1e-9, n: int = 360, angles: Floats | None = None
+) -> SteadyState:
     """Find the steady motion.
 
     Parameters
@@ -184,6 +186,8 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
         Relative accuracy of speed and period, down to 1e-13.
     n : int
         Intervals of the turn for the curves; extremes and integrals do not depend on it.
+    angles : ndarray, shape (m,), optional
+        Crank angles of the curves instead, from 0 to 2π and increasing [rad].
 
     Returns
     -------
@@ -220,7 +224,7 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
     require_one_turn(compiled)
     require_same_turns(machine)
     require_sound_loads(compiled, machine)
-    phi = turn_angles(n)
+    phi = turn_angles(n) if angles is None else angles
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
         return _at_constant_speed(machine, compiled, phi)
     status, scalars, curves = compiled.steady(phi, accuracy)

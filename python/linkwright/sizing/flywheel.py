@@ -301,9 +301,8 @@ def _verified(
     note = f"Flywheel for an unevenness of {wanted:g} by linkwright size." if inertia > 0 else ""
     machine = with_flywheel(bare, inertia, note=note)
     steady = _steady(machine)
-    up = _run_up(machine, steady)
-    up_without = _run_up(bare) if inertia > 0 else up
-    times = (up.time if up else None, up_without.time if up_without else None)
+    up, why_not = _run_up(machine, steady)
+    up_without, why_not_without = _run_up(bare) if inertia > 0 else (up, why_not)
     return FlywheelChoice(
         inertia=inertia,
         unevenness_wanted=wanted,
@@ -311,33 +310,35 @@ def _verified(
         unevenness_without=without,
         inertia_estimate=classical[0],
         excess_work=classical[1],
-        run_up_time=times[0],
-        run_up_time_without=times[1],
+        run_up_time=up.time if up else None,
+        run_up_time_without=up_without.time if up_without else None,
         iterations=iterations,
-        warnings=tuple(_costs(inertia, *times)),
+        warnings=tuple(_costs(inertia, up or why_not, up_without or why_not_without)),
         machine=machine,
         steady=steady,
         run_up=up,
     )
 
 
-def _run_up(machine: Machine, steady: SteadyState | None = None) -> RunUp | None:
-    """The run-up; None if it fails, or if the motor has none."""
+def _run_up(machine: Machine, steady: SteadyState | None = None) -> tuple[RunUp | None, str]:
+    """The run-up, or why there is none; neither for a motor of constant speed, which has no run-up."""
     assert machine.drive is not None
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
-        return None
+        return None, ""
     try:
-        return run_up(machine, steady=steady)
-    except FindingError:
-        return None
+        return run_up(machine, steady=steady), ""
+    except FindingError as error:
+        return None, str(error)
 
 
-def _costs(inertia: float, time: float | None, before: float | None) -> list[str]:
-    """What the flywheel does to the run-up, in a sentence."""
-    if inertia == 0:
+def _costs(inertia: float, after: RunUp | str, before: RunUp | str) -> list[str]:
+    """What the flywheel does to the run-up, in a sentence; a text is the reason why there is none."""
+    if not isinstance(after, RunUp):
+        machine = f"with the flywheel of {inertia:.4g} kg m² the machine" if inertia else "the machine"
+        return [f"{machine} does not run up: {after}"] if after else []
+    if not inertia:
         return []
-    if time is None:
-        return [f"with the flywheel of {inertia:.4g} kg m² the machine does not run up"]
-    if before is None:
-        return [f"the run-up takes {time:.3g} s; without the flywheel the machine does not run up"]
-    return [f"the flywheel lengthens the run-up from {before:.3g} s to {time:.3g} s"]
+    takes = f"the run-up takes {after.time:.3g} s"
+    if not isinstance(before, RunUp):
+        return [f"{takes}; without the flywheel the machine does not run up: {before}"]
+    return [f"the flywheel lengthens the run-up from {before.time:.3g} s to {after.time:.3g} s"]
