@@ -59,8 +59,8 @@ def test_same_seed_same_linkage() -> None:
 
 ROUND = np.linspace(0, 2 * np.pi, 10, endpoint=False)
 
-# Six points of a straight line; ten of ellipses, flat ones with a valley long and narrow along a constraint. The
-# error over the size of the path: of the line it vanishes, else our own last number, below all others known.
+# Six points of a straight line, ten of ellipses, and the error over the size of the path: of the line it
+# vanishes, else our own last number, below all others known.
 UNTIMED = {
     "line": (np.linspace(0, 1, 6) + 0j, 0.0),
     "ellipse 4:3": (4 * np.cos(ROUND) + 3j * np.sin(ROUND), 4.1480e-4),
@@ -103,7 +103,9 @@ def test_transmission_angles_of_exact_linkages_decide() -> None:
         assert all("raise transmission_angle_min" in each for each in told)
 
 
-@pytest.mark.parametrize(("degrees", "words"), [(5, "nearly locks"), (20, "at least"), (35, "low speed"), (41, "")])
+@pytest.mark.parametrize(
+    ("degrees", "words"), [(5, "nearly locks"), (20, "at least"), (35, "low speed"), (41, "")]
+)
 def test_cautions_of_transmission_angles(degrees: float, words: str) -> None:
     told = transmission_caution(np.radians(degrees))
     assert bool(told) == bool(words)
@@ -197,9 +199,7 @@ def test_constraints_are_kept() -> None:
 
 
 def test_double_crank() -> None:
-    found = lw.path_generator(
-        PathTask(**drawn(), crank_angle=tuple(ANGLES), linkage="double-crank")
-    )
+    found = lw.path_generator(PathTask(**drawn(), crank_angle=tuple(ANGLES), linkage="double-crank"))
     assert found.type == "double-crank"
 
 

@@ -20,7 +20,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.kinematics import motions
-from linkwright.analysis.result import Result
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
 from linkwright.synthesis.four_bar import worst_transmission
@@ -28,7 +27,7 @@ from linkwright.synthesis.path_model import Linkages, PathModel
 from linkwright.synthesis.path_refine import refine
 from linkwright.synthesis.path_starts import TRIALS, starts
 from linkwright.synthesis.task import PathTask
-from linkwright.synthesis.transmission import transmission_caution
+from linkwright.synthesis.transmission import Transmits
 from linkwright.synthesis.turning_shape import shape
 
 Floats = NDArray[np.float64]
@@ -55,7 +54,7 @@ Track = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
-class PathGenerator(Result):
+class PathGenerator(Transmits):
     """A four-bar linkage whose coupler point follows given points.
 
     Attributes
@@ -82,8 +81,6 @@ class PathGenerator(Result):
         Linkages computed a second, by the clock.
     seed : int
         Start of the random numbers.
-    warnings : tuple of str
-        What to know of the linkage and of the search.
     crank_angles : ndarray, shape (n,)
         Crank angles of the points in the machine [rad].
     x, y : ndarray, shape (n,)
@@ -112,12 +109,22 @@ class PathGenerator(Result):
     evaluated: int
     rate: float
     seed: int
-    warnings: tuple[str, ...]
     crank_angles: Floats
     x: Floats
     y: Floats
     history: Floats
     machine: Machine
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What to know of the search and of the linkage."""
+        if self.found_by >= _SURE:
+            return super().warnings
+        told = (
+            f"only {self.found_by} of {self.starts} starts ended at this error: there may be a better "
+            "linkage; raise population"
+        )
+        return (told, *super().warnings)
 
 
 def path_generator(task: PathTask, *, track: Track | None = None) -> PathGenerator:
@@ -166,7 +173,9 @@ class _Search:
         self.model, self.rows, self.track = model, rows, track
         self.evaluated, self.done = 0, 0
         self.history: list[float] = []
-        self._stages = [(w, max(1, round(steps * model.task.generations)), part) for w, steps, part in _STAGES]
+        self._stages = [
+            (w, max(1, round(steps * model.task.generations)), part) for w, steps, part in _STAGES
+        ]
         self._total = sum(steps for _, steps, _ in self._stages)
 
     def run(self) -> None:
@@ -244,22 +253,11 @@ def _result(model: PathModel, row: Linkages, effort: _Effort) -> PathGenerator:
         evaluated=effort.evaluated,
         rate=effort.rate,
         seed=task.seed,
-        warnings=(*_seldom(task, effort.found_by), *transmission_caution(worst, "raise transmission_angle_min")),
         crank_angles=angles,
         x=table[0].copy(),
         y=table[1].copy(),
         history=effort.history,
         machine=machine,
-    )
-
-
-def _seldom(task: PathTask, found_by: int) -> tuple[str, ...]:
-    """That the best was met too seldom to be sure of it."""
-    if found_by >= _SURE:
-        return ()
-    return (
-        f"only {found_by} of {task.population} starts ended at this error: there may be a better linkage; raise "
-        "population",
     )
 
 

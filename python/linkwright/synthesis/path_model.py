@@ -122,7 +122,7 @@ class PathModel:
         return s, z, t
 
     def linearised(self, rows: Linkages) -> tuple[Complexes, Complexes, Complexes]:
-        """Coupler points (m, n), their derivatives by nine numbers (m, n, 9), and by the crank angle (m, n)."""
+        """Coupler points (m, n), derivatives by nine numbers (m, n, 9), and by the crank angle (m, n)."""
         lengths, by_q = shape(rows.p[:, :3], rows.is_double)
         A, e = pin_and_coupler(lengths, rows.side, rows.phi)
         turns, by_phi = coupler_slopes(lengths, rows.side, rows.phi)
@@ -154,7 +154,7 @@ class PathModel:
         return np.stack(rows, axis=1)
 
     def penalties(self, p: Floats, is_double: Bools, shift: Floats) -> tuple[Floats, Floats]:
-        """What is broken of constraints moved by a shift, and its derivatives, (m, constraints) and (…, 9)."""
+        """What is broken of constraints that are shifted, and its derivatives, (m, c) and (m, c, 9)."""
         excess = self.excess(p, is_double) + MARGIN
         slopes = []
         for i in range(9):

@@ -7,9 +7,9 @@ is left to be made small is the distance across the curve,
 .. math:: \operatorname{Im} \bar\tau_i (P_i + J_i\,\delta - w_i), \qquad
     \delta\varphi_i = -\operatorname{Re} \bar\tau_i (P_i + J_i\,\delta - w_i)/|P'_i|
 
-A constraint that is broken by g is the residual w (g + λ) while that is positive. The shift λ grows by what is
-left of g every few steps, until nothing is: so constraints are met with a small weight w, which lets a linkage
-move along them. The weight grows where what is left does not fall.
+A constraint that is broken by g is the residual w (g + λ) while that is positive. The shift λ grows by what
+is left of g every few steps, until nothing is: so constraints are met with a small weight w, which lets a
+linkage move along them. The weight grows where what is left does not fall.
 
 Source: as for `damped_step`; J. Nocedal, S. J. Wright, Numerical Optimization, 2006, 17.3: the augmented
 Lagrangian of Hestenes and Powell, w λ being half its multiplier over w.
@@ -114,9 +114,7 @@ def _cost(model: PathModel, rows: Linkages, weights: Floats, shift: Floats) -> F
     return np.where(np.isfinite(cost), cost, np.inf)
 
 
-def _stepped(
-    model: PathModel, rows: Linkages, weights: Floats, shift: Floats, damping: Floats
-) -> Linkages:
+def _stepped(model: PathModel, rows: Linkages, weights: Floats, shift: Floats, damping: Floats) -> Linkages:
     """The linkages after a damped step."""
     places, J, slope = model.linearised(rows)
     off = places - model.target
@@ -142,7 +140,7 @@ def _stepped(
 
 
 def _nearest(model: PathModel, rows: Linkages) -> Linkages:
-    """The linkages with the crank angles at which they are nearest to the points, by Newton along the curve."""
+    """The linkages with the crank angles at which they are nearest to the points, by Newton's method."""
     phi = rows.phi
     for _ in range(_FEET):
         with np.errstate(over="ignore", invalid="ignore"):

@@ -67,7 +67,10 @@ def starts(model: PathModel, count: int) -> Linkages:
     groups = [slice(i * TRIALS, min(i + size, count) * TRIALS) for i in range(0, count, size)]
     found = [_best(model, _trials(model, shares[group], number[group])) for group in groups]
     return Linkages(
-        *(np.concatenate([getattr(each, name) for each in found]) for name in ("p", "phi", "is_double", "side"))
+        *(
+            np.concatenate([getattr(each, name) for each in found])
+            for name in ("p", "phi", "is_double", "side")
+        )
     )
 
 
@@ -124,7 +127,8 @@ def _timing(target: Complexes, shares: Floats) -> Floats:
     wave = 2 * np.pi * (along + shares[:, 2:3])
     bend = _UNEVEN * (2 * shares[:, 1:2] - 1) / (2 * np.pi)
     bent: Floats = along + bend * (np.sin(wave) - np.sin(wave[:, :1]))
-    return 2 * np.pi * span[:, None] * bent / np.maximum(bent[:, -1:], 1.0)
+    angles: Floats = 2 * np.pi * span[:, None] * bent / np.maximum(bent[:, -1:], 1.0)
+    return angles
 
 
 def _posed(target: Complexes, A: Complexes, e: Complexes) -> tuple[Complexes, Complexes, Complexes]:

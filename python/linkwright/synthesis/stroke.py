@@ -10,21 +10,22 @@ Source: VDI 2130; Volmer, Getriebetechnik: Koppelgetriebe.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.result import Result
 from linkwright.errors import InputError, SynthesisError
 from linkwright.machine import Machine
 from linkwright.synthesis.dead_centre import SOURCE, best, check, delta_of, joints
 from linkwright.synthesis.four_bar import cross, machine_of
+from linkwright.synthesis.transmission import Transmits
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class StrokeCrank(Result):
+class StrokeCrank(Transmits):
     """A slider-crank for a given stroke and time ratio.
 
     Attributes
@@ -44,6 +45,8 @@ class StrokeCrank(Result):
     machine : Machine
         The linkage, its guide along x.
     """
+
+    remedy: ClassVar[str] = "give a longer rod, or a time ratio nearer to 1"
 
     stroke: float
     crank_angle_forward: float

@@ -6,7 +6,11 @@ Werkstattstechnik 26 (1932) 61–64; VDI 2127, VDI 2130: 40° at least, 30° at 
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
+
+from linkwright.analysis.result import Result
 
 # Least transmission angles [rad]: of a linkage that runs fast or under load; of one that does not; and where
 # it is near its dead centre, as friction of the joints alone asks for some ten degrees.
@@ -37,9 +41,24 @@ def transmission_caution(angle: float, remedy: str = "") -> tuple[str, ...]:
         return ()
     found = f"the transmission angle falls to {np.degrees(angle):.3g}°"
     if angle < _NEAR_LOCK:
-        meaning = "the linkage nearly locks there: friction may stop it, and play of the joints moves its output"
+        meaning = (
+            "the linkage nearly locks there: friction may stop it, and play of the joints moves its output"
+        )
     elif angle < _FAIR:
         meaning = "handbooks ask for 40° at least, 30° at low speed and load; joint forces and wear are high"
     else:
         meaning = "enough at low speed and load; handbooks ask for 40° else"
     return (f"{found}: {meaning}" + (f"; {remedy}" if remedy else ""),)
+
+
+class Transmits(Result):
+    """A result with a least transmission angle, and a caution where that is small."""
+
+    transmission_angle_min: float
+    # What raises the transmission angle.
+    remedy: ClassVar[str] = "raise transmission_angle_min"
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What to know of the linkage."""
+        return transmission_caution(self.transmission_angle_min, self.remedy)

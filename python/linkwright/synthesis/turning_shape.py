@@ -7,9 +7,9 @@ distance that they span, 1 − r and 1 + r; so with c = (S + D)/2, b = (S − D)
 
     S = 1 + r + e + \exp q_3, \qquad D = (|1 - r| - e) \tanh q_2
 
-and r between e and 1 − 2e by a logistic function of q₁ for a crank-rocker, above 1 + 2e for a double crank. The
-spare e keeps the linkage away from its change point. Every shape of a kind is met once, so that a search needs
-no bounds for the full turn.
+and r between e and 1 − 2e by a logistic function of q₁ for a crank-rocker, above 1 + 2e for a double crank.
+The spare e keeps the linkage away from its change point. Every shape of a kind is met once, so that a search
+needs no bounds for the full turn.
 
 Source: Grashof's condition, e.g. Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
 """
@@ -64,7 +64,7 @@ def shape(q: Floats, is_double: Bools) -> tuple[Floats, Floats]:
 
 
 def free_numbers(crank: Floats, bent: Floats, rest: Floats, is_double: Bools) -> Floats:
-    """The free numbers of a crank over the frame, a share of D from −1 to 1, and S beyond its least, (m, 3)."""
+    """The free numbers of a crank over the frame, a share of D from −1 to 1, S beyond its least, (m, 3)."""
     inside = (crank - SPARE) / (1 - 3 * SPARE)
     with np.errstate(invalid="ignore", divide="ignore"):
         q1 = np.where(is_double, np.log(crank - 1 - 2 * SPARE), np.log(inside) - np.log(1 - inside))
@@ -97,7 +97,7 @@ def pin_and_coupler(lengths: Floats, side: Floats, phi: Floats) -> tuple[Complex
 
 
 def coupler_slopes(lengths: Floats, side: Floats, phi: Floats) -> tuple[Floats, Floats]:
-    """Derivatives of the coupler's angle by crank, coupler, rocker (m, n, 3), and by the crank angle (m, n)."""
+    """Derivatives of the coupler's angle by crank, coupler, rocker (m, n, 3), by the crank angle (m, n)."""
     r, c, b = lengths.T[:, :, None]
     e = np.exp(1j * phi)
     D = 1 - r * e
