@@ -18,15 +18,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.in_range import in_range
-from linkwright.analysis.result import Result
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
+from linkwright.synthesis.transmission import Transmits
 from linkwright.synthesis.verify import element_of, require_met, require_transmission
 from linkwright.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
 
@@ -41,7 +42,7 @@ SOURCE = "Synthesised by linkwright from its dead centres"
 
 
 @dataclass(frozen=True)
-class CrankRocker(Result):
+class CrankRocker(Transmits):
     """A crank-rocker for given dead centres.
 
     Attributes
@@ -63,6 +64,8 @@ class CrankRocker(Result):
     machine : Machine
         The linkage, its frame along x.
     """
+
+    remedy: ClassVar[str] = "ask for a smaller swing, or a time ratio nearer to 1"
 
     swing: float
     crank_angle_forward: float

@@ -10,16 +10,17 @@ Source: VDI 2130; Volmer, Getriebetechnik: Koppelgetriebe.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.in_range import in_range
-from linkwright.analysis.result import Result
 from linkwright.errors import InputError, SynthesisError
 from linkwright.machine import Machine
 from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints, slow_over_quick
 from linkwright.synthesis.four_bar import cross, machine_of
+from linkwright.synthesis.transmission import Transmits
 from linkwright.synthesis.verify import element_of, require_met, require_transmission
 from linkwright.units import LENGTH, RATIO, positive
 
@@ -27,7 +28,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class StrokeCrank(Result):
+class StrokeCrank(Transmits):
     """A slider-crank for a given stroke and time ratio.
 
     Attributes
@@ -47,6 +48,8 @@ class StrokeCrank(Result):
     machine : Machine
         The linkage, its guide along x.
     """
+
+    remedy: ClassVar[str] = "give a longer rod, or a time ratio nearer to 1"
 
     stroke: float
     crank_angle_forward: float
