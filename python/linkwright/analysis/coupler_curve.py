@@ -238,9 +238,8 @@ class _Path:
 
     def _cusps(self) -> list[Cusp]:
         at = self._stops()
-        turn = 2 * np.pi if self.cycle.span < 2 * np.pi * 1.01 else np.inf
         return [
-            Cusp(float(x), float(y), float(phi % turn))
+            Cusp(float(x), float(y), self.cycle.named(phi))
             for x, y, phi in zip(*self.at(at)[:2], at, strict=True)
         ]
 
