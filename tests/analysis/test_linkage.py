@@ -491,3 +491,10 @@ def test_angles_lie_in_the_range_in_which_the_mechanism_moves() -> None:
     at += [each.angle for each in found.dead_points]
     assert at
     assert all(low <= angle <= high for angle in at)
+
+
+def test_a_mechanism_that_closes_at_single_angles_does_not_move() -> None:
+    """A rocker of next to nothing, that a crank which turns many times passes at one angle a turn."""
+    gears = Path(__file__).parents[2] / "examples" / "gears_and_guides" / "machine.toml"
+    with pytest.raises(AssemblyError, match="closes only"):
+        lw.linkage(lw.read(gears, ["mechanism.rockers.C.rocker=1e-9"]))

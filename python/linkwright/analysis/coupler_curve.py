@@ -137,7 +137,7 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
     if point not in compiled.points:
         raise MachineError([Problem("point", point, f"one of {', '.join(compiled.points)}")])
     where = closure_of(compiled)
-    if not where.ranges:
+    if not where.moves:
         raise closure_error(where, machine)
     cycle = Cycle.of(where, turns_to_repeat(compiled) if where.turns_fully else None)
     return _Path(compiled, compiled.points[point], cycle).result(point, straight)
