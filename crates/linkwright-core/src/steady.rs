@@ -5,6 +5,7 @@
 //! the motor's or gearbox's characteristic has a kink at some speed, the angles at which the speed passes it
 //! are found on each mesh and become ends of steps on the next.
 
+use crate::call::poll;
 use crate::cycle::{Machine, Step, Turn};
 use crate::gauss::S;
 use crate::lanes::{Job, in_lanes};
@@ -75,6 +76,7 @@ pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Status> {
     let mut mesh = Mesh { plan, q, breaks: &breaks, n: FIRST, tolerance: accuracy * 1e-2, last: None };
     let (mut crossings, mut sweeps) = (Vec::new(), 0);
     while mesh.n <= FINEST {
+        poll();
         let with_crossings = merged(&breaks, &crossings);
         let found = in_lanes(Mesh { breaks: &with_crossings, ..mesh })?;
         sweeps += found.sweeps;

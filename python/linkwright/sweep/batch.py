@@ -162,7 +162,10 @@ def steady_states(
     arrays = _columns(machine, entries)
     compiled = compile_machine(replace(machine, arrays))
     if not len(compiled.slots):
-        raise InputError("none of the entries has an effect on the motion")
+        raise InputError(
+            f"{', '.join(arrays)}: no effect on the steady motion of {machine.name}; vary an entry of the "
+            "motor's characteristic, the mechanism, its bodies or its loads"
+        )
     require_one_turn(compiled)
     status, table, turns = compiled.steady_rows(accuracy)
     columns = dict(zip(_COLUMNS, np.ascontiguousarray(table.T), strict=False))
