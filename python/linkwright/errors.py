@@ -17,8 +17,8 @@
 | `ExchangeError` | finding | a curve cannot be manufactured, or a written file does not keep its tolerance |
 | `InternalError` | – | the program contradicted itself: a fault of Linkwright, not of the input |
 
-An input error means exit code 2 of the command line, a finding exit code 1, an internal one exit code 70. Nothing here
-needs the compiled core.
+An input error means exit code 2 of the command line, a finding exit code 1, an internal one exit code 70.
+Nothing here needs the compiled core.
 """
 
 from __future__ import annotations

@@ -271,6 +271,7 @@ pub fn motions(plan: &Plan, rows: &Rows<'_>, phi: &[f64], channels: &[Channel], 
         let piece = (TASK / width).max(1).next_multiple_of(64);
         let mut pieces: Vec<Vec<&mut [f64]>> = (0..n.div_ceil(piece)).map(|_| Vec::new()).collect();
         for list in out.chunks_exact_mut(n) {
+            poll();
             for (piece, part) in pieces.iter_mut().zip(list.chunks_mut(piece)) {
                 piece.push(part);
             }

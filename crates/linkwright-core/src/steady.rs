@@ -382,6 +382,7 @@ impl Job for ReadCurves<'_> {
         let mut lanes = vec![0.0; n];
         let mut k = 0;
         for phis in self.phi.chunks(n) {
+            poll();
             for lane in 0..n {
                 let phi = phis[lane.min(phis.len() - 1)];
                 k = self.mark_before(phi, k);

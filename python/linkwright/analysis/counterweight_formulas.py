@@ -13,10 +13,12 @@ from linkwright.analysis.kinetostatics.scene import Scene, left, unit
 from linkwright.errors import MachineError, Problem
 from linkwright.machine import Machine
 from linkwright.machine.base import suggestion
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
 
+@public
 def partial_balance(
     machine: Machine,
     slider: str,

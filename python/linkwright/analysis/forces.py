@@ -31,11 +31,13 @@ from linkwright.analysis.transient import Transient
 from linkwright.engine import drive_inertia
 from linkwright.errors import InputError
 from linkwright.machine import Drive, Machine
+from linkwright.public import public
 
 # Pressure angle of involute teeth by DIN 867 and ISO 53 [rad].
 PRESSURE_ANGLE = float(np.radians(20.0))
 
 
+@public
 def forces(
     machine: Machine,
     motion: SteadyState | Transient | Motion | None = None,

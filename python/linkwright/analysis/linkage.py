@@ -27,6 +27,7 @@ from linkwright.analysis.turning import Cycle, Swept, sweep
 from linkwright.engine import compile_machine
 from linkwright.errors import AssemblyError
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -194,6 +195,7 @@ class Linkage(Result):
         return found
 
 
+@public
 def linkage(machine: Machine) -> Linkage:
     """Examine a linkage over its cycle.
 

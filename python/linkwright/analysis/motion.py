@@ -23,6 +23,7 @@ from linkwright.analysis.roots import brackets, zeros
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import AssemblyError, ShapeError
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -88,6 +89,7 @@ def _columns(head: str, path: Path, at: Any) -> dict[str, Floats]:
     return places
 
 
+@public
 def motion(
     machine: Machine, law: Law | Callable[[Any], Any] | Sequence[ArrayLike], times: ArrayLike
 ) -> Motion:

@@ -19,6 +19,7 @@ from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_sound_loads
 from linkwright.engine import Compiled, compile_machine
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -77,6 +78,7 @@ class Reduction(Result):
     viscous_mean: float
 
 
+@public
 def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     """Reduce masses and loads to the crank.
 

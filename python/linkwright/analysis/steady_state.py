@@ -20,6 +20,7 @@ from linkwright.analysis.sound_loads import require_same_turns, require_sound_lo
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -172,6 +173,7 @@ class SteadyState(Result):
         return max(abs(self.acceleration_min), abs(self.acceleration_max))
 
 
+@public
 def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> SteadyState:
     """Find the steady motion.
 

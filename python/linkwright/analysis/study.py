@@ -49,6 +49,7 @@ from linkwright.analysis.unit_cautions import unit_cautions
 from linkwright.engine import compile_machine, drive_inertia
 from linkwright.errors import CamError, FindingError
 from linkwright.machine import ConstantSpeedMotor, Machine
+from linkwright.public import public
 
 T = TypeVar("T")
 
@@ -158,6 +159,7 @@ class Study:
         }
 
 
+@public
 def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = None) -> Study:
     """Study a machine: reduction, steady motion, run-up, and run-down if there is a brake.
 

@@ -17,6 +17,7 @@ from linkwright.exchange.spline import Spline
 from linkwright.exchange.step import write_step
 from linkwright.exchange.svg import write_svg
 from linkwright.exchange.table import By, table, write_csv
+from linkwright.public import public
 
 # Step of tables [rad].
 STEP = math.radians(1)
@@ -27,6 +28,7 @@ FORMATS = ("dxf", "csv", "svg")
 ALL_FORMATS = (*FORMATS, "step")
 
 
+@public
 def write_drawing(
     directory: str | os.PathLike[str],
     drawing: Drawing,

@@ -27,6 +27,7 @@ from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.engine import compile_machine, drive_inertia
 from linkwright.errors import ConvergenceError, FindingError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
+from linkwright.public import public
 from linkwright.sizing.fit import with_flywheel
 
 # Relative accuracy of the flywheel's unevenness; four digits better than anything it is compared with.
@@ -83,6 +84,7 @@ class FlywheelChoice(Result):
     run_up: RunUp | None
 
 
+@public
 def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
     """Find the flywheel on the crankshaft that gives a wanted unevenness.
 

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError, SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
 
 Floats = NDArray[np.float64]
@@ -75,6 +76,7 @@ class CrankRocker(Result):
     machine: Machine
 
 
+@public
 def crank_rocker(
     swing: float, time_ratio: float = 1.0, *, frame: float = 1.0, coupler_max: float = 3.0
 ) -> CrankRocker:

@@ -20,6 +20,7 @@ from linkwright.analysis.kinematics import motions
 from linkwright.analysis.result import Result
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.four_bar import FourBar, side_of
 from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, scan, solve
 from linkwright.synthesis.function_scale import Scale
@@ -89,6 +90,7 @@ class FunctionGenerator(Result):
     machine: Machine
 
 
+@public
 def function_generator(task: FunctionTask) -> FunctionGenerator:
     """Find the four-bar linkage that generates a function.
 

@@ -22,6 +22,7 @@ from linkwright.analysis.kinematics import motions
 from linkwright.analysis.result import Result
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.evolution import Generation, evolve
 from linkwright.synthesis.four_bar import Assembly, FourBar, worst_transmission
 from linkwright.synthesis.path_model import PathModel
@@ -101,6 +102,7 @@ class PathGenerator(Result):
     machine: Machine
 
 
+@public
 def path_generator(task: PathTask, *, track: Track | None = None) -> PathGenerator:
     """Find the four-bar linkage whose coupler point passes given points.
 

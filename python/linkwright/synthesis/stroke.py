@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError, SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.dead_centre import SOURCE, best, check, delta_of, joints
 from linkwright.synthesis.four_bar import cross, machine_of
 
@@ -57,6 +58,7 @@ class StrokeCrank(Result):
     machine: Machine
 
 
+@public
 def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = None) -> StrokeCrank:
     """Find the slider-crank for a stroke and a time ratio.
 

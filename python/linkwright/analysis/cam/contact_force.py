@@ -29,6 +29,7 @@ from linkwright.analysis.cam.checks import not_negative
 from linkwright.analysis.cam.follower_load import CamCourse, FollowerLoad, force_along
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -108,6 +109,7 @@ class ContactForce(Result):
     findings: tuple[str, ...]
 
 
+@public
 def contact_force(
     course: CamCourse,
     follower: FollowerLoad,

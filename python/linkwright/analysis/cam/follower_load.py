@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.cam.checks import alike, finite, not_negative, positive
 from linkwright.errors import InputError
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -119,6 +120,7 @@ class CamCourse:
         return found
 
 
+@public
 def cam_course(
     cam_angle: ArrayLike,
     lift: tuple[ArrayLike, ArrayLike, ArrayLike],

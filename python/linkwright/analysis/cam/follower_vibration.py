@@ -26,6 +26,7 @@ from linkwright.analysis.cam.one_mass import OneMass
 from linkwright.analysis.cam.oscillator import Indices, Oscillation, in_pieces, oscillation, pole
 from linkwright.analysis.result import Result
 from linkwright.motion_laws.motion_law import Extreme, MotionLaw, combined
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -213,6 +214,7 @@ class Train:
         return tuple(Impulse(self.lift.breaks[k], float(self.steps[k] * self.speed)) for k in where)
 
 
+@public
 def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 720) -> FollowerVibration:
     """Periodic motion of the follower's mass at a constant speed of the cam.
 
@@ -315,6 +317,7 @@ class VibrationSweep(Result):
     keeps_contact: NDArray[np.bool_]
 
 
+@public
 def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: ArrayLike) -> VibrationSweep:
     """Largest values of the periodic motion at many speeds.
 

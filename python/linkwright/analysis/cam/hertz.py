@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.cam.checks import alike, finite, positive
 from linkwright.analysis.result import Result
 from linkwright.errors import FindingError, InputError
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -110,6 +111,7 @@ class LineContact(Result):
     pressure_max: float
 
 
+@public
 def line_contact(
     force: ArrayLike,
     radius: ArrayLike,

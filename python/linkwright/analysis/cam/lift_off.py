@@ -30,6 +30,7 @@ from linkwright.analysis.cam.lift_steps import steps, without_steps
 from linkwright.analysis.result import Result
 from linkwright.errors import FindingError, InputError
 from linkwright.motion_laws.motion_law import Extreme, MotionLaw, combined
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -65,6 +66,7 @@ class LiftOff(Result):
     force_spring: float
 
 
+@public
 def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = None) -> LiftOff:
     """The least speed at which the follower leaves the cam.
 
@@ -205,6 +207,7 @@ class LeastPreload(Result):
     cam_angle: float
 
 
+@public
 def least_preload(
     lift: MotionLaw,
     follower: FollowerLoad,

@@ -30,6 +30,7 @@ from linkwright.analysis.cam.oscillator import in_pieces, nodes_for, pole
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError
 from linkwright.motion_laws.motion_law import MotionLaw
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -93,6 +94,7 @@ class ResidualSpectrum(Result):
     quiet: tuple[Quiet, ...]
 
 
+@public
 def residual_spectrum(
     rise: MotionLaw,
     ratio: ArrayLike,
@@ -178,6 +180,7 @@ def residual_amplitude(
     return np.asarray(np.abs(kernel.amplitude(tau)) / _height(rise))
 
 
+@public
 def residual_over_speed(rise: MotionLaw, model: OneMass, speed: ArrayLike) -> ResidualSpectrum:
     """Primary and residual vibration of a rise between dwells, for speeds of the cam.
 

@@ -35,6 +35,7 @@ from linkwright.analysis.topper.share_curve import QUANTILES, ShareCurve
 from linkwright.analysis.topper.slicing import slicing
 from linkwright.errors import InputError
 from linkwright.machine import Machine, Topper
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -153,6 +154,7 @@ class TopperField(Result):
         return self.quantile_length[4]
 
 
+@public
 def topper_field(
     machine: Machine,
     *,

@@ -12,6 +12,7 @@ from linkwright.analysis.torsion.measured_speed import MeasuredSpeed
 from linkwright.errors import InputError
 from linkwright.machine import Machine
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
+from linkwright.public import public
 
 Complexes = NDArray[np.complex128]
 
@@ -19,6 +20,7 @@ Complexes = NDArray[np.complex128]
 _EQUAL = 1e-9
 
 
+@public
 def engine_diagnosis(
     machine: Machine, measured: MeasuredSpeed, speed: float, *, rigid: bool = False
 ) -> Diagnosis:

@@ -29,6 +29,7 @@ from linkwright.engine.train import ReferredTrain, refer
 from linkwright.errors import FindingError, InputError
 from linkwright.machine import Machine, Train
 from linkwright.machine.base import suggestion
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -79,6 +80,7 @@ class HolzerTable(Result):
     residual_torque: float
 
 
+@public
 def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) -> HolzerTable:
     """Holzer's table of a train.
 

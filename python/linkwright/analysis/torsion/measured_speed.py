@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.errors import InputError, ShapeError
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -45,6 +46,7 @@ class MeasuredSpeed:
     noise: Floats | None = None
 
 
+@public
 def measured_speed(
     disc: str, samples: ArrayLike, turns: int, orders: ArrayLike, noise: float | None = None
 ) -> MeasuredSpeed:

@@ -29,6 +29,7 @@ from linkwright.engine.train import HELD, ReferredTrain, refer
 from linkwright.errors import InputError
 from linkwright.machine import Machine, Train
 from linkwright.machine.train import GROUND
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -110,6 +111,7 @@ class Scheme(Result):
         return found | {"connections": [each._asdict() for each in self.connections]}
 
 
+@public
 def scheme(machine: Machine, *, diameter: float = 0.1) -> Scheme:
     """The equivalent scheme of a train.
 

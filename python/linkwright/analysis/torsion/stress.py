@@ -31,6 +31,7 @@ from linkwright.machine import Machine, Shaft
 from linkwright.machine.drive_train import CRANK
 from linkwright.machine.shaft_limit import ShaftLimit, StressedSection
 from linkwright.machine.train_speeds import speeds as turning
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -71,6 +72,7 @@ class ShaftStress(Result):
         return self.vibratory / self.continuous
 
 
+@public
 def shaft_stress(machine: Machine, found: Carried | None = None, service: float | None = None) -> ShaftStress:
     """Stresses in the shafts of a train over its speeds.
 

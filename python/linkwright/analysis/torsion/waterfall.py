@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -77,6 +78,7 @@ class Waterfall(Result):
         return found
 
 
+@public
 def waterfall(
     time: ArrayLike,
     angle: ArrayLike,
