@@ -34,9 +34,9 @@ def _checked(machine: Machine) -> Machine:
     return Machine.model_validate(machine.model_dump(by_alias=True, exclude_unset=True))
 
 
-def _says_which(error: LinkwrightError, address: str) -> bool:
-    """Whether a refusal names the entry, or one that it belongs to or stands beside."""
-    return any(key in str(error) for key in address.split(".")[-3:])
+def _require_named(error: LinkwrightError, address: str) -> None:
+    """A refusal names the entry, or one that it belongs to or stands beside."""
+    assert any(key in str(error) for key in address.split(".")[-3:]), f"{address}: {error}"
 
 
 @pytest.mark.parametrize("machine", _with_mechanism(), ids=lambda machine: machine.name)
@@ -49,7 +49,7 @@ def test_motions_of_every_address(machine: Machine) -> None:
         try:
             found = lw.motions(lw.replace(machine, {address: column}), angles, points=points)
         except InputError as error:
-            assert _says_which(error, address), f"{address}: {error}"
+            _require_named(error, address)
             refused += 1
             continue
         assert len(found) == 3, address
@@ -76,7 +76,7 @@ def test_steady_motion_of_every_address(machine: Machine) -> None:
         try:
             found = lw.steady_states(machine, {address: column})
         except InputError as error:
-            assert _says_which(error, address), f"{address}: {error}"
+            _require_named(error, address)
             continue
         solved += 1
         assert not found.status.any(), address
@@ -102,7 +102,7 @@ def test_entries_without_effect_have_none_one_by_one() -> None:
 
 @pytest.mark.parametrize("address", ["speed_synchronous", "speed_rated", "torque_rated"])
 def test_a_row_without_a_characteristic_leaves_its_neighbours_alone(address: str) -> None:
-    # The breakdown speed of every row follows from entries that vary; no formula goes through the wrong row's.
+    # The breakdown speed of each row follows from entries that vary; none follows from the wrong row's.
     machine = lw.read("machines/roller_one_cart.toml")
     address = f"drive.motor.{address}"
     values = np.full(40, lw.get(machine, address))

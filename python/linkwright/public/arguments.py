@@ -1,7 +1,7 @@
 """What the public functions take: plain numbers, whole numbers and lists of them, checked and named.
 
-Checks follow the annotations of a function. A list becomes an array of its own, which nobody else writes to; a
-complex number, a text or a list of lists of different length is refused with the name of the argument.
+Checks follow the annotations of a function. A list becomes an array of its own, which nobody else writes to;
+a complex number, a text or a list of lists of different length is refused with the name of the argument.
 
 | annotation | takes |
 | --- | --- |
