@@ -8,7 +8,8 @@ a complex number, a text or a list of lists of different length is refused with 
 | `float` | a finite number; an infinite one where that is the default |
 | `int` | a whole number; some have limits by their name |
 | `bool`, `str` | true or false; a text |
-| `ArrayLike`, `Floats` | finite numbers, one or an array of them |
+| `ArrayLike` | finite numbers, one or an array of them |
+| `Floats` | an array of finite numbers |
 | `Sequence[float]` | a list of finite numbers |
 """
 
@@ -44,7 +45,6 @@ RANGES: dict[str, Range] = {
     "per_turn": Range(16, 1_000_000),
     "order": Range(0, 100_000),
     "seed": Range(0, 2**63 - 1),
-    "accuracy": Range(1e-16, 0.1),
     "level": Range(1e-9, 1 - 1e-9),
 }
 
@@ -253,6 +253,14 @@ def _one_or_more(name: str, value: Any) -> Any:
     return number(name, value) if isinstance(value, numbers.Number) else array(name, value)
 
 
+def _lists(name: str, value: Any) -> Floats:
+    """A list, or one of lists of one length."""
+    found = array(name, value)
+    if not found.size or not found.ndim:
+        raise ShapeError(f"{name}: found an array of shape {found.shape}, expected a list of numbers")
+    return found
+
+
 def _complexes(name: str, value: Any) -> Any:
     return array(name, value, complex_too=True)
 
@@ -280,7 +288,7 @@ _CHECKS: dict[str, Check] = {
     "Mapping[str, ArrayLike]": _mapping,
     "Mapping[str, Mapping[str, Any]]": _mapping,
     "ArrayLike": _one_or_more,
-    "Floats": rows,
+    "Floats": _lists,
     "Complexes": _complexes,
     "Sequence[float]": rows,
     "int": integer,
