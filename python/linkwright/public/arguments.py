@@ -44,8 +44,6 @@ RANGES: dict[str, Range] = {
     "fine": Range(1, 1_000_000),
     "per_turn": Range(16, 1_000_000),
     "order": Range(0, 100_000),
-    "seed": Range(0, 2**63 - 1),
-    "level": Range(1e-9, 1 - 1e-9),
 }
 
 # How much of a wrong value is shown.
