@@ -8,7 +8,7 @@ a complex number, a text or a list of lists of different length is refused with 
 | `float` | a finite number; an infinite one where that is the default |
 | `int` | a whole number; some have limits by their name |
 | `bool`, `str` | true or false; a text |
-| `ArrayLike` | finite numbers, one or an array of them |
+| `ArrayLike` | numbers, one or an array of them |
 | `Floats` | an array of finite numbers |
 | `Sequence[float]` | a list of finite numbers |
 """
@@ -50,7 +50,7 @@ RANGES: dict[str, Range] = {
 _SHOWN = 60
 
 
-def number(name: str, value: Any, *, infinite: bool = False) -> float:
+def number(name: str, value: Any, *, finite: bool = True, infinite: bool = False) -> float:
     """A real number as a float.
 
     Parameters
@@ -59,8 +59,10 @@ def number(name: str, value: Any, *, infinite: bool = False) -> float:
         Of the argument, for messages.
     value : object
         What was given.
+    finite : bool
+        Whether it must be a number at all, and not infinite.
     infinite : bool
-        Whether it may be infinite.
+        Whether it may be infinite all the same.
 
     Returns
     -------
@@ -80,7 +82,7 @@ def number(name: str, value: Any, *, infinite: bool = False) -> float:
         found = float(value)
     except OverflowError:
         raise _wrong(name, value, "a number below 1e308 in size") from None
-    if math.isnan(found) or (math.isinf(found) and not infinite):
+    if finite and (math.isnan(found) or (math.isinf(found) and not infinite)):
         raise _wrong(name, value, "a finite number")
     _require_in_range(name, found, f"{found:g}")
     return found
@@ -247,8 +249,10 @@ def _any_number(name: str, value: Any) -> float:
 
 
 def _one_or_more(name: str, value: Any) -> Any:
-    """A number stays one; lists become arrays."""
-    return number(name, value) if isinstance(value, numbers.Number) else array(name, value)
+    """A number stays one; lists become arrays. How large they may be depends on what they are."""
+    if isinstance(value, numbers.Number):
+        return number(name, value, finite=False)
+    return array(name, value, finite=False)
 
 
 def _lists(name: str, value: Any) -> Floats:
