@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.kinematics import motions
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
 from linkwright.synthesis.slider_pose import guide_slider
 from linkwright.synthesis.task import MovingPoint, PoseTask
@@ -86,6 +87,7 @@ class PoseGuide(Transmits):
     machine: Machine
 
 
+@public
 def pose_guide(task: PoseTask) -> PoseGuide:
     """Find the linkage whose coupler passes through given poses.
 
