@@ -23,6 +23,7 @@ from linkwright.analysis.roots import minima, zeros
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import AssemblyError, InputError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.units import ANGLE
 
 Floats = NDArray[np.float64]
@@ -92,6 +93,7 @@ class Closure:
         return bool(self.ranges) and self.ranges[0][1] - self.ranges[0][0] >= ANGLE.least
 
 
+@public
 def closure(machine: Machine) -> Closure:
     """Find the crank angles at which the mechanism closes.
 
