@@ -1,4 +1,4 @@
-"""Torques in shafts from soft to as good as rigid: equilibrium of every part, and the limit of rigid shafts."""
+"""Torques in shafts from soft to as good as rigid: equilibrium of every part, the limit of rigid shafts."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def test_limit_of_rigid_shafts(k: float) -> None:
 
 
 def test_mean_torques_are_those_of_statics() -> None:
-    """The driver's torque goes through both shafts, as 3 to 1, and on through the gear to what is 2.5 times as slow."""
+    """The driver's torque goes through both shafts, as 3 to 1, and on through the gear to a slower disc."""
     for k in (1e3, 1e9, 1e18):
         found, _ = vibration(k)
         load = 300 * (SPEEDS / 2.5 / 50) ** 2

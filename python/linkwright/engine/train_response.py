@@ -136,8 +136,8 @@ def shaft_torques(
 ) -> Complexes:
     """Torques of the shafts: stiffness times twist, or, in shafts as good as rigid, by equilibrium.
 
-    Rounding of the amplitudes times the stiffness is a torque, and so is that of the forces on one side of the
-    shaft. Of both ways the one is taken that has less of it.
+    Rounding of the amplitudes times the stiffness is a torque, and so is that of the forces on one side of
+    the shaft. Of both ways the one is taken that has less of it.
 
     Parameters
     ----------
