@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Force, Json, Sets, option_value, put
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.crank_speed import speed_words, speeds_of
 from linkwright.cli.forces import Speed
+from linkwright.cli.out import Force, out_option, put
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -46,17 +47,13 @@ Radius = Annotated[
         show_default=False,
     ),
 ]
-OutFile = Annotated[
-    Path | None,
-    typer.Option(
-        "--out", metavar="FILE", help="Write the machine with counterweights there.", show_default=False
-    ),
-]
+OutFile = Annotated[Path | None, out_option("Write the machine with counterweights there.", "FILE")]
 
 
 def balance(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     links: Links = None,
     slider: Partial = None,
     share: Share = 0.5,
@@ -76,7 +73,7 @@ def balance(
     from linkwright.files.write import dumps
     from linkwright.report.force_tables import balance_tables
 
-    machine = read(file, set or ())
+    machine = read(file, set or (), allow_outside=allow_outside)
     found = _found(machine, links, slider, share, radius, speed)
     speeds = speeds_of(found.before, machine, speed)
     if json:

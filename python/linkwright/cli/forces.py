@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.crank_speed import speed_words, speeds_of
+from linkwright.cli.out import Force, out_option, output_folder, write_folder
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
     from linkwright.analysis.kinetostatics.friction import Friction
     from linkwright.analysis.kinetostatics.result import Forces
+    from linkwright.files.output import OutputFolder
     from linkwright.machine import Machine
 
 Speed = Annotated[
@@ -36,15 +39,7 @@ Span = Annotated[
     ),
 ]
 Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not peaks alone.")]
-Folder = Annotated[
-    Path | None,
-    typer.Option(
-        "--out",
-        metavar="DIR",
-        help="Write results.json, forces.csv and figures as SVG there.",
-        show_default=False,
-    ),
-]
+Folder = Annotated[Path | None, out_option("Write results.json, forces.csv and figures as SVG there.")]
 Cases = Annotated[
     list[str] | None,
     typer.Option(
@@ -74,6 +69,7 @@ _ANGLES = 360
 def forces(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     speed: Speed = None,
     angles: Span = None,
     case: Cases = None,
@@ -82,6 +78,7 @@ def forces(
     json: Json = False,
     curves: Curves = False,
     out: Folder = None,
+    force: Force = False,
 ) -> None:
     """Compute the forces in a machine.
 
@@ -89,11 +86,15 @@ def forces(
     along the steady motion, or at a constant speed.
     """
     from linkwright.cli.tables import print_tables
+    from linkwright.files.read import read
     from linkwright.report.force_tables import cases_table, contribution_table, envelope_table
 
-    found, machine = _cases(
-        file, set or [], case or [], friction or [], _motion(speed, angles, pressure_angle)
-    )
+    folder = output_folder(out, force=force)
+
+    def read_with(entries: list[str]) -> Machine:
+        return read(file, [*(set or []), *entries], allow_outside=allow_outside)
+
+    found, machine = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
     speeds = {name: speeds_of(each, machine, speed) for name, each in found.items()}
     findings = [_named(name, each, found) for name, result in found.items() for each in result.findings]
     first = next(iter(found.values()))
@@ -105,8 +106,8 @@ def forces(
     else:
         head = speed_words(next(iter(speeds.values())))
         print_tables(head, [envelope_table(first), contribution_table(first)], findings)
-    if out is not None:
-        _write(found, speeds, findings, out, quiet=json)
+    if folder is not None:
+        _write(found, speeds, findings, folder, quiet=json)
     if findings:
         raise typer.Exit(1)
 
@@ -134,18 +135,17 @@ def _motion(speed: str | None, span: str | None, pressure_angle: str) -> dict[st
 
 
 def _cases(
-    file: Path, sets: list[str], cases: list[str], frictions: list[str], options: dict[str, Any]
+    read_with: Callable[[list[str]], Machine], cases: list[str], frictions: list[str], options: dict[str, Any]
 ) -> tuple[dict[str, Forces], Machine]:
     """Forces by case, of the machine as it is where there are none; and the machine."""
     from linkwright.analysis.forces import forces as compute
-    from linkwright.files.read import read
 
-    machine = read(file, sets)
+    machine = read_with([])
     options["friction"] = _frictions(machine, frictions)
     if not cases:
         return {machine.name: compute(machine, **options)}, machine
     named = dict(_case(text) for text in cases)
-    found = {name: compute(read(file, [*sets, *entries]), **options) for name, entries in named.items()}
+    found = {name: compute(read_with(entries), **options) for name, entries in named.items()}
     return found, machine
 
 
@@ -222,7 +222,7 @@ def _write(
     cases: dict[str, Forces],
     speeds: dict[str, dict[str, Any]],
     findings: list[str],
-    folder: Path,
+    folder: OutputFolder,
     *,
     quiet: bool,
 ) -> None:
@@ -246,11 +246,4 @@ def _write(
         texts[f"polar{end}.svg"] = svg(polar_figure(result))
     if len(cases) > 1:
         texts["load_cases.svg"] = svg(cases_figure(cases))
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in texts.items():
-            (folder / name).write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
-    listed = "\n".join(f"  {folder / name}" for name in texts)
-    typer.echo(f"Written:\n{listed}", err=quiet)
+    write_folder(folder, texts, quiet=quiet)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from math import degrees, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import Force, Json, Out, Sets, option_value, put
+from linkwright.cli.common import Json, Outside, Sets, option_value
 from linkwright.cli.crank_speed import CrankSpeed, crank_speed
+from linkwright.cli.out import Force, Out, put
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -61,6 +61,7 @@ _STEPS_MAX = 1_000_000
 def motion(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     at: At = None,
     speed: Speed = None,
     law: LawText = None,
@@ -85,7 +86,7 @@ def motion(
         raise InputError("--speed and --law: the law gives the speed; expected one of them")
     if duration is not None and (law is None or _is_table(law)):
         raise InputError("--duration: it belongs to a --law that is a formula")
-    machine = read(file, set or [])
+    machine = read(file, set or [], allow_outside=allow_outside)
     if law is not None:
         text = _under_law(machine, law, duration or "1 s", steps, json=json, csv=csv)
     elif at is not None:
@@ -98,6 +99,7 @@ def motion(
 def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool) -> str:
     """One pose as a table, CSV or JSON."""
     from linkwright.analysis.pose import pose
+    from linkwright.files.csv_text import csv_text
     from linkwright.units import ANGLE
 
     found = pose(machine, option_value("--at", at, ANGLE), speed=speed.value)
@@ -107,7 +109,8 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
     rows = [("crank angle", "φ [rad]", (phi, found.speed, found.acceleration)), *_pose_rows(found)]
     if csv:
         typer.echo(speed, err=True)
-        return _csv(rows)
+        heads = ("name", "quantity", "position", "velocity", "acceleration")
+        return csv_text(heads, ((name, what, *numbers) for name, what, numbers in rows))
     lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad, {speed}"]
     lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
     lines += [
@@ -116,13 +119,6 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
     ]
     if found.near_limit:
         lines.append(f"near a limit: {', '.join(found.near_limit)}")
-    return "\n".join(lines) + "\n"
-
-
-def _csv(rows: Iterable[tuple[str, str, tuple[float, ...]]]) -> str:
-    """A pose with a quantity in each row."""
-    lines = ["name,quantity,position,velocity,acceleration"]
-    lines += [",".join((name, what, *map(repr, numbers))) for name, what, numbers in rows]
     return "\n".join(lines) + "\n"
 
 
@@ -144,9 +140,11 @@ def _pose_rows(found: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
 def _turn(machine: Machine, speed: CrankSpeed, steps: int, *, json: bool, csv: bool) -> str:
     """A revolution at a constant speed."""
     from linkwright.analysis.law import constant_speed
+    from linkwright.units import SPEED
 
-    if speed.value <= 0:
-        raise InputError(f"--speed: found {speed.value:g} rad/s, expected a speed above zero for a turn")
+    if speed.value < SPEED.least:
+        expected = f"a speed above zero for a turn, {SPEED.least:g} rad/s or more"
+        raise InputError(f"--speed: found {speed.value:g} rad/s, expected {expected}")
     times = (0.0, 2 * pi / speed.value)
     told = {"crank_speed": speed.value, "speed_source": speed.source}
     head = f"one revolution of the crank in {times[1]:.6g} s, {speed}"
@@ -232,24 +230,10 @@ def _is_table(law: str) -> bool:
 def _law(text: str) -> Law:
     """A formula, or the table in a file."""
     if _is_table(text):
-        return _table_law(Path(text))
+        from linkwright.analysis.law import TableLaw
+        from linkwright.files.law_table import read_law_table
+
+        return TableLaw(*read_law_table(Path(text)))
     from linkwright.analysis.law_formula import FormulaLaw
 
     return FormulaLaw(text)
-
-
-def _table_law(path: Path) -> Law:
-    """A table of times [s] and angles [rad]; a first line that is no numbers is its head."""
-    from linkwright.analysis.law import TableLaw
-
-    rows = []
-    for k, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
-        parts = line.replace(";", ",").split(",")
-        try:
-            time, angle = (float(part) for part in parts)
-        except ValueError:
-            if k == 1 or not line.strip():
-                continue
-            raise InputError(f"{path}:{k}: found {line!r}, expected a time and an angle") from None
-        rows.append((time, angle))
-    return TableLaw([time for time, _ in rows], [angle for _, angle in rows])
