@@ -26,6 +26,7 @@ from linkwright.analysis.result import Result
 from linkwright.analysis.turning import Cycle, Swept, sweep
 from linkwright.engine import compile_machine
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -193,6 +194,7 @@ class Linkage(Result):
         return found
 
 
+@public
 def linkage(machine: Machine) -> Linkage:
     """Examine a linkage over its cycle.
 
@@ -209,7 +211,7 @@ def linkage(machine: Machine) -> Linkage:
     Raises
     ------
     AssemblyError
-        The mechanism closes nowhere.
+        The mechanism closes nowhere, or at single angles alone.
 
     References
     ----------
@@ -218,7 +220,7 @@ def linkage(machine: Machine) -> Linkage:
     """
     compiled = compile_machine(machine).first()
     where = closure_of(compiled)
-    if not where.ranges:
+    if not where.moves:
         raise closure_error(where, machine)
     period = turns_to_repeat(compiled) if where.turns_fully else None
     cycle = Cycle.of(where, period)
