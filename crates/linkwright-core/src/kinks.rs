@@ -133,10 +133,9 @@ impl<R: Real> Machine<'_, R> {
         }
     }
 
-    /// Ends of the smooth pieces of the turn: increasing from 0 to 2π, as many in every lane (a lane with
-    /// fewer kinks repeats 2π).
+    /// Ends of the smooth pieces of the turn of each lane: increasing from 0 to 2π.
     #[inline(always)]
-    pub fn breaks(&self, m: &mut Motion<R>) -> Vec<R> {
+    pub fn breaks(&self, m: &mut Motion<R>) -> Vec<Vec<f64>> {
         let mut lanes: Vec<Vec<f64>> = vec![vec![0.0]; R::LANES];
         let watches = self.plan.watches();
         if !watches.is_empty() {
@@ -154,9 +153,11 @@ impl<R: Real> Machine<'_, R> {
             for angle in lane.iter_mut() {
                 *angle = if *angle > TAU - WRAP { 0.0 } else { *angle };
             }
+            lane.push(TAU);
             lane.sort_by(f64::total_cmp);
+            lane.dedup();
         }
-        level(lanes)
+        lanes
     }
 
     /// Adds the joints of motion laws in pieces, where a derivative jumps.
@@ -241,23 +242,9 @@ impl<R: Real> Machine<'_, R> {
 
 /// Ends of the smooth pieces of one machine's turn \[rad\].
 pub fn kinks(plan: &Plan, q: &[f64]) -> Vec<f64> {
-    Machine { plan, q }.breaks(&mut Motion::new(&plan.mechanism, q))
+    Machine { plan, q }.breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0)
 }
 
 fn scan_angle(i: usize) -> f64 {
     (i as f64 + SHIFT) * TAU / SCAN as f64
-}
-
-/// Turns lists by lane into lanes by list, each filled up with 2π.
-fn level<R: Real>(lanes: Vec<Vec<f64>>) -> Vec<R> {
-    let most = lanes.iter().map(Vec::len).max().unwrap_or(1);
-    let mut row = vec![0.0; R::LANES];
-    (0..=most)
-        .map(|k| {
-            for (slot, lane) in row.iter_mut().zip(&lanes) {
-                *slot = lane.get(k).copied().unwrap_or(TAU);
-            }
-            R::load(&row)
-        })
-        .collect()
 }

@@ -14,7 +14,7 @@ use crate::linkage::Motion;
 use crate::plan::Plan;
 use crate::plane::Angle;
 use crate::rk::{Trial, next_factor, try_step};
-use crate::steady::crossing;
+use crate::mesh::crossing;
 use std::f64::consts::TAU;
 
 /// What to follow.
@@ -146,7 +146,7 @@ impl Follower<'_> {
 pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
     let machine = Machine { plan, q };
     let mut motion = Motion::new(&plan.mechanism, q);
-    let kinks = machine.breaks(&mut motion);
+    let kinks = machine.breaks(&mut motion).swap_remove(0);
     let speed_scale = q[plan.drive.speed_start].max(start.omega);
     let mut follower = Follower { machine, motion, given: Vec::new(), speed_scale, evaluations: 0 };
     let mut path = Path::new(plan, q, start, kinks);
