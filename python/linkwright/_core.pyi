@@ -61,8 +61,8 @@ def steady_state(
 ) -> tuple[int, _Floats, _Floats | None]:
     """Status, 18 scalars, and 7 curves (time, ω, ε, motor, drive and load torque, J) at the angles `phi`.
 
-    Without an answer the scalars are the angle at which the machine comes to rest (or does not close), the speed from
-    which it slows down (or which it exceeds), and the accuracy reached; NaN where there is none.
+    Without an answer the scalars are the angle at which the machine comes to rest (or does not close), the
+    speed from which it slows down (or which it exceeds), and the accuracy reached; NaN where there is none.
     """
 
 def steady_rows(

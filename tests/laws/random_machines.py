@@ -1,8 +1,8 @@
-"""Random machines that a user might write, by a seed: linkages that close, bodies, loads and drives of all kinds.
+"""Random machines that a user might write, by a seed: linkages that close, bodies, loads, drives.
 
-The sizes spread over decades, the way careless files do: light and heavy cranks, motors with and without inertia, springs
-from soft to nearly rigid, gearboxes that tell the directions apart. Every machine is valid; whether it moves is for the
-analysis to find.
+The sizes spread over decades, the way careless files do: light and heavy cranks, motors with and without
+inertia, springs from soft to nearly rigid, gearboxes that tell the directions apart. Every machine is valid;
+whether it moves is for the analysis to find.
 """
 
 from __future__ import annotations
@@ -51,11 +51,14 @@ def _spread(random: np.random.Generator, low: float, high: float) -> float:
 
 
 def _mechanism(random: np.random.Generator, r: float) -> Tables:
-    """A crank with a slider or a rocker that it can turn all round, perhaps both, perhaps on a second crank."""
+    """A crank with a slider or a rocker that it can turn all round, or both; perhaps a second crank."""
     tables: Tables = {"cranks": {"A": {"radius": r, "phase": float(random.uniform(0, 2 * np.pi))}}}
     pins = ["A"]
     if random.random() < 0.3:
-        tables["cranks"]["A2"] = {"radius": r * random.uniform(0.5, 1.5), "phase": random.uniform(0, 2 * np.pi)}
+        tables["cranks"]["A2"] = {
+            "radius": r * random.uniform(0.5, 1.5),
+            "phase": random.uniform(0, 2 * np.pi),
+        }
         pins.append("A2")
     kinds = random.choice(["slider", "rocker", "both"], p=[0.6, 0.2, 0.2])
     if kinds != "rocker":
@@ -102,8 +105,18 @@ def _loads(random: np.random.Generator, mechanism: Tables, radius: float, force:
             "stiffness": _spread(random, 0.01, 30.0) * force / radius,
             "free_length": radius * random.uniform(0.5, 2.0),
         },
-        "formula": {"kind": "formula", "on": member, "force": "-c*tanh(20*v)", "constants": {"c": 0.3 * force}},
-        "fan": {"kind": "torque_speed", "speed": [0.0, 20.0, 60.0], "torque": [0.0, 0.2 * force * radius, force]},
+        "formula": {
+            "kind": "formula",
+            "on": member,
+            "force": "-c*tanh(20*v)" if member == "S0" else "-c*vx",
+            **({} if member == "S0" else {"direction": 0.0}),
+            "constants": {"c": 0.3 * force},
+        },
+        "fan": {
+            "kind": "torque_speed",
+            "speed": [0.0, 20.0, 60.0],
+            "torque": [0.0, 0.2 * force * radius, force],
+        },
     }
     chosen = random.choice(list(kinds), size=int(random.integers(0, 4)), replace=False)
     return {str(name): kinds[str(name)] for name in chosen}

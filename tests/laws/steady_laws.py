@@ -1,7 +1,8 @@
 """What holds for every steady motion, read from its curves: which law is broken, and by how much.
 
-The equation of motion is checked without solving it again: the acceleration is that of the torques at the speed, and the speed
-is the integral of the acceleration between any two angles. A periodic pair of curves that keeps both *is* the solution.
+The equation of motion is checked without solving it again: the acceleration is that of the torques at the
+speed, and the speed is the integral of the acceleration between any two angles. A periodic pair of curves
+that keeps both *is* the solution.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.steady_state import SteadyState
-from linkwright.engine import compile_machine
+from linkwright.engine import Compiled, compile_machine
 from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
@@ -56,13 +57,14 @@ def _peak(steady: SteadyState) -> float:
 
 
 def _energy(steady: SteadyState) -> float:
-    """Work at the crank against that of the loads, as a share of what goes to and fro."""
+    """Work at the crank against that of the loads, as a share of what goes to and fro, rounding apart."""
     size = float(np.trapezoid(np.abs(steady.torque_load) + np.abs(steady.torque_drive), steady.crank_angle))
-    return abs(steady.energy_drive - steady.energy_load) / size if size > 0 else 0.0
+    idle = _ROUNDING * float((steady.inertia_reduced * steady.speed**2).max())
+    return max(abs(steady.energy_drive - steady.energy_load) - idle, 0.0) / max(size, idle)
 
 
 def _balance(machine: Machine, steady: SteadyState) -> float:
-    """ε of the curve against that of the torques; what the rounding of the speed makes of these is allowed."""
+    """ε of the curve against that of the torques, the rounding of the speed in these apart."""
     compiled = compile_machine(machine)
     J, J_d1, load, dry, viscous = compiled.reductions(steady.crank_angle)
     omega = steady.speed
@@ -80,10 +82,11 @@ def _balance(machine: Machine, steady: SteadyState) -> float:
     return float(off.max()) / _peak(steady)
 
 
-def _diagonal(compiled: object, angles: Floats, omega: Floats) -> Floats:
+def _diagonal(compiled: Compiled, angles: Floats, omega: Floats) -> Floats:
     """Torque of the laws at each angle with its own speed."""
-    torques = [compiled.law_torques(phi, w)[0, 0] for phi, w in zip(angles, omega, strict=True)]  # type: ignore[attr-defined]
-    return np.array(torques)
+    return np.array(
+        [compiled.law_torques(phi, w)[0, 0] for phi, w in zip(angles, omega, strict=True)], dtype=np.float64
+    )
 
 
 def _outside(steady: SteadyState) -> float:
@@ -97,8 +100,8 @@ def _outside(steady: SteadyState) -> float:
 def _integral(machine: Machine, steady: SteadyState) -> float:
     """½ ω² between the ends of panels against the integral of ε over them.
 
-    Panels in which they differ are halved: a corner of the acceleration is left in a panel so short that it does not count, and
-    what is wrong stays wrong in all of them, and adds up.
+    Panels in which they differ are halved: a corner of the acceleration is left in a panel so short that it
+    does not count, and what is wrong stays wrong in all of them, and adds up.
     """
     compiled = compile_machine(machine)
     edges = np.unique(np.concatenate([compiled.kinks(), np.linspace(0, 2 * np.pi, 33)]))

@@ -10,12 +10,13 @@ import pytest
 from numpy.typing import NDArray
 from random_machines import random_machine
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 from steady_laws import violations
 
 import linkwright as lw
 from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.engine import compile_machine
-from linkwright.errors import FindingError, SteadyStateError
+from linkwright.errors import FindingError
 from linkwright.files import read
 from linkwright.machine import Machine
 
@@ -61,9 +62,6 @@ def test_laws_hold_on_random_machines() -> None:
         machine = random_machine(seed)
         try:
             steady = steady_state(machine)
-        except SteadyStateError as error:
-            assert "no steady motion" in str(error), seed
-            continue
         except FindingError:
             continue
         assert not violations(machine, steady, max(AGREES, 3 * steady.accuracy)), seed
@@ -74,7 +72,7 @@ def test_laws_hold_on_random_machines() -> None:
 
 @pytest.mark.parametrize("seed", range(200, 215))
 def test_scipy_agrees(seed: int) -> None:
-    """Radau of SciPy from the same start, from kink to kink, gives the same curve and comes back to the start."""
+    """Radau of SciPy from kink to kink gives the same curve and comes back to the start."""
     machine = random_machine(seed)
     try:
         steady = steady_state(machine)
@@ -124,16 +122,19 @@ def test_a_motor_whose_inertia_was_left_out() -> None:
     """A crank of 0.1 kg alone: the speed is that of the motor's curve under the load, at every angle."""
     machine = _slider_crank(
         kind="induction",
-        speed_synchronous=104.72,
-        speed_rated=102.1,
-        speed_breakdown=94.95,
-        torque_rated=107.7,
-        torque_breakdown=215.4,
-        torque_start=129.24,
+        speed_synchronous=1000 * np.pi / 30,
+        speed_rated=970 * np.pi / 30,
+        power_rated=11e3,
+        torque_breakdown=2 * 11e3 / (970 * np.pi / 30),
     )
     steady = steady_state(machine)
     assert steady.speed_max == pytest.approx(10.686, abs=5e-4)
-    assert steady.unevenness == pytest.approx(0.0230, abs=5e-5)
+    assert steady.unevenness == pytest.approx(0.0230, abs=5e-4)
+    # Without inertia the load torque, F |s'|/(i η) at its peak, decides the slip.
+    compiled = compile_machine(machine)
+    torque = float(steady.torque_load.max()) / (9.8 * 0.9)
+    slow = brentq(lambda w: compiled.motor_torques(w)[0][0] - torque, 10.0, 10.68)
+    assert steady.speed_min == pytest.approx(slow, rel=1e-3)
     assert not violations(machine, steady, AGREES)
 
 
@@ -201,12 +202,12 @@ def test_an_idling_drive_runs() -> None:
 
 
 def test_an_eccentric_crank_that_all_but_stops_runs() -> None:
-    """Gravity and dry friction on 13.38 kg; whether it passes the top is a matter of the transient, not of the mean."""
+    """Gravity and dry friction on 13.38 kg: a run-up settles to the same speeds."""
     tables = {
         "format": 1,
         "name": "eccentric crank",
         "mechanism": {"cranks": {"A": {"radius": 0.2}}},
-        "bodies": {"A": {"mass": 13.38, "along": 0.1}},
+        "bodies": {"A": {"mass": 13.38, "along": 0.1, "inertia": 0.0}},
         "loads": {"gravity": {"kind": "gravity"}, "rub": {"kind": "dry", "on": "A", "torque": 2.0}},
         "drive": {"motor": {"kind": "dc", "speed_no_load": 1.5, "torque_stall": 24.0}},
     }

@@ -5,10 +5,10 @@
 //! done again one by one by [`crate::steady`], which also names the reason when there is no answer.
 
 use crate::cycle::{Machine, Turn};
+use crate::extremes::Extremes;
 use crate::jet::Jet;
 use crate::lanes::{Job, in_lanes};
 use crate::linkage::Motion;
-use crate::extremes::Extremes;
 use crate::measures::Totals;
 use crate::plan::Plan;
 use crate::plane::Angle;
@@ -174,7 +174,8 @@ impl Job for Chunk<'_> {
                 #[inline(always)]
                 || turn.estimate(&machine, &mut m),
             );
-            // Where Newton did not converge, or to a motion that the machine departs from, there is no error to trust.
+            // Where Newton did not converge, or to a motion that the machine departs from, there is no error
+            // to trust.
             let is_stable = turn.multiplier.select_lt(R::splat(1.0), error, R::splat(f64::NAN));
             let trusted = turn.correction.select_lt(R::splat(PROMISED), is_stable, R::splat(f64::NAN));
             trusted.store(&mut lane);

@@ -1,10 +1,11 @@
 //! The error of a solved turn, measured: every step is done again in two halves.
 //!
-//! From the same start, two steps of half the length give the end of a step and the acceleration there some 500 times
-//! more accurately (order 9), so the difference is the error of the step itself. What errs in one step is carried on to
-//! the others by their growth and by the closure of the turn, like any disturbance. Where the motor is steep the curve
-//! may change fast behind the start of a step, though its end is right: there the parts of a half, a quarter, … of the
-//! step, from which the curve is read, are compared in the same way, down to where the steepness no longer matters.
+//! From the same start, two steps of half the length give the end of a step and the acceleration there some
+//! 500 times more accurately (order 9), so the difference is the error of the step itself. What errs in one
+//! step is carried on to the others by their growth and by the closure of the turn, like any disturbance.
+//! Where the motor is steep the curve may change fast behind the start of a step, though its end is right:
+//! there the parts of a half, a quarter, … of the step, from which the curve is read, are compared in the
+//! same way, down to where the steepness no longer matters.
 
 use crate::cycle::{Machine, Step, Turn, stages_of_part};
 use crate::layout::{bundle, unbundle};
@@ -22,8 +23,8 @@ const LEVELS_IN_LANES: usize = 3;
 /// Rounding of a value that a few dozen operations lead to, relative.
 const ROUNDING: f64 = 2e-15;
 
-/// Accelerations count against their peak, but at least against this share of ω²: a machine that turns evenly has
-/// none, and rounding is all that there is.
+/// Accelerations count against their peak, but at least against this share of ω²: a machine that turns
+/// evenly has none, and rounding is all that there is.
 const EVEN: f64 = 1e-4;
 
 /// What is wrong with a step.
@@ -151,7 +152,8 @@ impl<R: Real> Turn<R> {
         d
     }
 
-    /// Adds what the errors of all steps make of the solution in each, carried on from step to step and closed.
+    /// Adds what the errors of all steps make of the solution in each, carried on from step to step and
+    /// closed.
     #[inline(always)]
     fn add_carried(&self, check: &mut Check, defect: &[f64], limits: Limits) {
         let growth: Vec<R> = self.steps.iter().map(|step| step.growth).collect();
@@ -178,9 +180,9 @@ impl<R: Real> Turn<R> {
 }
 
 impl<R: Real> Turn<R> {
-    /// The relative error of each lane's turn, estimated: in each lane the step whose acceleration has the largest part
-    /// of the highest degree is done again in halves, as in [`Turn::check`]; the errors of the others are to its own as
-    /// the squares of these parts, and all are carried on round the turn.
+    /// The relative error of each lane's turn, estimated: in each lane the step whose acceleration has the
+    /// largest part of the highest degree is done again in halves, as in [`Turn::check`]; the errors of the
+    /// others are to its own as the squares of these parts, and all are carried on round the turn.
     #[inline(always)]
     pub fn estimate(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> R {
         let zero = R::splat(0.0);

@@ -4,12 +4,12 @@
 //! du/dφ = ε = [M_d(ω) − M_r(φ, ω) − J′(φ) u] / J(φ),   ω = √(2u),   u(2π) = u(0)
 //! ```
 //!
-//! u = ½ ω² is the state (paper 1, equation (1), divided by J): its derivative by the angle *is* the acceleration, so
-//! the acceleration is known as well as the solution is, also where a steep motor leaves little of it.
-//! The turn is divided from kink to kink into steps of [`crate::radau`]; the stages of all steps and the
-//! closure u(2π) = u(0) are solved together by Newton. Eliminating the stages step by step leaves the
-//! Newton step of the turn-to-turn map, and the product of the steps' growth is that map's derivative: the
-//! multiplier of a small disturbance over one turn (stable when below 1 in size).
+//! u = ½ ω² is the state (paper 1, equation (1), divided by J): its derivative by the angle *is* the
+//! acceleration, so the acceleration is known as well as the solution is, also where a steep motor leaves
+//! little of it. The turn is divided from kink to kink into steps of [`crate::radau`]; the stages of all
+//! steps and the closure u(2π) = u(0) are solved together by Newton. Eliminating the stages step by step
+//! leaves the Newton step of the turn-to-turn map, and the product of the steps' growth is that map's
+//! derivative: the multiplier of a small disturbance over one turn (stable when below 1 in size).
 
 use crate::dual::Dual;
 use crate::law::Given;
@@ -172,8 +172,8 @@ impl<R: Real> Machine<'_, R> {
         rows
     }
 
-    /// A step of its own from (`phi`, `u`) on by `h`, and what its laws needed. This is how the solution is read
-    /// between the steps of the turn. Lanes that do not converge are NaN.
+    /// A step of its own from (`phi`, `u`) on by `h`, and what its laws needed. This is how the solution is
+    /// read between the steps of the turn. Lanes that do not converge are NaN.
     #[inline(always)]
     pub fn advance(&self, phi: R, u: R, h: R, m: &mut Motion<R>) -> (Step<R>, Vec<Given<R>>) {
         self.advance_near(phi, u, h, [u; S], m)
@@ -181,14 +181,7 @@ impl<R: Real> Machine<'_, R> {
 
     /// The same with stages to start from.
     #[inline(always)]
-    pub fn advance_near(
-        &self,
-        phi: R,
-        u: R,
-        h: R,
-        X: [R; S],
-        m: &mut Motion<R>,
-    ) -> (Step<R>, Vec<Given<R>>) {
+    pub fn advance_near(&self, phi: R, u: R, h: R, X: [R; S], m: &mut Motion<R>) -> (Step<R>, Vec<Given<R>>) {
         let mut given = Vec::new();
         let rows = R::outline(
             #[inline(always)]
@@ -219,8 +212,8 @@ impl<R: Real> Machine<'_, R> {
         step
     }
 
-    /// One Newton step for the stages of a step. Lanes whose last correction was small enough keep what they have: no
-    /// lane's bits depend on how long another takes.
+    /// One Newton step for the stages of a step. Lanes whose last correction was small enough keep what they
+    /// have: no lane's bits depend on how long another takes.
     #[inline(always)]
     fn step_newton(&self, step: &mut Step<R>, given: &[Given<R>], correction: R) -> StageNewton<R> {
         let limit = R::splat(CONVERGED);
@@ -329,8 +322,8 @@ impl<R: Real> Step<R> {
     }
 }
 
-/// Stages of a part of a step, from share `from` on by share `length`, on the step's quintic; not below a share of
-/// what the part starts from, where a polynomial may swing.
+/// Stages of a part of a step, from share `from` on by share `length`, on the step's quintic; not below a
+/// share of what the part starts from, where a polynomial may swing.
 #[inline(always)]
 pub fn stages_of_part<R: Real>(quintic: &[R; N], from: R, length: R) -> [R; S] {
     let mut X = [from; S];
@@ -342,8 +335,8 @@ pub fn stages_of_part<R: Real>(quintic: &[R; N], from: R, length: R) -> [R; S] {
 }
 
 impl<R: Real> Turn<R> {
-    /// Machines in lanes, each with its own steps between its own breaks, no longer than 2π/`n`; lanes with fewer
-    /// steps are filled up at 2π.
+    /// Machines in lanes, each with its own steps between its own breaks, no longer than 2π/`n`; lanes with
+    /// fewer steps are filled up at 2π.
     #[inline(always)]
     pub fn of_machines(machine: &Machine<'_, R>, breaks: &[Vec<f64>], n: usize, m: &mut Motion<R>) -> Self {
         let mut lanes: Vec<Vec<f64>> = breaks.iter().map(|breaks| divide(breaks, n)).collect();
@@ -381,7 +374,14 @@ impl<R: Real> Turn<R> {
             );
             tabulated.push(Step::at_rest(phi, h, rows, zero));
         }
-        Turn { steps: tabulated, given, layout, multiplier: zero, sweeps: 0, correction: R::splat(f64::INFINITY) }
+        Turn {
+            steps: tabulated,
+            given,
+            layout,
+            multiplier: zero,
+            sweeps: 0,
+            correction: R::splat(f64::INFINITY),
+        }
     }
 
     /// What the laws need to know at the stages of a step.
@@ -428,7 +428,8 @@ impl<R: Real> Turn<R> {
         Dual { value: self.layout.total(sum.value), d: self.layout.total(sum.d) }
     }
 
-    /// Solves for the periodic motion until every lane has converged, or until it is clear that some will not.
+    /// Solves for the periodic motion until every lane has converged, or until it is clear that some will
+    /// not.
     #[inline(always)]
     pub fn solve(&mut self, machine: &Machine<'_, R>) {
         let mut work = Vec::with_capacity(self.steps.len());

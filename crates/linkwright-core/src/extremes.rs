@@ -1,8 +1,9 @@
 //! Extremes of speed and acceleration over a turn.
 //!
-//! Extremes are found inside the steps, not at their ends: samples of every step tell which steps promise one, the
-//! polynomial through them the place, and the solution is read there like any curve ([`Machine::advance`]). So an
-//! extreme is a value of the curve; the square of the error in its place is what it may fall short by.
+//! Extremes are found inside the steps, not at their ends: samples of every step tell which steps promise
+//! one, the polynomial through them the place, and the solution is read there like any curve
+//! ([`Machine::advance`]). So an extreme is a value of the curve; the square of the error in its place is
+//! what it may fall short by.
 
 use crate::cycle::{Machine, Turn, stages_of_part};
 use crate::layout::{Layout, unbundle};
@@ -28,7 +29,8 @@ pub struct Extremes<R> {
     pub acceleration_max: Extreme<R>,
 }
 
-/// Rounds of refinement for one extreme of machines in lanes: the best step, and steps that promise as much as it.
+/// Rounds of refinement for one extreme of machines in lanes: the best step, and steps that promise as much
+/// as it.
 const ROUNDS: usize = 4;
 
 /// By how much the estimate of a step's peak may err, as a share of the range: steps that promise less than
@@ -36,8 +38,9 @@ const ROUNDS: usize = 4;
 /// by about 1e-3 of what the quantity changes in the step, itself a fraction of the range.
 const DOUBT: f64 = 2e-3;
 
-/// Shares of a step to both sides of a place at which the curve is read for a better one: the quintic's peak is good to a
-/// few hundredths; a parabola through readings this far apart to a thousandth, then to the square of that.
+/// Shares of a step to both sides of a place at which the curve is read for a better one: the quintic's peak
+/// is good to a few hundredths; a parabola through readings this far apart to a thousandth, then to the
+/// square of that.
 const ASIDE: [f64; 2] = [0.04, 0.004];
 
 /// How much farther than that the better place may lie.
@@ -175,8 +178,8 @@ impl<R: Real> Turn<R> {
         best
     }
 
-    /// Of the steps of one machine: all that promise as much as the best, for all four extremes, as many at once as there
-    /// are lanes.
+    /// Of the steps of one machine: all that promise as much as the best, for all four extremes, as many at
+    /// once as there are lanes.
     #[inline(always)]
     fn largest_of_steps(
         &self,

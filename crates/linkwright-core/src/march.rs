@@ -1,22 +1,23 @@
 //! All motions over one turn, from the fastest down: which repeat, and whether any does.
 //!
-//! The equation has one unknown u over φ, so motions from different starts never cross: the turn-to-turn map P is
-//! increasing. Two things follow.
+//! The equation has one unknown u over φ, so motions from different starts never cross: the turn-to-turn map
+//! P is increasing. Two things follow.
 //!
-//! * A motion that starts too fast to repeat, P(u) < u, slows down turn by turn, and whatever repeats lies below it;
+//! * A motion that starts too fast to repeat, P(u) < u, slows down turn by turn, and whatever repeats lies
+//! below it;
 //!   it ends in the fastest motion that repeats, which therefore draws in all that are faster.
 //! * If it comes to rest instead, so does every slower one: then no motion repeats.
 //!
-//! Turns are marched through step by step with as short steps as the motion needs. Instead of waiting turn by turn,
-//! Newton on P(u) = u leaps ahead, and a bracket keeps it from passing what it seeks.
+//! Turns are marched through step by step with as short steps as the motion needs. Instead of waiting turn
+//! by turn, Newton on P(u) = u leaps ahead, and a bracket keeps it from passing what it seeks.
 
 use crate::cycle::{Machine, divide};
 use crate::linkage::Motion;
 use crate::mesh::Piece;
 use crate::radau::{S, tail};
 
-/// What the polynomial of a step may have of the highest degree, as a share of u: with order 9, errors are about the
-/// square of that.
+/// What the polynomial of a step may have of the highest degree, as a share of u: with order 9, errors are
+/// about the square of that.
 const TAIL: f64 = 1e-4;
 
 /// Longest step: a 24th of the turn.
@@ -35,7 +36,8 @@ const TURNS_MAX: usize = 200;
 /// Relative distance from repeating at which a motion is good enough to start from.
 const REPEATS: f64 = 1e-7;
 
-/// Doublings of the speed before a machine counts as running away: from three times the working speed to 3000 times.
+/// Doublings of the speed before a machine counts as running away: from three times the working speed to
+/// 3000 times.
 const DOUBLINGS: usize = 10;
 
 /// A motion through one turn.
@@ -51,8 +53,8 @@ struct Revolution {
 /// Why no motion repeats.
 #[derive(Clone, Copy, Debug)]
 pub enum NoMotion {
-    /// Started with speed `omega` at φ = 0, the machine comes to rest at `phi`, and so does every slower start; every
-    /// faster one slows down to it.
+    /// Started with speed `omega` at φ = 0, the machine comes to rest at `phi`, and so does every slower
+    /// start; every faster one slows down to it.
     Rests { omega: f64, phi: f64 },
     /// At speed `omega` the machine still gains speed from turn to turn.
     RunsAway { omega: f64 },
@@ -95,8 +97,13 @@ pub fn fastest_motion(machine: &Machine<'_, f64>, breaks: &[f64]) -> Result<Vec<
         }
         match march.revolution(next) {
             Ok(found) if found.end < found.start => above = found,
-            Ok(found) if found.start - found.end <= REPEATS * found.start && found.growth < 1.0
-                && found.end - found.start <= REPEATS * found.start => return Ok(found.pieces),
+            Ok(found)
+                if found.start - found.end <= REPEATS * found.start
+                    && found.growth < 1.0
+                    && found.end - found.start <= REPEATS * found.start =>
+            {
+                return Ok(found.pieces);
+            }
             Ok(found) => below = Below { u: found.start, is_gaining: true, ..below },
             Err(rests @ NoMotion::Rests { .. }) => below = Below { u: next, rests, is_gaining: false },
             Err(other) => return Err(other),

@@ -25,8 +25,8 @@ pub struct Totals<R> {
     pub torque_rms: R,
 }
 
-/// What is integrated over a turn: time, work of the motor, work at the crank, work of the loads \[J\], and the
-/// motor's torque and its square over time.
+/// What is integrated over a turn: time, work of the motor, work at the crank, work of the loads \[J\], and
+/// the motor's torque and its square over time.
 pub const INTEGRALS: usize = 6;
 
 impl<R: Real> Machine<'_, R> {

@@ -1,5 +1,5 @@
-//! The steps of one machine's turn: where they end, how they are made shorter, what a solution on other steps gives
-//! to start from, and where the solution passes a kink that depends on the speed.
+//! The steps of one machine's turn: where they end, how they are made shorter, what a solution on other
+//! steps gives to start from, and where the solution passes a kink that depends on the speed.
 
 use crate::check::Excess;
 use crate::cycle::{Machine, Turn};
@@ -13,6 +13,12 @@ use std::f64::consts::TAU;
 /// Relative distance of a speed from a kink's below which it counts as the kink's. A break that is off by
 /// 1e-9 rad changes the solution by the square of that.
 const ON_KINK: f64 = 1e-10;
+
+/// A kink this close to the end of a step, as a share of the step, lies at the end: what is left of it
+/// changes the solution by the square of that. A step shorter than the second number \[rad\] counts as that
+/// long.
+const SETTLED: f64 = 1e-6;
+const SHORTEST: f64 = 1e-4;
 
 /// A kink found anew this close to where it was, as a share of the steps there, takes its place.
 const SAME_KINK: f64 = 0.2;
@@ -53,27 +59,18 @@ impl<R: Real> Turn<R> {
     /// The solved steps in a row, those of no length left out.
     #[inline(always)]
     pub fn pieces(&self) -> Vec<Piece> {
-        let columns = |of: &dyn Fn(usize) -> R| {
-            unbundle(&(0..self.steps.len()).map(of).collect::<Vec<_>>())
-        };
+        let columns = |of: &dyn Fn(usize) -> R| unbundle(&(0..self.steps.len()).map(of).collect::<Vec<_>>());
         let (phi, h) = (columns(&|k| self.steps[k].phi), columns(&|k| self.steps[k].h));
         let u = columns(&|k| self.steps[k].u);
         let X: [Vec<f64>; S] = std::array::from_fn(|i| columns(&|k| self.steps[k].X[i]));
-        let piece = |k: usize| Piece {
-            phi: phi[k],
-            h: h[k],
-            u: u[k],
-            X: std::array::from_fn(|i| X[i][k]),
-        };
+        let piece = |k: usize| Piece { phi: phi[k], h: h[k], u: u[k], X: std::array::from_fn(|i| X[i][k]) };
         (0..phi.len()).filter(|&k| h[k] > 0.0).map(piece).collect()
     }
 
     /// Starts every step from a solution on other steps.
     #[inline(always)]
     pub fn start_from(&mut self, pieces: &[Piece]) {
-        let columns = |of: &dyn Fn(usize) -> R| {
-            unbundle(&(0..self.steps.len()).map(of).collect::<Vec<_>>())
-        };
+        let columns = |of: &dyn Fn(usize) -> R| unbundle(&(0..self.steps.len()).map(of).collect::<Vec<_>>());
         let (phi, h) = (columns(&|k| self.steps[k].phi), columns(&|k| self.steps[k].h));
         let mut at = 0;
         let mut values: [Vec<f64>; S + 1] = std::array::from_fn(|_| Vec::with_capacity(phi.len()));
@@ -114,31 +111,41 @@ impl Mesh {
         Mesh { edges, crossings: Vec::new() }
     }
 
-    /// The mesh with kinks as ends of steps where the step that they lie in is not good, and other steps that are not
-    /// good made shorter.
-    pub fn refined(&self, excess: &[Excess], crossings: &[f64], breaks: &[f64]) -> Mesh {
-        let mut next = Mesh { edges: vec![0.0], crossings: Vec::new() };
-        let mut moved: Vec<f64> = Vec::new();
-        for (ends, excess) in self.edges.windows(2).zip(excess) {
-            let (low, high) = (ends[0], ends[1]);
-            let inside = |&&phi: &&f64| phi > low && phi < high;
-            let found: Vec<f64> = crossings.iter().filter(inside).copied().collect();
-            if excess.error <= 1.0 {
-                next.edges.push(high);
-            } else if found.is_empty() {
-                next.split(low, high, *excess);
-            } else {
-                let old = |&&phi: &&f64| !breaks.contains(&phi) && self.crossings.contains(&phi);
-                let is_near = |phi: f64| found.iter().any(|c| (c - phi).abs() < SAME_KINK * (high - low));
-                moved.extend([low, high].iter().filter(old).filter(|&&phi| is_near(phi)));
-                next.edges.extend(&found);
-                next.edges.push(high);
-                next.crossings.extend(&found);
+    /// The mesh with the given kinks as ends of steps, each in place of the end at which it was found
+    /// before; none where all lie at ends already.
+    pub fn with_crossings(&self, found: &[f64], breaks: &[f64]) -> Option<Mesh> {
+        let (mut added, mut moved) = (Vec::new(), Vec::new());
+        for &phi in found {
+            let after = self.edges.partition_point(|&edge| edge <= phi);
+            let (low, high) = (self.edges[after - 1], self.edges[after]);
+            let (h, away) = (high - low, (phi - low).min(high - phi));
+            if away > SETTLED * h.max(SHORTEST) {
+                added.push(phi);
+                let is_old = |edge: &f64| self.crossings.contains(edge) && !breaks.contains(edge);
+                let is_near = |edge: &f64| (edge - phi).abs() < SAME_KINK * h;
+                moved.extend([low, high].into_iter().filter(|edge| is_old(edge) && is_near(edge)));
             }
         }
-        next.edges.retain(|phi| !moved.contains(phi));
-        let kept = self.crossings.iter().filter(|&phi| !moved.contains(phi));
-        next.crossings.extend(kept);
+        let renew = |list: &[f64]| {
+            let mut list: Vec<f64> = list.iter().filter(|edge| !moved.contains(edge)).copied().collect();
+            list.extend(&added);
+            list.sort_by(f64::total_cmp);
+            list
+        };
+        let next = || Mesh { edges: renew(&self.edges), crossings: renew(&self.crossings) };
+        (!added.is_empty()).then(next)
+    }
+
+    /// The mesh with the steps that are not good made shorter.
+    pub fn refined(&self, excess: &[Excess]) -> Mesh {
+        let mut next = Mesh { edges: vec![0.0], crossings: self.crossings.clone() };
+        for (ends, excess) in self.edges.windows(2).zip(excess) {
+            if excess.error <= 1.0 {
+                next.edges.push(ends[1]);
+            } else {
+                next.split(ends[0], ends[1], *excess);
+            }
+        }
         next
     }
 
@@ -192,7 +199,11 @@ impl Event {
 /// Angles inside steps at which the solution passes a kink of the drive or of a law, in order.
 pub fn crossings_of(pieces: &[Piece], machine: &Machine<'_, f64>, m: &mut Motion<f64>) -> Vec<f64> {
     let mut crossings = Vec::new();
-    let speeds = machine.plan.speed_kinks(machine.q).into_iter().map(Event::Speed);
+    let stages = || pieces.iter().flat_map(|piece| piece.X);
+    let (low, high) = stages().fold((f64::INFINITY, 0.0_f64), |(low, high), u| (low.min(u), high.max(u)));
+    // With room for what lies between the stages.
+    let is_passed = |speed: &f64| (0.8 * low..1.2 * high).contains(&(0.5 * speed * speed));
+    let speeds = machine.plan.speed_kinks(machine.q).into_iter().filter(is_passed).map(Event::Speed);
     let laws = machine.plan.moving_kinks().into_iter().map(Event::Law);
     for event in speeds.chain(laws) {
         let values: Vec<f64> =

@@ -1,23 +1,23 @@
 //! Collocation Radau IIA with five stages: order 9, L-stable, the last stage at the end of the step.
 //!
-//! Chosen for the motion over the crank angle because (1) whatever the motor's characteristic holds back at once is
-//! gone at the end of the step, however long the step is: with a steep motor the end lies on the quasi-steady motion;
-//! (2) the solution is read between the steps by a step of its own, which is as good; (3) five evaluations of the
-//! mechanism a step, where an explicit method of order 8 needs 11.
+//! Chosen for the motion over the crank angle because (1) whatever the motor's characteristic holds back at
+//! once is gone at the end of the step, however long the step is: with a steep motor the end lies on the
+//! quasi-steady motion; (2) the solution is read between the steps by a step of its own, which is as good;
+//! (3) five evaluations of the mechanism a step, where an explicit method of order 8 needs 11.
 //!
-//! The last stage lies on the end of the step, where a torque may jump: it is taken a little before, so that it
-//! belongs to the step that ends there.
+//! The last stage lies on the end of the step, where a torque may jump: it is taken a little before, so that
+//! it belongs to the step that ends there.
 //!
-//! Source: Hairer, Wanner, *Solving Ordinary Differential Equations II*, IV.5. The coefficients are integrals of the
-//! Lagrange polynomials on the zeros of P₄(2c − 1) − P₅(2c − 1), to 18 digits.
+//! Source: Hairer, Wanner, *Solving Ordinary Differential Equations II*, IV.5. The coefficients are
+//! integrals of the Lagrange polynomials on the zeros of P₄(2c − 1) − P₅(2c − 1), to 18 digits.
 
 use crate::real::Real;
 
 /// Stages.
 pub const S: usize = 5;
 
-/// How far before the end of the step its last stage lies, as a share of the step: more than the rounding of an
-/// angle, and a displacement that no result shows.
+/// How far before the end of the step its last stage lies, as a share of the step: more than the rounding of
+/// an angle, and a displacement that no result shows.
 const ASIDE: f64 = 1e-13;
 
 /// Places of the stages in the step.
@@ -231,8 +231,8 @@ mod tests {
     fn coefficients_satisfy_the_order_conditions() {
         for q in 0..9_u32 {
             let sum: f64 = (0..S).map(|j| B[j] * C[j].powi(q as i32)).sum();
-            // Quadrature of degree 8 is exact: B(9) of Butcher's simplifying conditions; the last stage lies 1e-13
-            // aside.
+            // Quadrature of degree 8 is exact: B(9) of Butcher's simplifying conditions; the last stage lies
+            // 1e-13 aside.
             assert!((sum - 1.0 / f64::from(q + 1)).abs() < 1e-13, "B({q}): {sum}");
         }
         for i in 0..S {

@@ -1,7 +1,8 @@
 //! The solution between the steps of a turn: state of the machine at any angle, and curves over the turn.
 //!
-//! From the start of the step that an angle lies in, a step of its own leads to the angle ([`Machine::advance`]): what
-//! is read has the order of the method, is stiffly stable like it, and is what [`crate::check`] compares.
+//! From the start of the step that an angle lies in, a step of its own leads to the angle
+//! ([`Machine::advance`]): what is read has the order of the method, is stiffly stable like it, and is what
+//! [`crate::check`] compares.
 
 use crate::cycle::{Machine, Step, stages_of_part};
 use crate::lanes::Job;

@@ -1,12 +1,13 @@
 //! Steady motion of one machine to a wanted accuracy.
 //!
-//! The turn is solved on a mesh, the error of every step is measured ([`crate::check`]), and steps that err too much
-//! are made shorter, until none does. Where the motor's or gearbox's characteristic has a kink at some speed, the
-//! angles at which the motion passes it become ends of steps. The accuracy that is reported is what was measured.
+//! The turn is solved on a mesh, the error of every step is measured ([`crate::check`]), and steps that err
+//! too much are made shorter, until none does. Where the motor's or gearbox's characteristic has a kink at
+//! some speed, the angles at which the motion passes it become ends of steps. The accuracy that is reported
+//! is what was measured.
 //!
-//! Newton over the whole turn from one constant speed finds the motion of all but a few machines. Where it fails, or
-//! finds a motion from which the machine departs, the turn is marched through instead ([`crate::march`]): that finds
-//! the fastest motion that repeats, or shows that none does.
+//! Newton over the whole turn from one constant speed finds the motion of all but a few machines. Where it
+//! fails, or finds a motion from which the machine departs, the turn is marched through instead
+//! ([`crate::march`]): that finds the fastest motion that repeats, or shows that none does.
 
 use crate::cycle::{Machine, Turn, divide};
 use crate::extremes::{Extreme, Extremes};
@@ -27,8 +28,13 @@ const FIRST: f64 = 24.0;
 /// Most steps of a turn.
 const STEPS_MAX: usize = 12_288;
 
-/// Most meshes. Each makes steps at least half as long, and steps behind a kink shorter at once.
-const MESHES_MAX: usize = 40;
+/// Most meshes. Some make steps at least half as long, and steps behind a kink shorter at once; some place a
+/// kink.
+const MESHES_MAX: usize = 120;
+
+/// Most meshes on which a kink of the drive is placed anew before errors are looked at: each squares the
+/// distance.
+const PLACEMENTS_MAX: u32 = 8;
 
 /// An accuracy that is asked for and cannot be had is reported, as long as it is better than this.
 const USABLE: f64 = 1e-5;
@@ -72,9 +78,7 @@ impl Failure {
 impl From<NoMotion> for Failure {
     fn from(reason: NoMotion) -> Self {
         match reason {
-            NoMotion::Rests { omega, phi } => {
-                Failure { phi, omega, ..Failure::new(Status::NoSteadyMotion) }
-            }
+            NoMotion::Rests { omega, phi } => Failure { phi, omega, ..Failure::new(Status::NoSteadyMotion) },
             NoMotion::RunsAway { omega } => Failure { omega, ..Failure::new(Status::NoSteadyMotion) },
             NoMotion::DoesNotClose { phi } => Failure { phi, ..Failure::new(Status::DoesNotClose) },
             NoMotion::Unknown => Failure::new(Status::Inaccurate),
@@ -134,6 +138,7 @@ impl Job for Search<'_> {
         let mut plain_motion = Motion::new(&self.plan.mechanism, self.q);
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
+        let mut placements = 0;
         for _ in 0..MESHES_MAX {
             let mut turn = Turn::of_steps(&machine, &mesh.edges, &mut m);
             if !turn.closes() {
@@ -149,17 +154,19 @@ impl Job for Search<'_> {
             if !turn.is_solved() || multiplier >= 1.0 {
                 return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
             }
+            let pieces = turn.pieces();
+            if placements < PLACEMENTS_MAX {
+                let crossings = crossings_of(&pieces, &plain, &mut plain_motion);
+                if let Some(next) = mesh.with_crossings(&crossings, self.breaks) {
+                    (mesh, start, placements) = (next, Some(pieces), placements + 1);
+                    continue;
+                }
+            }
             let check = turn.check(&machine, self.accuracy, &mut m);
             let is_good = check.excess.iter().all(|excess| excess.error <= 1.0);
             reached = check.reached;
-            let pieces = turn.pieces();
-            let next = if is_good {
-                None
-            } else {
-                let crossings = crossings_of(&pieces, &plain, &mut plain_motion);
-                let next = mesh.refined(&check.excess, &crossings, self.breaks);
-                (next.edges.len() <= STEPS_MAX).then_some(next)
-            };
+            let next = (!is_good).then(|| mesh.refined(&check.excess));
+            let next = next.filter(|next| next.edges.len() <= STEPS_MAX);
             let Some(next) = next else {
                 if !is_good && reached > USABLE.max(self.accuracy) {
                     break;
@@ -173,7 +180,7 @@ impl Job for Search<'_> {
                     sweeps,
                 });
             };
-            (mesh, start) = (next, Some(pieces));
+            (mesh, start, placements) = (next, Some(pieces), 0);
         }
         Err(Failure { reached, ..Failure::new(Status::Inaccurate) })
     }
@@ -189,7 +196,10 @@ impl<R: Real> Turn<R> {
         !self.steps.is_empty()
             && unbundle(&[self.correction]).iter().all(|&x| x <= 1e-6)
             && unbundle(&[self.multiplier]).iter().all(|x| x.is_finite())
-            && flat(&|step| step.u).into_iter().chain(flat(&|step| step.end())).all(|u| u > 0.0 && u.is_finite())
+            && flat(&|step| step.u)
+                .into_iter()
+                .chain(flat(&|step| step.end()))
+                .all(|u| u > 0.0 && u.is_finite())
     }
 
     /// The solution at the starts of the steps, those of no length left out.

@@ -11,10 +11,10 @@
 use crate::cycle::Machine;
 use crate::law::Given;
 use crate::linkage::Motion;
+use crate::mesh::crossing;
 use crate::plan::Plan;
 use crate::plane::Angle;
 use crate::rk::{Trial, next_factor, try_step};
-use crate::mesh::crossing;
 use std::f64::consts::TAU;
 
 /// What to follow.

@@ -1,6 +1,7 @@
-//! Laws of steady motion on random drives over twelve decades of steepness, on the curves and not only at the ends of the
-//! steps: the speed is the integral of the acceleration, the acceleration that of the torques, extremes are extremes of
-//! the curves, a turn closes. Together these say that what is returned solves the equation of motion.
+//! Laws of steady motion on random drives over twelve decades of steepness, on the curves and not only at
+//! the ends of the steps: the speed is the integral of the acceleration, the acceleration that of the
+//! torques, extremes are extremes of the curves, a turn closes. Together these say that what is returned
+//! solves the equation of motion.
 
 mod common;
 
@@ -23,7 +24,8 @@ const AGREES: f64 = 1e-6;
 /// Parts of a step between whose ends the speed must be the integral of the acceleration.
 const PARTS: usize = 3;
 
-/// A slider-crank with dry friction and weight whose drive has the given steepness ∂ε/∂u \[1/rad\] on average.
+/// A slider-crank with dry friction and weight whose drive has the given steepness ∂ε/∂u \[1/rad\] on
+/// average.
 fn drive(random: &mut Random, steepness: f64) -> Built {
     let mut b = Builder::new();
     let r = random.between(0.05, 0.3);

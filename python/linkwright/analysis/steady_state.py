@@ -27,8 +27,8 @@ Floats = NDArray[np.float64]
 # Statuses of the core (`linkwright-core`, module `status`).
 _DOES_NOT_CLOSE, _NO_STEADY_MOTION = 1, 2
 
-# Speeds of a turn at which the motor's torque is looked at for its extremes, and how often between the neighbours
-# of the best: an interval is a 32nd of that before.
+# Speeds of a turn at which the motor's torque is looked at for its extremes, and how often between the
+# neighbours of the best: an interval is a 32nd of that before.
 _SPEEDS_IN_TURN, _ZOOMS = 65, 7
 
 # Speeds at which it is looked whether the drive can balance the mean load at all.
@@ -181,8 +181,9 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
     machine : Machine
         The machine, with a motor.
     accuracy : float
-        Relative accuracy of everything that is returned, down to 1e-13: speeds, accelerations against their peak,
-        integrals. Rounding may forbid it where the motor is very steep; `SteadyState.accuracy` says what was reached.
+        Relative accuracy of everything that is returned, down to 1e-13: speeds, accelerations against their
+        peak, integrals. Rounding may forbid it where the motor is very steep; `SteadyState.accuracy` says
+        what was reached.
     n : int
         Intervals of the turn for the curves; extremes and integrals do not depend on it.
 
@@ -358,7 +359,7 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
 
 
 def _failure(status: int, places: Floats, compiled: Compiled, accuracy: float) -> Exception:
-    """The error for a status of the core, with its numbers: angle and speed of the failure, accuracy reached."""
+    """The error for a status of the core, with its numbers: angle, speed, accuracy reached."""
     angle, speed, reached = places.tolist()
     if status == _DOES_NOT_CLOSE:
         return SteadyStateError(NO_INERTIA)
