@@ -12,11 +12,14 @@ import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
 from linkwright.errors import MachineFileError, Problem
-from linkwright.units import show
+from linkwright.files.text_file import TextError, text_of
+from linkwright.machine.text import join
+from linkwright.units import NUMBER, show
 
 # Kinds of tables whose points may be in a file, and a head for each.
 _EXAMPLES = {
@@ -24,6 +27,9 @@ _EXAMPLES = {
     "table": "angle [deg], lift [mm]",
     "measured": "root_diameter [mm], cut_height [mm], offset [mm]",
 }
+
+# A million lines of a measurement.
+_LARGEST = 20_000_000
 
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 
@@ -59,7 +65,7 @@ class Column:
         return self.lines[int(below[0])] if below and below[0].isdigit() else self.head
 
 
-def with_points(tables: dict[str, Any], folder: Path) -> list[Column]:
+def with_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = False) -> list[Column]:
     """Put the points of all files that are named into the tables.
 
     Parameters
@@ -68,6 +74,8 @@ def with_points(tables: dict[str, Any], folder: Path) -> list[Column]:
         Tables of a machine file; changed in place.
     folder : Path
         Where the machine file is.
+    allow_outside : bool
+        Whether a file may lie elsewhere than in this folder, or in one below it.
 
     Returns
     -------
@@ -77,16 +85,35 @@ def with_points(tables: dict[str, Any], folder: Path) -> list[Column]:
     Raises
     ------
     MachineFileError
-        A file cannot be read, which is a problem of the machine file; or it has no points.
+        A file lies outside or cannot be read, which is a problem of the machine file; or it has no points.
     """
     columns: list[Column] = []
     for place, table in _tables(tables, ()):
         if table.get("kind") in list(_EXAMPLES) and isinstance(table.get("file"), str):
-            path = folder / table.pop("file")
-            lists, lines = columns_of(path, ".".join((*place, "file")), table["kind"])
+            name, key = table.pop("file"), join((*place, "file"))
+            path = folder / name
+            if not (allow_outside or _is_below(path, folder)):
+                raise MachineFileError([_outside(name, key)])
+            lists, lines = columns_of(path, key, table["kind"])
             table.update(lists)
             columns += [Column((*place, name), path, lines[0], tuple(lines[1:])) for name in lists]
     return columns
+
+
+def _is_below(path: Path, folder: Path) -> bool:
+    """Whether a file lies in a folder or below it, links followed."""
+    try:
+        return path.resolve().is_relative_to(folder.resolve())
+    except (OSError, ValueError, RuntimeError):
+        # A name that no file has, or links in a circle: reading it tells what is wrong.
+        return True
+
+
+def _outside(name: str, key: str) -> Problem:
+    """A machine file from somebody else shall not read whatever it likes."""
+    expected = "a file in the folder of the machine file, or below it"
+    remedy = "move it there, or allow it: --allow-outside, or allow_outside=True in Python"
+    return Problem(key, show(name), expected, remedy)
 
 
 def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], dict[str, Any]]]:
@@ -150,13 +177,18 @@ def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, lis
 def _lines(path: Path, key: str) -> list[tuple[int, list[str]]]:
     """Number and cells of each line that is neither empty nor a comment."""
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in file)
-            return [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "no UTF-8 text"
-        found = f"{path}, which cannot be read ({reason})"
-        raise MachineFileError([Problem(key, found, "a file of comma-separated values")]) from None
+        text = text_of(path, _LARGEST)
+    except TextError as error:
+        found, expected = f"{path}, {error.found}", "a file of comma-separated values"
+        raise MachineFileError([Problem(key, found, expected, error.remedy)]) from None
+    lines = StringIO(text, newline="")
+    reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in lines)
+    try:
+        return [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
+    except csv.Error:
+        found, expected = "a cell that does not end", f"cells of at most {csv.field_size_limit()} characters"
+        remedy = 'close the quotation mark (")'
+        raise MachineFileError([Problem(key, found, expected, remedy, str(path), reader.line_num)]) from None
 
 
 def _row_problems(key: str, names: list[str], row: list[str]) -> Iterator[Problem]:
@@ -170,10 +202,7 @@ def _row_problems(key: str, names: list[str], row: list[str]) -> Iterator[Proble
 
 
 def _is_number(cell: str) -> bool:
-    try:
-        return math.isfinite(float(cell))
-    except ValueError:
-        return False
+    return NUMBER.fullmatch(cell.strip()) is not None and math.isfinite(float(cell))
 
 
 def _with_unit(number: str, unit: str | None) -> Any:

@@ -16,6 +16,7 @@ from linkwright.errors import MachineError, MachineFileError, Problem
 from linkwright.files.lines import key_lines, line_of
 from linkwright.files.overrides import Override, apply, parse_all
 from linkwright.files.points import Column, with_points
+from linkwright.files.text_file import TextError, text_of
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.text import split
 from linkwright.units import show
@@ -37,7 +38,7 @@ _TWICE = re.compile("Cannot (overwrite a value|declare .* twice)|Duplicate")
 _LINE_IN_MESSAGE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 
-def read(path: str | os.PathLike[str], overrides: Overrides = ()) -> Machine:
+def read(path: str | os.PathLike[str], overrides: Overrides = (), *, allow_outside: bool = False) -> Machine:
     """Read a machine file.
 
     Parameters
@@ -46,6 +47,8 @@ def read(path: str | os.PathLike[str], overrides: Overrides = ()) -> Machine:
         A TOML file.
     overrides : sequence of str or Mapping
         Entries that replace or add to those of the file: texts ``PATH=VALUE``, or path → value.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
 
     Returns
     -------
@@ -59,10 +62,16 @@ def read(path: str | os.PathLike[str], overrides: Overrides = ()) -> Machine:
     InputError
         An override is malformed.
     """
-    return read_as(Machine, path, overrides)
+    return read_as(Machine, path, overrides, allow_outside=allow_outside)
 
 
-def read_as(model: type[Model], path: str | os.PathLike[str], overrides: Overrides = ()) -> Model:
+def read_as(
+    model: type[Model],
+    path: str | os.PathLike[str],
+    overrides: Overrides = (),
+    *,
+    allow_outside: bool = False,
+) -> Model:
     """Read a description of some kind from a file, such as the task of a synthesis.
 
     Parameters
@@ -73,6 +82,8 @@ def read_as(model: type[Model], path: str | os.PathLike[str], overrides: Overrid
         A TOML file.
     overrides : sequence of str or Mapping
         As for `read`.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
 
     Returns
     -------
@@ -86,10 +97,10 @@ def read_as(model: type[Model], path: str | os.PathLike[str], overrides: Overrid
     InputError
         An override is malformed.
     """
-    return loads_as(model, _text(Path(path)), overrides, path=str(path))
+    return loads_as(model, _text(Path(path)), overrides, path=str(path), allow_outside=allow_outside)
 
 
-def loads(text: str, overrides: Overrides = (), *, path: str = "") -> Machine:
+def loads(text: str, overrides: Overrides = (), *, path: str = "", allow_outside: bool = False) -> Machine:
     """Read a machine from a TOML text.
 
     Parameters
@@ -100,6 +111,8 @@ def loads(text: str, overrides: Overrides = (), *, path: str = "") -> Machine:
         As for `read`.
     path : str
         Name of the text in messages.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
 
     Returns
     -------
@@ -113,10 +126,17 @@ def loads(text: str, overrides: Overrides = (), *, path: str = "") -> Machine:
     InputError
         An override is malformed.
     """
-    return loads_as(Machine, text, overrides, path=path)
+    return loads_as(Machine, text, overrides, path=path, allow_outside=allow_outside)
 
 
-def loads_as(model: type[Model], text: str, overrides: Overrides = (), *, path: str = "") -> Model:
+def loads_as(
+    model: type[Model],
+    text: str,
+    overrides: Overrides = (),
+    *,
+    path: str = "",
+    allow_outside: bool = False,
+) -> Model:
     """Read a description of some kind from a TOML text.
 
     Parameters
@@ -129,6 +149,8 @@ def loads_as(model: type[Model], text: str, overrides: Overrides = (), *, path: 
         As for `read`.
     path : str
         Name of the text in messages.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
 
     Returns
     -------
@@ -147,7 +169,7 @@ def loads_as(model: type[Model], text: str, overrides: Overrides = (), *, path: 
     places = [(apply(tables, change), change) for change in parse_all(overrides)]
     columns: list[Column] = []
     try:
-        columns = with_points(tables, Path(path).parent)
+        columns = with_points(tables, Path(path).parent, allow_outside=allow_outside)
         return model.model_validate(tables)
     except MachineError as error:
         raise MachineFileError(_located(error.problems, text, path, places, columns)) from None
@@ -156,29 +178,11 @@ def loads_as(model: type[Model], text: str, overrides: Overrides = (), *, path: 
 def _text(path: Path) -> str:
     """The text of a file, or the problem with it."""
     try:
-        with path.open("rb") as file:
-            data = file.read(_LARGEST + 1)
-    except IsADirectoryError:
-        raise _unreadable(path, "a directory") from None
-    except FileNotFoundError:
-        raise _unreadable(path, "no such file", _similar(path)) from None
-    except PermissionError:
-        raise _unreadable(path, "a file without permission to read it") from None
-    except (OSError, ValueError) as error:
-        raise _unreadable(path, f"a file that cannot be read ({error})") from None
-    return _decoded(path, data)
-
-
-def _decoded(path: Path, data: bytes) -> str:
-    """The bytes of a file as text."""
-    if len(data) > _LARGEST:
-        raise _unreadable(path, f"more than {_LARGEST // 1_000_000} MB", expected=_TOO_LARGE)
-    try:
-        # Editors on Windows may put a mark in front of the text.
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        found = f"no UTF-8 text (byte {error.start + 1})"
-        raise _unreadable(path, found, "save the file as UTF-8") from None
+        text = text_of(path, _LARGEST)
+    except TextError as error:
+        expected = _TOO_LARGE if error.found.startswith("more than") else "a machine file"
+        remedy = error.remedy or _similar(path)
+        raise _unreadable(path, error.found, remedy, expected) from None
     if not text.strip():
         remedy = 'start from a template: "linkwright new --list" names them'
         raise _unreadable(path, "an empty file", remedy)
@@ -192,10 +196,12 @@ def _unreadable(
 
 
 def _similar(path: Path) -> str:
-    """A file beside the missing one with a similar name."""
+    """A file beside a missing one with a similar name."""
     from linkwright.machine.base import close_match
 
     try:
+        if path.exists():
+            return ""
         names = [each.name for each in path.parent.glob("*.toml")]
     except OSError:
         return ""

@@ -22,10 +22,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
-from linkwright.errors import InputError, SynthesisError
+from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
+from linkwright.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -75,6 +77,13 @@ class CrankRocker(Result):
     machine: Machine
 
 
+_SWING = Bound(
+    " between 0 and 180 deg,",
+    {"exclusiveMinimum": 0, "exclusiveMaximum": np.pi},
+    lambda value: 0 < value < np.pi,
+)
+
+
 def crank_rocker(
     swing: float, time_ratio: float = 1.0, *, frame: float = 1.0, coupler_max: float = 3.0
 ) -> CrankRocker:
@@ -108,8 +117,12 @@ def crank_rocker(
     ----------
     .. [1] VDI 2130.
     """
-    check(swing=(swing, np.pi), time_ratio=(time_ratio, np.inf), frame=(frame, np.inf))
-    check(coupler_max=(coupler_max, np.inf))
+    in_range(
+        swing=(swing, Quantity(ANGLE, _SWING)),
+        time_ratio=(time_ratio, positive(RATIO)),
+        frame=(frame, positive(LENGTH)),
+        coupler_max=(coupler_max, positive(RATIO)),
+    )
     delta = delta_of(time_ratio)
     families = [_Family(swing, delta, side) for side in (1.0, -1.0)]
     low = max(np.sin(abs(delta) / 2), np.sin(swing / 2) / coupler_max)
@@ -118,14 +131,6 @@ def crank_rocker(
     if not mu > 0:
         raise SynthesisError(_no_crank_rocker(swing, time_ratio, coupler_max))
     return family.result(t, time_ratio, frame)
-
-
-def check(**given: tuple[float, float]) -> None:
-    """Raise unless each number is positive and below its bound."""
-    for name, (value, bound) in given.items():
-        if not 0 < value < bound or not np.isfinite(value):
-            limit = f" less than {bound:.6g}" if np.isfinite(bound) else ""
-            raise InputError(f"{name} {value:g}: expected a positive number{limit}")
 
 
 def delta_of(time_ratio: float) -> float:

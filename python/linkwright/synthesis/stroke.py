@@ -14,11 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError, SynthesisError
 from linkwright.machine import Machine
-from linkwright.synthesis.dead_centre import SOURCE, best, check, delta_of, joints
+from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints
 from linkwright.synthesis.four_bar import cross, machine_of
+from linkwright.units import LENGTH, RATIO, positive
 
 Floats = NDArray[np.float64]
 
@@ -85,7 +87,11 @@ def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = 
     ----------
     .. [1] VDI 2130.
     """
-    check(stroke=(stroke, np.inf), time_ratio=(time_ratio, np.inf), rod=(1.0 if rod is None else rod, np.inf))
+    in_range(
+        stroke=(stroke, positive(LENGTH)),
+        time_ratio=(time_ratio, positive(RATIO)),
+        rod=(rod, positive(LENGTH)),
+    )
     delta = delta_of(time_ratio)
     if rod is None and delta == 0:
         raise InputError(
