@@ -164,8 +164,8 @@ def _methods(study: Study) -> Iterator[str]:
         difference = number(max(steady.accuracy, _FINEST), 1)
         yield (
             "Steady motion is the periodic solution itself, by Newton's method on the turn, with "
-            f"{steady.steps} steps from kink to kink, each checked against two of half its length: {difference}. Curves are "
-            f"drawn through {len(steady.crank_angle)} points; extremes, work and root mean squares do not "
+            f"{steady.steps} steps from kink to kink, each checked against two of half its length: relative error "
+            f"{difference}. Curves are drawn through {len(steady.crank_angle)} points; extremes, work and root mean squares do not "
             "depend on them."
         )
     if study.run_up is not None:
