@@ -165,7 +165,7 @@ def _methods(study: Study) -> Iterator[str]:
         yield (
             "Steady motion is the periodic solution itself, by Newton's method on the turn, with "
             f"{steady.steps} steps from kink to kink, each checked against two of half its length: relative "
-            f"error {difference}. Curves are drawn through {len(steady.crank_angle)} points; extremes, work and "
+            f"error {difference}. Curves go through {len(steady.crank_angle)} points; extremes, work and "
             "root mean squares do not depend on them."
         )
     if study.run_up is not None:
