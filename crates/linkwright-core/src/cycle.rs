@@ -11,6 +11,7 @@
 //! leaves the Newton step of the turn-to-turn map, and the product of the steps' growth is that map's
 //! derivative: the multiplier of a small disturbance over one turn (stable when below 1 in size).
 
+use crate::call::poll;
 use crate::dual::Dual;
 use crate::law::Given;
 use crate::layout::{Layout, bundle};
@@ -434,6 +435,7 @@ impl<R: Real> Turn<R> {
     pub fn solve(&mut self, machine: &Machine<'_, R>) {
         let mut work = Vec::with_capacity(self.steps.len());
         while self.sweeps < SWEEPS_MAX {
+            poll();
             R::outline(
                 #[inline(always)]
                 || self.sweep(machine, &mut work),

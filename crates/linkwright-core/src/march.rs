@@ -11,6 +11,7 @@
 //! Turns are marched through step by step with as short steps as the motion needs. Instead of waiting turn
 //! by turn, Newton on P(u) = u leaps ahead, and a bracket keeps it from passing what it seeks.
 
+use crate::call::poll;
 use crate::cycle::{Machine, divide};
 use crate::linkage::Motion;
 use crate::mesh::Piece;
@@ -143,6 +144,7 @@ impl March<'_> {
         let mut next_break = 1;
         let mut phi = 0.0;
         while next_break < self.breaks.len() {
+            poll();
             if turn.pieces.len() > STEPS_MAX {
                 return Err(NoMotion::Unknown);
             }

@@ -4,6 +4,7 @@
 //! ([`Machine::advance`]): what is read has the order of the method, is stiffly stable like it, and is what
 //! [`crate::check`] compares.
 
+use crate::call::poll;
 use crate::cycle::{Machine, Step, stages_of_part};
 use crate::lanes::Job;
 use crate::law::Given;
@@ -114,6 +115,7 @@ impl Job for ReadCurves<'_> {
         let mut lanes = vec![0.0; n];
         let mut k = 0;
         for phis in self.phi.chunks(n) {
+            poll();
             for lane in 0..n {
                 let phi = phis[lane.min(phis.len() - 1)];
                 k = self.mark_before(phi, k);

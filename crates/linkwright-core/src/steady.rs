@@ -9,6 +9,7 @@
 //! fails, or finds a motion from which the machine departs, the turn is marched through instead
 //! ([`crate::march`]): that finds the fastest motion that repeats, or shows that none does.
 
+use crate::call::poll;
 use crate::cycle::{Machine, Turn, divide};
 use crate::extremes::{Extreme, Extremes};
 use crate::lanes::{Job, in_lanes};
@@ -140,6 +141,7 @@ impl Job for Search<'_> {
         let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
         let mut placements = 0;
         for _ in 0..MESHES_MAX {
+            poll();
             let mut turn = Turn::of_steps(&machine, &mesh.edges, &mut m);
             if !turn.closes() {
                 return Err(Failure::new(Status::DoesNotClose));
