@@ -1,4 +1,4 @@
-"""Laws of steady motion on machines that once broke them, on random machines, and against SciPy."""
+"""Laws of steady motion on hard machines, on random machines, in batches, and against SciPy."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ AGREES = 1e-6
 
 
 @pytest.mark.parametrize("path", MACHINES, ids=lambda path: path.stem)
-def test_machines_that_broke_a_law(path: Path) -> None:
+def test_hard_machines(path: Path) -> None:
     """Every law holds at the default accuracy, and a finer one moves no measure by more than was promised."""
     machine = read(path)
     steady = steady_state(machine)
@@ -218,3 +218,25 @@ def test_an_eccentric_crank_that_all_but_stops_runs() -> None:
     last = path.crank_angle > path.crank_angle[-1] - 2 * np.pi
     assert path.speed[last].min() == pytest.approx(steady.speed_min, rel=1e-3)
     assert path.speed[last].max() == pytest.approx(steady.speed_max, rel=1e-3)
+
+
+@pytest.mark.parametrize("machine", [*MACHINES[::4], *range(300, 310)], ids=str)
+def test_rows_of_a_batch_are_the_single_answer(machine: Path | int) -> None:
+    """A row is the single answer to 1e-7, or has a status where the single analysis refuses."""
+    base = random_machine(machine) if isinstance(machine, int) else read(machine)
+    assert base.drive is not None
+    ratios = base.drive.gearbox.ratio * np.array([0.9, 1.0, 1.1])
+    rows = lw.steady_states(base, {"drive.gearbox.ratio": ratios})
+    for row, ratio in enumerate(ratios):
+        try:
+            steady = steady_state(lw.replace(base, {"drive.gearbox.ratio": float(ratio)}), accuracy=1e-10)
+        except FindingError:
+            assert rows.status[row] != 0, row
+            continue
+        assert rows.status[row] == 0, row
+        allowed = max(3e-7, 3 * steady.accuracy)
+        peak = max(abs(steady.acceleration_min), abs(steady.acceleration_max), 1e-4 * steady.speed_max**2)
+        for name in ("speed_min", "speed_max", "period"):
+            assert getattr(rows, name)[row] == pytest.approx(getattr(steady, name), rel=allowed), name
+        for name in ("acceleration_min", "acceleration_max"):
+            assert getattr(rows, name)[row] == pytest.approx(getattr(steady, name), abs=allowed * peak), name
