@@ -26,6 +26,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import ClassVar
 
+from linkwright.limits import MESSAGE_LINE, PROBLEMS, grouped
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:
@@ -63,8 +65,14 @@ class Problem:
     def __str__(self) -> str:
         """A block of up to four lines."""
         rows = (("found", self.found), ("expected", self.expected), ("remedy", self.remedy))
-        body = [f"  {name + ':':<10}{text}" for name, text in rows if text]
-        return "\n".join([self.place, *body] if self.place else body)
+        body = [f"  {name + ':':<10}{_cut(text)}" for name, text in rows if text]
+        return "\n".join([_cut(self.place), *body] if self.place else body)
+
+
+def _cut(text: str) -> str:
+    """A text that fits into some lines of a terminal."""
+    most = MESSAGE_LINE.most
+    return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
 class LinkwrightError(Exception):
@@ -101,8 +109,12 @@ class MachineError(InputError):
         super().__init__(self.problems)
 
     def __str__(self) -> str:
-        """All problems, one block each."""
-        return "\n\n".join(str(problem) for problem in self.problems)
+        """A block for each problem, as many as fit on a screen; and how many more there are."""
+        blocks = [str(problem) for problem in self.problems[: PROBLEMS.most]]
+        more = len(self.problems) - len(blocks)
+        if more:
+            blocks.append(f"… and {grouped(more)} more problem{'s' if more > 1 else ''}")
+        return "\n\n".join(blocks)
 
 
 class MachineFileError(MachineError):

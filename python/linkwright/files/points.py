@@ -12,10 +12,12 @@ import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
 from linkwright.errors import MachineFileError, Problem
+from linkwright.limits import POINT_BYTES, ROWS
 from linkwright.machine.text import join
 from linkwright.units import show
 
@@ -25,6 +27,8 @@ _EXAMPLES = {
     "table": "angle [deg], lift [mm]",
     "measured": "root_diameter [mm], cut_height [mm], offset [mm]",
 }
+
+_EXPECTED = "a file of comma-separated values"
 
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 
@@ -171,14 +175,35 @@ def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, lis
 
 def _lines(path: Path, key: str) -> list[tuple[int, list[str]]]:
     """Number and cells of each line that is neither empty nor a comment."""
+    text = StringIO(_text(path, key), newline="")
+    reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in text)
+    rows: list[tuple[int, list[str]]] = []
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in file)
-            return [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
-    except (OSError, UnicodeDecodeError) as error:
+        for row in reader:
+            if any(cell.strip() for cell in row):
+                rows.append((reader.line_num, row))
+            if len(rows) > ROWS.most + 1:
+                raise MachineFileError(
+                    [Problem(key, "more rows", ROWS.words, "", str(path), reader.line_num)]
+                )
+    except csv.Error as error:
+        problem = Problem(key, f"a line that cannot be read ({error})", _EXPECTED)
+        raise MachineFileError([replace(problem, path=str(path), line=reader.line_num)]) from None
+    return rows
+
+
+def _text(path: Path, key: str) -> str:
+    """The text of a file of points."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(POINT_BYTES.most + 1)
+        if len(data) > POINT_BYTES.most:
+            raise MachineFileError([Problem(key, f"{path}, a larger file", POINT_BYTES.words)])
+        return data.decode("utf-8-sig")
+    except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else "no UTF-8 text"
         found = f"{path}, which cannot be read ({reason})"
-        raise MachineFileError([Problem(key, found, "a file of comma-separated values")]) from None
+        raise MachineFileError([Problem(key, found, _EXPECTED)]) from None
 
 
 def _row_problems(key: str, names: list[str], row: list[str]) -> Iterator[Problem]:

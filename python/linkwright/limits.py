@@ -1,0 +1,71 @@
+"""How much of everything there may be: each limit once, with its reason; `docs/limits.md` prints them.
+
+A limit is far beyond what a machine has, and within what a computer of a few gigabytes answers in a minute.
+What passes it is refused with its place, its value and the limit, before memory or time are spent on it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """The greatest number of something.
+
+    Attributes
+    ----------
+    most : int
+        How many there may be.
+    of : str
+        What is counted, after "at most 500".
+    reason : str
+        Why no more.
+    """
+
+    most: int
+    of: str
+    reason: str
+
+    @property
+    def words(self) -> str:
+        """Such as "at most 500 discs"."""
+        return f"at most {grouped(self.most)} {self.of}"
+
+
+def grouped(number: int) -> str:
+    """A whole number with its digits in threes."""
+    return f"{number:,}".replace(",", " ")
+
+
+FILE_BYTES = Limit(
+    1_000_000, "bytes in a machine file", "a machine file has a few kB; this is some other file"
+)
+DEPTH = Limit(32, "keys inside one another", "the deepest key of a machine has eight")
+ENTRIES = Limit(1_000, "entries in a table", "names are looked up among all others")
+LIST = Limit(10_000, "values in a list of a machine file", "longer lists belong into a file of points")
+TEXT = Limit(10_000, "characters in a text", "a description of some pages")
+NAME = Limit(100, "characters in a name or key", "a name stands in tables, figures and names of files")
+POINT_BYTES = Limit(20_000_000, "bytes in a file of points", "200 bytes a row")
+ROWS = Limit(
+    100_000, "rows in a file of points", "a record of a hundred revolutions, a thousand samples each"
+)
+FORMULA = Limit(400, "numbers, names and signs in a formula", "some lines; longer curves belong into a table")
+PROBLEMS = Limit(10, "problems in a message", "what fits on a screen")
+MESSAGE_LINE = Limit(400, "characters in a line of a message", "some lines of a terminal")
+FINDINGS = Limit(20, "findings, and warnings, on the terminal", "what fits on a screen; --json has all")
+DISCS = Limit(500, "discs in a train", "modes cost the cube of their number")
+CYLINDERS = Limit(100, "throws of a crankshaft", "marine engines have 14 in line, aero engines 28 in all")
+HARMONICS = Limit(500, "harmonics of a torque", "gas and inertia torques are known to order 48")
+ORDER = Limit(
+    1_000, "periods a revolution in an order of excitation", "pumps and gears; sums are sampled 16 times each"
+)
+RESPONSE = Limit(50_000_000, "discs, orders and speeds multiplied", "16 bytes each, and more on the way")
+LAW_POINTS = Limit(1_000, "points of a spline law", "its equations are solved as one dense system")
+CAM_STEPS = Limit(2_000_000, "steps of the vibration of a follower", "some vibrations in a degree of the cam")
+CRANK_STEPS = Limit(1_000_000, "steps of a crank angle in a revolution", "a step of 0.00036°")
+ROOTS = Limit(20_000_000, "roots of a field", "an hour on one core")
+SAMPLES = Limit(1_000_000, "samples of a curve or rows of a table", "8 MB a column")
+VARIANTS = Limit(50_000_000, "variants of a cam in a search", "a table of them fits into the memory")
+
+ALL = tuple(each for each in list(globals().values()) if isinstance(each, Limit))
