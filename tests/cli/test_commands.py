@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -32,6 +33,26 @@ def test_check_says_what_is_in_the_file() -> None:
     assert done.stdout.startswith("OK")
     for word in ("cart1.rod", "induction, 11 kW, ratio 9.8", "rolling1 (dry)"):
         assert word in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "words"),
+    [
+        ("roller_two_carts", "mechanism.sliders.cart1.rod=0.1 m", "closes only at crank angles"),
+        ("roller_cam", "mechanism.cams.cart.cutter_radius=0.9", "cannot be cut"),
+        ("topper", "topper.edge_length=20 mm", "does not cut through every head"),
+        ("rod_rotator_intermittent", "rod_rotator.swing=0.5 deg", "No lever of the rotator"),
+    ],
+)
+def test_check_finds_what_the_geometry_does_not_allow(name: str, change: str, words: str) -> None:
+    """Exit code 1, the findings, and what was looked at; as `run` has it."""
+    file = TWO_CARTS.with_name(f"{name}.toml")
+    done = run("check", file, "--set", change)
+    assert done.exit_code == 1
+    assert "OK" not in done.stdout
+    assert re.search(rf"FINDING  .*{words}", done.stdout)
+    assert re.search(r"\n  checked +\w", done.stdout)
+    assert run("run", file, "--set", change).exit_code == 1
 
 
 def test_check_tells_all_problems_on_standard_error(tmp_path: Path) -> None:

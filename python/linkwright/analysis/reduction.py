@@ -14,12 +14,12 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.closure import require_full_turn, turn_angles
+from linkwright.analysis.closure import turn_angles
 from linkwright.analysis.period import turns_to_repeat
 from linkwright.analysis.result import Result
-from linkwright.analysis.sound_loads import require_sound_loads
+from linkwright.analysis.sound_loads import require_turn
 from linkwright.analysis.turn_fit import turn_curve
-from linkwright.engine import Compiled, compile_machine
+from linkwright.engine import Compiled
 from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
@@ -108,10 +108,7 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     .. [1] Artobolevsky, Theory of Mechanisms and Machines, reduction of masses and forces.
     .. [2] Paper 1, equations (5) and (10), for the in-line slider-crank with rod.
     """
-    compiled = compile_machine(machine)
-    require_full_turn(compiled, machine)
-    require_sound_loads(compiled, machine)
-    return reduction_of(compiled, n)
+    return reduction_of(require_turn(machine), n)
 
 
 def reduction_of(compiled: Compiled, n: int = 360) -> Reduction:

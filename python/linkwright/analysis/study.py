@@ -20,14 +20,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from linkwright.analysis.cam.faults import cam_cautions, cam_faults
+from linkwright.analysis.cam.faults import cam_cautions
 from linkwright.analysis.cam.follower_vibration import FollowerVibration, follower_vibration
 from linkwright.analysis.cam.least_sizes import LeastSizes, least_sizes
 from linkwright.analysis.cam.loaded import LoadedCam, loaded_cam
 from linkwright.analysis.cam.one_mass import one_mass
-from linkwright.analysis.cam.profile import CamProfile, cam_profile
+from linkwright.analysis.cam.profile import CamProfile
 from linkwright.analysis.cautions import cautions, has_inertia
-from linkwright.analysis.closure import require_full_turn
 from linkwright.analysis.constant_energy import ConstantEnergy, constant_energy_of
 from linkwright.analysis.findings import Findings, sentence
 from linkwright.analysis.forces import forces
@@ -41,13 +40,15 @@ from linkwright.analysis.result import Result, finite
 from linkwright.analysis.rod_rotator import RodRotatorMotion, rod_rotator
 from linkwright.analysis.run_down import RunDown, run_down
 from linkwright.analysis.run_up import RunUp, run_up, start_of
+from linkwright.analysis.sound_loads import require_turn
+from linkwright.analysis.soundness import sound_cams
 from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.analysis.step_method import StepMotion, step_method
 from linkwright.analysis.topper.cautions import topper_cautions, topper_findings
 from linkwright.analysis.topper.topper import TopperStudy, topper
 from linkwright.analysis.transient import Transient, transient
 from linkwright.analysis.unit_cautions import unit_cautions
-from linkwright.engine import compile_machine, drive_inertia
+from linkwright.engine import drive_inertia
 from linkwright.machine import ConstantSpeedMotor, Machine
 
 # Intervals of the turn for all curves, a quarter of a degree: what the constant-energy limit and the run-up
@@ -185,7 +186,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     unit = found.of(pumping_unit, machine, n=_INTERVALS) if machine.pumping_unit else None
     rotator = found.of(rod_rotator, machine, n=_INTERVALS) if machine.rod_rotator else None
     moved = found.of(linkage, machine)
-    cams, sound = _cams(machine, found)
+    cams, sound = sound_cams(machine, found)
     driven = _moved(machine, found) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
     loaded = _loaded(machine, sound, driven.forces, found)
     shaken = tuple(each for cam in cams for each in _vibration(cam, found))
@@ -218,14 +219,6 @@ def _topped(known: Study, cut: TopperStudy | None) -> Study:
     return replace(
         known, topper=cut, findings=findings, warnings=(*topper_cautions(described, cut), *known.warnings)
     )
-
-
-def _cams(machine: Machine, found: Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:
-    """All cams, and those that can be made; what makes one impossible is a finding."""
-    looked = [found.of(cam_profile, machine, name) for name in machine.mechanism.cams]
-    told = [(each, cam_faults(each)) for each in looked if each is not None]
-    found.add(text for _, faults in told for text in faults)
-    return tuple(each for each, _ in told), tuple(each for each, faults in told if not faults)
 
 
 def _loaded(
@@ -264,7 +257,7 @@ def _is_motion_alone(machine: Machine) -> bool:
 
 def _moved(machine: Machine, found: Findings) -> Study:
     """A linkage by its dimensions alone."""
-    found.of(lambda: require_full_turn(compile_machine(machine), machine))
+    found.of(require_turn, machine)
     alone = "The machine has no masses, loads or motor: its motion alone is computed."
     return Study(machine, warnings=() if machine.pumping_unit else (alone,))
 

@@ -1,4 +1,4 @@
-"""``linkwright check FILE``: is the machine file sound?"""
+"""``linkwright check FILE``: is the machine file sound, and the geometry that it describes?"""
 
 from __future__ import annotations
 
@@ -16,12 +16,22 @@ if TYPE_CHECKING:
 def check(file: File, set: Sets = None, allow_outside: Outside = False) -> None:
     """Check a machine file.
 
-    Says what is in it, or all that is wrong with it.
+    Says what is in it, or all that is wrong with it; and what its geometry does not allow, as far as that can
+    be seen at once. Exit code 1 if the machine cannot do something, 2 if the file is wrong.
     """
+    from linkwright.analysis.soundness import soundness
     from linkwright.files.read import read
 
     machine = read(file, set or (), allow_outside=allow_outside)
-    typer.echo(f"OK  {file}\n\n{summary(machine)}")
+    found = soundness(machine)
+    count = len(found.findings)
+    verdict = f"{count} FINDING{'S' if count > 1 else ''}" if count else "OK"
+    checked = f"\n  {'':<14} ".join(found.looked_at)
+    typer.echo(f"{verdict}  {file}\n\n{summary(machine)}\n\n  {'checked':<14} {checked}")
+    for text in found.findings:
+        typer.echo(f"\nFINDING  {text}")
+    if count:
+        raise typer.Exit(1)
 
 
 def summary(machine: Machine) -> str:

@@ -101,6 +101,8 @@ def _object(name: str, read: RecordDiagnosis, level: float) -> str:
         "speed": read.speed,
         "half_width": found.half_width(level).tolist(),
         "weak": list(read.weak(level)),
+        "late": list(read.late(level)),
+        "leaking": list(read.leaking(level)),
     }
     results.pop("warnings")
     told = {"findings": [], "warnings": list(read.warnings)}

@@ -123,16 +123,24 @@ def lengths(unit: PumpingUnit, rotator: RodRotator) -> Lengths:
     if rotator.link_length is not None:
         return Lengths(rotator.link_length, rotator.lever_length)
     m, M = diagonal_extremes(unit, rotator)
-    if rotator.regime == "intermittent":
-        lever = _rocking_lever(
-            unit, rotator, varies=bool(np.ndim(M)) or isinstance(rotator.swing, np.ndarray)
+    varies = bool(np.ndim(M)) or isinstance(rotator.swing, np.ndarray)
+    if not varies and not unit.reaches_ends:
+        raise AssemblyError(
+            "the lengths of the rotator follow from the ends of the stroke, which the pumping unit does not "
+            "reach: its crank cannot turn all round; change R, P, C or the place of the saddle bearing",
+            element=ROTATOR,
         )
-        return Lengths(np.sqrt(M * m + lever**2), lever)
-    if np.ndim(M):
-        return Lengths(0.5 * (M + m), np.where(m < M, 0.5 * (M - m), np.nan))
-    if not m < M:
+    if rotator.regime == "continuous":
+        link, lever = 0.5 * (M + m), 0.5 * (M - m)
+    else:
+        lever = _rocking_lever(unit, rotator, varies=varies)
+        link = np.sqrt(M * m + lever**2)
+    if varies:
+        has_none = ~(unit.reaches_ends & (lever > 0))
+        return Lengths(*(np.where(has_none, np.nan, each) for each in (link, lever)))
+    if not lever > 0:
         raise _no_room(m, M)
-    return Lengths(0.5 * (M + m), 0.5 * (M - m))
+    return Lengths(float(link), float(lever))
 
 
 def _rocking_lever(unit: PumpingUnit, rotator: RodRotator, varies: bool) -> Any:
@@ -161,7 +169,7 @@ def _no_room(m: float, M: float) -> AssemblyError:
     return AssemblyError(
         f"no link and lever fit the rotator: its pin is {M:.4g} m from the hanger at the bottom of the "
         f"stroke, {m:.4g} m at the top, and must come nearer all the way up; choose a "
-        "rod_rotator.pin_distance below pumping_unit.A, on a unit that turns all round",
+        "rod_rotator.pin_distance below pumping_unit.A",
         element=ROTATOR,
     )
 
@@ -238,11 +246,12 @@ class _Stroke(NamedTuple):
     def first_look(self) -> tuple[Any, Any]:
         """Swings against the diagonal, and of the lever, (rows, looks) [rad]; NaN where l_d does not fall."""
         falls = (np.diff(self.distance) < 0).all(axis=1, keepdims=True)
-        ratio = np.where(falls, self.top / self.bottom, 0.0)
-        least = 2 * np.arcsin(0.5 * (1 - ratio))
+        # A row without lengths is followed with a diagonal that falls, and left out afterwards.
+        distance = np.where(falls, self.distance, np.linspace(2.0, 1.0, self.distance.shape[1]))
+        stroke = _Stroke(distance[:, ::_EVERY], self.lean[:, ::_EVERY])
+        least = 2 * np.arcsin(0.5 * (1 - stroke.top / stroke.bottom))
         swings = least + (_SHORT_OF_LINE - least) * np.linspace(0.0, 1.0, _LOOKS)
-        coarse = _Stroke(self.distance[:, ::_EVERY], self.lean[:, ::_EVERY])
-        spread = np.concatenate([coarse.spread(swings[:, k : k + 1]) for k in range(_LOOKS)], axis=1)
+        spread = np.concatenate([stroke.spread(swings[:, k : k + 1]) for k in range(_LOOKS)], axis=1)
         return swings, np.where(falls, spread, np.nan)
 
 
