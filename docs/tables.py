@@ -15,12 +15,16 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from linkwright import machine
+from linkwright.limits import ALL, grouped
 from linkwright.machine.schema_walk import mark_of, model_of, words_of
 from linkwright.units import Quantity, QuantityList
 
 PAGE = Path(__file__).with_name("file_format.md")
+LIMITS = Path(__file__).with_name("limits.md")
 
 _BLOCK = re.compile(r"(<!-- keys: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
+
+_LIMITS = re.compile(r"(<!-- limits -->\n).*?(<!-- end -->)", re.DOTALL)
 
 _HEAD = "| key | is | unit | if left out | meaning |\n| --- | --- | --- | --- | --- |\n"
 
@@ -28,6 +32,13 @@ _HEAD = "| key | is | unit | if left out | meaning |\n| --- | --- | --- | --- | 
 def written(text: str) -> str:
     """The page with all its tables made anew."""
     return _BLOCK.sub(lambda block: block[1] + table(getattr(machine, block[2])) + block[3], text)
+
+
+def limits_written(text: str) -> str:
+    """The page on limits with its table made anew."""
+    rows = "".join(f"| {grouped(each.most)} | {each.of} | {each.reason} |\n" for each in ALL)
+    table = f"| at most | of | since |\n| ---: | --- | --- |\n{rows}"
+    return _LIMITS.sub(lambda block: block[1] + table + block[2], text)
 
 
 def models(text: str) -> list[str]:
@@ -118,3 +129,4 @@ def _kind(field: FieldInfo) -> str:
 
 if __name__ == "__main__":
     PAGE.write_text(written(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+    LIMITS.write_text(limits_written(LIMITS.read_text(encoding="utf-8")), encoding="utf-8")

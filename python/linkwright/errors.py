@@ -26,7 +26,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import ClassVar
 
-from linkwright.limits import MESSAGE_LINE, PROBLEMS, grouped
+from linkwright.limits import MESSAGE_LINE, PROBLEMS, Limit, grouped
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +85,31 @@ class InputError(LinkwrightError):
     """What was given is wrong; nothing was computed."""
 
     exit_code: ClassVar[int] = 2
+
+
+def require_within(limit: Limit, number: float, what: str, remedy: str) -> None:
+    """Refuse a count beyond its limit, before memory or time are spent on it.
+
+    Parameters
+    ----------
+    limit : Limit
+        The limit.
+    number : float
+        What there would be.
+    what : str
+        Option or key that asks for it.
+    remedy : str
+        What to change.
+
+    Raises
+    ------
+    InputError
+        It is beyond.
+    """
+    if not number <= limit.most:
+        # Beyond 1e15 the digits say nothing.
+        shown = grouped(round(number)) if number < 1e15 else f"{number:.3g}"
+        raise InputError(f"{what}: found {shown}, expected {limit.words}; {remedy}")
 
 
 class FindingError(LinkwrightError):

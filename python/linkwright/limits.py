@@ -53,19 +53,28 @@ ROWS = Limit(
 FORMULA = Limit(400, "numbers, names and signs in a formula", "some lines; longer curves belong into a table")
 PROBLEMS = Limit(10, "problems in a message", "what fits on a screen")
 MESSAGE_LINE = Limit(400, "characters in a line of a message", "some lines of a terminal")
-FINDINGS = Limit(20, "findings, and warnings, on the terminal", "what fits on a screen; --json has all")
+SENTENCES = Limit(20, "findings, and as many warnings, on the terminal", "what fits on a screen")
+TABLE_ROWS = Limit(60, "rows of a table on the terminal", "what fits on some screens")
+TABLES = Limit(40, "tables on the terminal", "what fits on some screens")
 DISCS = Limit(500, "discs in a train", "modes cost the cube of their number")
-CYLINDERS = Limit(100, "throws of a crankshaft", "marine engines have 14 in line, aero engines 28 in all")
+THROWS = Limit(100, "throws of a crankshaft", "large engines have a dozen")
 HARMONICS = Limit(500, "harmonics of a torque", "gas and inertia torques are known to order 48")
-ORDER = Limit(
-    1_000, "periods a revolution in an order of excitation", "pumps and gears; sums are sampled 16 times each"
+ORDER = Limit(1_000, "periods a revolution in an order of excitation", "teeth of gears have some hundred")
+RESPONSE = Limit(
+    4_000_000,
+    "orders, discs and speeds multiplied in a forced response",
+    "they take 3 GB",
 )
-RESPONSE = Limit(50_000_000, "discs, orders and speeds multiplied", "16 bytes each, and more on the way")
-LAW_POINTS = Limit(1_000, "points of a spline law", "its equations are solved as one dense system")
-CAM_STEPS = Limit(2_000_000, "steps of the vibration of a follower", "some vibrations in a degree of the cam")
-CRANK_STEPS = Limit(1_000_000, "steps of a crank angle in a revolution", "a step of 0.00036°")
-ROOTS = Limit(20_000_000, "roots of a field", "an hour on one core")
-SAMPLES = Limit(1_000_000, "samples of a curve or rows of a table", "8 MB a column")
-VARIANTS = Limit(50_000_000, "variants of a cam in a search", "a table of them fits into the memory")
+LAW_POINTS = Limit(3_000, "points of a motion law", "their equations are solved as one dense system")
+VIBRATIONS = Limit(10_000, "vibrations of a follower in a revolution", "each is looked at by itself")
+STEPS = Limit(36_000, "steps in a revolution, for the step method", "a step of 0.01°")
+ROWS_OUT = Limit(100_000, "rows in a table that is written", "more than any machine tool reads")
+ROOTS = Limit(20_000_000, "heads, or roots and phases multiplied, in a field", "an hour on one core")
+FIELD_VARIANTS = Limit(100_000, "variants of a knife over a field", "each is a pass over all roots")
+CAM_VARIANTS = Limit(50_000_000, "variants of a cam in a search", "a table of them fits into the memory")
+SHOWN = Limit(1_000, "best variants that are shown", "each is looked at exactly")
+PATH_POINTS = Limit(4_000_000, "points and population multiplied in a search", "they take a gigabyte")
+TRIALS = Limit(100_000_000, "population and generations multiplied in a search", "a day on one core")
+SAMPLES = Limit(200_000, "samples of a manoeuvre of a train", "8 MB for each disc and five shafts")
 
 ALL = tuple(each for each in list(globals().values()) if isinstance(each, Limit))

@@ -70,6 +70,11 @@ def test_tables_of_the_machine_file_are_those_of_the_code() -> None:
     assert tables().written(page) == page, "run: python docs/tables.py"
 
 
+def test_limits_of_the_page_are_those_of_the_code() -> None:
+    page = (DOCS / "limits.md").read_text(encoding="utf-8")
+    assert tables().limits_written(page) == page, "run: python docs/tables.py"
+
+
 def test_every_part_of_a_machine_file_has_its_table() -> None:
     page = (DOCS / "file_format.md").read_text(encoding="utf-8")
     described = {

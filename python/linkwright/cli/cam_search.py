@@ -8,7 +8,8 @@ import typer
 
 from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.console import console
-from linkwright.errors import InputError
+from linkwright.errors import InputError, require_within
+from linkwright.limits import CAM_VARIANTS, SHOWN
 
 if TYPE_CHECKING:
     import numpy as np
@@ -53,9 +54,6 @@ Count = Annotated[
     int, typer.Option("--count", metavar="N", help="How many of the smallest are shown.", min=1)
 ]
 
-# Cams that a search may have: a table of them still fits into the memory.
-_MOST = 50_000_000
-
 
 def search(
     file: File,
@@ -79,6 +77,7 @@ def search(
     from linkwright.sweep.cams import search_cams
     from linkwright.units import ANGLE, LENGTH, parse
 
+    require_within(SHOWN, count, "--count", "show fewer")
     machine = read(file, set or [], allow_outside=allow_outside)
     name, chosen = the_cam(machine, cam)
     steep = chosen.limit if pressure_angle is None else parse(pressure_angle, ANGLE)
@@ -105,8 +104,7 @@ def _columns(wanted: list[str]) -> dict[str, NDArray[np.float64]]:
             "--vary: found nothing that varies, expected such as --vary base_radius=0.02:0.06:200"
         )
     total = int(np.prod([len(axis) for axis in axes.values()], dtype=float))
-    if total > _MOST:
-        raise InputError(f"--vary: found {total} combinations, expected {_MOST} at most")
+    require_within(CAM_VARIANTS, total, "--vary", "vary less, or more coarsely")
     grid = np.meshgrid(*axes.values(), indexing="ij")
     return {name: values.ravel() for name, values in zip(axes, grid, strict=True)}
 
@@ -128,7 +126,10 @@ def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
         remedy = "such as base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
         raise InputError(f'--vary {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
     low, high = (option_value(f"--vary {text}", part, kinds.get(name, LENGTH)) for part in parts[:2])
-    return name, np.linspace(low, high, int(parts[2]))
+    # A count of thousands of digits is no number for Python.
+    count = int(parts[2][:16])
+    require_within(CAM_VARIANTS, count, text, "take fewer values")
+    return name, np.linspace(low, high, count)
 
 
 def _exact(machine: Machine, name: str, found: Cams, i: int) -> CamProfile:
