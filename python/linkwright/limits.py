@@ -66,7 +66,7 @@ RESPONSE = Limit(
     "they take 3 GB",
 )
 LAW_POINTS = Limit(3_000, "points of a motion law", "their equations are solved as one dense system")
-VIBRATIONS = Limit(10_000, "vibrations of a follower in a revolution", "each is looked at by itself")
+VIBRATIONS = Limit(25_000, "vibrations of a follower in a revolution", "each is looked at by itself")
 STEPS = Limit(36_000, "steps in a revolution, for the step method", "a step of 0.01°")
 ROWS_OUT = Limit(100_000, "rows in a table that is written", "more than any machine tool reads")
 ROOTS = Limit(20_000_000, "heads, or roots and phases multiplied, in a field", "an hour on one core")
