@@ -69,8 +69,27 @@ class Problem:
         return "\n".join([_cut(self.place), *body] if self.place else body)
 
 
+def plain(text: str) -> str:
+    """A text in which what would steer a terminal is written as an escape.
+
+    Parameters
+    ----------
+    text : str
+        Such as a message with words of a file in it.
+
+    Returns
+    -------
+    str
+        The same but for control characters, and those that turn the direction of writing.
+    """
+    if text.isprintable():
+        return text
+    return "".join(each if each.isprintable() or each == "\n" else ascii(each)[1:-1] for each in text)
+
+
 def _cut(text: str) -> str:
-    """A text that fits into some lines of a terminal."""
+    """A text that fits into some lines of a terminal, and does not steer it."""
+    text = plain(text)
     most = MESSAGE_LINE.most
     return text if len(text) <= most else f"{text[: most - 1]}…"
 

@@ -46,6 +46,7 @@ ENTRIES = Limit(1_000, "entries in a table", "names are looked up among all othe
 LIST = Limit(10_000, "values in a list of a machine file", "longer lists belong into a file of points")
 TEXT = Limit(10_000, "characters in a text", "a description of some pages")
 NAME = Limit(100, "characters in a name or key", "a name stands in tables, figures and names of files")
+TITLE = Limit(300, "characters in the name of a machine", "it heads tables and reports")
 POINT_BYTES = Limit(20_000_000, "bytes in a file of points", "200 bytes a row")
 ROWS = Limit(
     100_000, "rows in a file of points", "a record of a hundred revolutions, a thousand samples each"

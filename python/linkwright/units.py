@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from linkwright.errors import Problem, UnitError
+from linkwright.errors import Problem, UnitError, plain
 
 if TYPE_CHECKING:
     import pint
@@ -540,6 +540,7 @@ def show(value: object) -> str:
     # What lies beyond the part that is shown costs nothing.
     text = f'"{value[: 4 * _SHOWN]}"' if isinstance(value, str) else str(value)
     text = " ".join(text.lower().split() if isinstance(value, bool) else text.split())
+    text = plain(text)
     return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."
 
 

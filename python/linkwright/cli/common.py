@@ -17,8 +17,7 @@ from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
 
 import typer
 
-from linkwright.cli.console import plain
-from linkwright.errors import InputError, LinkwrightError, UnitError
+from linkwright.errors import InputError, LinkwrightError, UnitError, plain
 
 if TYPE_CHECKING:
     from linkwright.units import Kind

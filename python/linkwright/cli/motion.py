@@ -109,7 +109,8 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
     if csv:
         typer.echo(speed, err=True)
         heads = ("name", "quantity", "position", "velocity", "acceleration")
-        return csv_text(heads, ((name, what, *numbers) for name, what, numbers in rows))
+        # A transmission angle stands alone: rows are as long as the head all the same.
+        return csv_text(heads, ((name, what, *numbers, "", "")[:5] for name, what, numbers in rows))
     lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad, {speed}"]
     lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
     lines += [
