@@ -12,6 +12,7 @@ LEVEL = {
     "limits": 0,
     "errors": 1,
     "units": 2,
+    "public": 2,
     "motion_laws": 3,
     "machine": 4,
     "files": 5,

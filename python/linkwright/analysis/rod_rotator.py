@@ -31,6 +31,7 @@ from linkwright.analysis.result import Result
 from linkwright.errors import InputError
 from linkwright.machine import Machine, RodRotator
 from linkwright.machine.rotator_lengths import Lengths
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -148,6 +149,7 @@ class RodRotatorMotion(Result):
     link_force_max: float | None
 
 
+@public
 def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
     """Motion of the rotator of a rod string, its reduction, and its forces.
 

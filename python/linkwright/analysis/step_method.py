@@ -22,12 +22,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.closure import require_full_turn, require_one_turn, turn_angles
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_same_turns
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError, StartError, SteadyStateError, require_within
 from linkwright.limits import STEPS
 from linkwright.machine import Machine
+from linkwright.public import public
+from linkwright.units import ANGLE, positive
 
 Floats = NDArray[np.float64]
 
@@ -89,6 +92,7 @@ class StepMotion(Result):
         return self.unevenness**2 + self.dynamism
 
 
+@public
 def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotion:
     """Motion from rest to steady motion by the step method.
 
@@ -138,7 +142,8 @@ def whole_steps(step: float) -> int:
     InputError
         The step does not divide the turn.
     """
-    n = 2 * np.pi / step if 0 < step < np.pi else 0
+    in_range(step=(step, positive(ANGLE)))
+    n = 2 * np.pi / step if step < np.pi else 0
     require_within(STEPS, n, f"step of {np.degrees(step):.3g}°", "take a longer step; 1° is usual")
     n = round(n)
     if n == 0 or abs(n * step - 2 * np.pi) > 1e-6:

@@ -110,7 +110,8 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
         typer.echo(speed, err=True)
         heads = ("name", "quantity", "position", "velocity", "acceleration")
         # A transmission angle stands alone: rows are as long as the head all the same.
-        return csv_text(heads, ((name, what, *numbers, "", "")[:5] for name, what, numbers in rows))
+        empty = (float("nan"),) * 2
+        return csv_text(heads, ((name, what, *(*numbers, *empty)[:3]) for name, what, numbers in rows))
     lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad, {speed}"]
     lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
     lines += [
@@ -140,9 +141,11 @@ def _pose_rows(found: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
 def _turn(machine: Machine, speed: CrankSpeed, steps: int, *, json: bool, csv: bool) -> str:
     """A revolution at a constant speed."""
     from linkwright.analysis.law import constant_speed
+    from linkwright.units import SPEED
 
-    if speed.value <= 0:
-        raise InputError(f"--speed: found {speed.value:g} rad/s, expected a speed above zero for a turn")
+    if speed.value < SPEED.least:
+        expected = f"a speed above zero for a turn, {SPEED.least:g} rad/s or more"
+        raise InputError(f"--speed: found {speed.value:g} rad/s, expected {expected}")
     times = (0.0, 2 * pi / speed.value)
     told = {"crank_speed": speed.value, "speed_source": speed.source}
     head = f"one revolution of the crank in {times[1]:.6g} s, {speed}"
@@ -228,24 +231,10 @@ def _is_table(law: str) -> bool:
 def _law(text: str) -> Law:
     """A formula, or the table in a file."""
     if _is_table(text):
-        return _table_law(Path(text))
+        from linkwright.analysis.law import TableLaw
+        from linkwright.files.law_table import read_law_table
+
+        return TableLaw(*read_law_table(Path(text)))
     from linkwright.analysis.law_formula import FormulaLaw
 
     return FormulaLaw(text)
-
-
-def _table_law(path: Path) -> Law:
-    """A table of times [s] and angles [rad]; a first line that is no numbers is its head."""
-    from linkwright.analysis.law import TableLaw
-
-    rows = []
-    for k, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
-        parts = line.replace(";", ",").split(",")
-        try:
-            time, angle = (float(part) for part in parts)
-        except ValueError:
-            if k == 1 or not line.strip():
-                continue
-            raise InputError(f"{path}:{k}: found {line!r}, expected a time and an angle") from None
-        rows.append((time, angle))
-    return TableLaw([time for time, _ in rows], [angle for _, angle in rows])

@@ -17,9 +17,10 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.errors import MachineFileError, Problem
+from linkwright.files.text_file import TextError, text_of
 from linkwright.limits import POINT_BYTES, ROWS
 from linkwright.machine.text import join
-from linkwright.units import show
+from linkwright.units import NUMBER, show
 
 # Kinds of tables whose points may be in a file, and a head for each.
 _EXAMPLES = {
@@ -28,7 +29,6 @@ _EXAMPLES = {
     "measured": "root_diameter [mm], cut_height [mm], offset [mm]",
 }
 
-_EXPECTED = "a file of comma-separated values"
 
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 
@@ -175,35 +175,26 @@ def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, lis
 
 def _lines(path: Path, key: str) -> list[tuple[int, list[str]]]:
     """Number and cells of each line that is neither empty nor a comment."""
-    text = StringIO(_text(path, key), newline="")
-    reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in text)
+    try:
+        text = text_of(path, POINT_BYTES)
+    except TextError as error:
+        found, expected = f"{path}, {error.found}", error.expected or "a file of comma-separated values"
+        raise MachineFileError([Problem(key, found, expected, error.remedy)]) from None
+    lines = StringIO(text, newline="")
+    reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in lines)
     rows: list[tuple[int, list[str]]] = []
     try:
         for row in reader:
             if any(cell.strip() for cell in row):
                 rows.append((reader.line_num, row))
             if len(rows) > ROWS.most + 1:
-                raise MachineFileError(
-                    [Problem(key, "more rows", ROWS.words, "", str(path), reader.line_num)]
-                )
-    except csv.Error as error:
-        problem = Problem(key, f"a line that cannot be read ({error})", _EXPECTED)
-        raise MachineFileError([replace(problem, path=str(path), line=reader.line_num)]) from None
+                problem = Problem(key, "more rows", ROWS.words, path=str(path), line=reader.line_num)
+                raise MachineFileError([problem])
+    except csv.Error:
+        found, expected = "a cell that does not end", f"cells of at most {csv.field_size_limit()} characters"
+        remedy = 'close the quotation mark (")'
+        raise MachineFileError([Problem(key, found, expected, remedy, str(path), reader.line_num)]) from None
     return rows
-
-
-def _text(path: Path, key: str) -> str:
-    """The text of a file of points."""
-    try:
-        with path.open("rb") as file:
-            data = file.read(POINT_BYTES.most + 1)
-        if len(data) > POINT_BYTES.most:
-            raise MachineFileError([Problem(key, f"{path}, a larger file", POINT_BYTES.words)])
-        return data.decode("utf-8-sig")
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "no UTF-8 text"
-        found = f"{path}, which cannot be read ({reason})"
-        raise MachineFileError([Problem(key, found, _EXPECTED)]) from None
 
 
 def _row_problems(key: str, names: list[str], row: list[str]) -> Iterator[Problem]:
@@ -217,10 +208,7 @@ def _row_problems(key: str, names: list[str], row: list[str]) -> Iterator[Proble
 
 
 def _is_number(cell: str) -> bool:
-    try:
-        return math.isfinite(float(cell))
-    except ValueError:
-        return False
+    return NUMBER.fullmatch(cell.strip()) is not None and math.isfinite(float(cell))
 
 
 def _with_unit(number: str, unit: str | None) -> Any:

@@ -17,6 +17,7 @@ from linkwright.files.bounds import deep_line, long_number_line, size_problems
 from linkwright.files.lines import key_lines, line_of
 from linkwright.files.overrides import Override, apply, parse_all
 from linkwright.files.points import Column, with_points
+from linkwright.files.text_file import TextError, text_of
 from linkwright.limits import DEPTH, FILE_BYTES
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.text import split
@@ -177,29 +178,10 @@ def loads_as(
 def _text(path: Path) -> str:
     """The text of a file, or the problem with it."""
     try:
-        with path.open("rb") as file:
-            data = file.read(FILE_BYTES.most + 1)
-    except IsADirectoryError:
-        raise _unreadable(path, "a directory") from None
-    except FileNotFoundError:
-        raise _unreadable(path, "no such file", _similar(path)) from None
-    except PermissionError:
-        raise _unreadable(path, "a file without permission to read it") from None
-    except (OSError, ValueError) as error:
-        raise _unreadable(path, f"a file that cannot be read ({error})") from None
-    return _decoded(path, data)
-
-
-def _decoded(path: Path, data: bytes) -> str:
-    """The bytes of a file as text."""
-    if len(data) > FILE_BYTES.most:
-        raise _unreadable(path, "a larger file", expected=FILE_BYTES.words)
-    try:
-        # Editors on Windows may put a mark in front of the text.
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        found = f"no UTF-8 text (byte {error.start + 1})"
-        raise _unreadable(path, found, "save the file as UTF-8") from None
+        text = text_of(path, FILE_BYTES)
+    except TextError as error:
+        remedy = error.remedy or _similar(path)
+        raise _unreadable(path, error.found, remedy, error.expected or "a machine file") from None
     if not text.strip():
         remedy = 'start from a template: "linkwright new --list" names them'
         raise _unreadable(path, "an empty file", remedy)
@@ -213,10 +195,12 @@ def _unreadable(
 
 
 def _similar(path: Path) -> str:
-    """A file beside the missing one with a similar name."""
+    """A file beside a missing one with a similar name."""
     from linkwright.machine.base import close_match
 
     try:
+        if path.exists():
+            return ""
         names = [each.name for each in path.parent.glob("*.toml")]
     except OSError:
         return ""

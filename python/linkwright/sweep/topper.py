@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.coverage import COARSE
 from linkwright.analysis.topper.edge import Edge, edges_of, require_topper
@@ -24,7 +25,9 @@ from linkwright.errors import FindingError, InputError, require_within
 from linkwright.limits import FIELD_VARIANTS
 from linkwright.machine import ConstantKnife, Machine, MemberKnife, Topper
 from linkwright.machine.base import suggestion
-from linkwright.units import ANGLE, LENGTH, VELOCITY, Kind, worded
+from linkwright.public import public
+from linkwright.public.arguments import array
+from linkwright.units import ANGLE, INSIDE_ONE, LENGTH, RATIO, VELOCITY, Kind, Quantity, worded
 
 Floats = NDArray[np.float64]
 
@@ -98,6 +101,7 @@ _FOUND = (
 )
 
 
+@public
 def sweep_field(
     machine: Machine,
     over: Mapping[str, ArrayLike],
@@ -141,6 +145,7 @@ def sweep_field(
     axes = {name: _axis(name, values) for name, values in over.items()}
     shape = tuple(len(axis) for axis in axes.values())
     _require(shape)
+    in_range(level=(level, Quantity(RATIO, INSIDE_ONE)))
     grid = np.meshgrid(*axes.values(), indexing="ij")
     columns = {name: values.ravel() for name, values in zip(axes, grid, strict=True)}
     roots, n = draw_roots(topper, seed), int(np.prod(shape))
@@ -218,7 +223,7 @@ def _axis(name: str, values: ArrayLike) -> Floats:
     """Values of an entry, or the fault."""
     if name not in ENTRIES:
         raise InputError(f'over: found "{name}", expected an entry of the knife; {suggestion(name, ENTRIES)}')
-    axis = np.atleast_1d(np.asarray(values, dtype=float))
+    axis = np.atleast_1d(array(f"over: {name}", values))
     if axis.ndim != 1 or not len(axis) or not np.isfinite(axis).all():
         raise InputError(f"over: found no list of finite numbers for {name}")
     wrong = _beyond(name, axis)

@@ -18,14 +18,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.result import Result
-from linkwright.errors import InputError, SynthesisError
+from linkwright.analysis.in_range import in_range
+from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
+from linkwright.synthesis.transmission import Transmits
+from linkwright.synthesis.verify import element_of, require_met, require_transmission
+from linkwright.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -38,7 +43,7 @@ SOURCE = "Synthesised by linkwright from its dead centres"
 
 
 @dataclass(frozen=True)
-class CrankRocker(Result):
+class CrankRocker(Transmits):
     """A crank-rocker for given dead centres.
 
     Attributes
@@ -61,6 +66,8 @@ class CrankRocker(Result):
         The linkage, its frame along x.
     """
 
+    remedy: ClassVar[str] = "ask for a smaller swing, or a time ratio nearer to 1"
+
     swing: float
     crank_angle_forward: float
     time_ratio: float
@@ -75,6 +82,14 @@ class CrankRocker(Result):
     machine: Machine
 
 
+_SWING = Bound(
+    " between 0 and 180 deg,",
+    {"exclusiveMinimum": 0, "exclusiveMaximum": np.pi},
+    lambda value: 0 < value < np.pi,
+)
+
+
+@public
 def crank_rocker(
     swing: float, time_ratio: float = 1.0, *, frame: float = 1.0, coupler_max: float = 3.0
 ) -> CrankRocker:
@@ -102,14 +117,18 @@ def crank_rocker(
     InputError
         A swing not between 0 and 180°, a time ratio or a length that is not positive.
     SynthesisError
-        No crank-rocker has this swing and this time ratio.
+        No crank-rocker has this swing and this time ratio, or none that keeps them when it is analysed again.
 
     References
     ----------
     .. [1] VDI 2130.
     """
-    check(swing=(swing, np.pi), time_ratio=(time_ratio, np.inf), frame=(frame, np.inf))
-    check(coupler_max=(coupler_max, np.inf))
+    in_range(
+        swing=(swing, Quantity(ANGLE, _SWING)),
+        time_ratio=(time_ratio, positive(RATIO)),
+        frame=(frame, positive(LENGTH)),
+        coupler_max=(coupler_max, positive(RATIO)),
+    )
     delta = delta_of(time_ratio)
     families = [_Family(swing, delta, side) for side in (1.0, -1.0)]
     low = max(np.sin(abs(delta) / 2), np.sin(swing / 2) / coupler_max)
@@ -117,15 +136,21 @@ def crank_rocker(
     family, t, mu = max(found, key=lambda each: np.nan_to_num(each[2]))
     if not mu > 0:
         raise SynthesisError(_no_crank_rocker(swing, time_ratio, coupler_max))
-    return family.result(t, time_ratio, frame)
+    return _verified(family.result(t, time_ratio, frame))
 
 
-def check(**given: tuple[float, float]) -> None:
-    """Raise unless each number is positive and below its bound."""
-    for name, (value, bound) in given.items():
-        if not 0 < value < bound or not np.isfinite(value):
-            limit = f" less than {bound:.6g}" if np.isfinite(bound) else ""
-            raise InputError(f"{name} {value:g}: expected a positive number{limit}")
+def _verified(made: CrankRocker) -> CrankRocker:
+    """The crank-rocker, if its machine has the dead centres that were asked for."""
+    found = element_of(made.machine, "B.rocker")
+    require_met("a swing", made.swing, found.swing, "rad")
+    require_met("a time ratio", *slow_over_quick(made.time_ratio, found.time_ratio))
+    require_transmission(made.transmission_angle_min, found)
+    return made
+
+
+def slow_over_quick(time_ratio: float, found: float | None) -> tuple[float, float | None]:
+    """A time ratio as the analysis counts it, the slower way first; without a slower way it is 1."""
+    return max(time_ratio, 1 / time_ratio), 1.0 if found is None else found
 
 
 def delta_of(time_ratio: float) -> float:

@@ -17,13 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.kinematics import motions
-from linkwright.analysis.result import Result
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.four_bar import FourBar, side_of
 from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, scan, solve
 from linkwright.synthesis.function_scale import Scale
 from linkwright.synthesis.task import FunctionTask
+from linkwright.synthesis.transmission import Transmits
+from linkwright.synthesis.verify import require_met
 
 Floats = NDArray[np.float64]
 
@@ -34,7 +36,7 @@ SOURCE = "Synthesised by linkwright as a function generator"
 
 
 @dataclass(frozen=True)
-class FunctionGenerator(Result):
+class FunctionGenerator(Transmits):
     """A four-bar linkage that generates a function.
 
     Attributes
@@ -89,6 +91,7 @@ class FunctionGenerator(Result):
     machine: Machine
 
 
+@public
 def function_generator(task: FunctionTask) -> FunctionGenerator:
     """Find the four-bar linkage that generates a function.
 
@@ -171,7 +174,11 @@ def _generator(task: FunctionTask, scale: Scale, fit: Fit) -> FunctionGenerator:
             f"{np.degrees(task.transmission_angle_min):.4g}°)"
         )
     name = task.name or f"Function generator, {task.function or 'table'}"
-    return _analysed(scale, fit, bar, bar.machine(name, source=SOURCE), b < 0, mu)
+    made = _analysed(scale, fit, bar, bar.machine(name, source=SOURCE), b < 0, mu)
+    if len(scale.points) == task.unknowns:
+        # As many points as unknowns are met exactly.
+        require_met("an error at its points", 0.0, made.angle_error_points, "rad", size=1.0)
+    return made
 
 
 def _bar(task: FunctionTask, scale: Scale, fit: Fit, r: float, c: float, b: float) -> FourBar:

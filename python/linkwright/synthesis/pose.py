@@ -12,18 +12,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.kinematics import motions
-from linkwright.analysis.result import Result
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
 from linkwright.synthesis.slider_pose import guide_slider
 from linkwright.synthesis.task import MovingPoint, PoseTask
+from linkwright.synthesis.transmission import Transmits
 from linkwright.synthesis.travel import listed, travel, way
+from linkwright.synthesis.verify import require_met
 
 Floats = NDArray[np.float64]
 
@@ -38,7 +41,7 @@ SOURCE = "Synthesised by linkwright for given poses"
 
 
 @dataclass(frozen=True)
-class PoseGuide(Result):
+class PoseGuide(Transmits):
     """A linkage whose coupler passes through given poses.
 
     Attributes
@@ -67,6 +70,8 @@ class PoseGuide(Result):
         The linkage; its point ``P`` is the body's origin.
     """
 
+    remedy: ClassVar[str] = "choose other points of the body"
+
     linkage: str
     type: str
     frame: float | None
@@ -82,6 +87,7 @@ class PoseGuide(Result):
     machine: Machine
 
 
+@public
 def pose_guide(task: PoseTask) -> PoseGuide:
     """Find the linkage whose coupler passes through given poses.
 
@@ -232,8 +238,12 @@ def _travelled(
 
 
 def _errors(task: PoseTask, machine: Machine, angles: Floats, link: str) -> tuple[float, float]:
-    """How far the analysed machine is from the poses, in place [m] and in turning [rad]."""
+    """How far the analysed machine is from the poses, in place [m] and in turning [rad]; a finding if far."""
     table = motions(machine, angles, points=["P"], links=[link])[0]
     place = np.abs(table[0] + 1j * table[1] - np.asarray(task.poses.x) - 1j * np.asarray(task.poses.y))
     turned = (table[6] + 1j * table[7]) * np.exp(-1j * np.asarray(task.poses.angle))
-    return float(place.max()), float(np.abs(np.angle(turned / turned[0])).max())
+    error, turning = float(place.max()), float(np.abs(np.angle(turned / turned[0])).max())
+    extent = np.abs(body_places(task, task.crank_point) - body_origin(task)).max()
+    require_met("a distance of the body from its poses", 0.0, error, "m", size=float(extent))
+    require_met("a turning of the body off its poses", 0.0, turning, "rad", size=1.0)
+    return error, turning

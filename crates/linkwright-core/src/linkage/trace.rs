@@ -8,6 +8,7 @@ use super::folding::{TERMS, radicand, square};
 use super::group::Group;
 use super::guided::{GuidedRod, rod_radicand};
 use super::{Element, Mechanism, Motion, Rocker};
+use crate::call::poll;
 use crate::jet::Jet;
 use crate::plane::{Angle, Place, Vec2};
 use crate::real::Real;
@@ -177,6 +178,7 @@ impl Follower<'_> {
         let mut last: Vec<Vec2<f64>> = self.group.unknowns.iter().map(|&k| self.m.points[k].p).collect();
         let mut halved = 0;
         loop {
+            poll();
             let guess = self.predicted(step);
             let kept = self.m.clone();
             match self.at(at + step, &guess) {

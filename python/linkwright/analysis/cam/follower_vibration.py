@@ -20,14 +20,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.cam.checks import positive
 from linkwright.analysis.cam.lift_steps import Ends, steps, without_steps
 from linkwright.analysis.cam.one_mass import OneMass
 from linkwright.analysis.cam.oscillator import Indices, Oscillation, in_pieces, oscillation, pole
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import require_within
 from linkwright.limits import VIBRATIONS
 from linkwright.motion_laws.motion_law import Extreme, MotionLaw, combined
+from linkwright.public import public
+from linkwright.units import COUNT, SPEED, positive
 
 Floats = NDArray[np.float64]
 
@@ -215,6 +217,7 @@ class Train:
         return tuple(Impulse(self.lift.breaks[k], float(self.steps[k] * self.speed)) for k in where)
 
 
+@public
 def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 720) -> FollowerVibration:
     """Periodic motion of the follower's mass at a constant speed of the cam.
 
@@ -241,7 +244,7 @@ def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 7
     FindingError
         Undamped and at resonance.
     """
-    positive(speed=speed, n=n)
+    in_range(speed=(speed, positive(SPEED)), n=(n, positive(COUNT)))
     without_steps(lift, "turn")
     remedy = "lower the stiffness of its train, or turn the cam faster"
     require_within(VIBRATIONS, model.natural_frequency / speed, "follower", remedy)
@@ -319,6 +322,7 @@ class VibrationSweep(Result):
     keeps_contact: NDArray[np.bool_]
 
 
+@public
 def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: ArrayLike) -> VibrationSweep:
     """Largest values of the periodic motion at many speeds.
 
@@ -343,6 +347,7 @@ def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: ArrayLike) -> 
     FindingError
         Undamped and at resonance.
     """
+    in_range(speeds=(speeds, positive(SPEED)))
     speed = np.atleast_1d(np.asarray(speeds, dtype=float))
     found = [follower_vibration(lift, model, float(omega), n=1) for omega in speed]
     names = ("force_max", "force_min", "acceleration_max", "departure_max")

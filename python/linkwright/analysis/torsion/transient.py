@@ -30,6 +30,7 @@ from linkwright.errors import ConvergenceError, InputError
 from linkwright.limits import SAMPLES
 from linkwright.machine import Machine
 from linkwright.machine.train_transient import TrainTransient
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -128,6 +129,7 @@ class TorsionTransient(Result):
         return found
 
 
+@public
 def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None) -> TorsionTransient:
     """Follow a manoeuvre of a train in time.
 
