@@ -158,7 +158,8 @@ def array(name: str, value: Any, *, finite: bool = True, complex_too: bool = Fal
         raise ShapeError(f"{name}: found {shown(value)}, expected {'' if complex_too else 'real '}numbers")
     found = np.array(given, dtype=complex if complex_too else np.float64, order="C")
     if finite and not np.isfinite(found).all():
-        raise ShapeError(f"{name}: found values that are not finite, expected finite numbers")
+        first = int(np.argmin(np.isfinite(found)))
+        raise ShapeError(f"{name}: found {found.flat[first]:g} at index {first}, expected finite numbers")
     found.flags.writeable = False
     return found
 
