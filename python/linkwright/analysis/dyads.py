@@ -44,6 +44,10 @@ _DYADS: dict[int, tuple[str, int]] = {
     15: ("RRP", 4),
 }
 _ROD = 2
+
+# Place of its reach among the numbers of a change point.
+_REACH = 4
+
 _GUIDED_RODS = (5, 15)
 
 
@@ -85,7 +89,9 @@ def _change_points(compiled: Compiled, row: tuple[int, ...], at: int) -> tuple[f
     number, slots = row[at], row[at + 1 :]
     width = len(slots) // number
     q = compiled.parameters
-    angles = [np.arctan2(q[slots[k * width + 1]], q[slots[k * width]]) for k in range(number)]
+    # One that only other machines of a batch have is out of reach.
+    present = [k * width for k in range(number) if q[slots[k * width + _REACH]] > 0]
+    angles = [np.arctan2(q[slots[k + 1]], q[slots[k]]) for k in present]
     return tuple(sorted(float(angle) % (2 * np.pi) for angle in angles))
 
 
