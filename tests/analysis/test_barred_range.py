@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
 import linkwright as lw
 from linkwright.analysis.torsion.barred_range import BarredRange, barred_ranges, together
@@ -60,6 +60,14 @@ def stress(speed: float, damping: float = C) -> float:
     omega = ORDER * speed
     s = K + 1j * omega * damping
     return abs(M * J_B / (J_A + J_B) * s / (s - omega**2 * REDUCED)) / W
+
+
+def peak_speed(damping: float) -> float:
+    """Where the closed form is largest."""
+    found = minimize_scalar(
+        lambda x: -stress(x, damping), bounds=(CRITICAL - 1, CRITICAL + 1), options={"xatol": 1e-9}
+    )
+    return float(found.x)
 
 
 def bounds(permitted: Callable[[float], float], damping: float = C) -> tuple[float, float]:
@@ -122,12 +130,13 @@ def test_limit_of_m68_falls_with_the_speed() -> None:
     low, high = bounds(permitted, 2.0)
     assert (found.speed_min, found.speed_max) == pytest.approx((low, high), rel=1e-8)
     assert found.transient == pytest.approx(1.7 / math.sqrt(0.2) * found.continuous)
-    # The resonance, and the formula about it.
-    assert found.critical_speed == pytest.approx(CRITICAL, rel=1e-9)
+    # The peak of the stress, a little below the resonance, and the formula about it.
+    peak = peak_speed(2.0)
+    assert found.critical_speed == pytest.approx(peak, rel=1e-7)
     assert found.order == ORDER
-    ratio = CRITICAL / 120
-    wanted = 16 * CRITICAL / (18 - ratio), (18 - ratio) * CRITICAL / 16
-    assert (found.class_min, found.class_max) == pytest.approx(wanted, rel=1e-9)
+    ratio = peak / 120
+    wanted = 16 * peak / (18 - ratio), (18 - ratio) * peak / 16
+    assert (found.class_min, found.class_max) == pytest.approx(wanted, rel=1e-7)
     assert found.barred == pytest.approx((min(low, wanted[0]), max(high, wanted[1])))
 
 
@@ -138,7 +147,7 @@ def test_critical_speed_is_that_of_the_order_that_stresses_most() -> None:
     ).replace("{ order = 2, torque = 80 }", "{ order = 2, torque = 80 }, { order = 2.05, torque = 0.8 }")
     (found,) = barred_ranges(lw.loads(text))
     assert found.speed_min < CRITICAL * 2 / 2.05
-    assert (found.order, found.critical_speed) == (2.0, pytest.approx(CRITICAL))
+    assert (found.order, found.critical_speed) == (2.0, pytest.approx(peak_speed(C), rel=1e-4))
 
 
 @pytest.mark.parametrize(("rated", "may"), [(120, True), (60, False)])
@@ -168,7 +177,8 @@ def test_shaft_that_bears_everything_bars_nothing() -> None:
 def test_ranges_that_meet_are_one() -> None:
     (one,) = ranges('stress_permitted = "10 MPa"')
     (other,) = ranges('stress_permitted = "20 MPa"')
-    assert together([other, one]) == [one.barred]
+    # Both peak at the same speed, which is found to rounding of the stress: its root in the speed.
+    assert together([other, one]) == [pytest.approx(one.barred, rel=1e-7)]
     assert together([]) == []
 
 

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from linkwright.analysis.torsion.confidence import coverage_factor
+from linkwright.analysis.torsion.cylinder_factors import Diagnosis
 from linkwright.analysis.torsion.cylinder_response import cylinder_response
-from linkwright.analysis.torsion.diagnosis import Diagnosis, diagnosis
+from linkwright.analysis.torsion.diagnosis import diagnosis
 from linkwright.analysis.torsion.excited import Excited, excited
 from linkwright.analysis.torsion.forced import forced_vibration
 from linkwright.analysis.torsion.measured_speed import MeasuredSpeed, measured_speed

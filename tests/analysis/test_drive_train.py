@@ -9,7 +9,6 @@ import pytest
 from scipy.linalg import eigh
 
 import linkwright as lw
-from linkwright.analysis.reduction import turn_nodes
 from linkwright.analysis.torsion.drive_line import drive_line, mean_inertia
 from linkwright.engine import compile_machine
 from linkwright.errors import AssemblyError, InputError, MachineError, ShapeError, SteadyStateError
@@ -128,12 +127,13 @@ def test_the_whole_is_the_rigid_drive_line() -> None:
     for extra in EXTRAS:
         made = machine(MOTOR, BOX, extra, SHAFT, CRANKSHAFT)
         rigid = compile_machine(machine(MOTOR, BOX, extra))
-        phi, weights = turn_nodes(rigid)
+        # Even samples integrate what is smooth and periodic to rounding.
+        inertia = rigid.reductions(np.linspace(0, 2 * np.pi, 720, endpoint=False))[0].mean()
         found = lw.free_vibration(made)
         crank = found.discs.index("crank")
         assert found.natural_frequencies[0] == 0
         whole = found.modal_inertia[0] / found.mode_shapes[0, crank] ** 2
-        assert whole == pytest.approx(float(weights @ rigid.reductions(phi)[0]), rel=1e-12)
+        assert whole == pytest.approx(float(inertia), rel=1e-12)
         motor = found.discs.index("motor")
         assert found.mode_shapes[0, motor] == pytest.approx(9.8 * found.mode_shapes[0, crank], rel=1e-12)
 

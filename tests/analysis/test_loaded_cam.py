@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -122,3 +124,35 @@ def test_a_follower_that_leaves_is_told_and_its_cam_still_judged() -> None:
     assert "leaves cam F" in found.findings[0]
     assert found.pressure is not None
     np.testing.assert_array_equal(found.pressure[found.force < 0], 0.0)
+
+
+# Motors that turn the cam at a speed: one that yields to nothing, and a stiff one with a large flywheel.
+DRIVES = {
+    "none": "",
+    "constant speed": '[drive.motor]\nkind = "constant_speed"\nspeed = {speed}',
+    "direct current": '[drive.motor]\nkind = "dc"\ntorque_stall = 1e6\nspeed_no_load = {speed}\ninertia = 9',
+}
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+@pytest.mark.parametrize("speed", [20.0, 80.0])
+def test_a_floating_follower_is_a_finding_whatever_drives_the_cam(drive: str, speed: float) -> None:
+    """The same motion has the same finding, and a follower that stays on its cam has none."""
+    study = lw.study(cam(DRIVES[drive].format(speed=speed), speed=speed))
+    (found,) = study.loaded_cams
+    told = [text for text in study.findings if "leaves cam F" in text]
+    assert len(told) == (speed == 80)
+    assert found.speed == pytest.approx(speed, rel=1e-3)
+    # The direct-current motor yields by a thousandth, and the force goes with the square of the speed.
+    assert found.force_min == pytest.approx(loaded(cam(speed=speed)).force_min, rel=1e-2)
+
+
+def test_forces_without_an_answer_are_said_of_the_cam_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the forces say of themselves reaches whoever asks for the cam alone."""
+    from linkwright.analysis.cam import loaded as module
+
+    def doubtful(*args: object, **options: object) -> object:
+        return replace(lw.forces(*args, **options), findings=("nothing is known at 30°",))  # type: ignore[arg-type]
+
+    monkeypatch.setattr(module, "forces", doubtful)
+    assert "nothing is known at 30°" in loaded(cam()).findings

@@ -203,11 +203,28 @@ def test_best_counterbalance_has_equal_peaks(unit: PumpingUnit) -> None:
 def test_work_is_that_of_the_load_alone() -> None:
     """Counterweights, and the unbalance, do no work over a turn; losses add to it."""
     gear = loaded(CONVENTIONAL, **TABLE, counterbalance=2e4, phase=0.3)
-    # The loads jump where the stroke turns: quarter degrees see that to a few ten-thousandths.
-    assert gear.torque_net_mean * 2 * np.pi == pytest.approx(gear.work, rel=1e-9)
-    stroke = float(CONVENTIONAL.stroke)
-    assert gear.work == pytest.approx(stroke * 25e3, rel=1e-4)
+    assert gear.torque_net_mean * 2 * np.pi == pytest.approx(gear.work, rel=1e-12)
+    # 25 kN more on the way up, over the whole stroke; the loads jump where it turns.
+    assert gear.work == pytest.approx(float(CONVENTIONAL.stroke) * 25e3, rel=1e-12)
     assert loaded(CONVENTIONAL, **TABLE, efficiency=0.9).torque_net_mean * 2 * np.pi > gear.work
+
+
+def test_peaks_and_means_against_fine_samples() -> None:
+    """A narrow peak of a table, a friction's jump: what 200 000 samples see, whose one is on the peak."""
+    corners = np.array([0, 63_600, 63_663, 63_726, 127_000]) * 2 * np.pi / 200_000
+    table = {"angle": list(corners), "force": [3e4, 3e4, 9e4, 3e4, 2e4]}
+    load = {**table, "counterbalance": 1e4, "efficiency": 0.9}
+    gear = loaded(CONVENTIONAL, **load)
+    unit = PumpingUnit(**CONVENTIONAL.model_dump(exclude_none=True) | {"load": load})
+    fine = pumping_unit(lw.Machine(format=1, name="unit", pumping_unit=unit), n=200_000).gear
+    assert fine is not None
+    net, is_up = fine.torque_net, fine.torque_rod >= 0
+    assert gear.torque_net_up == pytest.approx(net[is_up].max(), rel=1e-9)
+    assert gear.torque_net_min == pytest.approx(net.min(), rel=1e-8)
+    assert gear.load_max == pytest.approx(9e4, rel=1e-12)
+    assert gear.torque_net_mean == pytest.approx(np.trapezoid(net, fine.crank_angle) / (2 * np.pi), rel=1e-6)
+    square = np.trapezoid(net**2, fine.crank_angle) / (2 * np.pi)
+    assert gear.torque_net_rms == pytest.approx(np.sqrt(square), rel=1e-6)
 
 
 def test_net_torque_by_its_formula() -> None:

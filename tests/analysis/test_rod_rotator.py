@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
 import pytest
 
 import linkwright as lw
 from linkwright.analysis.rod_rotator import RodRotatorMotion, rod_rotator
 from linkwright.errors import AssemblyError, InputError
-from linkwright.machine.rod_rotator import diagonal_extremes, lengths
+from linkwright.machine.rotator_lengths import diagonal_extremes, lengths
 from linkwright.papers.paper4_formulas import LeverFormula, Unit
 
 CONTINUOUS = lw.read("machines/rod_rotator_continuous.toml")
@@ -121,6 +125,97 @@ def test_swing_comes_out_as_wanted(swing: float, assembly: str) -> None:
     l_4, l_5 = found.link_length, found.lever_length
     ends = [(d**2 + l_5**2 - l_4**2) / (2 * d * l_5) for d in (found.diagonal_min, found.diagonal_max)]
     assert sum(ends) == pytest.approx(0, abs=1e-12)
+
+
+def rotators(seed: int, many: int) -> Iterator[dict[str, Any]]:
+    """Swings over all that can be written, densely near the ends; all else at random."""
+    rng = np.random.default_rng(seed)
+    for k in range(many):
+        low, high = ((0.01, 180), (0.01, 20), (170, 180))[k % 3]
+        yield {
+            "rod_rotator.swing": float(np.radians(rng.uniform(low, high))),
+            "rod_rotator.assembly": str(rng.choice(["left", "right"])),
+            "rod_rotator.pin_distance": 2.5 if k % 2 else float(rng.uniform(0.3, 4.5)),
+            "pumping_unit.cable": 2.2 if k % 2 else float(rng.uniform(0.0, 4.0)),
+            "pumping_unit.rotation": str(rng.choice(["clockwise", "counter_clockwise"])),
+        }
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_lever_swings_as_wanted_or_it_is_a_finding(seed: int) -> None:
+    """Lengths above zero, no longer than the diagonal, and the swing found again in the motion."""
+    made = 0
+    for entries in rotators(seed, 40):
+        machine = lw.replace(INTERMITTENT, entries)
+        try:
+            found = rod_rotator(machine)
+        except AssemblyError:
+            continue
+        made += 1
+        assert not found.findings, entries
+        assert found.lever_swing == pytest.approx(entries["rod_rotator.swing"], abs=1e-7), entries
+        assert 0 < found.lever_length <= found.diagonal_max * (1 + 1e-9), entries
+        assert found.lever_length < found.link_length, entries
+    assert 15 < made < 35
+
+
+@pytest.mark.parametrize("assembly", ["left", "right"])
+def test_the_range_of_swings_that_is_told_can_be_had(assembly: str) -> None:
+    entries = {"rod_rotator.assembly": assembly, "rod_rotator.swing": 1e-3}
+    with pytest.raises(AssemblyError, match="swing through") as told:
+        rod_rotator(lw.replace(INTERMITTENT, entries))
+    low, high = map(float, re.findall(r"([\d.]+)° to ([\d.]+)°", str(told.value))[0])
+    for swing in (low, high):
+        found = rod_rotator(
+            lw.replace(INTERMITTENT, entries | {"rod_rotator.swing": np.radians(swing).item()})
+        )
+        assert np.degrees(found.lever_swing) == pytest.approx(swing, abs=1e-6)
+    # 180° and more cannot be written.
+    for swing in (low - 0.02, high + 0.08 if assembly == "left" else low - 0.1):
+        with pytest.raises(AssemblyError):
+            rod_rotator(lw.replace(INTERMITTENT, entries | {"rod_rotator.swing": np.radians(swing).item()}))
+
+
+def test_lengths_of_the_continuous_regime_turn_or_it_is_a_finding() -> None:
+    """Pins all along the arm, short cables too."""
+    made = 0
+    for entries in rotators(7, 60):
+        entries.pop("rod_rotator.swing")
+        entries["rod_rotator.pin_distance"] = min(entries["rod_rotator.pin_distance"], 2.98)
+        try:
+            found = rod_rotator(lw.replace(CONTINUOUS, entries))
+        except AssemblyError:
+            continue
+        made += 1
+        assert found.lever_turns_per_cycle == 1
+        assert found.lever_length > 0
+    assert made > 40
+
+
+def test_given_lengths_that_do_not_turn_are_a_finding() -> None:
+    given = {"rod_rotator.link_length": 3.7, "rod_rotator.lever_length": 0.5}
+    study = lw.study(lw.replace(CONTINUOUS, given))
+    assert any("does not turn all round" in text for text in study.findings)
+
+
+def test_a_swing_that_cannot_be_had_leaves_the_rest_of_the_study() -> None:
+    study = lw.study(lw.replace(INTERMITTENT, {"rod_rotator.swing": np.radians(179.9).item()}))
+    assert study.pumping_unit is not None
+    assert study.rotator is None
+    assert len(study.findings) == 1
+    assert 'choose assembly = "right"' in study.findings[0]
+
+
+def test_rows_of_a_batch_without_lengths_are_nan() -> None:
+    swings = np.radians([60.0, 179.9, 1.0, 90.0])
+    link, lever = lengths(
+        INTERMITTENT.pumping_unit, lw.replace(INTERMITTENT, {"rod_rotator.swing": swings}).rod_rotator
+    )
+    np.testing.assert_array_equal(np.isfinite(lever), [True, False, False, True])
+    np.testing.assert_array_equal(np.isfinite(link), np.isfinite(lever))
+    many = lw.replace(INTERMITTENT, {"rod_rotator.swing": swings})
+    rates = lw.kinematics(many, np.linspace(0, 6, 7)).links["rotator.rocker"].d1
+    np.testing.assert_array_equal(np.isfinite(rates).all(axis=1), np.isfinite(lever))
 
 
 def test_batch_over_swing_and_unit() -> None:

@@ -71,7 +71,7 @@ def test_an_unknown_law_and_a_folder_that_is_a_file(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     code, output = run("--out", str(tmp_path / "file"))
     assert code == 2
-    assert "cannot be written" in output
+    assert "found a file, expected a folder for --out" in output
 
 
 def one() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -34,6 +35,26 @@ def test_check_says_what_is_in_the_file() -> None:
         assert word in done.stdout
 
 
+@pytest.mark.parametrize(
+    ("name", "change", "words"),
+    [
+        ("roller_two_carts", "mechanism.sliders.cart1.rod=0.1 m", "closes only at crank angles"),
+        ("roller_cam", "mechanism.cams.cart.cutter_radius=0.9", "cannot be cut"),
+        ("topper", "topper.edge_length=20 mm", "does not cut through every head"),
+        ("rod_rotator_intermittent", "rod_rotator.swing=0.5 deg", "No lever of the rotator"),
+    ],
+)
+def test_check_finds_what_the_geometry_does_not_allow(name: str, change: str, words: str) -> None:
+    """Exit code 1, the findings, and what was looked at; as `run` has it."""
+    file = TWO_CARTS.with_name(f"{name}.toml")
+    done = run("check", file, "--set", change)
+    assert done.exit_code == 1
+    assert "OK" not in done.stdout
+    assert re.search(rf"FINDING  .*{words}", done.stdout)
+    assert re.search(r"\n  checked +\w", done.stdout)
+    assert run("run", file, "--set", change).exit_code == 1
+
+
 def test_check_tells_all_problems_on_standard_error(tmp_path: Path) -> None:
     path = tmp_path / "bad.toml"
     path.write_text("format = 1\nname = 3\n[mechanism.cranks.A]\nradius = '1 kg'\n")
@@ -55,6 +76,42 @@ def test_set_is_checked_like_the_file() -> None:
 @pytest.mark.parametrize("arguments", [["check"], ["nonsense"], ["check", "a", "b"], ["check", "--what"]])
 def test_wrong_usage(arguments: list[str]) -> None:
     assert run(*arguments).exit_code == 2
+
+
+# Every option that takes an angle or a speed of rotation, and where its bare number stands.
+BARE = (
+    ("motion {press} --at 30", '--at "30 deg"'),
+    ("motion {press} --speed 9", '--speed "9 rpm"'),
+    ("forces {press} --speed 9", '--speed "9 rpm"'),
+    ("forces {press} --speed=1rpm --angles=-1,30", '--angles "-1 deg"'),
+    ("forces {press} --pressure-angle 20", '--pressure-angle "20 deg"'),
+    ("balance {press} --links A1 --speed 9", '--speed "9 rpm"'),
+    ("run {press} --method baranov --step 1", '--step "1 deg"'),
+    ("cam {cam} --step 1", '--step "1 deg"'),
+    ("cam search {cam} --vary face_tilt=1:2:3", '"1 deg"'),
+    ("synthesise dead-centre --swing 60", '--swing "60 deg"'),
+    ("topper field {topper} --over edge_angle=0:30:3", '"30 deg"'),
+    ("torsion diagnose {engine} {press} --on flywheel --noise 1", '--noise "1 rpm"'),
+)
+
+
+@pytest.mark.parametrize(("words", "remedy"), BARE)
+def test_an_angle_or_a_speed_needs_its_unit(words: str, remedy: str) -> None:
+    machines = TWO_CARTS.parent
+    files = {
+        "press": TWO_CARTS,
+        "cam": machines / "roller_cam.toml",
+        "topper": machines / "topper.toml",
+        "engine": machines / "v8_diesel.toml",
+    }
+    done = run(*(word.format(**files) for word in words.split()))
+    assert done.exit_code == 2
+    assert remedy in done.stderr
+
+
+def test_in_a_file_and_after_set_bare_numbers_are_si() -> None:
+    done = run("motion", TWO_CARTS, "--set", "drive.speed=9", "--at", "0", "--json")
+    assert json.loads(done.stdout)["speed"] == 9
 
 
 @pytest.mark.parametrize("name", templates())

@@ -68,7 +68,7 @@ def test_wider_intervals_of_a_higher_level(measured: str) -> None:
 
 
 def test_rigid_train_is_another_answer(measured: str) -> None:
-    told = json.loads(run(measured, "--on", "flywheel", "--noise", "0.02", "--rigid", "--json").stdout)
+    told = json.loads(run(measured, "--on", "flywheel", "--noise", "0.02 rad/s", "--rigid", "--json").stdout)
     assert told["results"]["diagnosis"]["factor"][2] > 2
     assert any("times the noise" in each for each in told["warnings"])
 

@@ -53,7 +53,7 @@ def test_table_has_the_forces(press: Path) -> None:
 
 
 def test_json_is_that_of_python(press: Path) -> None:
-    code, text = run("forces", press, "--speed", "10", "--json", "--curves")
+    code, text = run("forces", press, "--speed", "10 rad/s", "--json", "--curves")
     assert code == 0
     found = json.loads(text)["results"]["Press"]
     result = lw.forces(lw.read(press), speed=10.0)
@@ -64,7 +64,16 @@ def test_json_is_that_of_python(press: Path) -> None:
 
 def test_angles_are_those_asked_for(press: Path) -> None:
     # A crank longer than its rod turns within a range alone.
-    words = ("forces", press, "--speed", "1", "--set", "mechanism.cranks.A.radius=0.3", "--json", "--curves")
+    words = (
+        "forces",
+        press,
+        "--speed",
+        "1 rad/s",
+        "--set",
+        "mechanism.cranks.A.radius=0.3",
+        "--json",
+        "--curves",
+    )
     assert run(*words)[0] == 1
     code, text = run(*words, "--angles=-30 deg, 40 deg")
     assert code == 0
@@ -74,7 +83,7 @@ def test_angles_are_those_asked_for(press: Path) -> None:
 
 def test_cases_stand_in_columns(press: Path) -> None:
     code, text = run(
-        *("forces", press, "--speed", "10", "--case", "idle: loads.work.force=0"),
+        *("forces", press, "--speed", "10 rad/s", "--case", "idle: loads.work.force=0"),
         *("--case", 'heavy: loads.work.force="-1 kN"; bodies.S.mass=8'),
     )
     assert code == 0
@@ -83,7 +92,7 @@ def test_cases_stand_in_columns(press: Path) -> None:
 
 
 def test_friction_and_findings(press: Path) -> None:
-    words = ["forces", press, "--speed", "10", "--friction", "A: radius=20 mm, coefficient=0.1"]
+    words = ["forces", press, "--speed", "10 rad/s", "--friction", "A: radius=20 mm, coefficient=0.1"]
     code, text = run(*words, "--json")
     assert code == 0
     friction = {"A": lw.Friction(0.1, radius=0.02)}
@@ -96,9 +105,9 @@ def test_friction_and_findings(press: Path) -> None:
 
 
 def test_folder_has_files(press: Path, tmp_path: Path) -> None:
-    code, _ = run("forces", press, "--speed", "10", "--out", tmp_path / "found")
+    code, _ = run("forces", press, "--speed", "10 rad/s", "--out", tmp_path / "found")
     assert code == 0
-    names = {path.name for path in (tmp_path / "found").iterdir()}
+    names = {path.name for path in (tmp_path / "found").glob("[!.]*")}
     assert names == {"results.json", "forces.csv", "forces.svg", "hodograph.svg", "polar.svg"}
     head, *rows = (tmp_path / "found" / "forces.csv").read_text(encoding="utf-8").splitlines()
     assert len(rows) == 361
@@ -110,14 +119,14 @@ def test_folder_has_files(press: Path, tmp_path: Path) -> None:
     [
         (("forces",), "neither a motor"),
         (("forces", "--speed", "fast"), "--speed"),
-        (("forces", "--speed", "1", "--case", "idle"), "--case"),
-        (("forces", "--speed", "1", "--friction", "A"), "--friction"),
-        (("forces", "--speed", "1", "--friction", "A: mu=1"), "mu=1"),
-        (("forces", "--speed", "1", "--friction", "B: coefficient=1"), "friction.B"),
-        (("forces", "--speed", "1", "--angles", "3 deg"), "--angles"),
+        (("forces", "--speed", "1 rad/s", "--case", "idle"), "--case"),
+        (("forces", "--speed", "1 rad/s", "--friction", "A"), "--friction"),
+        (("forces", "--speed", "1 rad/s", "--friction", "A: mu=1"), "mu=1"),
+        (("forces", "--speed", "1 rad/s", "--friction", "B: coefficient=1"), "friction.B"),
+        (("forces", "--speed", "1 rad/s", "--angles", "3 deg"), "--angles"),
         (("forces", "--angles", "3 deg, 5 deg"), "--speed"),
-        (("balance", "--speed", "1"), "neither"),
-        (("balance", "--speed", "1", "--links", "S.rod"), "fixed points"),
+        (("balance", "--speed", "1 rad/s"), "neither"),
+        (("balance", "--speed", "1 rad/s", "--links", "S.rod"), "fixed points"),
     ],
 )
 def test_wrong_input_is_named(press: Path, words: tuple[str, ...], said: str) -> None:
@@ -128,12 +137,14 @@ def test_wrong_input_is_named(press: Path, words: tuple[str, ...], said: str) ->
 
 def test_balance_writes_a_machine(press: Path, tmp_path: Path) -> None:
     out = tmp_path / "balanced.toml"
-    code, text = run("balance", press, "--links", "A", "--speed", "10", "--radius", "80 mm", "--out", out)
+    code, text = run(
+        "balance", press, "--links", "A", "--speed", "10 rad/s", "--radius", "80 mm", "--out", out
+    )
     assert code == 0
     assert "Counterweights" in text
     machine = lw.read(out)
     assert machine.bodies["counterweight_A"].along == pytest.approx(-0.08, rel=1e-6)
-    code, text = run("balance", press, "--slider", "S", "--share", "0.5", "--speed", "10", "--json")
+    code, text = run("balance", press, "--slider", "S", "--share", "0.5", "--speed", "10 rad/s", "--json")
     assert code == 0
     weight = json.loads(text)["counterweights"]["A"]
     # Half of 4 kg at the pin, and the crank's 1 kg in its middle.

@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +18,8 @@ from linkwright.cli import application
 FOUR_BAR = Path(__file__).parents[2] / "examples" / "four_bar_coupler_curve" / "machine.toml"
 
 
-def run(*args: object):
-    return CliRunner().invoke(application(), ["motion", str(FOUR_BAR), *map(str, args)])
+def run(*args: object, file: Path = FOUR_BAR):
+    return CliRunner().invoke(application(), ["motion", str(file), *map(str, args)])
 
 
 def columns(text: str) -> dict[str, list[float]]:
@@ -44,9 +46,47 @@ def test_a_turn() -> None:
     np.testing.assert_allclose(found["A.x [m]"], 0.05 * np.cos(found["crank_angle [rad]"]), atol=1e-15)
     assert {"K.y.jerk [m/s³]", "C.rocker.angle.velocity [rad/s]"} <= found.keys()
     # People see what moves, without its rates.
-    head = run("--steps", 4).stdout.splitlines()[0].split()
-    assert head[:4] == ["time", "crank_angle", "A.x", "A.y"]
-    assert "O.x" not in head
+    head = re.split(r"  +", run("--steps", 4).stdout.splitlines()[1].strip())
+    assert head[:4] == ["time [s]", "crank_angle [rad]", "A.x [m]", "A.y [m]"]
+    assert "O.x [m]" not in head
+
+
+# Drives, and the crank speed that a motion without --speed has [rad/s].
+SPEEDS = {
+    "design speed, drive.speed": (("drive.speed=10.5",), 10.5),
+    "drive.motor.speed over drive.gearbox.ratio": (
+        ('drive.motor={kind="constant_speed", speed="300 rpm"}', "drive.gearbox.ratio=5"),
+        2 * np.pi,
+    ),
+    "the file has no drive.speed: rates are those for a radian per second": ((), 1.0),
+}
+
+
+@pytest.mark.parametrize("source", SPEEDS)
+def test_the_speed_is_that_of_the_file_and_is_said(source: str, tmp_path: Path) -> None:
+    sets, speed = SPEEDS[source]
+    words = [word for each in sets for word in ("--set", each)]
+    own = FOUR_BAR.read_text(encoding="utf-8")
+    without = re.sub(r"(?m)^speed = .*$", "", own)
+    assert without != own
+    file = tmp_path / "four_bar.toml"
+    file.write_text(without, encoding="utf-8")
+    ask = partial(run, *words, file=file)
+    pose = json.loads(ask("--at", "30 deg", "--json").stdout)
+    assert (pose["speed"], pose["speed_source"]) == (pytest.approx(speed), source)
+    assert pose["points"]["A"]["velocity"][1] == pytest.approx(0.05 * speed * np.cos(np.pi / 6))
+    turn = json.loads(ask("--json").stdout)
+    assert (turn["crank_speed"], turn["speed_source"]) == (pytest.approx(speed), source)
+    assert turn["time"][-1] == pytest.approx(2 * np.pi / speed)
+    for args in (("--at", "30 deg"), (), ("--at", "30 deg", "--csv"), ("--csv",)):
+        said = ask(*args).output
+        assert f"{speed:.7g} rad/s = {speed * 30 / np.pi:.6g} rpm ({source})" in said
+    assert "crank angle 30° = 0.5235988 rad" in ask("--at", "30 deg").stdout
+
+
+def test_a_given_speed_goes_before_that_of_the_file() -> None:
+    found = json.loads(run("--set", "drive.speed=10.5", "--speed", "60 rpm", "--at", "0", "--json").stdout)
+    assert (found["speed"], found["speed_source"]) == (pytest.approx(2 * np.pi), "--speed")
 
 
 def test_a_law(tmp_path: Path) -> None:
@@ -64,7 +104,12 @@ def test_a_law(tmp_path: Path) -> None:
     ("args", "words"),
     [
         (("--at", "30 m"), "--at: found"),
-        (("--at", "1", "--law", "t"), "not both"),
+        (("--at", "30"), '--at "30 deg" or --at "30 rad"'),
+        (("--at", "-1e1"), '--at "-1e1 deg"'),
+        (("--speed", "90"), '--speed "90 rpm" or --speed "90 rad/s"'),
+        (("--speed", "9 rad/s", "--law", "t"), "the law gives the speed"),
+        (("--duration", "2 s"), "belongs to a --law"),
+        (("--at", "1 rad", "--law", "t"), "not both"),
         (("--law", "2*"), "character 3"),
         (("--steps", "0"), "--steps"),
         (("--speed", "-1 rad/s"), "above zero"),

@@ -75,7 +75,7 @@ def test_papers(tmp_path: Path) -> None:
     assert done.exit_code == 0
     found = json.loads(done.stdout)["results"]["paper1"]
     assert [each["carts"] for each in found["drives"]] == [1, 2, 3, 4]
-    names = {path.name for path in tmp_path.iterdir()}
+    names = {path.name for path in tmp_path.glob("[!.]*")}
     machines = [f"roller_{name}" for name in ("one_cart", "two_carts", "three_carts", "four_carts")]
     figures = {f"{name}.{end}" for name in (*machines, "evenness") for end in ("svg", "png")}
     assert names == figures | {"papers1.html"}
@@ -93,7 +93,7 @@ def test_papers_of_the_cam_drive(tmp_path: Path) -> None:
     assert found["cam"]["diameter_min"] == pytest.approx(found["cam"]["diameter_max"], abs=1e-12)
     figures = ("figure1", "figure3", "shape", "start", "alternatives", "course")
     names = {f"{name}.{end}" for name in figures for end in ("svg", "png")}
-    assert {path.name for path in tmp_path.iterdir()} == names | {"papers2.html"}
+    assert {path.name for path in tmp_path.glob("[!.]*")} == names | {"papers2.html"}
     shown = run("papers", "2").stdout
     assert "reproduced to rounding" in shown
     assert "not reproduced" not in shown
@@ -107,7 +107,7 @@ def test_papers_of_the_engine(tmp_path: Path) -> None:
     assert len(found["exact"]["natural_frequencies"]) == 3
     figures = ("scheme", "modes", "disc", "formulas", "amplitude", "unevenness", "cylinders", "delta", "weak")
     names = {f"{name}.{end}" for name in figures for end in ("svg", "png")}
-    assert {path.name for path in tmp_path.iterdir()} == names | {"papers3.html"}
+    assert {path.name for path in tmp_path.glob("[!.]*")} == names | {"papers3.html"}
     shown = run("papers", "3").stdout
     # Square brackets of a formula are no markup.
     assert "[m_1 +" in shown
@@ -120,7 +120,7 @@ def test_papers_of_the_topper(tmp_path: Path) -> None:
     found = json.loads(done.stdout)["results"]["paper5"]
     assert found["verdict"]["lengths"] == [0.25, 0.3]
     names = {f"{name}.{end}" for name in ("figure3", "step", "bands", "heads") for end in ("svg", "png")}
-    assert {path.name for path in tmp_path.iterdir()} == names | {"papers5.html"}
+    assert {path.name for path in tmp_path.glob("[!.]*")} == names | {"papers5.html"}
     shown = run("papers", "5").stdout
     # Square brackets of a formula are no markup.
     assert "d[(v_h/v)" in shown

@@ -115,9 +115,9 @@ UNDAMPED = (
 def test_page_of_a_train_without_shafts_and_of_one_without_bounds(text: str, tmp_path: Path) -> None:
     file = tmp_path / "train.toml"
     file.write_text(text, encoding="utf-8")
-    found = run(str(file), "--out", str(tmp_path))
+    found = run(str(file), "--out", str(tmp_path / "out"))
     assert found.exit_code == 0, found.output
-    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert ('id="figure-torques"' in page) == ("train.shafts" in text)
     assert not re.search(r">[^<]*\b(nan|inf)\b[^<]*<", page)
     assert not re.search(r"\b(nan|inf)\b", found.stdout)

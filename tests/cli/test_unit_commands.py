@@ -117,6 +117,6 @@ def test_paper_4(tmp_path: Path) -> None:
     found = json.loads(done.stdout)["results"]["paper4"]
     assert found["recomputed"]["k_1"] == pytest.approx(2.986, abs=5e-4)
     assert run("papers", "4", "--out", tmp_path).exit_code == 0
-    names = {path.name for path in tmp_path.iterdir()}
+    names = {path.name for path in tmp_path.glob("[!.]*")}
     assert {"papers4.html", "figure3.svg", "figure4.png", "figure5.svg", "figure6.png"} <= names
     assert "  4  " in run("papers").stdout

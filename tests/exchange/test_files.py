@@ -19,7 +19,7 @@ from linkwright.exchange.drawing import Drawing
 from linkwright.exchange.fit import FORMS, Form
 from linkwright.exchange.read_back import read_back
 from linkwright.exchange.track import Track
-from linkwright.exchange.write import stem, write_drawing
+from linkwright.exchange.write import write_drawing
 
 CAM = CAMS["dwells, cycloidal, roller"]
 DRAWING = Drawing("Presser cam", {"PROFILE": CAM, "PITCH_CURVE": CAMS["flat face"]}, zero_angle=0.5)
@@ -237,6 +237,7 @@ CSV_FAULTS: dict[str, tuple[Callable[[str], str], str]] = {
     ),
     "a cam angle": (_cell(40, 0, 1e-6), "line 41: the place is .* from the curve at its cam angle"),
     "a curvature": (_cell(50, 5, 1e-4), "line 51: the curvature is 0.0001/mm from that of the curve"),
+    "no curvature": (_cell(50, 5, math.nan), "line 51: the curvature is nan/mm from that of the curve"),
     "the last row": (
         lambda text: text[: text.rstrip().rfind("\n") + 1],
         "last row is not the place of the first",
@@ -352,15 +353,16 @@ def test_a_drawing_needs_a_curve() -> None:
         Drawing("t", {})
 
 
-def test_names_of_files_are_names() -> None:
+def test_names_of_files_are_names(tmp_path: Path) -> None:
     def named(name: str) -> str:
-        return stem(Drawing(name, {"PROFILE": CAM}))
+        (written,) = write_drawing(tmp_path, Drawing(name, {"PROFILE": CAM}), formats=["csv"])
+        return written.path.name
 
-    assert [named("Cam 7/b"), named("Nockenwelle_ä"), named("../"), named("")] == [
-        "Cam_7_b",
-        "Nockenwelle_ä",
-        "cam",
-        "cam",
+    assert [named("Cam 7/b"), named("Nockenwelle_ä"), named("../"), named("con")] == [
+        "Cam_7_b.csv",
+        "Nockenwelle_ä.csv",
+        "cam.csv",
+        "con_.csv",
     ]
 
 

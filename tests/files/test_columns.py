@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from linkwright.errors import MachineFileError
+from linkwright.files import read
 from linkwright.files.columns import read_columns
 from linkwright.units import ANGLE, SPEED
 
@@ -53,3 +54,25 @@ def test_what_is_wrong_has_its_line(tmp_path: Path, text: str, line: int, words:
 def test_no_file(tmp_path: Path) -> None:
     with pytest.raises(MachineFileError, match=r"nowhere\.csv, which cannot be read"):
         read_columns(tmp_path / "nowhere.csv", KINDS)
+
+
+def test_files_of_points_lie_below_the_machine_file(tmp_path: Path) -> None:
+    text = (Path(__file__).parent / "broken" / "topper_field_cell.toml").read_text(encoding="utf-8")
+    points = "root_diameter [mm],cut_height [mm],offset [mm]\n100,30,0\n120,35,5\n"
+    home = tmp_path / "home"
+    (home / "data").mkdir(parents=True)
+    for place in (tmp_path / "secret.csv", home / "data" / "roots.csv"):
+        place.write_text(points, encoding="utf-8")
+    (home / "link.csv").symlink_to(tmp_path / "secret.csv")
+
+    def path(name: object) -> Path:
+        file = home / "machine.toml"
+        file.write_text(text.replace("topper_field_cell.csv", str(name)), encoding="utf-8")
+        return file
+
+    read(path("data/roots.csv"))
+    read(path("data/../data/roots.csv"))
+    for name in ("../secret.csv", "link.csv", tmp_path / "secret.csv", "data/../../secret.csv"):
+        with pytest.raises(MachineFileError, match="--allow-outside"):
+            read(path(name))
+        assert read(path(name), allow_outside=True).topper is not None

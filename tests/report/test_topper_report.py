@@ -174,7 +174,7 @@ def test_run_writes_the_same_page_with_a_finding(tmp_path: Path) -> None:
     assert "FINDING" in result.output
     assert "exact, every phase" in result.output
     assert studied("short").findings[0] in (tmp_path / "report.html").read_text(encoding="utf-8")
-    names = {path.name for path in tmp_path.iterdir()}
+    names = {path.name for path in tmp_path.glob("[!.]*")}
     assert names == {"report.html", "results.json", "topper.csv", "topper_edge.csv"}
     kept = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["results"]["topper"]
     assert len(kept["edge_place"]) == len(kept["edge_use"])

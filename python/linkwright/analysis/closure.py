@@ -303,7 +303,7 @@ def require_full_turn(compiled: Compiled, machine: Machine) -> None:
     """
     found = closure_of(compiled)
     if not found.turns_fully:
-        raise _error(found, machine)
+        raise closure_error(found, machine)
 
 
 def require_one_turn(compiled: Compiled) -> None:
@@ -356,8 +356,16 @@ def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None
     raise AssemblyError(text, element=found.element, crank_angle=at)
 
 
-def _error(found: Closure, machine: Machine) -> AssemblyError:
-    """The error that tells of a mechanism that does not turn fully."""
+def closure_error(found: Closure, machine: Machine) -> AssemblyError:
+    """The error for a mechanism that does not turn fully: what does not close, where, and what to change.
+
+    Parameters
+    ----------
+    found : Closure
+        Of a mechanism that does not turn fully.
+    machine : Machine
+        Its description.
+    """
     at = found.ranges[0][1] if found.ranges else 0.0
     at = at if found.turns is None else at % (2 * np.pi * found.turns)
     return AssemblyError(_sentence(found, machine), element=found.element, crank_angle=at)

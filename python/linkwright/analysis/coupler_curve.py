@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.closure import closure_of
+from linkwright.analysis.closure import closure_error, closure_of
 from linkwright.analysis.dyads import POINT, evaluate
 from linkwright.analysis.period import turns_to_repeat
 from linkwright.analysis.result import Result
@@ -21,7 +21,7 @@ from linkwright.analysis.roots import brackets, minima, zeros
 from linkwright.analysis.straight_portion import straightest
 from linkwright.analysis.turning import Cycle
 from linkwright.engine import Compiled, compile_machine
-from linkwright.errors import AssemblyError, MachineError, Problem, ShapeError
+from linkwright.errors import MachineError, Problem, ShapeError
 from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
@@ -138,9 +138,7 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
         raise MachineError([Problem("point", point, f"one of {', '.join(compiled.points)}")])
     where = closure_of(compiled)
     if not where.ranges:
-        raise AssemblyError(
-            "the mechanism closes at no crank angle; change the lengths", element=where.element
-        )
+        raise closure_error(where, machine)
     cycle = Cycle.of(where, turns_to_repeat(compiled) if where.turns_fully else None)
     return _Path(compiled, compiled.points[point], cycle).result(point, straight)
 

@@ -25,19 +25,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
+from linkwright.analysis.roots import zeros
+from linkwright.analysis.turn_curve import TurnCurve
+from linkwright.analysis.turn_fit import turn_curve
 from linkwright.errors import FindingError
 from linkwright.machine import PolishedRodLoad, PumpingUnit
 
 Floats = NDArray[np.float64]
 
-# Angles of the turn at which peaks and means are taken, a quarter of a degree.
-_ANGLES = 1440
+# Angles of the turn at which the counterbalance of equal peaks is bracketed.
+_ANGLES = 720
 
 # Counterbalance beyond which none is looked for [N m or N].
 _LARGEST = 1e15
 
-# Halvings of a bracket: beyond rounding.
-_HALVINGS = 80
+# Halvings of a bracket by samples: what is left is a thousandth of what samples err.
+_HALVINGS = 40
 
 
 @dataclass(frozen=True)
@@ -145,19 +148,19 @@ def gear_torque(
     Returns
     -------
     GearTorque
-        Curves at the angles; peaks and means at quarter degrees.
+        Curves at the angles; peaks and means do not depend on them.
     """
     load = unit.load
     assert load is not None, "a unit with a load"
-    fine: Floats = np.linspace(0.0, 2 * np.pi, _ANGLES, endpoint=False)
-    shown, turn = (_stroke(unit, load, motion(at), at) for at in (angles, fine))
-    is_up = (fine - ends[0]) % (2 * np.pi) <= (ends[1] - ends[0]) % (2 * np.pi)
     is_air = unit.geometry == "air_balanced"
     given = load.counterbalance_effect if is_air else load.counterbalance
-    size = float(given) if isinstance(given, int | float) else _equal_peaks(turn, is_up)
-    net = turn.net(size)
-    mean, rms = float(net.mean()), float(np.sqrt((net**2).mean()))
-    rating = unit.rating
+    strokes = _Strokes(unit, load, motion, ends)
+    size = float(given) if isinstance(given, int | float) else strokes.equal_peaks()
+    up, down = strokes.curves(size)
+    mean, _, work = (up.integral() + down.integral()) / (2 * np.pi)
+    span = np.array([np.ptp(up.ends), np.ptp(down.ends)]) / (2 * np.pi)
+    rms = float(np.sqrt(span @ [up.rms()[0] ** 2, down.rms()[0] ** 2]))
+    shown, rating = _stroke(unit, load, motion(angles), angles), unit.rating
     return GearTorque(
         crank_angle=angles,
         rod_load=shown.load,
@@ -166,17 +169,68 @@ def gear_torque(
         torque_net=shown.net(size),
         counterbalance=None if is_air else size,
         counterbalance_effect=size if is_air else None,
-        torque_net_up=float(net[is_up].max()),
-        torque_net_down=float(net[~is_up].max()),
-        torque_net_min=float(net.min()),
-        torque_net_mean=mean,
+        torque_net_up=up.extreme(+1)[0],
+        torque_net_down=down.extreme(+1)[0],
+        torque_net_min=min(up.extreme(-1)[0], down.extreme(-1)[0]),
+        torque_net_mean=float(mean),
         torque_net_rms=rms,
-        cyclic_load_factor=rms / mean if mean > 0 else None,
+        cyclic_load_factor=rms / float(mean) if mean > 0 else None,
         torque_rated=rating.torque if rating else None,
-        load_max=float(turn.load.max()),
+        load_max=max(up.extreme(+1, 1)[0], down.extreme(+1, 1)[0]),
         load_rated=rating.load if rating else None,
-        work=float((turn.load * turn.factor).mean() * 2 * np.pi),
+        work=float(work) * 2 * np.pi,
     )
+
+
+@dataclass(frozen=True)
+class _Strokes:
+    """Upstroke and downstroke of a unit under its load."""
+
+    unit: PumpingUnit
+    load: PolishedRodLoad
+    motion: Callable[[Floats], Floats]
+    ends: tuple[float, float]
+
+    def curves(self, size: float) -> tuple[TurnCurve, TurnCurve]:
+        """Net torque, load, and torque factor times load over each stroke, with a counterbalance."""
+
+        def of(angles: Floats) -> Floats:
+            at = angles % (2 * np.pi)
+            stroke = _stroke(self.unit, self.load, self.motion(at), at)
+            return np.stack([stroke.net(size), stroke.load, stroke.load * stroke.factor])
+
+        up, down = self._spans()
+        return turn_curve(of, up, "torque of the gearbox"), turn_curve(of, down, "torque of the gearbox")
+
+    def _spans(self) -> tuple[Floats, Floats]:
+        """Crank angles of each stroke from end to end, with the corners of a table over the angle between."""
+        bottom = self.ends[0]
+        top = bottom + (self.ends[1] - bottom) % (2 * np.pi)
+        corners = bottom + (np.array(self.load.angle or ()) - bottom) % (2 * np.pi)
+        up, down = (
+            np.unique([start, *corners[(corners > start) & (corners < end)], end])
+            for start, end in ((bottom, top), (top, bottom + 2 * np.pi))
+        )
+        return up, down
+
+    def equal_peaks(self) -> float:
+        """The counterbalance with which both strokes have equal peaks: bracketed by samples, then exact.
+
+        More counterbalance lowers the peak of the upstroke and raises that of the downstroke.
+        """
+        fine: Floats = np.linspace(0.0, 2 * np.pi, _ANGLES, endpoint=False)
+        turn = _stroke(self.unit, self.load, self.motion(fine), fine)
+        is_up = (fine - self.ends[0]) % (2 * np.pi) <= (self.ends[1] - self.ends[0]) % (2 * np.pi)
+        guess = _equal_peaks(turn, is_up)
+
+        def excess(size: Floats) -> Floats:
+            up, down = self.curves(float(size[0]))
+            return np.array([up.extreme(+1)[0] - down.extreme(+1)[0]])
+
+        reach = np.array([1e-4 * (abs(guess) or 1.0)])
+        while excess(guess - reach) <= 0 or excess(guess + reach) >= 0:
+            reach *= 4.0
+        return float(zeros(excess, guess - reach, guess + reach)[0][0])
 
 
 def _stroke(unit: PumpingUnit, load: PolishedRodLoad, motion: Floats, angles: Floats) -> _Stroke:
@@ -199,10 +253,7 @@ def _force(load: PolishedRodLoad, angles: Floats, position: Floats, factor: Floa
 
 
 def _equal_peaks(turn: _Stroke, is_up: NDArray[np.bool_]) -> float:
-    """The counterbalance with which upstroke and downstroke have equal peaks, by bisection.
-
-    More counterbalance lowers the peak of the upstroke and raises that of the downstroke.
-    """
+    """The counterbalance with which both strokes have equal peaks among samples, by bisection."""
 
     def excess(size: float) -> float:
         net = turn.net(size)

@@ -15,7 +15,8 @@ from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import AssemblyError
 from linkwright.machine import Machine, Mechanism, PumpingUnit, RodRotator
 from linkwright.machine.pumping_unit import ROD
-from linkwright.machine.rod_rotator import LEVER, LINK, PIN, Lengths, lengths
+from linkwright.machine.rod_rotator import LEVER, LINK, PIN
+from linkwright.machine.rotator_lengths import Lengths, lengths
 
 Floats = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.closure import Closure, closure_of
+from linkwright.analysis.closure import Closure, closure_error, closure_of
 from linkwright.analysis.dead_points import DeadPoint, dead_points
 from linkwright.analysis.grashof import FourBar, four_bars
 from linkwright.analysis.outputs import Output
@@ -25,7 +25,6 @@ from linkwright.analysis.period import turns_to_repeat
 from linkwright.analysis.result import Result
 from linkwright.analysis.turning import Cycle, Swept, sweep
 from linkwright.engine import compile_machine
-from linkwright.errors import AssemblyError
 from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
@@ -220,10 +219,7 @@ def linkage(machine: Machine) -> Linkage:
     compiled = compile_machine(machine).first()
     where = closure_of(compiled)
     if not where.ranges:
-        raise AssemblyError(
-            f"the mechanism closes at no crank angle: {where.element} cannot reach; change the lengths",
-            element=where.element,
-        )
+        raise closure_error(where, machine)
     period = turns_to_repeat(compiled) if where.turns_fully else None
     cycle = Cycle.of(where, period)
     swept = sweep(compiled, machine.linkage, cycle)

@@ -18,6 +18,7 @@ from linkwright.analysis.closure import require_full_turn, turn_angles
 from linkwright.analysis.gear_torque import GearTorque, gear_torque
 from linkwright.analysis.kinematics import motion_arrays
 from linkwright.analysis.result import Result
+from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import InputError
 from linkwright.machine import Machine, Mechanism, PumpingUnit
@@ -264,14 +265,7 @@ def turn_extreme(of: Callable[[Floats], Floats], sign: int) -> tuple[float, floa
     Returns
     -------
     tuple of float
-        The value, and the crank angle from 0 to 2π [rad]. The best of 720 samples is closed in on by ever
-        finer ones; the value errs by the square of the angle's error, which ends below 1e-7 rad.
+        The value, and the first crank angle from 0 to 2π that has it [rad].
     """
-    centre, reach = np.pi, np.pi
-    value = 0.0
-    for samples in (721, 41, 41, 41, 41):
-        phi = np.linspace(centre - reach, centre + reach, samples)
-        values = of(phi)
-        best = int(np.argmax(sign * values))
-        centre, reach, value = float(phi[best]), 2 * reach / (samples - 1), float(values[best])
-    return value, centre % (2 * np.pi)
+    turn = turn_curve(lambda phi: of(phi)[None], np.array([0.0, 2 * np.pi]), "motion")
+    return turn.extreme(sign)

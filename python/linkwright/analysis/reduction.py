@@ -8,16 +8,18 @@ r"""The machine reduced to the crank: reduced inertia and resisting torque over 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.closure import require_full_turn, turn_angles
+from linkwright.analysis.closure import turn_angles
+from linkwright.analysis.period import turns_to_repeat
 from linkwright.analysis.result import Result
-from linkwright.analysis.sound_loads import require_sound_loads
-from linkwright.engine import Compiled, compile_machine
+from linkwright.analysis.sound_loads import require_turn
+from linkwright.analysis.turn_fit import turn_curve
+from linkwright.engine import Compiled
 from linkwright.machine import Machine
 
 Floats = NDArray[np.float64]
@@ -28,9 +30,8 @@ NO_INERTIA = (
     "give motor, flywheel or bodies their inertia"
 )
 
-# Nodes of Gauss–Legendre quadrature between two kinks: on a quarter turn of a slider-crank 24 nodes are
-# exact to rounding.
-_NODES = 24
+# Speeds at which laws are integrated together; more only take memory.
+_SPEEDS = 64
 
 
 @dataclass(frozen=True)
@@ -107,18 +108,16 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     .. [1] Artobolevsky, Theory of Mechanisms and Machines, reduction of masses and forces.
     .. [2] Paper 1, equations (5) and (10), for the in-line slider-crank with rod.
     """
-    compiled = compile_machine(machine)
-    require_full_turn(compiled, machine)
-    require_sound_loads(compiled, machine)
-    return reduction_of(compiled, n)
+    return reduction_of(require_turn(machine), n)
 
 
 def reduction_of(compiled: Compiled, n: int = 360) -> Reduction:
     """`reduction` of a compiled machine that closes."""
     phi = turn_angles(n)
     J, J_d1, load, dry, viscous = compiled.reductions(phi)
-    low, low_at = _extreme(compiled, -1, _inertia)
-    high, high_at = _extreme(compiled, +1, _inertia)
+    turn = turn_curve(lambda at: _inertia_and_load(compiled, at), compiled.kinks(), "inertia and load")
+    low, low_at = turn.extreme(-1, 0)
+    high, high_at = turn.extreme(+1, 0)
     means = mean_over_turn(compiled)
     return Reduction(
         crank_angle=phi,
@@ -132,64 +131,53 @@ def reduction_of(compiled: Compiled, n: int = 360) -> Reduction:
         inertia_min_angle=low_at,
         inertia_max_angle=high_at,
         torque_load_mean=means[0],
-        torque_load_max=_extreme(compiled, +1, _load)[0],
+        torque_load_max=turn.extreme(+1, 1)[0],
         viscous_mean=means[1],
     )
 
 
 def mean_over_turn(compiled: Compiled) -> tuple[float, float]:
-    """Means of the resisting torque and of the viscous coefficient over the crank angle."""
-    phi, weights = turn_nodes(compiled)
-    _, _, load, dry, viscous = compiled.reductions(phi)
-    return float(weights @ (load + dry)), float(weights @ viscous)
+    """Means of the resisting torque and of the viscous coefficient over the crank angle.
+
+    Loads that have a potential do no work over a closed cycle, whatever their size: they are left out of the
+    integral where the mechanism is after one revolution where it was.
+    """
+    if turns_to_repeat(compiled) == 1:
+        compiled = compiled.without_conservative()
+    turn = turn_curve(lambda at: _resistance(compiled, at), compiled.kinks(), "resistance")
+    load, viscous = turn.mean()
+    return float(load), float(viscous)
 
 
 def mean_laws(compiled: Compiled, speeds: ArrayLike) -> Floats:
     """Mean over the crank angle of the torque of laws at constant speeds of the crank, shape (n,) [N m]."""
-    omega = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
-    if not compiled.has_laws:
-        return np.zeros_like(omega)
-    phi, weights = turn_nodes(compiled)
-    mean: Floats = compiled.law_torques(phi, omega) @ weights
+    mean: Floats = law_harmonics(compiled, speeds, np.zeros(1)).real[:, 0]
     return mean
 
 
-def turn_nodes(compiled: Compiled, pieces: int = 1) -> tuple[Floats, Floats]:
-    """Crank angles and weights for means over a turn: Gauss–Legendre quadrature from kink to kink.
-
-    What varies faster than the mechanism, such as high harmonics, needs several pieces between two kinks.
-    """
-    x, w = np.polynomial.legendre.leggauss(_NODES)
+def law_harmonics(compiled: Compiled, speeds: ArrayLike, orders: Floats) -> NDArray[np.complex128]:
+    """Means of the torque of laws times e^{−iνφ} at constant speeds of the crank, (speeds, orders) [N m]."""
+    omega = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
+    if not compiled.has_laws:
+        return np.zeros((len(omega), len(orders)), dtype=np.complex128)
     kinks = compiled.kinks()
-    parts = np.linspace(kinks[:-1], kinks[1:], pieces, endpoint=False)
-    ends = np.append(parts.T.ravel(), kinks[-1])
-    half = 0.5 * np.diff(ends)[:, None]
-    phi = (ends[:-1, None] + half * (x + 1)).ravel()
-    return phi, (half * w).ravel() / (2 * np.pi)
+    parts = [omega[i : i + _SPEEDS] for i in range(0, len(omega), _SPEEDS)]
+    turns = (turn_curve(partial(_laws, compiled, part), kinks, "load") for part in parts)
+    return np.concatenate([turn.harmonics(orders) for turn in turns])
 
 
-def _inertia(reductions: Floats) -> Floats:
-    J: Floats = reductions[0]
-    return J
+def _inertia_and_load(compiled: Compiled, phi: Floats) -> Floats:
+    """Reduced inertia and resisting torque, (2, n)."""
+    J, _, load, dry, _ = compiled.reductions(phi)
+    return np.stack([J, load + dry])
 
 
-def _load(reductions: Floats) -> Floats:
-    torque: Floats = reductions[2] + reductions[3]
-    return torque
+def _resistance(compiled: Compiled, phi: Floats) -> Floats:
+    """Resisting torque and viscous coefficient, (2, n)."""
+    _, _, load, dry, viscous = compiled.reductions(phi)
+    return np.stack([load + dry, viscous])
 
 
-def _extreme(compiled: Compiled, sign: int, of: Callable[[Floats], Floats]) -> tuple[float, float]:
-    """Greatest (+1) or least (−1) value of a quantity over the turn, and its crank angle [rad].
-
-    The best of 720 samples and of the kinks is closed in on by ever finer samples. The value errs by the
-    square of the angle's error, which ends below 1e-7 rad; at a kink, by its first power.
-    """
-    kinks = compiled.kinks()[:-1]
-    centre, reach = np.pi, np.pi
-    for samples in (721, 41, 41, 41, 41, 41):
-        phi = np.append(np.linspace(centre - reach, centre + reach, samples), kinks)
-        values = of(compiled.reductions(phi))
-        best = int(np.argmax(sign * values))
-        centre, reach = float(phi[best]), 2 * reach / (samples - 1)
-    # Angles just short of a turn are the start of it.
-    return float(values[best]), 0.0 if 2 * np.pi - centre % (2 * np.pi) < 1e-6 else centre % (2 * np.pi)
+def _laws(compiled: Compiled, omega: Floats, phi: Floats) -> Floats:
+    """Torque of the laws at constant speeds, (speeds, n)."""
+    return compiled.law_torques(phi, omega)

@@ -17,7 +17,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,7 +30,7 @@ from linkwright.analysis.pumping_unit import PolishedRod, turn_extreme
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError
 from linkwright.machine import Machine, RodRotator
-from linkwright.machine.rod_rotator import Lengths
+from linkwright.machine.rotator_lengths import Lengths
 
 Floats = NDArray[np.float64]
 
@@ -42,6 +42,10 @@ _ANGLES = 1440
 
 # Diagonals, and lengths, that differ by less than this share are the same: a hundred times rounding.
 _SAME = 1e-13
+
+# Difference of a swing from the wanted one that is rounding [rad]: near s = 180° a lever's swing changes with
+# the root of its length, so that the last digits of a length are some 1e-8 of a swing.
+_SAME_SWING = 1e-7
 
 # Sine of the angle between link and lever below which the link has no arm: at a change point it is rounding.
 _NO_ARM = 1e-6
@@ -86,6 +90,8 @@ class RodRotatorMotion(Result):
         Greatest gap in the loop of equation (8), over the longest link [–].
     verdict : str
         Why the lever turns, rocks, or does not close.
+    findings : tuple of str
+        What the regime asks for and the lever does not do: turn all round, or swing as wanted.
     worm_turns_per_cycle : float
         Turns that the lever gives the worm in a turn of the crank; through the clutch, one sense only [–].
     speed : float or None
@@ -128,6 +134,7 @@ class RodRotatorMotion(Result):
     change_points: tuple[float, ...]
     loop_residual: float
     verdict: str
+    findings: tuple[str, ...]
     worm_turns_per_cycle: float
     speed: float | None
     lever_speed: Floats | None
@@ -161,7 +168,7 @@ def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
     InputError
         The machine has no rotator.
     AssemblyError
-        The crank cannot turn all round, or link and lever cannot meet.
+        The crank cannot turn all round, link and lever cannot meet, or no lever has the wanted swing.
 
     Notes
     -----
@@ -208,12 +215,32 @@ def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
         change_points=_change_points(lever.lengths, rod, at_ends),
         loop_residual=fine.residual,
         verdict=verdict(lever.lengths, diagonal_ends[0], diagonal_ends[1]),
+        findings=tuple(_missed(rotator, lever.lengths, turns, swing)),
         worm_turns_per_cycle=worm_turns,
         string_turn_days=days,
         string_turns_per_day=None if days is None else 1 / days,
         **_at_speed(rotator, takes(curves), curves, speed),
         **_forces(lever, rotator, takes, curves, fine),
     )
+
+
+def _missed(rotator: RodRotator, known: Lengths, turns: float, swing: float) -> Iterator[str]:
+    """What the lever does not do although the regime asks for it, by its motion."""
+    of = f"a lever of {known.lever:.6g} m with a link of {known.link:.6g} m"
+    if rotator.regime == "continuous":
+        if not turns:
+            yield (
+                f"the lever of the continuous regime does not turn all round: {of} swings through "
+                f"{np.degrees(swing):.4g}°; leave link_length and lever_length out, or choose another "
+                "pin_distance"
+            )
+        return
+    wanted = np.pi / 2 if rotator.swing is None else rotator.swing
+    if rotator.link_length is None and abs(swing - wanted) > _SAME_SWING:
+        yield (
+            f"the lever does not have the wanted swing of {np.degrees(wanted):.6g}°: {of} swings through "
+            f"{np.degrees(swing):.6g}°; give link_length and lever_length"
+        )
 
 
 def _change_points(known: Lengths, rod: PolishedRod, at_ends: Floats) -> tuple[float, ...]:

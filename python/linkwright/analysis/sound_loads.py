@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.closure import turn_angles
+from linkwright.analysis.closure import require_full_turn, turn_angles
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import FindingError, SteadyStateError
 from linkwright.machine import FormulaLoad, GasSpring, Load, Machine, TorsionalSpring
@@ -17,6 +17,20 @@ _ANGLES = 720
 
 # Loads that may have no value at some place, or jump.
 _DOUBTFUL = (FormulaLoad, GasSpring, TorsionalSpring)
+
+
+def require_turn(machine: Machine) -> Compiled:
+    """The machine compiled, if its crank turns all round, with loads that have a value everywhere.
+
+    Raises
+    ------
+    FindingError
+        What does not close, or the load, and where.
+    """
+    compiled = compile_machine(machine)
+    require_full_turn(compiled, machine)
+    require_sound_loads(compiled, machine)
+    return compiled
 
 
 def require_same_turns(machine: Machine) -> None:

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.closure import require_full_turn, require_one_turn, turn_angles
-from linkwright.analysis.reduction import NO_INERTIA, mean_laws, mean_over_turn, turn_nodes
+from linkwright.analysis.reduction import NO_INERTIA, mean_laws, mean_over_turn
 from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_same_turns, require_sound_loads
+from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
@@ -172,7 +173,9 @@ class SteadyState(Result):
         return max(abs(self.acceleration_min), abs(self.acceleration_max))
 
 
-def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> SteadyState:
+def steady_state(
+    machine: Machine, *, accuracy: float = 1e-9, n: int = 360, angles: Floats | None = None
+) -> SteadyState:
     """Find the steady motion.
 
     Parameters
@@ -183,6 +186,8 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
         Relative accuracy of speed and period, down to 1e-13.
     n : int
         Intervals of the turn for the curves; extremes and integrals do not depend on it.
+    angles : ndarray, shape (m,), optional
+        Crank angles of the curves instead, from 0 to 2π and increasing [rad].
 
     Returns
     -------
@@ -219,7 +224,7 @@ def steady_state(machine: Machine, *, accuracy: float = 1e-9, n: int = 360) -> S
     require_one_turn(compiled)
     require_same_turns(machine)
     require_sound_loads(compiled, machine)
-    phi = turn_angles(n)
+    phi = turn_angles(n) if angles is None else angles
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
         return _at_constant_speed(machine, compiled, phi)
     status, scalars, curves = compiled.steady(phi, accuracy)
@@ -288,19 +293,19 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
     ratio = drive.gearbox.ratio
     omega = drive.motor.speed / ratio
 
-    def needs(angles: Floats) -> tuple[Floats, Floats, Floats]:
-        """J, resisting torque, and driving torque that the motion needs."""
+    def needs(angles: Floats) -> Floats:
+        """J, resisting torque, driving torque that the motion needs, and the motor's, (4, n)."""
         J, J_d1, load, dry, viscous = compiled.reductions(angles)
         resisting = load + dry + viscous * omega + compiled.speed_load(omega)
         if compiled.has_laws:
             resisting = resisting + compiled.law_torques(angles, omega)[0]
-        return J, resisting, resisting + 0.5 * J_d1 * omega**2
+        driving = resisting + 0.5 * J_d1 * omega**2
+        return np.stack([J, resisting, driving, compiled.motor_torque_for(driving)])
 
-    J, torque_load, torque_drive = needs(phi)
-    torque_motor = compiled.motor_torque_for(torque_drive)
-    nodes, weights = turn_nodes(compiled)
-    _, load_at_nodes, drive_at_nodes = needs(nodes)
-    at_nodes = compiled.motor_torque_for(drive_at_nodes)
+    J, torque_load, torque_drive, torque_motor = needs(phi)
+    turn = turn_curve(needs, compiled.kinks(), "torque of the drive")
+    _, load_mean, drive_mean, motor_mean = turn.mean().tolist()
+    motor_max = turn.extreme(+1, 3)[0]
     period = 2 * np.pi / omega
     still = dict.fromkeys(("speed_min_angle", "speed_max_angle"), 0.0)
     still |= dict.fromkeys(("acceleration_min", "acceleration_max"), 0.0)
@@ -320,14 +325,14 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
         speed_min=omega,
         speed_max=omega,
         period=period,
-        energy_motor=float(weights @ at_nodes * ratio * 2 * np.pi),
-        energy_drive=float(weights @ drive_at_nodes * 2 * np.pi),
-        energy_load=float(weights @ load_at_nodes * 2 * np.pi),
-        torque_motor_mean=float(weights @ at_nodes),
-        torque_motor_rms=float(np.sqrt(weights @ at_nodes**2)),
-        torque_motor_min=float(torque_motor.min()),
-        torque_motor_max=float(torque_motor.max()),
-        power_motor_max=float((torque_motor * omega * ratio).max()),
+        energy_motor=motor_mean * ratio * 2 * np.pi,
+        energy_drive=drive_mean * 2 * np.pi,
+        energy_load=load_mean * 2 * np.pi,
+        torque_motor_mean=motor_mean,
+        torque_motor_rms=float(turn.rms()[3]),
+        torque_motor_min=turn.extreme(-1, 3)[0],
+        torque_motor_max=motor_max,
+        power_motor_max=motor_max * omega * ratio,
         sweeps=0,
         steps=0,
         method="constant speed",

@@ -16,19 +16,19 @@ What fails becomes a finding, and the study goes on with what does not depend on
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
 
-from linkwright.analysis.cam.faults import cam_cautions, cam_faults
+from linkwright.analysis.cam.faults import cam_cautions
 from linkwright.analysis.cam.follower_vibration import FollowerVibration, follower_vibration
 from linkwright.analysis.cam.least_sizes import LeastSizes, least_sizes
 from linkwright.analysis.cam.loaded import LoadedCam, loaded_cam
 from linkwright.analysis.cam.one_mass import one_mass
-from linkwright.analysis.cam.profile import CamProfile, cam_profile
+from linkwright.analysis.cam.profile import CamProfile
 from linkwright.analysis.cautions import cautions, has_inertia
-from linkwright.analysis.closure import require_full_turn
 from linkwright.analysis.constant_energy import ConstantEnergy, constant_energy_of
+from linkwright.analysis.findings import Findings, sentence
 from linkwright.analysis.forces import forces
 from linkwright.analysis.gear_torque import GearTorque
 from linkwright.analysis.kinetostatics.motion import Motion
@@ -40,17 +40,16 @@ from linkwright.analysis.result import Result, finite
 from linkwright.analysis.rod_rotator import RodRotatorMotion, rod_rotator
 from linkwright.analysis.run_down import RunDown, run_down
 from linkwright.analysis.run_up import RunUp, run_up, start_of
+from linkwright.analysis.sound_loads import require_turn
+from linkwright.analysis.soundness import sound_cams
 from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.analysis.step_method import StepMotion, step_method
 from linkwright.analysis.topper.cautions import topper_cautions, topper_findings
 from linkwright.analysis.topper.topper import TopperStudy, topper
 from linkwright.analysis.transient import Transient, transient
 from linkwright.analysis.unit_cautions import unit_cautions
-from linkwright.engine import compile_machine, drive_inertia
-from linkwright.errors import CamError, FindingError
+from linkwright.engine import drive_inertia
 from linkwright.machine import ConstantSpeedMotor, Machine
-
-T = TypeVar("T")
 
 # Intervals of the turn for all curves, a quarter of a degree: what the constant-energy limit and the run-up
 # ask of the curves that they are given.
@@ -180,15 +179,14 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     InputError
         The accuracy or the step makes no sense.
     """
-    found = _Findings()
+    found = Findings()
     cut = found.of(topper, machine) if machine.topper else None
     if machine.is_topper_alone:
-        return _topped(Study(machine, findings=found.sentences()), cut)
+        return _topped(Study(machine, findings=found.findings), cut)
     unit = found.of(pumping_unit, machine, n=_INTERVALS) if machine.pumping_unit else None
     rotator = found.of(rod_rotator, machine, n=_INTERVALS) if machine.rod_rotator else None
-    # A linkage that closes nowhere is told of by what follows.
-    moved = _Findings().of(linkage, machine)
-    cams, sound = _cams(machine, found)
+    moved = found.of(linkage, machine)
+    cams, sound = sound_cams(machine, found)
     driven = _moved(machine, found) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
     loaded = _loaded(machine, sound, driven.forces, found)
     shaken = tuple(each for cam in cams for each in _vibration(cam, found))
@@ -201,8 +199,13 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         cam_sizes=tuple(least_sizes(each) for each in cams),
         loaded_cams=loaded,
         cam_vibrations=shaken,
-        findings=found.sentences(),
-        warnings=(*unit_cautions(machine, unit, rotator), *_cam_warnings(cams), *driven.warnings),
+        findings=found.findings,
+        warnings=(
+            *unit_cautions(machine, unit, rotator),
+            *_cam_warnings(cams),
+            *driven.warnings,
+            *found.warnings,
+        ),
     )
     return _topped(whole, cut)
 
@@ -218,37 +221,27 @@ def _topped(known: Study, cut: TopperStudy | None) -> Study:
     )
 
 
-def _cams(machine: Machine, found: _Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:
-    """All cams, and those that can be made; what makes one impossible is a finding."""
-    looked = [found.of(cam_profile, machine, name) for name in machine.mechanism.cams]
-    told = [(each, cam_faults(each)) for each in looked if each is not None]
-    found.errors += [CamError(text) for _, faults in told for text in faults]
-    return tuple(each for each, _ in told), tuple(each for each, faults in told if not faults)
-
-
 def _loaded(
-    machine: Machine, cams: tuple[CamProfile, ...], borne: Forces | None, found: _Findings
+    machine: Machine, cams: tuple[CamProfile, ...], borne: Forces | None, found: Findings
 ) -> tuple[LoadedCam, ...]:
     """The cams that can be made under load; a follower that leaves its cam is a finding."""
     speed = None if machine.drive is None else machine.drive.speed
     if not (machine.bodies or machine.loads) or (borne is None and speed is None):
         return ()
     along = None if borne is not None else speed
-    looked = [_Findings().of(loaded_cam, machine, each, along) for each in cams]
-    loaded = tuple(each for each in looked if each is not None)
-    found.errors += [CamError(text) for each in loaded for text in each.findings]
-    return loaded
+    loaded = [found.of(loaded_cam, machine, each, along) for each in cams]
+    return tuple(each for each in loaded if each is not None)
 
 
-def _vibration(profile: CamProfile, found: _Findings) -> Iterator[tuple[str, FollowerVibration]]:
+def _vibration(profile: CamProfile, found: Findings) -> Iterator[tuple[str, FollowerVibration]]:
     """Vibration of a follower at the design speed; strikes and loss of contact are findings."""
     train, speed = profile.cam.train, profile.speed
     leaps = any(joint.order < 0 for joint in profile.cam.motion.joints)
     if train is None or not speed or leaps:
         return
-    shaken = found.of(follower_vibration, profile.cam.lift, one_mass(train), abs(speed))
+    about = found.about(f"cam {profile.name}: ")
+    shaken = about.of(follower_vibration, profile.cam.lift, one_mass(train), abs(speed))
     if shaken is not None:
-        found.errors += [CamError(f"cam {profile.name}: {text}") for text in shaken.findings]
         yield profile.name, shaken
 
 
@@ -262,14 +255,14 @@ def _is_motion_alone(machine: Machine) -> bool:
     return not (machine.bodies or machine.loads or _has_motor(machine) or inertia)
 
 
-def _moved(machine: Machine, found: _Findings) -> Study:
+def _moved(machine: Machine, found: Findings) -> Study:
     """A linkage by its dimensions alone."""
-    found.of(require_full_turn, compile_machine(machine), machine)
+    found.of(require_turn, machine)
     alone = "The machine has no masses, loads or motor: its motion alone is computed."
     return Study(machine, warnings=() if machine.pumping_unit else (alone,))
 
 
-def _driven(machine: Machine, found: _Findings, accuracy: float, step: float | None) -> Study:
+def _driven(machine: Machine, found: Findings, accuracy: float, step: float | None) -> Study:
     """What follows from bodies, loads and drive."""
     reduced = found.of(reduction, machine, n=_INTERVALS)
     if reduced is None:
@@ -283,9 +276,7 @@ def _driven(machine: Machine, found: _Findings, accuracy: float, step: float | N
     stopped = found.of(run_down, machine, steady=steady) if steady and _has_brake(machine) else None
     stepped = found.of(step_method, machine, step=step) if step is not None else None
     # Angles without an answer for forces are no fault of the motion: they are said as warnings.
-    beside = _Findings()
-    borne = beside.of(_forces, machine, steady) if steady else None
-    told = (*beside.sentences(), *(borne.findings if borne else ()))
+    borne = found.beside_of(_forces, machine, steady) if steady else None
     return Study(
         machine,
         reduced,
@@ -296,7 +287,7 @@ def _driven(machine: Machine, found: _Findings, accuracy: float, step: float | N
         stepped,
         attempt,
         borne,
-        warnings=(*cautions(machine, reduced, steady), *told),
+        warnings=cautions(machine, reduced, steady),
     )
 
 
@@ -307,32 +298,8 @@ def _forces(machine: Machine, steady: SteadyState) -> Forces:
     return forces(machine, Motion(*(curve[some] for curve in curves)))
 
 
-@dataclass
-class _Findings:
-    """Collects the sentences of what cannot be done."""
-
-    errors: list[FindingError] = field(default_factory=list)
-
-    def of(self, analysis: Callable[..., T], *args: Any, **options: Any) -> T | None:
-        """The result of an analysis; None, and a finding, if there is none."""
-        try:
-            return analysis(*args, **options)
-        except FindingError as error:
-            self.errors.append(error)
-            return None
-
-    def sentences(self) -> tuple[str, ...]:
-        """One each, in their order; with a capital and a full stop."""
-        return tuple(dict.fromkeys(sentence(str(error)) for error in self.errors))
-
-
-def sentence(text: str) -> str:
-    """The text with a capital and a full stop."""
-    return f"{text[:1].upper()}{text[1:]}".rstrip(".") + "."
-
-
 def _run_up(
-    machine: Machine, steady: SteadyState | None, found: _Findings
+    machine: Machine, steady: SteadyState | None, found: Findings
 ) -> tuple[RunUp | None, Transient | None]:
     """The run-up, or how far it comes."""
     if _keeps_speed(machine):
@@ -340,16 +307,16 @@ def _run_up(
     if steady is None:
         # Without steady motion nothing says when it has run up, but it may be that it cannot even start.
         found.of(start_of, machine)
-        return None, _attempt(machine)
+        return None, _attempt(machine, found)
     started = found.of(run_up, machine, steady=steady)
-    return started, None if started else _attempt(machine)
+    return started, None if started else _attempt(machine, found)
 
 
-def _attempt(machine: Machine) -> Transient | None:
+def _attempt(machine: Machine, found: Findings) -> Transient | None:
     """The motion from the start to the stall; None if it never moves or cannot be followed."""
     options = machine.run_up
     start = {"angle": options.angle_start, "speed": options.speed_start, "turns": options.turns_max}
-    motion = _Findings().of(transient, machine, accuracy=_ATTEMPT_ACCURACY, **start)
+    motion = found.of(transient, machine, accuracy=_ATTEMPT_ACCURACY, **start)
     return motion if motion is not None and motion.turns > 0 else None
 
 

@@ -90,8 +90,6 @@ def _lever(machine: Machine, rotator: RodRotatorMotion) -> Iterator[str]:
             "The diagonal from the beam's pin to the hanger has an extreme inside the stroke: the lengths "
             "of equations (3) to (7) do not hold."
         )
-    if rotator.regime == "continuous" and rotator.lever_turns_per_cycle == 0:
-        yield f"The lever of the continuous regime does not turn all round: it {rotator.verdict}."
     if rotator.change_points and rotator.worm_torque:
         yield (
             "Link and lever of the rotator are in line twice in each turn: there the link has no arm, and "

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Force, Json, Sets, option_value, put
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
+from linkwright.cli.crank_speed import speed_words, speeds_of
 from linkwright.cli.forces import Speed
+from linkwright.cli.out import Force, out_option, put
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -45,17 +47,13 @@ Radius = Annotated[
         show_default=False,
     ),
 ]
-OutFile = Annotated[
-    Path | None,
-    typer.Option(
-        "--out", metavar="FILE", help="Write the machine with counterweights there.", show_default=False
-    ),
-]
+OutFile = Annotated[Path | None, out_option("Write the machine with counterweights there.", "FILE")]
 
 
 def balance(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     links: Links = None,
     slider: Partial = None,
     share: Share = 0.5,
@@ -75,11 +73,13 @@ def balance(
     from linkwright.files.write import dumps
     from linkwright.report.force_tables import balance_tables
 
-    found = _found(read(file, set or ()), links, slider, share, radius, speed)
+    machine = read(file, set or (), allow_outside=allow_outside)
+    found = _found(machine, links, slider, share, radius, speed)
+    speeds = speeds_of(found.before, machine, speed)
     if json:
-        _print_json(found)
+        _print_json(found, speeds)
     else:
-        print_tables("", balance_tables(found), found.after.findings)
+        print_tables(speed_words(speeds), balance_tables(found), found.after.findings)
     if out is not None:
         put(dumps(found.machine), out, force=force)
     if found.after.findings:
@@ -110,7 +110,7 @@ def _found(
     return fit(machine, names, speed=omega, radius=at)
 
 
-def _print_json(found: Balance) -> None:
+def _print_json(found: Balance, speeds: dict[str, Any]) -> None:
     """One object on standard output."""
     from json import dumps
 
@@ -118,5 +118,5 @@ def _print_json(found: Balance) -> None:
     weights = {
         each.link: {k: v for k, v in vars(each).items() if k != "link"} for each in found.counterweights
     }
-    listed = {"counterweights": weights, "rms": measures, "findings": list(found.after.findings)}
+    listed = speeds | {"counterweights": weights, "rms": measures, "findings": list(found.after.findings)}
     typer.echo(dumps(listed, allow_nan=False, ensure_ascii=False))

@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+
+from linkwright.cli.console import progress_bar
 
 # From when on a bar is shown [s].
 _PATIENCE = 1.0
@@ -32,7 +33,7 @@ def bar(words: str) -> Iterator[Callable[[float], None]]:
     def watch(done: float) -> None:
         nonlocal shown
         if shown is None and monotonic() - start > _PATIENCE and sys.stderr.isatty():
-            shown = _begun(words)
+            shown = progress_bar(words, 1.0)
         if shown is not None:
             shown.update(shown.task_ids[0], completed=done)
 
@@ -41,14 +42,3 @@ def bar(words: str) -> Iterator[Callable[[float], None]]:
     finally:
         if shown is not None:
             shown.stop()
-
-
-def _begun(words: str) -> Any:
-    """A bar that vanishes when it is done."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    drawn = Progress(console=Console(stderr=True), transient=True)
-    drawn.add_task(words, total=1.0)
-    drawn.start()
-    return drawn

@@ -9,23 +9,19 @@ import typer
 
 from linkwright.cli.cam_search import search
 from linkwright.cli.common import Json
+from linkwright.cli.out import Force, out_option, output_folder, write_folder
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
     from linkwright.analysis.law_factors import LawFactors
+    from linkwright.files.output import OutputFolder
 
 Names = Annotated[
     list[str] | None,
     typer.Option("--law", metavar="NAME", help="This law alone. May be given again.", show_default=False),
 ]
 Folder = Annotated[
-    Path | None,
-    typer.Option(
-        "--out",
-        metavar="DIR",
-        help="Write cam_laws.json and the laws in one figure, as SVG and PNG, there.",
-        show_default=False,
-    ),
+    Path | None, out_option("Write cam_laws.json and the laws in one figure, as SVG and PNG, there.")
 ]
 
 # Lines that can still be told apart in one figure; without --law, these.
@@ -36,7 +32,7 @@ def cam() -> None:
     """Cams: `linkwright cam FILE` looks at those of a machine; or one of these commands."""
 
 
-def laws(law: Names = None, json: Json = False, out: Folder = None) -> None:
+def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force = False) -> None:
     """Factors of the motion laws, for a rise between two dwells.
 
     Greatest velocity, acceleration, jerk, and velocity times acceleration, and the integrals of the squares,
@@ -46,14 +42,15 @@ def laws(law: Names = None, json: Json = False, out: Folder = None) -> None:
     from linkwright.cli.tables import print_tables
     from linkwright.report.law_tables import bound_table, law_table
 
+    folder = output_folder(out, force=force)
     everything = cam_laws()
     chosen = {name: everything[name] for name in _known(law or [], everything)}
     if json:
         _print(chosen)
     else:
         print_tables("", [law_table(chosen), bound_table()], [])
-    if out is not None:
-        _write(chosen, [name for name in chosen if law or name in _DRAWN], out, quiet=json)
+    if folder is not None:
+        _write(chosen, [name for name in chosen if law or name in _DRAWN], folder, quiet=json)
 
 
 # In the order of the help.
@@ -95,19 +92,10 @@ def _print(chosen: dict[str, LawFactors]) -> None:
     typer.echo(_text(chosen))
 
 
-def _write(chosen: dict[str, LawFactors], drawn: list[str], folder: Path, *, quiet: bool) -> None:
+def _write(chosen: dict[str, LawFactors], drawn: list[str], folder: OutputFolder, *, quiet: bool) -> None:
     """JSON and figures; says where they are."""
     from linkwright.motion_laws.catalogue import LAWS
-    from linkwright.plot import motion_laws_figure, svg
+    from linkwright.plot import motion_laws_figure
 
     figure = motion_laws_figure({name: LAWS[name].normalised() for name in drawn})
-    texts = {"cam_laws.json": _text(chosen) + "\n", "cam_laws.svg": svg(figure)}
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in texts.items():
-            (folder / name).write_text(text, encoding="utf-8")
-        figure.savefig(folder / "cam_laws.png", dpi=150)
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
-    listed = "\n".join(f"  {folder / name}" for name in (*texts, "cam_laws.png"))
-    typer.echo(f"Written:\n{listed}", err=quiet)
+    write_folder(folder, {"cam_laws.json": _text(chosen) + "\n"}, {"cam_laws": figure}, quiet=quiet)

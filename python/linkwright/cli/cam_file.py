@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
+from linkwright.cli.out import Force, out_option, output_folder, write_folder
 from linkwright.errors import ExchangeError, InputError
 
 if TYPE_CHECKING:
     from linkwright.analysis.study import Study
-    from linkwright.exchange.drawing import Written
+    from linkwright.exchange.drawing import Measured
+    from linkwright.files.output import OutputFolder
 
 Folder = Annotated[
-    Path | None,
-    typer.Option(
-        "--out",
-        metavar="DIR",
-        help="Write a report, results.json and the drawings of the cams there.",
-        show_default=False,
-    ),
+    Path | None, out_option("Write a report, results.json and the drawings of the cams there.")
 ]
 Tolerance = Annotated[
     str, typer.Option("--tolerance", metavar="LENGTH", help="Largest distance of a drawing from its profile.")
@@ -47,6 +43,7 @@ Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too,
 def cam_file(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     curves: Curves = False,
     out: Folder = None,
@@ -55,6 +52,7 @@ def cam_file(
     by: By = "cam",
     form: Form = "arcs",
     formats: Formats = "dxf,csv,svg",
+    force: Force = False,
 ) -> None:
     """Look at the cams of a machine.
 
@@ -63,19 +61,23 @@ def cam_file(
     """
     from linkwright.cli.tables import progress
 
+    folder = output_folder(out, force=force)
     options = _options(tolerance, step, by, form, formats)
     with progress("computing"):
-        study = _studied(file, set or [])
-    with progress("drawing"):
-        written, findings = _drawn(study, out, options) if out is not None else ([], [])
+        study = _studied(file, set or [], allow_outside=allow_outside)
+    drawn: dict[str, _Drawn] = {}
+    findings: list[str] = []
+    if folder is not None:
+        with progress("drawing"):
+            drawn, findings = _drawn(study, options)
     findings = [*study.findings, *findings]
-    shown = _object(study, written, findings, curves=curves)
+    shown = _object(study, folder, drawn, findings, curves=curves)
     if json:
         _print_json(shown)
     else:
         _print(study, findings)
-    if out is not None:
-        _write(study, shown, written, out, quiet=json)
+    if folder is not None:
+        _write(study, shown, drawn, folder, quiet=json)
     if findings:
         raise typer.Exit(1)
 
@@ -100,37 +102,58 @@ def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dic
     return {**lengths, "step": option_value("--step", step, ANGLE), "by": by, "form": form, "formats": wanted}
 
 
-def _studied(file: Path, sets: list[str]) -> Study:
+def _studied(file: Path, sets: list[str], *, allow_outside: bool) -> Study:
     """Everything about a machine that has cams."""
     from linkwright.analysis.study import study
     from linkwright.files.read import read
 
-    machine = read(file, sets)
+    machine = read(file, sets, allow_outside=allow_outside)
     if not machine.mechanism.cams:
         raise InputError(f"{file}: the machine has no cam; describe one as [mechanism.cams.NAME]")
     return study(machine)
 
 
-def _drawn(study: Study, folder: Path, options: dict[str, Any]) -> tuple[list[Written], list[str]]:
-    """Drawings of the cams that can be made; what cannot be drawn is a finding."""
+class _Drawn(NamedTuple):
+    """A drawing that was written and read back: its bytes, and what was measured in them."""
+
+    data: bytes
+    outlines: tuple[Measured, ...]
+
+
+def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawn], list[str]]:
+    """Name of the file → drawing, of the cams that can be made; what cannot be drawn is a finding."""
+    from tempfile import TemporaryDirectory
+
     from linkwright.analysis.cam.faults import cam_faults
     from linkwright.exchange.cam import cam_drawings
     from linkwright.exchange.write import write_drawing
+    from linkwright.files.output import file_names
 
-    written: list[Written] = []
+    sound = [profile for profile in study.cams if not cam_faults(profile)]
+    drawings = [(profile, each) for profile in sound for each in cam_drawings(profile)]
+    # Names may differ in letters alone that no file can have.
+    stems = file_names({drawing.name: "" for _, drawing in drawings})
     findings: list[str] = []
-    for profile in study.cams:
-        if cam_faults(profile):
-            continue
-        try:
-            for drawing in cam_drawings(profile):
-                written += write_drawing(folder, drawing, **options)
-        except ExchangeError as error:
-            findings.append(f"Cam {profile.name}: {error}.")
-    return written, findings
+    found: dict[str, _Drawn] = {}
+    with TemporaryDirectory() as folder:
+        for profile, drawing in drawings:
+            try:
+                written = write_drawing(folder, drawing, stem=stems[drawing.name], **options)
+            except ExchangeError as error:
+                findings.append(f"Cam {profile.name}: {error}.")
+            else:
+                found |= {each.path.name: _Drawn(each.path.read_bytes(), each.outlines) for each in written}
+    return found, findings
 
 
-def _object(study: Study, written: list[Written], findings: list[str], *, curves: bool) -> dict[str, Any]:
+def _object(
+    study: Study,
+    folder: OutputFolder | None,
+    drawn: dict[str, _Drawn],
+    findings: list[str],
+    *,
+    curves: bool,
+) -> dict[str, Any]:
     """What is printed and written as JSON: the results of cams, and the files."""
     from linkwright.analysis.result import finite
 
@@ -141,14 +164,14 @@ def _object(study: Study, written: list[Written], findings: list[str], *, curves
     }
     files = [
         {
-            "path": str(each.path),
+            "path": name if folder is None else str(folder.path / name),
             "layer": outline.layer,
             "form": outline.form,
             "sides": outline.deviation.sides,
             "deviation": outline.deviation.largest,
             "tolerance": outline.tolerance,
         }
-        for each in written
+        for name, each in drawn.items()
         for outline in each.outlines
     ]
     warnings = [*findings, *study.warnings]
@@ -170,31 +193,28 @@ def _print(study: Study, findings: list[str]) -> None:
     print_tables("", list(cam_tables(study)), findings, study.warnings)
 
 
-def _write(study: Study, shown: dict[str, Any], written: list[Written], folder: Path, *, quiet: bool) -> None:
+def _write(
+    study: Study, shown: dict[str, Any], drawn: dict[str, _Drawn], folder: OutputFolder, *, quiet: bool
+) -> None:
     """Report and results; says where everything is, and what was measured in the drawings."""
     from json import dumps
 
     from linkwright.cli.run import command_line
     from linkwright.report import report_html
 
-    texts = {
+    contents: dict[str, str | bytes] = {
         "results.json": dumps(shown, allow_nan=False, ensure_ascii=False) + "\n",
         "report.html": report_html(study, command=command_line()),
+        **{name: each.data for name, each in drawn.items()},
     }
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in texts.items():
-            (folder / name).write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
-    lines = [str(folder / name) for name in texts] + [_told(each) for each in written]
-    typer.echo("Written:\n" + "\n".join(f"  {line}" for line in lines), err=quiet)
+    remarks = {name: _measured(name, each) for name, each in drawn.items()}
+    write_folder(folder, contents, quiet=quiet, remarks=remarks)
 
 
-def _told(written: Written) -> str:
-    """A drawing with what was measured in it."""
-    most = max(each.deviation.largest for each in written.outlines)
-    sides = "+".join(str(each.deviation.sides) for each in written.outlines)
-    if written.path.suffix == ".csv":
-        return f"{written.path}: {sides} rows, chords between them within {1e3 * most:.3g} mm"
-    return f"{written.path}: {sides} pieces, read back within {1e3 * most:.3g} mm"
+def _measured(name: str, drawn: _Drawn) -> str:
+    """What was measured in a drawing."""
+    most = max(each.deviation.largest for each in drawn.outlines)
+    sides = "+".join(str(each.deviation.sides) for each in drawn.outlines)
+    if name.endswith(".csv"):
+        return f"{sides} rows, chords between them within {1e3 * most:.3g} mm"
+    return f"{sides} pieces, read back within {1e3 * most:.3g} mm"

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
+from linkwright.cli.console import console
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -61,6 +62,7 @@ def search(
     vary: Vary = None,
     law: Laws = None,
     set: Sets = None,
+    allow_outside: Outside = False,
     cam: CamName = None,
     pressure_angle: Steep = None,
     curvature_radius: Tight = None,
@@ -77,7 +79,7 @@ def search(
     from linkwright.sweep.cams import search_cams
     from linkwright.units import ANGLE, LENGTH, parse
 
-    machine = read(file, set or [])
+    machine = read(file, set or [], allow_outside=allow_outside)
     name, chosen = the_cam(machine, cam)
     steep = chosen.limit if pressure_angle is None else parse(pressure_angle, ANGLE)
     tight = (chosen.curvature_limit or 0.0) if curvature_radius is None else parse(curvature_radius, LENGTH)
@@ -115,7 +117,7 @@ def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
 
     from linkwright.machine.base import suggestion
     from linkwright.sweep.cams import ENTRIES
-    from linkwright.units import ANGLE, LENGTH, RATIO, parse
+    from linkwright.units import ANGLE, LENGTH, RATIO
 
     name, _, values = text.partition("=")
     kinds = {"face_tilt": ANGLE, "lift_factor": RATIO}
@@ -125,18 +127,8 @@ def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
     if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
         remedy = "such as base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
         raise InputError(f'--vary {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
-    low, high = (
-        parse(part if not _is_number(part) else float(part), kinds.get(name, LENGTH)) for part in parts[:2]
-    )
+    low, high = (option_value(f"--vary {text}", part, kinds.get(name, LENGTH)) for part in parts[:2])
     return name, np.linspace(low, high, int(parts[2]))
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _exact(machine: Machine, name: str, found: Cams, i: int) -> CamProfile:
@@ -172,16 +164,14 @@ def _print_json(machine: Machine, found: Cams, keeps: NDArray[np.bool_], best: l
 def _print(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
     """The smallest cams as a table."""
     import numpy as np
-    from rich.console import Console
     from rich.table import Table
 
-    console = Console()
-    console.print(
-        f"{len(keeps)} cams looked at, {int(found.is_sound.sum())} sound, {int(keeps.sum())} keep the limits",
-        highlight=False,
+    out = console()
+    out.print(
+        f"{len(keeps)} cams looked at, {int(found.is_sound.sum())} sound, {int(keeps.sum())} keep the limits"
     )
     if not best:
-        console.print("FINDING  None keeps the limits: vary more, or allow more.", highlight=False)
+        out.print("FINDING  None keeps the limits: vary more, or allow more.")
         return
     units = {"face_tilt": ("deg", 180 / np.pi), "lift_factor": ("", 1.0)}
     table = Table(box=None, header_style="", pad_edge=False)
@@ -199,4 +189,4 @@ def _print(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
             "–" if convex is None else f"{1e3 * convex:.5g} mm",
         ]
         table.add_row(*cells)
-    console.print(table)
+    out.print(table)

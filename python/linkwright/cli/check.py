@@ -1,4 +1,4 @@
-"""``linkwright check FILE``: is the machine file sound?"""
+"""``linkwright check FILE``: is the machine file sound, and the geometry that it describes?"""
 
 from __future__ import annotations
 
@@ -6,21 +6,32 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from linkwright.cli.common import File, Sets
+from linkwright.cli.common import File, Outside, Sets
+from linkwright.errors import AssemblyError
 
 if TYPE_CHECKING:
-    from linkwright.machine import Machine, Topper
+    from linkwright.machine import Machine, Mechanism, Topper
 
 
-def check(file: File, set: Sets = None) -> None:
+def check(file: File, set: Sets = None, allow_outside: Outside = False) -> None:
     """Check a machine file.
 
-    Says what is in it, or all that is wrong with it.
+    Says what is in it, or all that is wrong with it; and what its geometry does not allow, as far as that can
+    be seen at once. Exit code 1 if the machine cannot do something, 2 if the file is wrong.
     """
+    from linkwright.analysis.soundness import soundness
     from linkwright.files.read import read
 
-    machine = read(file, set or ())
-    typer.echo(f"OK  {file}\n\n{summary(machine)}")
+    machine = read(file, set or (), allow_outside=allow_outside)
+    found = soundness(machine)
+    count = len(found.findings)
+    verdict = f"{count} FINDING{'S' if count > 1 else ''}" if count else "OK"
+    checked = f"\n  {'':<14} ".join(found.looked_at)
+    typer.echo(f"{verdict}  {file}\n\n{summary(machine)}\n\n  {'checked':<14} {checked}")
+    for text in found.findings:
+        typer.echo(f"\nFINDING  {text}")
+    if count:
+        raise typer.Exit(1)
 
 
 def summary(machine: Machine) -> str:
@@ -42,7 +53,7 @@ def summary(machine: Machine) -> str:
     if not machine.is_topper_alone:
         rows += [("motor", _motor(machine)), *_mechanism(machine)]
     if not (machine.is_train_alone or machine.is_topper_alone):
-        rows += [("mobility", str(mobility(machine.linkage)))]
+        rows += [("mobility", str(mobility(_whole(machine))))]
     rows += _train(machine)
     rows += [("bodies", ", ".join(machine.bodies)), ("loads", _loads(machine))]
     return "\n".join(f"  {word:<14} {text}" for word, text in rows if text)
@@ -107,10 +118,18 @@ def _mechanism(machine: Machine) -> list[tuple[str, str]]:
     # A cam is told as such, not as the driver that it is in the whole mechanism.
     cams = machine.mechanism.cams
     known = {
-        table: [name for name in getattr(machine.linkage, table) if name not in cams] for table in TABLES
+        table: [name for name in getattr(_whole(machine), table) if name not in cams] for table in TABLES
     }
     known["cams"] = list(cams)
     return [(table.replace("_", " "), ", ".join(names)) for table, names in known.items()]
+
+
+def _whole(machine: Machine) -> Mechanism:
+    """The whole mechanism; without a rotator that has no lengths, which is a finding."""
+    try:
+        return machine.linkage
+    except AssemblyError:
+        return machine.with_entries({"rod_rotator": None}).linkage
 
 
 def _train(machine: Machine) -> list[tuple[str, str]]:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
 
 import typer
 
+from linkwright.cli.console import plain
 from linkwright.errors import InputError, LinkwrightError, UnitError
 
 if TYPE_CHECKING:
@@ -39,9 +40,13 @@ Sets = Annotated[
         show_default=False,
     ),
 ]
+Outside = Annotated[
+    bool,
+    typer.Option(
+        "--allow-outside", help="Let entries `file` of the machine file lead out of the folder that it is in."
+    ),
+]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object in SI, and nothing else.")]
-Out = Annotated[Path | None, typer.Option("--out", metavar="PATH", help="Write there.", show_default=False)]
-Force = Annotated[bool, typer.Option("--force", help="Replace a file that exists.")]
 
 
 def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
@@ -63,13 +68,13 @@ def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
         try:
             return command(*args, **kwargs)
         except LinkwrightError as error:
-            typer.echo(error, err=True)
+            typer.echo(plain(str(error)), err=True)
             raise typer.Exit(error.exit_code) from None
         except BrokenPipeError:
             # Whoever read the output has enough.
             raise
         except OSError as error:
-            typer.echo(f"cannot read or write: {error}", err=True)
+            typer.echo(plain(f"cannot read or write: {error}"), err=True)
             raise typer.Exit(InputError.exit_code) from None
         except KeyboardInterrupt:
             raise typer.Exit(_INTERRUPTED) from None
@@ -78,15 +83,25 @@ def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
 
 
 def option_value(option: str, text: str, kind: Kind) -> float:
-    """The value of an option that is a quantity; a bare number is SI.
+    """The value of an option that is a quantity; a bare number is SI, where it can mean but one unit.
 
     Raises
     ------
     InputError
-        It is not such a quantity; names the option.
+        It is not such a quantity, or an angle or a speed without its unit; names the option.
     """
-    from linkwright.units import parse
+    from linkwright.units import ANGLE, SPEED, parse
 
+    if _is_number(text) and float(text) != 0:
+        # On a command line people mean degrees as often as radians; zero is the same in both.
+        for each, units in ((ANGLE, ("deg", "rad")), (SPEED, ("rpm", "rad/s"))):
+            if kind.dimension == each.dimension:
+                one, other = (f'"{text} {unit}"' for unit in units)
+                before = "" if "=" in option else f"{option} "
+                raise InputError(
+                    f"{option}: found {text}, which may be {units[0]} or {units[1]}; give its unit, "
+                    f"{before}{one} or {before}{other}"
+                )
     try:
         return parse(float(text) if _is_number(text) else text, kind)
     except UnitError as error:
@@ -101,32 +116,3 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
-
-
-def put(text: str, out: Path | None, *, force: bool = False) -> None:
-    """Print a text, or write it to a file.
-
-    Parameters
-    ----------
-    text : str
-        What to put; ends in a line break.
-    out : path or None
-        The file; None for standard output.
-    force : bool
-        Replace a file that exists.
-
-    Raises
-    ------
-    InputError
-        The file exists, or cannot be written.
-    """
-    if out is None:
-        typer.echo(text, nl=False)
-        return
-    try:
-        with out.open("w" if force else "x", encoding="utf-8") as file:
-            file.write(text)
-    except FileExistsError:
-        raise InputError(f"{out}: exists already; --force replaces it") from None
-    except OSError as error:
-        raise InputError(f"{out}: cannot be written ({error.strerror or error})") from None

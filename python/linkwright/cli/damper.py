@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
-from linkwright.errors import InputError
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
+from linkwright.cli.out import Force, out_option, output_folder, write_folder
 
 if TYPE_CHECKING:
     from linkwright.analysis.torsion.damper_design import DamperDesign
+    from linkwright.files.output import OutputFolder
 
 
 class Kind(StrEnum):
@@ -41,13 +42,7 @@ Loss = Annotated[
     typer.Option("--loss-factor", metavar="ETA", help="Of the rubber at hand.", show_default=False),
 ]
 Folder = Annotated[
-    Path | None,
-    typer.Option(
-        "--out",
-        metavar="DIR",
-        help="Write damper.json, damper.toml and the response as SVG and PNG there.",
-        show_default=False,
-    ),
+    Path | None, out_option("Write damper.json, damper.toml and the response as SVG and PNG there.")
 ]
 
 
@@ -69,8 +64,10 @@ def damper(
     kind: Kinds = Kind.viscous,
     loss_factor: Loss = None,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     out: Folder = None,
+    force: Force = False,
 ) -> None:
     """The best damper for a mode: damping, and stiffness, that leave least of its resonance."""
     from linkwright.analysis.torsion.damper_design import design_damper
@@ -79,7 +76,8 @@ def damper(
     from linkwright.report.damper_tables import damper_lines, damper_table
     from linkwright.units import INERTIA
 
-    machine = read(file, set or [])
+    folder = output_folder(out, force=force)
+    machine = read(file, set or [], allow_outside=allow_outside)
     ring = option_value("--ring-inertia", ring_inertia, INERTIA)
     found = design_damper(machine, on, ring, mode=mode, kind=kind.value, loss_factor=loss_factor)
     shown = _object(machine.name, found)
@@ -88,8 +86,8 @@ def damper(
     else:
         print_tables("", [damper_table(found)], ())
         typer.echo("\n" + damper_lines(found), nl=False)
-    if out is not None:
-        _write(found, shown, out, quiet=json)
+    if folder is not None:
+        _write(found, shown, folder, quiet=json)
 
 
 # In the order of the help.
@@ -107,19 +105,10 @@ def _object(name: str, found: DamperDesign) -> str:
     return dumps(told, allow_nan=False, ensure_ascii=False) + "\n"
 
 
-def _write(found: DamperDesign, shown: str, folder: Path, *, quiet: bool) -> None:
+def _write(found: DamperDesign, shown: str, folder: OutputFolder, *, quiet: bool) -> None:
     """Results and figure; says where they are."""
-    from linkwright.plot import damper_figure, svg
+    from linkwright.plot import damper_figure
     from linkwright.report.damper_tables import damper_lines
 
-    figure = damper_figure(found)
-    texts = {"damper.json": shown, "damper.toml": damper_lines(found), "damper.svg": svg(figure)}
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in texts.items():
-            (folder / name).write_text(text, encoding="utf-8")
-        figure.savefig(folder / "damper.png", dpi=150)
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
-    listed = "\n".join(f"  {folder / name}" for name in (*texts, "damper.png"))
-    typer.echo(f"Written:\n{listed}", err=quiet)
+    texts = {"damper.json": shown, "damper.toml": damper_lines(found)}
+    write_folder(folder, texts, {"damper": damper_figure(found)}, quiet=quiet)

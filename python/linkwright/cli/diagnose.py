@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -60,6 +60,7 @@ def diagnose(
     level: Level = 0.95,
     rigid: Rigid = False,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
 ) -> None:
     """Which cylinder of an engine is weak, from the speed of a disc over the crank angle."""
@@ -75,7 +76,7 @@ def diagnose(
     deviation = None if noise is None else option_value("--noise", noise, SPEED)
     if deviation is not None and deviation <= 0:
         raise InputError(f"--noise: found {deviation:g} rad/s, expected more than 0")
-    machine = read(file, set or [])
+    machine = read(file, set or [], allow_outside=allow_outside)
     columns = read_columns(measured, {"angle": ANGLE, "speed": SPEED})
     found = record_diagnosis(
         machine, on, columns["angle"], columns["speed"], noise=deviation, zero=zero, rigid=rigid
@@ -100,6 +101,8 @@ def _object(name: str, read: RecordDiagnosis, level: float) -> str:
         "speed": read.speed,
         "half_width": found.half_width(level).tolist(),
         "weak": list(read.weak(level)),
+        "late": list(read.late(level)),
+        "leaking": list(read.leaking(level)),
     }
     results.pop("warnings")
     told = {"findings": [], "warnings": list(read.warnings)}

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
+from linkwright.cli.crank_speed import speed_words, speeds_of
+from linkwright.cli.out import Force, out_option, output_folder, write_folder
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
     from linkwright.analysis.kinetostatics.friction import Friction
     from linkwright.analysis.kinetostatics.result import Forces
+    from linkwright.files.output import OutputFolder
     from linkwright.machine import Machine
 
 Speed = Annotated[
@@ -35,15 +39,7 @@ Span = Annotated[
     ),
 ]
 Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not peaks alone.")]
-Folder = Annotated[
-    Path | None,
-    typer.Option(
-        "--out",
-        metavar="DIR",
-        help="Write results.json, forces.csv and figures as SVG there.",
-        show_default=False,
-    ),
-]
+Folder = Annotated[Path | None, out_option("Write results.json, forces.csv and figures as SVG there.")]
 Cases = Annotated[
     list[str] | None,
     typer.Option(
@@ -73,6 +69,7 @@ _ANGLES = 360
 def forces(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     speed: Speed = None,
     angles: Span = None,
     case: Cases = None,
@@ -81,6 +78,7 @@ def forces(
     json: Json = False,
     curves: Curves = False,
     out: Folder = None,
+    force: Force = False,
 ) -> None:
     """Compute the forces in a machine.
 
@@ -88,19 +86,28 @@ def forces(
     along the steady motion, or at a constant speed.
     """
     from linkwright.cli.tables import print_tables
+    from linkwright.files.read import read
     from linkwright.report.force_tables import cases_table, contribution_table, envelope_table
 
-    found = _cases(file, set or [], case or [], friction or [], _motion(speed, angles, pressure_angle))
+    folder = output_folder(out, force=force)
+
+    def read_with(entries: list[str]) -> Machine:
+        return read(file, [*(set or []), *entries], allow_outside=allow_outside)
+
+    found, machine = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
+    speeds = {name: speeds_of(each, machine, speed) for name, each in found.items()}
     findings = [_named(name, each, found) for name, result in found.items() for each in result.findings]
     first = next(iter(found.values()))
     if json:
-        _print_json(found, findings, curves=curves)
+        _print_json(found, speeds, findings, curves=curves)
     elif len(found) > 1:
-        print_tables("", [cases_table(found)], findings)
+        head = "\n".join(f"{name}: {speed_words(each)}" for name, each in speeds.items())
+        print_tables(head, [cases_table(found)], findings)
     else:
-        print_tables("", [envelope_table(first), contribution_table(first)], findings)
-    if out is not None:
-        _write(found, findings, out, quiet=json)
+        head = speed_words(next(iter(speeds.values())))
+        print_tables(head, [envelope_table(first), contribution_table(first)], findings)
+    if folder is not None:
+        _write(found, speeds, findings, folder, quiet=json)
     if findings:
         raise typer.Exit(1)
 
@@ -128,18 +135,18 @@ def _motion(speed: str | None, span: str | None, pressure_angle: str) -> dict[st
 
 
 def _cases(
-    file: Path, sets: list[str], cases: list[str], frictions: list[str], options: dict[str, Any]
-) -> dict[str, Forces]:
-    """Forces by case; of the machine as it is, where there are none."""
+    read_with: Callable[[list[str]], Machine], cases: list[str], frictions: list[str], options: dict[str, Any]
+) -> tuple[dict[str, Forces], Machine]:
+    """Forces by case, of the machine as it is where there are none; and the machine."""
     from linkwright.analysis.forces import forces as compute
-    from linkwright.files.read import read
 
-    machine = read(file, sets)
+    machine = read_with([])
     options["friction"] = _frictions(machine, frictions)
     if not cases:
-        return {machine.name: compute(machine, **options)}
+        return {machine.name: compute(machine, **options)}, machine
     named = dict(_case(text) for text in cases)
-    return {name: compute(read(file, [*sets, *entries]), **options) for name, entries in named.items()}
+    found = {name: compute(read_with(entries), **options) for name, entries in named.items()}
+    return found, machine
 
 
 def _case(text: str) -> tuple[str, list[str]]:
@@ -189,7 +196,9 @@ def _friction(entries: str, *, is_pin: bool) -> Friction:
     return Friction(**values)
 
 
-def _object(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> dict[str, Any]:
+def _object(
+    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], findings: list[str], *, curves: bool
+) -> dict[str, Any]:
     """What is printed and written as JSON."""
     from linkwright.analysis.envelope import envelope
     from linkwright.analysis.result import finite
@@ -197,17 +206,26 @@ def _object(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> d
     results = {}
     for name, result in cases.items():
         rows = {each.name: {k: v for k, v in vars(each).items() if k != "name"} for each in envelope(result)}
-        results[name] = finite(result.to_dict(curves=curves) | {"envelope": rows})
+        results[name] = finite(result.to_dict(curves=curves) | speeds[name] | {"envelope": rows})
     return {"results": results, "findings": findings}
 
 
-def _print_json(cases: dict[str, Forces], findings: list[str], *, curves: bool) -> None:
+def _print_json(
+    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], findings: list[str], *, curves: bool
+) -> None:
     from json import dumps
 
-    typer.echo(dumps(_object(cases, findings, curves=curves), allow_nan=False, ensure_ascii=False))
+    typer.echo(dumps(_object(cases, speeds, findings, curves=curves), allow_nan=False, ensure_ascii=False))
 
 
-def _write(cases: dict[str, Forces], findings: list[str], folder: Path, *, quiet: bool) -> None:
+def _write(
+    cases: dict[str, Forces],
+    speeds: dict[str, dict[str, Any]],
+    findings: list[str],
+    folder: OutputFolder,
+    *,
+    quiet: bool,
+) -> None:
     """JSON, tables and figures; says where they are."""
     from json import dumps
 
@@ -215,7 +233,9 @@ def _write(cases: dict[str, Forces], findings: list[str], folder: Path, *, quiet
     from linkwright.report.csv import forces_csv
 
     texts = {
-        "results.json": dumps(_object(cases, findings, curves=True), allow_nan=False, ensure_ascii=False)
+        "results.json": dumps(
+            _object(cases, speeds, findings, curves=True), allow_nan=False, ensure_ascii=False
+        )
         + "\n"
     }
     for number, result in enumerate(cases.values(), start=1):
@@ -226,11 +246,4 @@ def _write(cases: dict[str, Forces], findings: list[str], folder: Path, *, quiet
         texts[f"polar{end}.svg"] = svg(polar_figure(result))
     if len(cases) > 1:
         texts["load_cases.svg"] = svg(cases_figure(cases))
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in texts.items():
-            (folder / name).write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
-    listed = "\n".join(f"  {folder / name}" for name in texts)
-    typer.echo(f"Written:\n{listed}", err=quiet)
+    write_folder(folder, texts, quiet=quiet)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from math import degrees, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import Force, Json, Out, Sets, option_value, put
+from linkwright.cli.common import Json, Outside, Sets, option_value
+from linkwright.cli.crank_speed import CrankSpeed, crank_speed
+from linkwright.cli.out import Force, Out, put
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
@@ -20,8 +23,14 @@ At = Annotated[
     typer.Option("--at", metavar="ANGLE", help="One pose, at this crank angle.", show_default=False),
 ]
 Speed = Annotated[
-    str,
-    typer.Option("--speed", metavar="SPEED", help="Speed of the crank, for --at and a turn without --law."),
+    str | None,
+    typer.Option(
+        "--speed",
+        metavar="SPEED",
+        help='Speed of the crank, such as "90 rpm", for --at and a turn without --law. Without it, the '
+        "design speed of the file, or 1 rad/s where it has none.",
+        show_default=False,
+    ),
 ]
 LawText = Annotated[
     str | None,
@@ -33,7 +42,13 @@ LawText = Annotated[
     ),
 ]
 Duration = Annotated[
-    str, typer.Option("--duration", metavar="TIME", help="With --law as a formula: how long it is followed.")
+    str | None,
+    typer.Option(
+        "--duration",
+        metavar="TIME",
+        help="With --law as a formula: how long it is followed. Without it, 1 s.",
+        show_default=False,
+    ),
 ]
 Steps = Annotated[int, typer.Option("--steps", metavar="N", help="Intervals of the turn or of the time.")]
 Csv = Annotated[bool, typer.Option("--csv", help="CSV with all columns, in SI.")]
@@ -46,10 +61,11 @@ _STEPS_MAX = 1_000_000
 def motion(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     at: At = None,
-    speed: Speed = "1 rad/s",
+    speed: Speed = None,
     law: LawText = None,
-    duration: Duration = "1 s",
+    duration: Duration = None,
     steps: Steps = 72,
     csv: Csv = False,
     json: Json = False,
@@ -61,36 +77,42 @@ def motion(
     One pose with --at, under a law of time with --law, else a turn of the crank at constant speed.
     """
     from linkwright.files.read import read
-    from linkwright.units import SPEED
 
     if not 1 <= steps <= _STEPS_MAX:
         raise InputError(f"--steps: found {steps}, expected a number from 1 to {_STEPS_MAX}")
     if at is not None and law is not None:
         raise InputError("--at and --law: one pose or a motion, not both")
-    machine, omega = read(file, set or []), option_value("--speed", speed, SPEED)
-    if at is not None:
-        put(_pose(machine, at, omega, json=json, csv=csv), out, force=force)
+    if speed is not None and law is not None:
+        raise InputError("--speed and --law: the law gives the speed; expected one of them")
+    if duration is not None and (law is None or _is_table(law)):
+        raise InputError("--duration: it belongs to a --law that is a formula")
+    machine = read(file, set or [], allow_outside=allow_outside)
+    if law is not None:
+        text = _under_law(machine, law, duration or "1 s", steps, json=json, csv=csv)
+    elif at is not None:
+        text = _pose(machine, at, crank_speed(machine, speed), json=json, csv=csv)
     else:
-        put(_motion(machine, law, omega, duration, steps, json=json, csv=csv), out, force=force)
+        text = _turn(machine, crank_speed(machine, speed), steps, json=json, csv=csv)
+    put(text, out, force=force)
 
 
-def _pose(machine: Machine, at: str, omega: float, *, json: bool, csv: bool) -> str:
+def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool) -> str:
     """One pose as a table, CSV or JSON."""
-    from json import dumps
-
     from linkwright.analysis.pose import pose
-    from linkwright.analysis.result import finite
+    from linkwright.files.csv_text import csv_text
     from linkwright.units import ANGLE
 
-    found = pose(machine, option_value("--at", at, ANGLE), speed=omega)
+    found = pose(machine, option_value("--at", at, ANGLE), speed=speed.value)
     if json:
-        return dumps(finite(found.to_dict()), allow_nan=False, ensure_ascii=False) + "\n"
-    rows = list(_pose_rows(found))
+        return _object(found.to_dict() | {"speed_source": speed.source})
+    phi = found.crank_angle
+    rows = [("crank angle", "φ [rad]", (phi, found.speed, found.acceleration)), *_pose_rows(found)]
     if csv:
-        lines = ["name,quantity,position,velocity,acceleration"]
-        lines += [",".join((name, what, *map(repr, numbers))) for name, what, numbers in rows]
-        return "\n".join(lines) + "\n"
-    lines = [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
+        typer.echo(speed, err=True)
+        heads = ("name", "quantity", "position", "velocity", "acceleration")
+        return csv_text(heads, ((name, what, *numbers) for name, what, numbers in rows))
+    lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad, {speed}"]
+    lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
     lines += [
         f"{name + ' ' + what:<24}" + "".join(f"{value:>16.8g}" for value in numbers)
         for name, what, numbers in rows
@@ -115,36 +137,64 @@ def _pose_rows(found: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
     return rows
 
 
-def _motion(
-    machine: Machine, law: str | None, omega: float, duration: str, steps: int, *, json: bool, csv: bool
-) -> str:
-    """A motion as a table of the outputs, CSV or JSON of everything."""
-    from json import dumps
-
-    import numpy as np
-
+def _turn(machine: Machine, speed: CrankSpeed, steps: int, *, json: bool, csv: bool) -> str:
+    """A revolution at a constant speed."""
     from linkwright.analysis.law import constant_speed
-    from linkwright.analysis.motion import motion as follow
-    from linkwright.analysis.result import finite
-    from linkwright.report.csv import curves_csv
+
+    if speed.value <= 0:
+        raise InputError(f"--speed: found {speed.value:g} rad/s, expected a speed above zero for a turn")
+    times = (0.0, 2 * pi / speed.value)
+    told = {"crank_speed": speed.value, "speed_source": speed.source}
+    head = f"one revolution of the crank in {times[1]:.6g} s, {speed}"
+    return _followed(machine, constant_speed(speed.value), times, steps, head, told, json=json, csv=csv)
+
+
+def _under_law(machine: Machine, law: str, duration: str, steps: int, *, json: bool, csv: bool) -> str:
+    """The motion under a law of the crank."""
     from linkwright.units import TIME
 
-    end = option_value("--duration", duration, TIME)
-    driver, start = (constant_speed(omega), 0.0) if law is None else _law(law)
-    if law is None:
-        if omega <= 0:
-            raise InputError(f"--speed: found {omega:g} rad/s, expected a speed above zero for a turn")
-        end = 2 * np.pi / omega
-    elif hasattr(driver, "times"):
+    driver, start, end = _law(law), 0.0, option_value("--duration", duration, TIME)
+    if hasattr(driver, "times"):
         start, end = driver.times[[0, -1]]
     if not end > start:
         raise InputError(f"--duration: found {end:g} s, expected more than {start:g} s")
-    found = follow(machine, driver, np.linspace(start, end, steps + 1))
+    head = f"crank angle [rad] by {law}, from {start:g} s to {end:g} s"
+    return _followed(machine, driver, (start, end), steps, head, {"law": law}, json=json, csv=csv)
+
+
+def _followed(
+    machine: Machine,
+    law: Law,
+    span: tuple[float, float],
+    steps: int,
+    head: str,
+    told: dict[str, Any],
+    *,
+    json: bool,
+    csv: bool,
+) -> str:
+    """A motion as a table of the outputs, CSV or JSON of everything; what drives it is said first."""
+    import numpy as np
+
+    from linkwright.analysis.motion import motion as follow
+    from linkwright.report.csv import curves_csv
+
+    found = follow(machine, law, np.linspace(*span, steps + 1))
     if json:
-        return dumps(finite(found.to_dict(curves=True) | _lists(found.curves())), allow_nan=False) + "\n"
+        return _object(told | found.to_dict(curves=True) | _lists(found.curves()))
     if csv:
+        typer.echo(head, err=True)
         return curves_csv(found)
-    return _table(found.curves())
+    return f"{head}\n{_table(found.curves())}"
+
+
+def _object(found: dict[str, Any]) -> str:
+    """One JSON object."""
+    from json import dumps
+
+    from linkwright.analysis.result import finite
+
+    return dumps(finite(found), allow_nan=False, ensure_ascii=False) + "\n"
 
 
 def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:
@@ -153,7 +203,11 @@ def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:
 
 def _table(curves: dict[str, Any]) -> str:
     """Positions alone, for people; everything is in the CSV."""
-    shown = {name: curve for name, curve in curves.items() if name == "time" or _is_position(name, curve)}
+    from linkwright.report.csv import head
+
+    shown = {
+        head(name): curve for name, curve in curves.items() if name == "time" or _is_position(name, curve)
+    }
     width = max(14, *(len(name) + 2 for name in shown))
     lines = ["".join(f"{name:>{width}}" for name in shown)]
     lines += ["".join(f"{x:>{width}.7g}" for x in row) for row in zip(*shown.values(), strict=True)]
@@ -167,14 +221,17 @@ def _is_position(name: str, curve: Any) -> bool:
     )
 
 
-def _law(text: str) -> tuple[Law, float]:
-    """A formula, or the table in a file; and its start."""
-    path = Path(text)
-    if path.suffix.lower() == ".csv":
-        return _table_law(path), 0.0
+def _is_table(law: str) -> bool:
+    return law.lower().endswith(".csv")
+
+
+def _law(text: str) -> Law:
+    """A formula, or the table in a file."""
+    if _is_table(text):
+        return _table_law(Path(text))
     from linkwright.analysis.law_formula import FormulaLaw
 
-    return FormulaLaw(text), 0.0
+    return FormulaLaw(text)
 
 
 def _table_law(path: Path) -> Law:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from linkwright.cli.common import Force, Out, put
+from linkwright.cli.out import Force, Out, put
 from linkwright.errors import InputError
 
 Template = Annotated[

@@ -11,12 +11,16 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import typer
 
 from linkwright.cli.common import Json
+from linkwright.cli.console import console, styled
+from linkwright.cli.out import Force, out_option, output_folder, write_folder
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
     from rich.table import Table
+    from rich.text import Text
 
+    from linkwright.files.output import OutputFolder
     from linkwright.papers.paper1 import Drive, Paper1
     from linkwright.papers.paper2 import Paper2
     from linkwright.papers.paper3 import Paper3
@@ -28,21 +32,10 @@ Number = Annotated[
     int | None,
     typer.Argument(metavar="[N]", help="Number of the paper; without it, what there is.", show_default=False),
 ]
-Folder = Annotated[
-    Path | None,
-    typer.Option(
-        "--out", metavar="DIR", help="Write figures as SVG and PNG and a page there.", show_default=False
-    ),
-]
-
-# Dots per inch of the PNG files, enough for print.
-_DPI = 200
-
-# Letters in a line where there is no terminal to ask.
-_WIDTH = 100
+Folder = Annotated[Path | None, out_option("Write figures as SVG and PNG and a page there.")]
 
 
-def papers(number: Number = None, json: Json = False, out: Folder = None) -> None:
+def papers(number: Number = None, json: Json = False, out: Folder = None, force: Force = False) -> None:
     """Compute a paper anew and set it beside what it prints.
 
     Each value with its deviation and a verdict. That a value is not reproduced is a result, not an error.
@@ -52,15 +45,14 @@ def papers(number: Number = None, json: Json = False, out: Folder = None) -> Non
     if number is None:
         typer.echo("\n".join(f"  {n}  {title}" for n, title in PAPERS.items()))
         return
+    folder = output_folder(out, force=force)
     paper = {1: _first, 2: _second, 3: _third, 4: _fourth, 5: _fifth}[known_paper(number)]()
-    if out:
-        _write(paper, out)
     if json:
         _print_json(paper)
     else:
         paper.show()
-        if out:
-            typer.echo(f"\nwritten: {out / f'papers{number}.html'} and its figures")
+    if folder is not None:
+        _write(paper, folder, quiet=json)
 
 
 class _Shown(NamedTuple):
@@ -105,7 +97,7 @@ def _second() -> _Shown:
     from linkwright.papers.paper2_table import COLUMNS, cells
 
     paper = paper2()
-    heads = [f"{head} \\[{unit}]" if unit else head for head, unit, _ in COLUMNS]
+    heads = [f"{head} [{unit}]" if unit else head for head, unit, _ in COLUMNS]
     show = partial(
         _print_rows, paper, conclusions(paper), [_grid(heads, cells(paper.alternatives), numbers=True)]
     )
@@ -123,7 +115,7 @@ def _third() -> _Shown:
     from linkwright.papers.paper3_table import COLUMNS, cells
 
     paper = paper3()
-    heads = [f"{head} \\[{unit}]" if unit else head for head, unit in COLUMNS]
+    heads = [f"{head} [{unit}]" if unit else head for head, unit in COLUMNS]
     show = partial(_print_rows, paper, conclusions(paper), [_grid(heads, cells(paper), numbers=True)])
     return _Shown(
         paper.number, paper.title, paper.to_dict(), partial(figures, paper), partial(page, paper), show
@@ -162,14 +154,12 @@ def _fifth() -> _Shown:
 
 def _tracked(drives: Sequence[PublishedDrive]) -> Iterator[PublishedDrive]:
     """The drives one by one, with a bar on standard error if someone looks at it."""
-    from rich.console import Console
     from rich.progress import track
 
-    console = Console(stderr=True)
     if not sys.stderr.isatty():
         yield from drives
         return
-    yield from track(drives, "drives", console=console, transient=True)
+    yield from track(drives, "drives", console=console(error=True), transient=True)
 
 
 def _print_json(paper: _Shown) -> None:
@@ -181,50 +171,38 @@ def _print_json(paper: _Shown) -> None:
     typer.echo(dumps(found, allow_nan=False, ensure_ascii=False))
 
 
-def _write(paper: _Shown, folder: Path) -> None:
+def _write(paper: _Shown, folder: OutputFolder, *, quiet: bool) -> None:
     """Figures and page."""
-    from linkwright.errors import InputError
-    from linkwright.plot.svg import svg
-
     figures = paper.figures()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, figure in figures.items():
-            (folder / f"{name}.svg").write_text(svg(figure), encoding="utf-8")
-            figure.savefig(folder / f"{name}.png", dpi=_DPI)
-        (folder / f"papers{paper.number}.html").write_text(paper.page(figures), encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written ({error.strerror or error})") from None
+    write_folder(folder, {f"papers{paper.number}.html": paper.page(figures)}, figures, quiet=quiet)
 
 
 def _print_rows(
     paper: Paper2 | Paper3 | Paper4 | Paper5, conclusions: Sequence[str], tables: Sequence[Table] = ()
 ) -> None:
     """A row for each printed number, further tables, and what follows."""
-    from rich.console import Console
-    from rich.markup import escape
-
-    console = Console(highlight=False, width=None if sys.stdout.isatty() else _WIDTH)
-    console.print(f"[bold]Paper {paper.number}: {paper.title}[/bold]\n")
-    rows = [
-        (*map(escape, (row.name, row.printed, row.computed)), _coloured(row.verdict, row.kind))
-        for row in paper.rows
-    ]
+    out = console()
+    out.print(f"Paper {paper.number}: {paper.title}\n", style="bold")
+    rows = [(row.name, row.printed, row.computed, _coloured(row.verdict, row.kind)) for row in paper.rows]
     for table in (_grid(("printed", "", "computed", "verdict"), rows), *tables):
-        console.print(table)
-        console.print()
+        out.print(table)
+        out.print()
     for number, text in enumerate(conclusions, start=1):
-        console.print(f"{number}. {text}\n")
+        out.print(f"{number}. {text}\n")
 
 
-def _coloured(text: str, kind: str) -> str:
+def _coloured(text: str, kind: str) -> Text:
     """A text in the colour of its verdict."""
     colours = {"reproduced": "green", "near": "yellow", "far": "red", "none": "dim"}
-    return f"[{colours[kind]}]{text}[/]"
+    return styled((text, colours[kind]))
 
 
 def _grid(
-    heads: Sequence[str], rows: Sequence[Sequence[str]], *, numbers: bool = False, title: str | None = None
+    heads: Sequence[str],
+    rows: Sequence[Sequence[str | Text]],
+    *,
+    numbers: bool = False,
+    title: str | None = None,
 ) -> Table:
     """A table without lines; with numbers all columns but the first stand to the right."""
     from rich.table import Table
@@ -240,30 +218,28 @@ def _grid(
 
 def _print(paper: Paper1) -> None:
     """A table for each drive, and what follows."""
-    from rich.console import Console
-
     from linkwright.papers.paper1_conclusions import conclusions
     from linkwright.papers.paper1_page import reasons
 
-    console = Console(highlight=False, width=None if sys.stdout.isatty() else _WIDTH)
-    console.print(f"[bold]Paper {paper.published.number}: {paper.published.title}[/bold]")
+    out = console()
+    out.print(f"Paper {paper.published.number}: {paper.published.title}", style="bold")
     for drive in paper.drives:
-        console.print(_table(drive))
+        out.print(_table(drive))
         for reason in reasons(drive):
-            console.print(f"  [dim]{reason}[/dim]")
-    _print_intermediates(console, paper)
-    console.print()
+            out.print(f"  {reason}", style="dim")
+    _print_intermediates(out, paper)
+    out.print()
     for number, text in enumerate(conclusions(paper), start=1):
-        console.print(f"{number}. {text}\n")
+        out.print(f"{number}. {text}\n")
 
 
-def _print_intermediates(console: Console, paper: Paper1) -> None:
+def _print_intermediates(out: Console, paper: Paper1) -> None:
     """The values printed on the way."""
-    console.print("\n[bold]Values printed on the way, two carts[/bold]")
+    out.print("\nValues printed on the way, two carts", style="bold")
     for each in paper.published.intermediates:
         cell = paper.intermediates[each["name"]]
         text = f"{each['name']}: {cell.published:g} {each['unit']} published, {cell.computed:.6g} computed"
-        console.print(f"  {text}, {cell.verdict}. {each.get('note', '')}")
+        out.print(f"  {text}, {cell.verdict}. {each.get('note', '')}")
 
 
 def _table(drive: Drive) -> Table:
@@ -274,17 +250,17 @@ def _table(drive: Drive) -> Table:
     from linkwright.papers.paper1_page import number, percent
     from linkwright.papers.published import QUANTITIES
 
-    title = f"\n[bold]{drive.published.name}[/bold]"
-    table = Table(title=title, title_justify="left", title_style="", box=None, padding=(0, 1, 0, 0))
+    title = f"\n{drive.published.name}"
+    table = Table(title=title, title_justify="left", title_style="bold", box=None, padding=(0, 1, 0, 0))
     table.add_column("", no_wrap=True)
     table.add_column("published", justify="right", no_wrap=True)
     for words in WAYS.values():
         table.add_column(words, justify="right", max_width=9)
         table.add_column("", justify="right", no_wrap=True)
     for name, (symbol, unit) in QUANTITIES.items():
-        texts = []
+        texts: list[str | Text] = []
         for cell in (drive.cells[way][name] for way in WAYS):
             texts += [number(cell.computed), _coloured(percent(cell), cell.kind)]
-        label = f"{symbol} \\[{unit}]" if unit else symbol
+        label = f"{symbol} [{unit}]" if unit else symbol
         table.add_row(label, f"{drive.published.values[name]}", *texts)
     return table

@@ -8,22 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
-from linkwright.errors import InputError
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
+from linkwright.cli.out import Force, out_option, output_folder, say_written
 
 if TYPE_CHECKING:
     from linkwright.analysis.study import Study
+    from linkwright.files.output import OutputFolder
 
 Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not scalars alone.")]
-Folder = Annotated[
-    Path | None,
-    typer.Option(
-        "--out",
-        metavar="DIR",
-        help="Write results.json, the curves as CSV and report.html there.",
-        show_default=False,
-    ),
-]
+Folder = Annotated[Path | None, out_option("Write results.json, the curves as CSV and report.html there.")]
 Accuracy = Annotated[
     float, typer.Option("--accuracy", metavar="X", help="Relative accuracy of the steady speed.")
 ]
@@ -39,32 +32,33 @@ Step = Annotated[
 def run(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     curves: Curves = False,
     out: Folder = None,
     accuracy: Accuracy = 1e-10,
     method: Method = "newton",
     step: Step = "1 deg",
+    force: Force = False,
 ) -> None:
     """Compute how a machine moves.
 
     Reduced inertia and load, steady motion and its evenness, run-up; with --out also a report.
     """
-    if out is not None and out.exists() and not out.is_dir():
-        raise _no_folder(out)
+    folder = output_folder(out, force=force)
     steps = step if method == "baranov" else None
     if json:
-        result = _studied(file, set or [], accuracy, steps)
+        result = _studied(file, set or [], accuracy, steps, allow_outside=allow_outside)
         _print_json(result, curves=curves)
     else:
-        result = _shown(file, set or [], accuracy, steps)
-    if out is not None:
-        _write(result, out, quiet=json)
+        result = _shown(file, set or [], accuracy, steps, allow_outside=allow_outside)
+    if folder is not None:
+        _write(result, folder, quiet=json)
     if result.findings:
         raise typer.Exit(1)
 
 
-def _studied(file: Path, sets: list[str], accuracy: float, step: str | None) -> Study:
+def _studied(file: Path, sets: list[str], accuracy: float, step: str | None, *, allow_outside: bool) -> Study:
     """Read the file and study the machine."""
     # A start makes some 100 000 objects that all stay; looking among them for rubbish takes time.
     gc.disable()
@@ -74,17 +68,17 @@ def _studied(file: Path, sets: list[str], accuracy: float, step: str | None) -> 
         from linkwright.units import ANGLE
 
         angle = None if step is None else option_value("--step", step, ANGLE)
-        return study(read(file, sets), accuracy=accuracy, step=angle)
+        return study(read(file, sets, allow_outside=allow_outside), accuracy=accuracy, step=angle)
     finally:
         gc.enable()
 
 
-def _shown(file: Path, sets: list[str], accuracy: float, step: str | None) -> Study:
+def _shown(file: Path, sets: list[str], accuracy: float, step: str | None, *, allow_outside: bool) -> Study:
     """Study the machine and print tables for people."""
     from linkwright.cli.tables import print_study, progress
 
     with progress("computing"):
-        result = _studied(file, sets, accuracy, step)
+        result = _studied(file, sets, accuracy, step, allow_outside=allow_outside)
     print_study(result)
     return result
 
@@ -96,42 +90,31 @@ def _print_json(study: Study, *, curves: bool) -> None:
     typer.echo(dumps(study.to_dict(curves=curves), allow_nan=False, ensure_ascii=False))
 
 
-def _no_folder(path: Path) -> InputError:
-    return InputError(f"{path}: found a file, expected a folder for --out")
-
-
-def _write(study: Study, folder: Path, *, quiet: bool) -> None:
+def _write(study: Study, folder: OutputFolder, *, quiet: bool) -> None:
     """All files of a study; says where they are, on standard error where the output is JSON."""
     from linkwright.cli.tables import progress
 
     with progress("writing the report"):
-        names = _files(study, folder)
-    listed = "\n".join(f"  {folder / name}" for name in names)
-    typer.echo(f"Written:\n{listed}", err=quiet)
+        paths = folder.write(_files(study))
+    say_written(paths, quiet=quiet)
 
 
-def _files(study: Study, folder: Path) -> list[str]:
-    """Write the files; their names."""
+def _files(study: Study) -> dict[str, str]:
+    """The files by name."""
     from json import dumps
 
+    from linkwright.files.output import file_names
     from linkwright.report import report_html
     from linkwright.report.csv import curves_csv, edge_csv
 
     texts = {"results.json": dumps(study.to_dict(curves=True), allow_nan=False, ensure_ascii=False) + "\n"}
-    tables = {f"{name}.csv": curves_csv(result) for name, result in study.results().items()}
+    names = file_names(dict.fromkeys(study.results(), ".csv"))
+    tables = {names[name]: curves_csv(result) for name, result in study.results().items()}
     texts |= {name: text for name, text in tables.items() if text}
     if study.topper is not None and not study.topper.obstacle:
         texts["topper_edge.csv"] = edge_csv(study.topper)
     texts["report.html"] = report_html(study, command=command_line())
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in texts.items():
-            (folder / name).write_text(text, encoding="utf-8")
-    except (FileExistsError, NotADirectoryError):
-        raise _no_folder(folder) from None
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
-    return list(texts)
+    return texts
 
 
 def command_line() -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.cli.common import Force, Out, put
+from linkwright.cli.out import Force, Out, put
 
 
 def schema(out: Out = None, force: Force = False) -> None:

@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from linkwright.cli.common import File, Force, Json, Sets, option_value, put
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
+from linkwright.cli.console import console, progress_bar, styled
+from linkwright.cli.out import Force, out_option, put
 
 if TYPE_CHECKING:
     from rich.table import Table
+    from rich.text import Text
 
     from linkwright.machine import CatalogueMotor, Machine
     from linkwright.sizing.checks import Check
@@ -49,18 +52,10 @@ Inertia = Annotated[
         show_default=False,
     ),
 ]
-OutFile = Annotated[
-    Path | None,
-    typer.Option(
-        "--out", metavar="FILE", help="Write the machine with motor and flywheel there.", show_default=False
-    ),
-]
+OutFile = Annotated[Path | None, out_option("Write the machine with motor and flywheel there.", "FILE")]
 
 # Seconds after which a bar shows how far it is.
 _PATIENCE = 1.0
-
-# Letters in a line where there is no terminal to ask.
-_WIDTH = 100
 
 # Rows of the table beyond the motor that is chosen; larger ones are larger still.
 _BEYOND = 2
@@ -69,6 +64,7 @@ _BEYOND = 2
 def size(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     power_reserve: Reserve = 1.1,
     unevenness: Unevenness = 0.05,
     by: By = "all",
@@ -88,7 +84,7 @@ def size(
     from linkwright.sizing.flywheel import choose_flywheel
     from linkwright.sizing.motor import choose_motor
 
-    machine = read(file, set or ())
+    machine = read(file, set or (), allow_outside=allow_outside)
     motor = choose_motor(
         machine,
         reserve=power_reserve,
@@ -133,23 +129,12 @@ def _tracked(types: Sequence[CatalogueMotor]) -> Iterator[CatalogueMotor]:
     start, bar = monotonic(), None
     for done, each in enumerate(types):
         if bar is None and monotonic() - start > _PATIENCE and sys.stderr.isatty():
-            bar = _bar(len(types))
+            bar = progress_bar("motors", len(types))
         if bar is not None:
             bar.update(bar.task_ids[0], completed=done)
         yield each
     if bar is not None:
         bar.stop()
-
-
-def _bar(total: int) -> Any:
-    """A bar that vanishes when it is done."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    bar = Progress(console=Console(stderr=True), transient=True)
-    bar.add_task("motors", total=total)
-    bar.start()
-    return bar
 
 
 def _file_text(machine: Machine, chosen: Candidate) -> str:
@@ -184,25 +169,22 @@ def _print_json(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice |
 
 def _print(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> None:
     """Tables on the terminal."""
-    from rich.console import Console
-
-    console = Console(highlight=False, width=None if sys.stdout.isatty() else _WIDTH)
-    need = motor.required
-    console.print(f"[bold]{machine.name}[/bold]\n")
-    console.print(f"Required power {need.power / 1e3:.2f} kW at {need.speed:.4g} rad/s")
-    console.print(f"  {need.formula}, mean load {need.torque_load_mean:.2f} N m, η {need.efficiency:.4g}\n")
+    out, need = console(), motor.required
+    out.print(machine.name + "\n", style="bold")
+    out.print(f"Required power {need.power / 1e3:.2f} kW at {need.speed:.4g} rad/s")
+    out.print(f"  {need.formula}, mean load {need.torque_load_mean:.2f} N m, η {need.efficiency:.4g}\n")
     if motor.present:
-        console.print(_checks_table("The motor in the file", motor.present))
+        out.print(_checks_table("The motor in the file", motor.present))
     if motor.chosen:
         chosen = motor.chosen
-        console.print(_checks_table(f"{chosen.type} at ratio {chosen.ratio:.4g}", chosen.checks))
-    console.print(_considered_table(motor))
+        out.print(_checks_table(f"{chosen.type} at ratio {chosen.ratio:.4g}", chosen.checks))
+    out.print(_considered_table(motor))
     if motor.chosen:
-        console.print(f"\n[bold]{motor.reason}[/bold]")
+        out.print("\n" + motor.reason, style="bold")
     if flywheel:
-        console.print(_flywheel_words(flywheel))
+        out.print(_flywheel_words(flywheel))
     for warning in _warnings(motor, flywheel):
-        console.print(f"[yellow]note[/yellow] {warning}")
+        out.print(styled(("note", "yellow"), f" {warning}"))
 
 
 def _checks_table(title: str, checks: Sequence[Check]) -> Table:
@@ -212,11 +194,11 @@ def _checks_table(title: str, checks: Sequence[Check]) -> Table:
     table = Table(title=title, title_justify="left", box=None, padding=(0, 2, 0, 0))
     for word in ("check", "found", "", "limit", "unit", "", "remark"):
         table.add_column(word, justify="right" if word in ("found", "limit") else "left")
-    marks = {True: "[green]passes[/green]", False: "[red]fails[/red]", None: "[yellow]not known[/yellow]"}
+    marks = {True: ("passes", "green"), False: ("fails", "red"), None: ("not known", "yellow")}
     for check in checks:
         sign = "" if check.limit is None else "≤" if check.at_most else "≥"
         row = (check.name.replace("_", " "), _number(check.value), sign, _number(check.limit), check.unit)
-        table.add_row(*row, marks[check.passed], check.note)
+        table.add_row(*row, styled(marks[check.passed]), check.note)
     return table
 
 
@@ -258,21 +240,23 @@ def _suited(motor: MotorChoice) -> list[Candidate]:
     return [each for each in motor.candidates if each.checks[0].passed] or list(motor.candidates)
 
 
-def _verdict(each: Candidate, motor: MotorChoice) -> str:
+def _verdict(each: Candidate, motor: MotorChoice) -> str | Text:
     if each is motor.chosen:
-        return "[bold green]chosen[/bold green]"
+        return styled(("chosen", "bold green"))
     return "passes, larger than needed" if each.passes else ", ".join(check.brief for check in each.failed)
 
 
-def _flywheel_words(flywheel: FlywheelChoice) -> str:
+def _flywheel_words(flywheel: FlywheelChoice) -> Text:
     """What flywheel, what it gives, what the classical estimate would have been."""
     without = flywheel.unevenness_without
     bare = "there is no steady motion" if without is None else f"the unevenness is {without:.4f}"
     if flywheel.inertia == 0:
-        return f"[bold]No flywheel is needed:[/bold] {bare}, at most {flywheel.unevenness_wanted:g} is wanted"
-    return (
-        f"[bold]Flywheel {flywheel.inertia:.4g} kg m² on the crankshaft[/bold] for an unevenness of "
+        wanted = f" {bare}, at most {flywheel.unevenness_wanted:g} is wanted"
+        return styled(("No flywheel is needed:", "bold"), wanted)
+    return styled(
+        (f"Flywheel {flywheel.inertia:.4g} kg m² on the crankshaft", "bold"),
+        f" for an unevenness of "
         f"{flywheel.unevenness:.6g}; without it {bare}\n"
         f"  classical estimate {flywheel.inertia_estimate:.4g} kg m², from an excess work of "
-        f"{flywheel.excess_work:.4g} J"
+        f"{flywheel.excess_work:.4g} J",
     )

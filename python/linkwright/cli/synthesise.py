@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import Force, Json, Sets, option_value, put
+from linkwright.cli.common import Json, Outside, Sets, option_value
+from linkwright.cli.console import progress_bar
+from linkwright.cli.out import Force, out_option, put
 from linkwright.cli.synthesis_words import plain, print_catalogue, print_json, words
 from linkwright.errors import InputError
 
@@ -18,10 +20,7 @@ if TYPE_CHECKING:
     from linkwright.analysis.result import Result
     from linkwright.machine import Machine
 
-OutFile = Annotated[
-    Path | None,
-    typer.Option("--out", metavar="FILE", help="Write the machine there.", show_default=False),
-]
+OutFile = Annotated[Path | None, out_option("Write the machine there.", "FILE")]
 Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not scalars alone.")]
 TaskFile = Annotated[
     Path,
@@ -121,6 +120,7 @@ def dead_centre(
 def function(
     task: TaskFile,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     curves: Curves = False,
     out: OutFile = None,
@@ -131,13 +131,14 @@ def function(
     from linkwright.synthesis.function_generator import function_generator
     from linkwright.synthesis.task import FunctionTask
 
-    found = function_generator(read_as(FunctionTask, task, set or ()))
+    found = function_generator(read_as(FunctionTask, task, set or (), allow_outside=allow_outside))
     _finish("function_generator", found, json, out, force, curves=curves)
 
 
 def path(
     task: TaskFile,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     curves: Curves = False,
     out: OutFile = None,
@@ -148,7 +149,7 @@ def path(
     from linkwright.synthesis.path import path_generator
     from linkwright.synthesis.task import PathTask
 
-    read = read_as(PathTask, task, set or ())
+    read = read_as(PathTask, task, set or (), allow_outside=allow_outside)
     with _tracked() as track:
         found = path_generator(read, track=track)
     _finish("path_generator", found, json, out, force, curves=curves)
@@ -157,6 +158,7 @@ def path(
 def motion(
     task: TaskFile,
     set: Sets = None,
+    allow_outside: Outside = False,
     json: Json = False,
     curves: Curves = False,
     out: OutFile = None,
@@ -167,7 +169,7 @@ def motion(
     from linkwright.synthesis.pose import pose_guide
     from linkwright.synthesis.task import PoseTask
 
-    found = pose_guide(read_as(PoseTask, task, set or ()))
+    found = pose_guide(read_as(PoseTask, task, set or (), allow_outside=allow_outside))
     _finish("pose_guide", found, json, out, force, curves=curves)
 
 
@@ -223,7 +225,7 @@ def _tracked() -> Iterator[Any]:
 
     def track(done: int, total: int) -> None:
         if not bars and monotonic() - start > _PATIENCE and sys.stderr.isatty():
-            bars.append(_bar(total))
+            bars.append(progress_bar("generations", total))
         for bar in bars:
             bar.update(bar.task_ids[0], completed=done)
 
@@ -232,17 +234,6 @@ def _tracked() -> Iterator[Any]:
     finally:
         for bar in bars:
             bar.stop()
-
-
-def _bar(total: int) -> Any:
-    """A bar that vanishes when it is done."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    bar = Progress(console=Console(stderr=True), transient=True)
-    bar.add_task("generations", total=total)
-    bar.start()
-    return bar
 
 
 def _finish(

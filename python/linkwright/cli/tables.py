@@ -8,6 +8,7 @@ from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.check import summary
+from linkwright.cli.console import console, styled
 from linkwright.report.table import Table
 from linkwright.report.tables import tables
 
@@ -18,9 +19,6 @@ if TYPE_CHECKING:
 
 # Letters in a line of a column's head.
 _HEAD = 12
-
-# Width for files and pipes, which have none of their own.
-_WIDTH = 100
 
 
 def print_study(study: Study) -> None:
@@ -48,20 +46,16 @@ def print_tables(
     findings, warnings : sequence of str
         Sentences below them.
     """
-    from rich.console import Console
-
-    console = Console(highlight=False, soft_wrap=False)
-    if not console.is_terminal:
-        console = Console(highlight=False, width=_WIDTH)
+    out = console()
     if head:
-        console.print(head, markup=False)
+        out.print(head)
     for nth, table in enumerate(tables):
         if head or nth:
-            console.print()
-        console.print(_drawn(table))
+            out.print()
+        out.print(_drawn(table))
     for part in _sentences(findings, warnings):
-        console.print()
-        console.print(part)
+        out.print()
+        out.print(part)
 
 
 def progress(words: str) -> AbstractContextManager[Any]:
@@ -72,10 +66,8 @@ def progress(words: str) -> AbstractContextManager[Any]:
     words : str
         What is being done.
     """
-    from rich.console import Console
-
-    console = Console(stderr=True)
-    return console.status(words) if console.is_terminal else nullcontext()
+    out = console(error=True)
+    return out.status(words) if out.is_terminal else nullcontext()
 
 
 def _drawn(table: Table) -> RenderableType:
@@ -103,8 +95,6 @@ def _drawn(table: Table) -> RenderableType:
 
 
 def _sentences(findings: Sequence[str], warnings: Sequence[str]) -> Iterator[RenderableType]:
-    from rich.text import Text
-
     for word, colour, texts in (("FINDING", "red", findings), ("WARNING", "yellow", warnings)):
         for text in texts:
-            yield Text.assemble((f"{word}  ", f"bold {colour}"), (text, colour))
+            yield styled((f"{word}  ", f"bold {colour}"), (text, colour))

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets
+from linkwright.cli.common import File, Json, Outside, Sets
+from linkwright.cli.out import Force, output_folder, write_folder
 from linkwright.cli.topper_field import Folder, Seed
 
 if TYPE_CHECKING:
+    from linkwright.files.output import OutputFolder
     from linkwright.sizing.topper import KnifeSearch
 
 
@@ -36,9 +37,11 @@ def best(
     file: File,
     objective: Best = Objective.shortest,
     set: Sets = None,
+    allow_outside: Outside = False,
     seed: Seed = None,
     json: Json = False,
     out: Folder = None,
+    force: Force = False,
 ) -> None:
     """The best angle, length and speed of the knife for a field of roots, within [topper.limits].
 
@@ -48,7 +51,8 @@ def best(
     from linkwright.files.read import read
     from linkwright.sizing.topper import best_knife
 
-    machine = read(file, set or [])
+    folder = output_folder(out, force=force)
+    machine = read(file, set or [], allow_outside=allow_outside)
     with bar("knives") as watch:
         found = best_knife(machine, objective=objective.value, seed=seed, watch=watch)
     findings, warnings = _told(found)
@@ -57,8 +61,8 @@ def best(
         typer.echo(shown, nl=False)
     else:
         _print(machine.name, found, findings, warnings)
-    if out is not None:
-        _write(found, shown, out, quiet=json)
+    if folder is not None:
+        _write(found, shown, folder, quiet=json)
     if findings:
         raise typer.Exit(1)
 
@@ -101,11 +105,10 @@ def _print(name: str, found: KnifeSearch, findings: list[str], warnings: list[st
         typer.echo("\n" + best_lines(found.best), nl=False)
 
 
-def _write(found: KnifeSearch, shown: str, folder: Path, *, quiet: bool) -> None:
+def _write(found: KnifeSearch, shown: str, folder: OutputFolder, *, quiet: bool) -> None:
     """Results, map and figure; says where they are."""
     import numpy as np
 
-    from linkwright.cli.topper_field import write_folder
     from linkwright.plot import best_knife_figure
     from linkwright.report.topper_best_tables import best_lines, map_csv
 

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets, option_value
+from linkwright.cli.common import File, Json, Outside, Sets, option_value
+from linkwright.cli.out import Force, out_option, output_folder, write_folder
 from linkwright.errors import InputError
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from linkwright.analysis.topper.field import TopperField
+    from linkwright.files.output import OutputFolder
     from linkwright.machine import Machine
     from linkwright.sweep.topper import FieldSweep
 
@@ -35,13 +34,7 @@ Level = Annotated[
     float, typer.Option("--level", metavar="P", help="Probability that the intervals hold the truth.")
 ]
 Folder = Annotated[
-    Path | None,
-    typer.Option(
-        "--out",
-        metavar="DIR",
-        help="Write results.json, curves as CSV, and figures as SVG and PNG there.",
-        show_default=False,
-    ),
+    Path | None, out_option("Write results.json, curves as CSV, and figures as SVG and PNG there.")
 ]
 
 # Lengths at which the haulm that is left is looked at for its figure.
@@ -58,11 +51,13 @@ def topper() -> None:
 def field(
     file: File,
     set: Sets = None,
+    allow_outside: Outside = False,
     over: Over = None,
     seed: Seed = None,
     level: Level = 0.95,
     json: Json = False,
     out: Folder = None,
+    force: Force = False,
 ) -> None:
     """A field of roots: share of heads cut right through, haulm that is left, loss, length for all shares.
 
@@ -75,7 +70,8 @@ def field(
     from linkwright.files.read import read
     from linkwright.sweep.topper import sweep_field
 
-    machine, axes = read(file, set or []), _axes(over or [])
+    folder = output_folder(out, force=force)
+    machine, axes = read(file, set or [], allow_outside=allow_outside), _axes(over or [])
     described = require_topper(machine)
     with bar("heads") as watch:
         found = topper_field(machine, seed=seed, level=level, watch=watch)
@@ -90,8 +86,8 @@ def field(
         typer.echo(shown, nl=False)
     else:
         _print(machine, found, swept, findings, warnings)
-    if out is not None:
-        _write(machine, found, swept, shown, out, seed=seed, quiet=json)
+    if folder is not None:
+        _write(machine, found, swept, shown, folder, seed=seed, quiet=json)
     if findings:
         raise typer.Exit(1)
 
@@ -164,7 +160,7 @@ def _write(
     found: TopperField,
     swept: FieldSweep | None,
     shown: str,
-    folder: Path,
+    folder: OutputFolder,
     *,
     seed: int | None,
     quiet: bool,
@@ -191,28 +187,3 @@ def _write(
         texts["sweep.csv"] = field_csv(swept.columns())
         figures |= sweep_figures(swept)
     write_folder(folder, texts, figures, quiet=quiet)
-
-
-def write_folder(
-    folder: Path, texts: Mapping[str, str], figures: Mapping[str, Figure], *, quiet: bool
-) -> None:
-    """Write texts, and figures as SVG and PNG; say where they are.
-
-    Raises
-    ------
-    InputError
-        The folder cannot be written to.
-    """
-    from linkwright.plot import svg
-
-    drawn = {f"{name}.svg": svg(figure) for name, figure in figures.items()}
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in {**texts, **drawn}.items():
-            (folder / name).write_text(text, encoding="utf-8")
-        for name, figure in figures.items():
-            figure.savefig(folder / f"{name}.png", dpi=150)
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
-    names = [*texts, *drawn, *(f"{name}.png" for name in figures)]
-    typer.echo("Written:\n" + "\n".join(f"  {folder / name}" for name in names), err=quiet)

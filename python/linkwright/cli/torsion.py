@@ -7,20 +7,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from linkwright.cli.common import File, Json, Sets
-from linkwright.errors import InputError
+from linkwright.cli.common import File, Json, Outside, Sets
+from linkwright.cli.out import Force, out_option, output_folder, write_folder
 
 if TYPE_CHECKING:
     from linkwright.analysis.torsion.study import TorsionStudy
+    from linkwright.files.output import OutputFolder
 
 Folder = Annotated[
     Path | None,
-    typer.Option(
-        "--out",
-        metavar="DIR",
-        help="Write report.html, results.json, and scheme and mode shapes as SVG and PNG there.",
-        show_default=False,
-    ),
+    out_option("Write report.html, results.json, and scheme and mode shapes as SVG and PNG there."),
 ]
 Holzer = Annotated[
     list[float] | None,
@@ -34,7 +30,13 @@ Holzer = Annotated[
 
 
 def torsion(
-    file: File, set: Sets = None, json: Json = False, holzer: Holzer = None, out: Folder = None
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    json: Json = False,
+    holzer: Holzer = None,
+    out: Folder = None,
+    force: Force = False,
 ) -> None:
     """Torsional vibration of a train: modes, and under its torques all that its parts bear.
 
@@ -45,7 +47,8 @@ def torsion(
     from linkwright.cli.tables import progress
     from linkwright.files.read import read
 
-    machine = read(file, set or [])
+    folder = output_folder(out, force=force)
+    machine = read(file, set or [], allow_outside=allow_outside)
     with progress("computing"):
         study = torsion_study(machine, holzer=holzer or ())
     shown = _object(study)
@@ -53,8 +56,8 @@ def torsion(
         typer.echo(shown, nl=False)
     else:
         _print(study)
-    if out is not None:
-        _write(study, shown, out, quiet=json)
+    if folder is not None:
+        _write(study, shown, folder, quiet=json)
     if study.findings:
         raise typer.Exit(1)
 
@@ -78,25 +81,14 @@ def _print(study: TorsionStudy) -> None:
     print_tables("", list(study_tables(study)), study.findings, study.warnings)
 
 
-def _write(study: TorsionStudy, shown: str, folder: Path, *, quiet: bool) -> None:
+def _write(study: TorsionStudy, shown: str, folder: OutputFolder, *, quiet: bool) -> None:
     """Report, results and drawings; says where they are."""
     from linkwright.cli.run import command_line
     from linkwright.cli.tables import progress
-    from linkwright.plot import modes_figure, scheme_figure, svg
+    from linkwright.plot import modes_figure, scheme_figure
     from linkwright.report.torsion_page import torsion_html
 
     with progress("drawing"):
         page = torsion_html(study, command=command_line())
         figures = {"scheme": scheme_figure(study.scheme), "mode_shapes": modes_figure(study.free)}
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "results.json").write_text(shown, encoding="utf-8")
-        (folder / "report.html").write_text(page, encoding="utf-8")
-        for name, figure in figures.items():
-            (folder / f"{name}.svg").write_text(svg(figure), encoding="utf-8")
-            figure.savefig(folder / f"{name}.png", dpi=150)
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
-    drawn = [f"{name}.{kind}" for name in figures for kind in ("svg", "png")]
-    names = ["results.json", "report.html", *drawn]
-    typer.echo("Written:\n" + "\n".join(f"  {folder / name}" for name in names), err=quiet)
+    write_folder(folder, {"results.json": shown, "report.html": page}, figures, quiet=quiet)

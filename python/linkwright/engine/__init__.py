@@ -91,6 +91,8 @@ class Compiled:
         The core's program: kind and entries of each element, in build order.
     has_laws : bool
         Whether loads depend on both angle and speed in their own way, or on time.
+    resisting : _core.Plan
+        The structure without its conservative loads, whose work over a closed cycle is zero.
     """
 
     plan: _core.Plan
@@ -107,6 +109,7 @@ class Compiled:
     gear_factors: tuple[float, float, float]
     speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
     has_laws: bool
+    resisting: _core.Plan
     rows: tuple[tuple[int, ...], ...] = ()
 
     @property
@@ -144,6 +147,10 @@ class Compiled:
         """Third transfer functions of the first row at crank angles, (numbers, n); see `_core.third`."""
         channels = _ints([list(row) for row in what]).reshape(-1, 2)
         return _core.third(self.plan, self.parameters, angles, channels)
+
+    def without_conservative(self) -> Compiled:
+        """The machine without loads that have a potential: gravity, springs, forces fixed in the frame."""
+        return replace(self, plan=self.resisting)
 
     def kinks(self) -> Floats:
         """Crank angles from 0 to 2π [rad] between which everything is smooth."""
@@ -274,6 +281,10 @@ def _not_usable(machine: Machine, reason: str) -> MachineError:
 # links, groups, and laws, whose motion may take several turns or never repeat.
 FOLDING = {11: 12, 15: 14}
 _RUNNING = (8, 9, 12, 14)
+
+# Kinds of loads that have a potential over the position of the mechanism: constant force, gravity, springs by
+# stiffness, by a table, torsional, of gas.
+_CONSERVATIVE = (6, 8, 9, 16, 17, 19)
 
 # Entries beyond this size, or below its reciprocal, are named when a machine cannot be computed.
 _SIZE_MAX = 1e100
@@ -498,18 +509,20 @@ class _Translator(Rows):
             speed_tables=tuple(self.tables[row[1]] for row in self.load_rows if row[0] == 12),
             rows=tuple(tuple(row) for row in self.rows),
             has_laws=settled.plan.has_laws,
+            resisting=self._plan(resisting=True),
         )
 
-    def _plan(self) -> _core.Plan:
-        """The rows as the core's plan."""
+    def _plan(self, *, resisting: bool = False) -> _core.Plan:
+        """The rows as the core's plan; only those of loads without a potential, if asked."""
         # The hidden origin has no name but has its place.
         sizes = [len(self.parameters), len(self.points) + 1, len(self.links), len(self.slides)]
         starts = np.cumsum([0, *(len(x) for x, _ in self.tables)])
+        loads = [row for row in self.load_rows if not (resisting and row[0] in _CONSERVATIVE)]
         return _core.Plan(
             _ints([*sizes, len(self.dyads)]),
             _ints([value for kind, *row in self.rows for value in (kind, len(row), *row)]),
             _rows(self.body_rows, _ROW_WIDTH),
-            _rows(self.load_rows, _ROW_WIDTH),
+            _rows(loads, _ROW_WIDTH),
             _ints(self.drive_row),
             _ints(starts),
             np.array([value for x, _ in self.tables for value in x], dtype=np.float64),

@@ -114,7 +114,10 @@ def _compare_curvature(file: File, rows: Table, track: Track, tau: np.ndarray) -
     sides = [curvature(track, tau + beside) for beside in (-_BESIDE, 0.0, _BESIDE)]
     with np.errstate(invalid="ignore"):
         off = np.min([np.abs(side - rows.curvature) for side in sides], axis=0)
-    wrong = np.flatnonzero(off > _BEND * np.abs(rows.curvature[np.isfinite(rows.curvature)]).max())
+    # A cell that is no number differs from every curve that has a curvature there.
+    lost = ~np.isfinite(rows.curvature) & np.isfinite(sides).all(axis=0)
+    largest = np.abs(rows.curvature[~lost & np.isfinite(rows.curvature)]).max(initial=0.0)
+    wrong = np.flatnonzero((off > _BEND * largest) | lost)
     if wrong.size:
         raise ExchangeError(
             f"{file}: line {wrong[0] + 2}: the curvature is {1e-3 * off[wrong[0]]:.3g}/mm from that of the "

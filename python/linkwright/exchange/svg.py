@@ -21,6 +21,7 @@ from linkwright.errors import ExchangeError
 from linkwright.exchange.drawing import CENTRE, CUTTER_PATH, PITCH_CURVE, ZERO_ANGLE, Drawing
 from linkwright.exchange.found import Found
 from linkwright.exchange.outline import Outline
+from linkwright.files.output import write_file
 
 Floats = NDArray[np.float64]
 
@@ -62,7 +63,7 @@ def write_svg(file: File, drawing: Drawing, paths: Mapping[str, Outline]) -> Non
     cross = _element(CENTRE, f"M {-half!r} 0 L {half!r} 0 M 0 {-half!r} L 0 {half!r}")
     mark = _element(ZERO_ANGLE, f"M {x!r} {-y!r} L {x_1!r} {-y_1!r}")
     title = f"<title>{escape(drawing.name)}</title>"
-    file.write_text("\n".join([head, title, *outlines, cross, mark, "</svg>", ""]), encoding="utf-8")
+    write_file(file, "\n".join([head, title, *outlines, cross, mark, "</svg>", ""]))
 
 
 def _element(layer: str, data: str) -> str:

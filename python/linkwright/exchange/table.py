@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 from linkwright.errors import ExchangeError, InputError
 from linkwright.exchange.sides import cross, dot
 from linkwright.exchange.track import Track
+from linkwright.files.csv_text import csv_text
+from linkwright.files.output import write_file
 
 Floats = NDArray[np.float64]
 By = Literal["cam", "polar"]
@@ -173,10 +175,7 @@ def write_csv(file: File, rows: Table) -> None:
             1e-3 * rows.curvature,
         ]
     )
-    with file.open("w", encoding="utf-8", newline="") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        writer.writerows(columns.tolist())
+    write_file(file, csv_text(COLUMNS, columns.tolist()))
 
 
 def read_csv(file: File) -> Table:

@@ -17,6 +17,7 @@ from linkwright.exchange.spline import Spline
 from linkwright.exchange.step import write_step
 from linkwright.exchange.svg import write_svg
 from linkwright.exchange.table import By, table, write_csv
+from linkwright.files.output import file_name, trial, unwritable
 
 # Step of tables [rad].
 STEP = math.radians(1)
@@ -36,6 +37,7 @@ def write_drawing(
     tolerance: float = TOLERANCE,
     step: float = STEP,
     by: By = "cam",
+    stem: str = "",
 ) -> tuple[Written, ...]:
     """Write a drawing in several formats, each read back and compared with the curves.
 
@@ -56,6 +58,8 @@ def write_drawing(
         Step of tables [rad].
     by : {"cam", "polar"}
         Whether it is one of the cam angle or of the polar angle.
+    stem : str
+        What the names of the files begin with; without it, the drawing's name.
 
     Returns
     -------
@@ -69,22 +73,23 @@ def write_drawing(
     InputError
         A format, form, tolerance or step that does not exist, or a directory that cannot be written.
     """
-    folder, formats = File(directory), tuple(formats)
+    formats = tuple(formats)
     if unknown := [each for each in formats if each not in ALL_FORMATS]:
         raise InputError(f'format "{unknown[0]}": expected {", ".join(ALL_FORMATS)}')
+    place = File(directory) / (stem or file_name(drawing.name) or "cam")
     written: list[Written] = []
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        File(directory).mkdir(parents=True, exist_ok=True)
         if "dxf" in formats:
-            written.append(_dxf(folder, drawing, form, tolerance))
+            written.append(_dxf(place, drawing, form, tolerance))
         if "svg" in formats:
-            written.append(_svg(folder, drawing, form, tolerance))
+            written.append(_svg(place, drawing, form, tolerance))
         if "step" in formats:
-            written.append(_step(folder, drawing, form, tolerance))
+            written.append(_step(place, drawing, form, tolerance))
         if "csv" in formats:
-            written += [_csv(folder, drawing, layer, step, by) for layer in drawing.curves]
+            written += [_csv(place, drawing, layer, step, by) for layer in drawing.curves]
     except OSError as error:
-        raise InputError(f"{folder}: cannot be written ({error.strerror or error})") from None
+        raise unwritable(File(directory), error) from None
     return tuple(written)
 
 
@@ -92,17 +97,18 @@ def _checked(
     file: File, write: Callable[[File], None], check: Callable[[File], tuple[Measured, ...]]
 ) -> Written:
     """Write under another name, check, and only then take the name."""
-    trial = file.with_name(f"{file.stem}.unchecked{file.suffix}")
-    try:
-        write(trial)
-        measured = check(trial)
-        trial.replace(file)
-    finally:
-        trial.unlink(missing_ok=True)
+    with trial(file) as part:
+        write(part)
+        measured = check(part)
     return Written(file, measured)
 
 
-def _dxf(folder: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
+def _with_ending(place: File, ending: str) -> File:
+    """A file beside others of the same drawing; points in the name stay."""
+    return place.with_name(place.name + ending)
+
+
+def _dxf(place: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
     """The drawing as DXF, with name, tolerance and what was measured as text."""
     fits = {layer: fit(track, form, tolerance) for layer, track in drawing.tracks.items()}
     paths: dict[str, Outline | Spline] = {layer: path for layer, (path, _) in fits.items()}
@@ -115,13 +121,13 @@ def _dxf(folder: File, drawing: Drawing, form: Form, tolerance: float) -> Writte
         ),
     )
     return _checked(
-        folder / f"{stem(drawing)}.dxf",
+        _with_ending(place, ".dxf"),
         lambda file: write_dxf(file, drawing, paths, notes),
         lambda file: read_back(file, drawing, tolerance),
     )
 
 
-def _svg(folder: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
+def _svg(place: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
     """The drawing as SVG; splines, which it has not, as arcs."""
     paths = {}
     for layer, track in drawing.tracks.items():
@@ -129,13 +135,13 @@ def _svg(folder: File, drawing: Drawing, form: Form, tolerance: float) -> Writte
         assert isinstance(path, Outline)
         paths[layer] = path
     return _checked(
-        folder / f"{stem(drawing)}.svg",
+        _with_ending(place, ".svg"),
         lambda file: write_svg(file, drawing, paths),
         lambda file: read_back(file, drawing, tolerance),
     )
 
 
-def _step(folder: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
+def _step(place: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
     """The profile as a solid."""
     if drawing.width is None or PROFILE not in drawing.tracks:
         raise InputError(
@@ -144,7 +150,7 @@ def _step(folder: File, drawing: Drawing, form: Form, tolerance: float) -> Writt
     width, (path, _) = drawing.width, fit(drawing.tracks[PROFILE], _spline(form), tolerance)
     assert isinstance(path, Spline)
     return _checked(
-        folder / f"{stem(drawing)}.step",
+        _with_ending(place, ".step"),
         lambda file: write_step(file, drawing.name, path, width),
         lambda file: read_back(file, drawing, tolerance),
     )
@@ -155,18 +161,12 @@ def _spline(form: Form) -> Form:
     return "cubic" if form == "cubic" else "spline"
 
 
-def _csv(folder: File, drawing: Drawing, layer: str, step: float, by: By) -> Written:
+def _csv(place: File, drawing: Drawing, layer: str, step: float, by: By) -> Written:
     """One outline as a table."""
     rows = table(drawing.tracks[layer], step, by)
     tail = "" if layer == PROFILE else f"_{layer.lower()}"
     return _checked(
-        folder / f"{stem(drawing)}{tail}.csv",
+        _with_ending(place, f"{tail}.csv"),
         lambda file: write_csv(file, rows),
         lambda file: read_back(file, drawing, layers=(layer,)),
     )
-
-
-def stem(drawing: Drawing) -> str:
-    """Name of a drawing's files: its own, with what file systems do not take replaced by underscores."""
-    kept = "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in drawing.name.strip())
-    return kept.strip("_") or "cam"

@@ -6,6 +6,8 @@
 | `overrides` | ``PATH=VALUE`` into the tables of a file |
 | `lines` | where each key stands |
 | `write` | machine → text that reads back equal |
+| `csv_text` | tables as comma-separated values |
+| `output` | files that are whole or not there, and never over those of others |
 | `schema` | JSON Schema for editors |
 | `templates` | files to start from |
 | `points`, `columns` | values from files of comma-separated values |

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.errors import MachineFileError, Problem
+from linkwright.machine.text import join
 from linkwright.units import show
 
 # Kinds of tables whose points may be in a file, and a head for each.
@@ -59,7 +60,7 @@ class Column:
         return self.lines[int(below[0])] if below and below[0].isdigit() else self.head
 
 
-def with_points(tables: dict[str, Any], folder: Path) -> list[Column]:
+def with_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = False) -> list[Column]:
     """Put the points of all files that are named into the tables.
 
     Parameters
@@ -68,6 +69,8 @@ def with_points(tables: dict[str, Any], folder: Path) -> list[Column]:
         Tables of a machine file; changed in place.
     folder : Path
         Where the machine file is.
+    allow_outside : bool
+        Whether a file may lie elsewhere than in this folder, or in one below it.
 
     Returns
     -------
@@ -77,16 +80,35 @@ def with_points(tables: dict[str, Any], folder: Path) -> list[Column]:
     Raises
     ------
     MachineFileError
-        A file cannot be read, which is a problem of the machine file; or it has no points.
+        A file lies outside or cannot be read, which is a problem of the machine file; or it has no points.
     """
     columns: list[Column] = []
     for place, table in _tables(tables, ()):
         if table.get("kind") in list(_EXAMPLES) and isinstance(table.get("file"), str):
-            path = folder / table.pop("file")
-            lists, lines = columns_of(path, ".".join((*place, "file")), table["kind"])
+            name, key = table.pop("file"), join((*place, "file"))
+            path = folder / name
+            if not (allow_outside or _is_below(path, folder)):
+                raise MachineFileError([_outside(name, key)])
+            lists, lines = columns_of(path, key, table["kind"])
             table.update(lists)
             columns += [Column((*place, name), path, lines[0], tuple(lines[1:])) for name in lists]
     return columns
+
+
+def _is_below(path: Path, folder: Path) -> bool:
+    """Whether a file lies in a folder or below it, links followed."""
+    try:
+        return path.resolve().is_relative_to(folder.resolve())
+    except (OSError, ValueError, RuntimeError):
+        # A name that no file has, or links in a circle: reading it tells what is wrong.
+        return True
+
+
+def _outside(name: str, key: str) -> Problem:
+    """A machine file from somebody else shall not read whatever it likes."""
+    expected = "a file in the folder of the machine file, or below it"
+    remedy = "move it there, or allow it: --allow-outside, or allow_outside=True in Python"
+    return Problem(key, show(name), expected, remedy)
 
 
 def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], dict[str, Any]]]:

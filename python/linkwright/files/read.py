@@ -37,7 +37,7 @@ _TWICE = re.compile("Cannot (overwrite a value|declare .* twice)|Duplicate")
 _LINE_IN_MESSAGE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 
-def read(path: str | os.PathLike[str], overrides: Overrides = ()) -> Machine:
+def read(path: str | os.PathLike[str], overrides: Overrides = (), *, allow_outside: bool = False) -> Machine:
     """Read a machine file.
 
     Parameters
@@ -46,6 +46,8 @@ def read(path: str | os.PathLike[str], overrides: Overrides = ()) -> Machine:
         A TOML file.
     overrides : sequence of str or Mapping
         Entries that replace or add to those of the file: texts ``PATH=VALUE``, or path → value.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
 
     Returns
     -------
@@ -59,10 +61,16 @@ def read(path: str | os.PathLike[str], overrides: Overrides = ()) -> Machine:
     InputError
         An override is malformed.
     """
-    return read_as(Machine, path, overrides)
+    return read_as(Machine, path, overrides, allow_outside=allow_outside)
 
 
-def read_as(model: type[Model], path: str | os.PathLike[str], overrides: Overrides = ()) -> Model:
+def read_as(
+    model: type[Model],
+    path: str | os.PathLike[str],
+    overrides: Overrides = (),
+    *,
+    allow_outside: bool = False,
+) -> Model:
     """Read a description of some kind from a file, such as the task of a synthesis.
 
     Parameters
@@ -73,6 +81,8 @@ def read_as(model: type[Model], path: str | os.PathLike[str], overrides: Overrid
         A TOML file.
     overrides : sequence of str or Mapping
         As for `read`.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
 
     Returns
     -------
@@ -86,10 +96,10 @@ def read_as(model: type[Model], path: str | os.PathLike[str], overrides: Overrid
     InputError
         An override is malformed.
     """
-    return loads_as(model, _text(Path(path)), overrides, path=str(path))
+    return loads_as(model, _text(Path(path)), overrides, path=str(path), allow_outside=allow_outside)
 
 
-def loads(text: str, overrides: Overrides = (), *, path: str = "") -> Machine:
+def loads(text: str, overrides: Overrides = (), *, path: str = "", allow_outside: bool = False) -> Machine:
     """Read a machine from a TOML text.
 
     Parameters
@@ -100,6 +110,8 @@ def loads(text: str, overrides: Overrides = (), *, path: str = "") -> Machine:
         As for `read`.
     path : str
         Name of the text in messages.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
 
     Returns
     -------
@@ -113,10 +125,17 @@ def loads(text: str, overrides: Overrides = (), *, path: str = "") -> Machine:
     InputError
         An override is malformed.
     """
-    return loads_as(Machine, text, overrides, path=path)
+    return loads_as(Machine, text, overrides, path=path, allow_outside=allow_outside)
 
 
-def loads_as(model: type[Model], text: str, overrides: Overrides = (), *, path: str = "") -> Model:
+def loads_as(
+    model: type[Model],
+    text: str,
+    overrides: Overrides = (),
+    *,
+    path: str = "",
+    allow_outside: bool = False,
+) -> Model:
     """Read a description of some kind from a TOML text.
 
     Parameters
@@ -129,6 +148,8 @@ def loads_as(model: type[Model], text: str, overrides: Overrides = (), *, path: 
         As for `read`.
     path : str
         Name of the text in messages.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
 
     Returns
     -------
@@ -147,7 +168,7 @@ def loads_as(model: type[Model], text: str, overrides: Overrides = (), *, path: 
     places = [(apply(tables, change), change) for change in parse_all(overrides)]
     columns: list[Column] = []
     try:
-        columns = with_points(tables, Path(path).parent)
+        columns = with_points(tables, Path(path).parent, allow_outside=allow_outside)
         return model.model_validate(tables)
     except MachineError as error:
         raise MachineFileError(_located(error.problems, text, path, places, columns)) from None

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
 
 from linkwright.errors import InputError
+from linkwright.files.output import write_file
 from linkwright.machine.machine import Machine
 from linkwright.machine.plain import field_names
 from linkwright.machine.schema_walk import annotation_at, mark_of
@@ -36,11 +36,7 @@ def write(machine: Machine, path: str | os.PathLike[str]) -> None:
     InputError
         The file cannot be written, or the machine stands for many machines.
     """
-    text = dumps(machine)
-    try:
-        Path(path).write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
+    write_file(path, dumps(machine))
 
 
 def dumps(machine: Machine) -> str:

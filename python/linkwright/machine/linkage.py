@@ -25,7 +25,8 @@ from linkwright.machine.mechanism import Mechanism
 from linkwright.machine.outline import TABLES, Outline
 from linkwright.machine.plain import keys, look
 from linkwright.machine.pumping_unit import BEAM, BEAM_LINK, CRANK, CRANKSHAFT, ROD, SADDLE, PumpingUnit
-from linkwright.machine.rod_rotator import PIN, ROTATOR, RodRotator, lengths
+from linkwright.machine.rod_rotator import PIN, ROTATOR, RodRotator
+from linkwright.machine.rotator_lengths import lengths
 
 T = TypeVar("T", bound=BaseModel)
 

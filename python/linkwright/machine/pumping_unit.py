@@ -139,9 +139,17 @@ class PumpingUnit(Description):
 
     def psi(self, reach: Any) -> Any:
         """Angle ψ between C and K with equalizer bearing and crankshaft a distance apart [rad]."""
-        cosine = (self.C**2 + self.K**2 - reach**2) / (2 * self.C * self.K)
         # A unit that does not close is told of by the analyses; it still has a place on paper.
-        return np.arccos(np.clip(cosine, -1.0, 1.0))
+        return np.arccos(np.clip(self._cosine(reach), -1.0, 1.0))
+
+    @property
+    def reaches_ends(self) -> Any:
+        """Whether crank and pitman come into line at both ends of the stroke."""
+        return (np.abs(self._cosine(self.P + self.R)) <= 1) & (np.abs(self._cosine(self.P - self.R)) <= 1)
+
+    def _cosine(self, reach: Any) -> Any:
+        """Cosine of ψ by the sides of its triangle, beyond ±1 where they do not meet."""
+        return (self.C**2 + self.K**2 - reach**2) / (2 * self.C * self.K)
 
     @property
     def psi_bottom(self) -> Any:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.papers.paper1_limit import limit_curves
-from linkwright.plot.style import GREEN, LINES, ORANGE, SOFT, level, roomy, styled, turn_axis, zero_line
+from linkwright.plot.style import GREEN, LINES, MATH, ORANGE, SOFT, level, roomy, styled, turn_axis, zero_line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,13 +54,13 @@ def _reduced(torque: Axes, inertia: Axes, drive: Drive) -> None:
     degrees = np.degrees(reduced.crank_angle)
     torque.plot(degrees, reduced.torque_load, color=ORANGE)
     level(torque, reduced.torque_load_mean, "mean")
-    torque.set_title("resisting torque at the crank $M_0$ [N m]", loc="left")
+    torque.set_title("resisting torque at the crank $M_0$ [N m]", loc="left", **MATH)
     torque.set_ylim(
         min(0.0, 1.1 * reduced.torque_load.min()), max(_TORQUE_SHOWN, 1.1 * reduced.torque_load_max)
     )
     zero_line(torque)
     inertia.plot(degrees, reduced.inertia_reduced, color=ORANGE)
-    inertia.set_title("reduced inertia $I$ [kg m²]", loc="left")
+    inertia.set_title("reduced inertia $I$ [kg m²]", loc="left", **MATH)
     inertia.set_ylim(0, max(_INERTIA_SHOWN, 1.1 * reduced.inertia_max))
     for axes in (torque, inertia):
         turn_axis(axes)
@@ -79,7 +79,11 @@ def _run_up(axes: Axes, drive: Drive) -> None:
     # Drawn in the panels below only; the legend is one for all.
     axes.plot([], [], color=LIMIT, linewidth=1.3, label="constant energy")
     axes.axvline(
-        row["turns"], color=SOFT, linestyle=(0, (5, 3)), linewidth=1.1, label="published; mean of $M_0$"
+        row["turns"],
+        color=SOFT,
+        linestyle=(0, (5, 3)),
+        linewidth=1.1,
+        label="published; mean torque",
     )
     axes.text(row["turns"], 0.3, " steady, as published", color=SOFT, fontsize=8.5)
     axes.set_title("run-up: speed of the crank ω [rad/s]", loc="left")
@@ -158,7 +162,7 @@ def evenness_figure(paper: Paper1) -> Figure:
         bars = axes.bar(places + 0.2 * (n - 1.5), values, 0.18, color=colour, label=name)
         axes.bar_label(bars, fmt="%.2f", fontsize=7.5, padding=1.5)
     axes.set_xticks(places, [_carts(each.published.carts) for each in paper.drives])
-    axes.set_title("generalised coefficient of motion $k_p = δ^2 + H$; less is more even", loc="left")
+    axes.set_title("generalised coefficient of motion $k_p = δ^2 + H$; less is more even", loc="left", **MATH)
     axes.grid(visible=False, axis="x")
     axes.legend(ncols=2, loc="upper right")
     return figure

@@ -14,6 +14,7 @@ from linkwright.plot.style import (
     GREEN,
     GRID,
     INK,
+    MATH,
     ORANGE,
     PURPLE,
     RED,
@@ -208,9 +209,9 @@ def _start(paper: Paper2) -> Figure:
             label = f"{name}: ∫ jerk² = {start.cost:.3g}"
             axes.plot(u, start.law.at(u, order), color=colour, label=label)
     for axes, title in zip(every, ("ẋ over $v$", "ẍ over $v/t_p$", "jerk over $v/t_p^2$"), strict=True):
-        axes.set_title(title, loc="left")
+        axes.set_title(title, loc="left", **MATH)
         axes.set_xlim(0, 1)
-        axes.set_xlabel("$u = t/t_p$")
+        axes.set_xlabel("$u = t/t_p$", **MATH)
         zero_line(axes)
     handles, labels = every[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=3)
@@ -237,7 +238,7 @@ def _alternatives(paper: Paper2) -> Figure:
         ),
         strict=True,
     ):
-        axes.set_title(title, loc="left")
+        axes.set_title(title, loc="left", **MATH)
         axes.set_xlim(0, 180)
         axes.set_xticks(range(0, 181, 30))
         zero_line(axes)

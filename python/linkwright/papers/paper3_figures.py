@@ -16,12 +16,14 @@ from linkwright.plot.style import (
     GREEN,
     INK,
     LINES,
+    MATH,
     ORANGE,
     RED,
     SKY,
     SOFT,
     legend_above,
     level,
+    log_height,
     panels,
     styled,
     turn_axis,
@@ -151,7 +153,7 @@ def _unevenness(paper: Paper3) -> Figure:
     ):
         axes.plot(x, torsional, "o-", color=colour, markersize=4, label=name)
         axes.plot(x, np.full(len(x), rigid), "--", color=colour, label=f"{name}, rigid")
-    axes.set_yscale("log")
+    log_height(axes)
     axes.set_ylabel("unevenness")
     _shaft_axis(axes, found.discs)
     axes.legend(loc="lower left", ncols=2)
@@ -182,7 +184,7 @@ def _cylinders(paper: Paper3) -> Figure:
     ):
         axes.plot(values / values.mean(), mark, color=colour, markersize=5, linewidth=1.0, label=label)
     axes.set_ylim(0, None)
-    axes.set_ylabel("$N_i/N$ of the sound engine")
+    axes.set_ylabel("$N_i/N$ of the sound engine", **MATH)
     _cylinder_axis(axes, along.cylinders)
     axes.set_xlabel("cylinder, in the order of firing")
     legend_above(axes)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.plot.style import BLUE, ORANGE, RED, SOFT, panels, styled, turn_axis, zero_line
+from linkwright.plot.style import BLUE, MATH, ORANGE, RED, SOFT, panels, styled, turn_axis, zero_line
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -58,7 +58,7 @@ def _angle(paper: Paper4, *, continuous: bool) -> Figure:
         axes.plot(
             degrees, np.degrees(_printed(paper)[0]), color=ORANGE, label="printed lengths, where they close"
         )
-    axes.set_ylabel("lever $φ_5$ [°]")
+    axes.set_ylabel("lever $φ_5$ [°]", **MATH)
     axes.legend(loc="best")
     turn_axis(axes)
     return figure
@@ -79,7 +79,7 @@ def _rate(paper: Paper4, *, continuous: bool) -> Figure:
     else:
         axes.plot(degrees, _shown(_printed(paper)[1], motion.lever_transfer), color=ORANGE)
         zero_line(axes)
-    axes.set_ylabel("$dφ_5/dφ_1$")
+    axes.set_ylabel("$dφ_5/dφ_1$", **MATH)
     turn_axis(axes)
     return figure
 

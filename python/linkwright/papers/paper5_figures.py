@@ -12,7 +12,7 @@ from linkwright.analysis.topper.head import head_diameter
 from linkwright.analysis.topper.published import length_consistent, length_published
 from linkwright.analysis.topper.verdict import WAYS, bands_of, lengths_over
 from linkwright.papers.paper5_step import factors
-from linkwright.plot.style import BLUE, GREEN, INK, ORANGE, PURPLE, legend_above, level, panels, styled
+from linkwright.plot.style import BLUE, GREEN, INK, MATH, ORANGE, PURPLE, legend_above, level, panels, styled
 from linkwright.plot.topper_lengths import COLOURS
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def _figure3(paper: Paper5) -> Figure:
             each.tick_params(labelleft=column == 0)
             each.set_xticks(_MILLI * surface.root_diameters[:: len(surface.root_diameters) // 3])
     for each in (axes[0], axes[count]):
-        each.set_ylabel("knife speed $v_h$ [m/s]")
+        each.set_ylabel("knife speed $v_h$ [m/s]", **MATH)
     low, high = (_MILLI * each for each in paper.verdict.claim.lengths)
     lines = [_line(ORANGE, "L by (10) [mm]"), _line(BLUE, "L exact, constant speed [mm]")]
     handles = [*lines, _patch(GREEN, f"{low:.0f}…{high:.0f} mm")]
@@ -104,7 +104,7 @@ def _step(paper: Paper5) -> Figure:
     alpha = np.radians(degrees)
     left.plot(degrees, factors(alpha), color=PURPLE)
     level(left, 1.0, "(4) = (5)")
-    left.set_ylabel(r"$S_x/\cos α$ over $d\,\cos α$")
+    left.set_ylabel(r"$S_x/\cos α$ over $d\,\cos α$", **MATH)
     left.set_ylim(0, 5.2)
     left.legend(loc="upper left")
     ratio, (share, _) = paper.verdict.claim.ratios[1], paper.verdict.shares
@@ -113,7 +113,7 @@ def _step(paper: Paper5) -> Figure:
     exact = constant_speed_lengths(1 - share, share / 2, alpha, 1.0, ratio).max(axis=0)
     right.plot(degrees, exact, color=BLUE, label="exact")
     right.set_ylim(0, 4)
-    right.set_ylabel(f"L/(d + 2Δ) at $v_h/v$ = {ratio:g}")
+    right.set_ylabel(f"L/(d + 2Δ) at $v_h/v$ = {ratio:g}", **MATH)
     legend_above(right)
     for axes in (left, right):
         axes.set_xlim(0, 60)
@@ -163,7 +163,7 @@ def _heads(paper: Paper5) -> Figure:
             )
         each.plot(_MILLI * data["chosen"]["cut_height"], _MILLI * found.offset, "o", color=INK, markersize=4)
         each.set_title(f"α = {angle:g}°")
-        each.set_xlabel("cut height $h_p$ [mm]")
+        each.set_xlabel("cut height $h_p$ [mm]", **MATH)
         each.tick_params(labelleft=each is axes[0])
     axes[0].set_ylabel("offset Δ [mm]")
     handles = [_patch(COLOURS[way], words) for way, words in WAYS.items()]

@@ -23,7 +23,7 @@
 | `topper_field`, `topper_sweep` | fields of roots under a topper; its knife varied, the best one |
 | `compare` | steady motion of several machines in one picture |
 | `style` | colours, fonts, axes |
-| `svg` | a figure as SVG text |
+| `svg` | a figure as SVG text, or as PNG |
 
 matplotlib is imported when the first figure is drawn.
 """
@@ -52,7 +52,7 @@ from linkwright.plot.pumping_unit import gear_torque_figure, polished_rod_figure
 from linkwright.plot.reduction import reduction_figure
 from linkwright.plot.run_up import attempt_figure, run_up_figure
 from linkwright.plot.steady import speed_figure, time_figure, torque_figure
-from linkwright.plot.svg import svg
+from linkwright.plot.svg import png, svg
 from linkwright.plot.topper import edge_use_figure, phase_figure, slicing_figure
 from linkwright.plot.topper_field import field_haulm_figure, field_length_figure, field_share_figure
 from linkwright.plot.topper_lengths import length_chart_figure, verdict_figure
@@ -96,6 +96,7 @@ __all__ = [
     "motor_figure",
     "orders_figure",
     "phase_figure",
+    "png",
     "polar_figure",
     "polished_rod_figure",
     "pressure_angle_figure",

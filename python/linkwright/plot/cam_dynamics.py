@@ -13,10 +13,13 @@ from linkwright.plot.style import (
     DRIVE,
     GREEN,
     LINES,
+    MATH,
     RED,
     SOFT,
     legend_above,
     level,
+    log_height,
+    named,
     panels,
     roomy,
     styled,
@@ -91,7 +94,7 @@ def pressure_figure(cam_angle: Floats, contact: LineContact, limit: float | None
     """
     figure, (pressure, width) = panels(2, height=4.2)
     degrees = np.degrees(cam_angle)
-    pressure.plot(degrees, 1e-6 * contact.pressure, color=RED, label="largest pressure $p_0$")
+    pressure.plot(degrees, 1e-6 * contact.pressure, color=RED, label="largest pressure p₀")
     pressure.plot(degrees, 1e-6 * contact.shear, color=GREEN, label="largest shear, below the surface")
     if limit is not None:
         level(pressure, 1e-6 * limit, "allowed")
@@ -155,12 +158,13 @@ def residual_figure(spectra: Mapping[str, ResidualSpectrum]) -> Figure:
     figure, (left, during) = panels(2, height=4.6)
     for (name, found), colour in zip(spectra.items(), LINES * len(spectra), strict=False):
         order = np.argsort(found.ratio)
-        left.semilogy(found.ratio[order], found.residual[order], color=colour, label=name)
+        left.plot(found.ratio[order], found.residual[order], color=colour, label=named(name))
         during.plot(found.ratio[order], found.primary_acceleration[order], color=colour)
+    log_height(left)
     left.set_ylabel("amplitude left\nover the lift [–]")
     # What lies below a millionth of the lift is no motion that anybody measures.
     left.set_ylim(bottom=max(left.get_ylim()[0], 1e-6))
     legend_above(left)
-    during.set_ylabel("largest acceleration\nin the rise $a\\,T^2/h$ [–]")
+    during.set_ylabel("largest acceleration\nin the rise $a\\,T^2/h$ [–]", **MATH)
     during.set_xlabel("rise time over natural period τ [–]")
     return figure

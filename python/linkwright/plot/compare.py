@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.plot.style import LINES, legend_above, panels, styled, turn_axis, zero_line
+from linkwright.plot.style import LINES, legend_above, named, panels, styled, turn_axis, zero_line
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,7 +36,7 @@ def compare_figure(motions: Mapping[str, SteadyState]) -> Figure:
     for n, (name, steady) in enumerate(motions.items()):
         colour, dash = LINES[n % len(LINES)], _DASHES[n // len(LINES) % len(_DASHES)]
         degrees = np.degrees(steady.crank_angle)
-        speed.plot(degrees, steady.speed / steady.speed_mean_time, dash, color=colour, label=name)
+        speed.plot(degrees, steady.speed / steady.speed_mean_time, dash, color=colour, label=named(name))
         acceleration.plot(degrees, steady.acceleration, dash, color=colour)
     speed.set_ylabel("speed over its mean\n[–]")
     acceleration.set_ylabel("acceleration ε\n[rad/s²]")

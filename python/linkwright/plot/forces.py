@@ -11,8 +11,10 @@ from linkwright.plot.style import (
     DRIVE,
     LINES,
     LOAD,
+    MATH,
     SOFT,
     legend_above,
+    named,
     panels,
     roomy,
     styled,
@@ -48,11 +50,11 @@ def forces_figure(forces: Forces) -> Figure:
     figure, (torque, sizes) = panels(2, height=4.2)
     degrees = np.degrees(forces.crank_angle)
     torque.plot(degrees, forces.torque_drive, color=DRIVE)
-    torque.set_ylabel("driving torque $M_d$\n[N m]")
+    torque.set_ylabel("driving torque $M_d$\n[N m]", **MATH)
     roomy(torque, forces.torque_drive[np.isfinite(forces.torque_drive)])
     zero_line(torque)
     for name, colour in zip(_largest(forces), LINES, strict=False):
-        sizes.plot(degrees, forces.pairs[name].size, color=colour, label=name)
+        sizes.plot(degrees, forces.pairs[name].size, color=colour, label=named(name))
     sizes.set_ylabel("size of the reaction\n[N]")
     legend_above(sizes)
     _angle_axis(torque, degrees, label=False)
@@ -90,8 +92,8 @@ def _vectors(axes: Axes, forces: Forces, force: np.ndarray, colour: str, label: 
     axes.plot(force[start, 0], force[start, 1], "o", color=colour, markersize=4)
     axes.plot(0, 0, "+", color=SOFT, markersize=8)
     axes.set_aspect("equal", adjustable="datalim")
-    axes.set_xlabel("$F_x$ [N]")
-    axes.set_ylabel("$F_y$ [N]")
+    axes.set_xlabel("$F_x$ [N]", **MATH)
+    axes.set_ylabel("$F_y$ [N]", **MATH)
 
 
 @styled
@@ -113,7 +115,7 @@ def polar_figure(forces: Forces) -> Figure:
     figure = Figure(figsize=(4.6, 4.6), layout="constrained")
     axes = figure.add_subplot(projection="polar")
     for name, colour in zip(_largest(forces), LINES, strict=False):
-        axes.plot(forces.crank_angle, forces.pairs[name].size, color=colour, label=name)
+        axes.plot(forces.crank_angle, forces.pairs[name].size, color=colour, label=named(name))
     axes.set_xlabel("crank angle φ [°]")
     axes.set_ylabel("size of the reaction [N]", labelpad=28)
     axes.legend(loc="lower left", bbox_to_anchor=(-0.15, 1.07), ncols=2)
@@ -137,9 +139,9 @@ def cases_figure(cases: Mapping[str, Forces]) -> Figure:
     figure, (torque, frame) = panels(2, height=4.2)
     for (name, forces), colour in zip(cases.items(), LINES * len(cases), strict=False):
         degrees = np.degrees(forces.crank_angle)
-        torque.plot(degrees, forces.torque_drive, color=colour, label=name)
+        torque.plot(degrees, forces.torque_drive, color=colour, label=named(name))
         frame.plot(degrees, np.hypot(*forces.shaking_force.T), color=colour)
-    torque.set_ylabel("driving torque $M_d$\n[N m]")
+    torque.set_ylabel("driving torque $M_d$\n[N m]", **MATH)
     frame.set_ylabel("force on the frame\n[N]")
     legend_above(torque)
     zero_line(torque)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.plot.style import INK, LINES, SOFT, legend_above, level, panels, roomy, styled
+from linkwright.plot.style import INK, LINES, SOFT, legend_above, level, named, panels, roomy, styled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -35,7 +35,7 @@ def transmission_figure(linkage: Linkage) -> Figure:
     figure, (axes,) = panels(1, height=2.9)
     angles = np.degrees(linkage.crank_angle)
     for k, (name, mu) in enumerate(linkage.transmission_angles.items()):
-        axes.plot(angles, np.degrees(mu), color=LINES[k % len(LINES)], label=name)
+        axes.plot(angles, np.degrees(mu), color=LINES[k % len(LINES)], label=named(name))
     drawn = [np.degrees(mu) for mu in linkage.transmission_angles.values()]
     roomy(axes, *drawn, np.array([_POOR, 180 - _POOR]))
     level(axes, _POOR, "40° and 140°")

@@ -9,6 +9,7 @@ import numpy as np
 from linkwright.plot.style import (
     BLUE,
     GREEN,
+    MATH,
     PURPLE,
     RED,
     legend_above,
@@ -52,7 +53,7 @@ def polished_rod_figure(unit: PumpingUnitMotion) -> Figure:
     degrees = np.degrees(unit.crank_angle)
     for panel, (label, values, colour) in zip(axes, curves, strict=True):
         panel.plot(degrees, values, color=colour)
-        panel.set_ylabel(label)
+        panel.set_ylabel(label, **MATH)
         roomy(panel, values)
         zero_line(panel)
         turn_axis(panel, label=panel is axes[-1])
@@ -76,7 +77,7 @@ def gear_torque_figure(gear: GearTorque) -> Figure:
     figure, (load, torque) = panels(2, height=4.4)
     degrees = np.degrees(gear.crank_angle)
     load.plot(degrees, gear.rod_load, color=RED)
-    load.set_ylabel("polished-rod load\n$W$ [N]")
+    load.set_ylabel("polished-rod load\n$W$ [N]", **MATH)
     roomy(load, gear.rod_load)
     for values, colour, label in (
         (gear.torque_rod, RED, "polished rod"),
@@ -117,7 +118,7 @@ def rotator_figure(rotator: RodRotatorMotion) -> Figure:
         panel.plot(degrees, values, color=colour)
         at = np.degrees(rotator.change_points)
         panel.plot(at, np.interp(at, degrees, values), "o", color=colour, markersize=4)
-        panel.set_ylabel(label)
+        panel.set_ylabel(label, **MATH)
         roomy(panel, values)
         zero_line(panel)
         turn_axis(panel, label=panel is axes[-1])

@@ -9,6 +9,7 @@ import numpy as np
 from linkwright.plot.style import (
     INERTIA,
     LOAD,
+    MATH,
     legend_above,
     level,
     panels,
@@ -41,11 +42,11 @@ def reduction_figure(reduction: Reduction) -> Figure:
     figure, (inertia, torque) = panels(2, height=4.2)
     degrees = np.degrees(reduction.crank_angle)
     inertia.plot(degrees, reduction.inertia_reduced, color=INERTIA)
-    inertia.set_ylabel("reduced inertia $J$\n[kg m²]")
+    inertia.set_ylabel("reduced inertia $J$\n[kg m²]", **MATH)
     roomy(inertia, reduction.inertia_reduced)
     torque.plot(degrees, reduction.torque_load, color=LOAD, label="resisting torque")
     level(torque, reduction.torque_load_mean, f"mean {reduction.torque_load_mean:.4g} N m")
-    torque.set_ylabel("reduced torque $M_r$\n[N m]")
+    torque.set_ylabel("reduced torque $M_r$\n[N m]", **MATH)
     roomy(torque, reduction.torque_load, np.array([0.0]))
     zero_line(torque)
     legend_above(torque)

@@ -10,6 +10,7 @@ from linkwright.plot.style import (
     ACCELERATION,
     DRIVE,
     LOAD,
+    MATH,
     MOTOR,
     SPEED,
     legend_above,
@@ -88,8 +89,8 @@ def torque_figure(steady: SteadyState) -> Figure:
     """
     figure, (torque, power) = panels(2, height=4.2)
     degrees = np.degrees(steady.crank_angle)
-    torque.plot(degrees, steady.torque_load, color=LOAD, label="resisting $M_r$")
-    torque.plot(degrees, steady.torque_drive, color=DRIVE, label="driving $M_d$")
+    torque.plot(degrees, steady.torque_load, color=LOAD, label="resisting torque")
+    torque.plot(degrees, steady.torque_drive, color=DRIVE, label="driving torque")
     torque.set_ylabel("torque at the crank\n[N m]")
     roomy(torque, steady.torque_drive, steady.torque_load)
     zero_line(torque)
@@ -106,7 +107,7 @@ def _power(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
     power, mean = steady.power_motor / size, steady.power_motor_mean / size
     axes.plot(degrees, power, color=MOTOR, label="power of the motor")
     level(axes, mean, f"mean over time {mean:.4g} {unit}")
-    axes.set_ylabel(f"power $P$\n[{unit}]")
+    axes.set_ylabel(f"power $P$\n[{unit}]", **MATH)
     roomy(axes, power)
     zero_line(axes)
     legend_above(axes)
@@ -135,7 +136,7 @@ def time_figure(steady: SteadyState) -> Figure:
     legend_above(speed)
     torque.plot(time, np.tile(steady.torque_motor, _TURNS), color=MOTOR, label="torque of the motor")
     level(torque, steady.torque_motor_rms, f"root mean square {steady.torque_motor_rms:.4g} N m")
-    torque.set_ylabel("motor torque $M$\n[N m]")
+    torque.set_ylabel("motor torque $M$\n[N m]", **MATH)
     roomy(torque, steady.torque_motor)
     zero_line(torque)
     legend_above(torque)

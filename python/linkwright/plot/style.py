@@ -39,10 +39,15 @@ DRIVE, LOAD, MOTOR, INERTIA = BLUE, RED, PURPLE, GREEN
 # A column of text on A4 [inch].
 WIDTH = 7.1
 
+# For labels of our own with symbols between dollar signs: ``axes.set_ylabel("torque $M$", **MATH)``.
+MATH: Any = {"parse_math": True}
+
 STYLE: Any = {
     "font.family": "DejaVu Sans",
     "font.size": 9,
     "mathtext.fontset": "dejavusans",
+    # Names of a machine file may hold any letter; formulas are read where `MATH` says so.
+    "text.parse_math": False,
     "axes.edgecolor": SOFT,
     "axes.labelcolor": INK,
     "axes.labelsize": 9,
@@ -128,6 +133,23 @@ def legend_above(axes: Axes) -> None:
 def level(axes: Axes, value: float, text: str, colour: str = SOFT) -> None:
     """A dashed line at a height, with its words in the legend."""
     axes.axhline(value, color=colour, linewidth=1.1, linestyle=(0, (5, 3)), label=text)
+
+
+def log_height(axes: Axes) -> None:
+    """A logarithmic scale upwards, with powers of ten at its marks."""
+    axes.set_yscale("log")
+    axes.yaxis.set_major_formatter(lambda value, _: _power_of_ten(value))
+    axes.yaxis.set_minor_formatter(lambda value, _: "")
+
+
+def _power_of_ten(value: float) -> str:
+    """Such as 10⁻³."""
+    return "10" + str(round(np.log10(value))).translate(str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"))
+
+
+def named(name: str) -> str:
+    """A name of a machine file as a label: what begins with an underscore would stand in no legend."""
+    return f" {name}" if name.startswith("_") else name
 
 
 def zero_line(axes: Axes) -> None:

@@ -8,18 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.topper.verdict import WAYS
-from linkwright.plot.style import (
-    BLUE,
-    GREEN,
-    INK,
-    LINES,
-    ORANGE,
-    PURPLE,
-    RED,
-    level,
-    panels,
-    styled,
-)
+from linkwright.plot.style import BLUE, GREEN, INK, LINES, MATH, ORANGE, PURPLE, RED, level, panels, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,7 +54,7 @@ def length_chart_figure(chart: LengthChart) -> Figure:
         for each, way in zip(row, _TITLES, strict=True):
             _way(each, chart, lines, way, scale)
             each.plot(scale * own, _MILLI * chart.edge_length, "o", color=INK, markersize=4.5)
-            each.set_xlabel(words)
+            each.set_xlabel(words, **MATH)
             each.set_xlim(scale * lines.along[0], scale * lines.along[-1])
             each.set_ylim(0, _MILLI * top)
             each.tick_params(labelleft=each is row[0])
@@ -148,6 +137,6 @@ def _heads(axes: Axes, chart: VerdictChart) -> None:
     axes.plot(_MILLI * chart.cut_height, _MILLI * chart.offset, "o", color=RED, markersize=7)
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
-    axes.set_xlabel("cut height $h_p$ [mm]")
+    axes.set_xlabel("cut height $h_p$ [mm]", **MATH)
     axes.set_ylabel("offset Δ [mm]")
     axes.set_title(f"at α = {np.degrees(chart.edge_angle):.4g}°")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.plot.style import BLUE, GREEN, INK, ORANGE, PURPLE, RED, SOFT, panels, styled
+from linkwright.plot.style import BLUE, GREEN, INK, MATH, ORANGE, PURPLE, RED, SOFT, panels, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,7 +57,7 @@ def sweep_figure(swept: FieldSweep) -> Figure:
         axes[2].set_ylabel("length for 95 % of heads [mm]")
         _other(axes[3], x, swept, is_cut=name == "cut_height")
     for each in axes[-2:]:
-        each.set_xlabel(label)
+        each.set_xlabel(label, **MATH)
     for each in axes[1:]:
         each.set_ylim(bottom=0)
     return figure
@@ -106,8 +106,8 @@ def sweep_map(swept: FieldSweep) -> Figure:
         first, second = (factor * np.unique(swept.entries[name]) for name, factor in _scales(swept))
         _map(each, (first, second), _drawable(values).reshape(swept.shape), title)
         across, up = swept.entries
-        each.set_xlabel(AXES[across][0])
-        each.set_ylabel(AXES[up][0])
+        each.set_xlabel(AXES[across][0], **MATH)
+        each.set_ylabel(AXES[up][0], **MATH)
     return figure
 
 
@@ -189,6 +189,6 @@ def best_knife_figure(found: KnifeSearch) -> Figure:
         axes.plot(x, y, "o", color=ORANGE, markeredgecolor=INK, markersize=8, clip_on=False, label="best")
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, borderaxespad=0.2)
-    axes.set_xlabel(AXES["edge_angle"][0])
-    axes.set_ylabel(AXES["knife_speed"][0])
+    axes.set_xlabel(AXES["edge_angle"][0], **MATH)
+    axes.set_ylabel(AXES["knife_speed"][0], **MATH)
     return figure

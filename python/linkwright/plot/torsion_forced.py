@@ -9,7 +9,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.plot.style import BLUE, INK, LINES, ORANGE, RED, SKY, SOFT, legend_above, panels, styled
+from linkwright.plot.style import (
+    BLUE,
+    INK,
+    LINES,
+    ORANGE,
+    RED,
+    SKY,
+    SOFT,
+    legend_above,
+    named,
+    panels,
+    styled,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -89,7 +101,7 @@ def stress_figure(stress: ShaftStress, barred: Sequence[BarredRange] = ()) -> Fi
     for panel, shafts in zip(axes, shown, strict=True):
         for s, colour in zip(shafts[:_LINES_MAX], LINES, strict=False):
             rpm = _rpm(stress.speeds)
-            panel.plot(rpm, stress.vibratory[s] / 1e6, color=colour, label=stress.shafts[s])
+            panel.plot(rpm, stress.vibratory[s] / 1e6, color=colour, label=named(stress.shafts[s]))
         _limits(panel, stress, shafts[0])
         _over_speed(panel, stress.speeds, "stress [MPa]")
         names = [stress.shafts[s] for s in shafts]
@@ -219,7 +231,9 @@ def heat_figure(found: ForcedVibration, parts: list[str]) -> Figure:
     """
     figure, (axes,) = panels(1, height=_HEIGHT)
     for name, colour in zip(parts, LINES, strict=False):
-        axes.plot(_rpm(found.speeds), found.shaft_heat[found.shafts.index(name)], color=colour, label=name)
+        axes.plot(
+            _rpm(found.speeds), found.shaft_heat[found.shafts.index(name)], color=colour, label=named(name)
+        )
     _over_speed(axes, found.speeds, "heat [W]")
     axes.set_xlabel("speed of the first disc [rpm]")
     legend_above(axes)

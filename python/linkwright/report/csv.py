@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.topper import TopperStudy
+from linkwright.files.csv_text import csv_text
 from linkwright.report.quantities import SHOWN
 
 Floats = NDArray[np.float64]
@@ -49,12 +50,7 @@ def columns_csv(columns: Mapping[str, Floats]) -> str:
         Numbers that read back exactly; empty cells for NaN.
     """
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-    return "\n".join([",".join(columns), *(",".join(map(_cell, row)) for row in rows)]) + "\n"
-
-
-def _cell(value: float) -> str:
-    """A number that reads back exactly; nothing for none."""
-    return "" if value != value else repr(value)
+    return csv_text(list(columns), rows)
 
 
 def edge_csv(found: TopperStudy) -> str:

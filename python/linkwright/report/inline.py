@@ -49,8 +49,8 @@ def inline_svg(figure: Figure, name: str, text: str) -> str:
     for colour, variable in _COLOURS.items():
         drawn = drawn.replace(colour, f"var({variable})")
     # The page's own size counts; names of other vocabularies are no use in HTML.
-    opening = rf'<svg viewBox="\1" role="img" aria-label="{escape(text)}">'
-    drawn = re.sub(r'^<svg[^>]*?viewBox="([^"]*)"[^>]*>', opening, drawn)
+    tail = f'" role="img" aria-label="{escape(text)}">'
+    drawn = re.sub(r'^<svg[^>]*?(viewBox="[^"]*)"[^>]*>', lambda head: f"<svg {head[1]}{tail}", drawn)
     # A style inside a figure would hold for the whole page; the page has its own.
     drawn = re.sub(r"\s*<style.*?</style>", "", drawn, flags=re.DOTALL)
     return drawn.replace("xlink:href", "href")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import linkwright
 from linkwright.analysis.result import finite
 from linkwright.analysis.study import Study
-from linkwright.errors import InputError
+from linkwright.files.output import write_file
 from linkwright.files.write import dumps
 from linkwright.machine import InductionMotor
 from linkwright.report.assumptions import assumptions
@@ -54,11 +54,7 @@ def write_report(study: Study, path: str | os.PathLike[str], *, command: str = "
     InputError
         The file cannot be written.
     """
-    page = report_html(study, command=command)
-    try:
-        Path(path).write_text(page, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
+    write_file(path, report_html(study, command=command))
 
 
 def report_html(study: Study, *, command: str = "") -> str:

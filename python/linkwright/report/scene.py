@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.closure import Closure, closure
 from linkwright.analysis.kinematics import Kinematics, kinematics
 from linkwright.analysis.study import Study
+from linkwright.errors import AssemblyError
 from linkwright.machine import Machine
 from linkwright.machine.outline import DRIVERS
 from linkwright.report.scene_cam import cam_headings, reach
@@ -55,11 +56,9 @@ def scene(study: Study) -> Scene | None:
         are those of steady motion. None if the mechanism closes nowhere, or nothing moves.
     """
     machine = study.machine
-    if not any(getattr(machine.linkage, table) for table in DRIVERS):
+    if not _closes(machine):
         return None
     found = closure(machine)
-    if not found.ranges:
-        return None
     motion = kinematics(machine, _angles(found))
     drawn = _points(machine, motion)
     listed = list(parts(machine, motion))
@@ -83,6 +82,16 @@ def scene(study: Study) -> Scene | None:
         "swings": not found.turns_fully,
         "true_speed": study.steady_state is not None,
     }
+
+
+def _closes(machine: Machine) -> bool:
+    """Whether something moves and closes at some crank angle; where not, the study says why."""
+    try:
+        moves = any(getattr(machine.linkage, table) for table in DRIVERS)
+        return moves and bool(closure(machine).ranges)
+    except AssemblyError:
+        # No lengths for a rotator.
+        return False
 
 
 def _angles(found: Closure) -> Floats:

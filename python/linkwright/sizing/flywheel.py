@@ -9,7 +9,8 @@ at its mean,
         - \tfrac12 J_\mathrm{red}(\varphi)\,\omega_m^2, \qquad
     J_f + J_0 = \frac{\Delta A_\max - \Delta A_\min}{\delta\,\omega_m^2}
 
-with :math:`J_0` the inertia that turns with the crank already. The answer is not this estimate: it is the
+with :math:`J_0` the inertia that turns in a constant ratio to the crank already: of the drive, and of bodies
+on the crank and on gears. The answer is not this estimate: it is the
 root of δ(J_f) − δ over the exact steady motion, which the estimate only starts.
 """
 
@@ -19,15 +20,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from linkwright.analysis.reduction import reduction_of
+from linkwright.analysis.closure import turn_angles
 from linkwright.analysis.result import Result
 from linkwright.analysis.run_up import RunUp, run_up
 from linkwright.analysis.steady_state import SteadyState, steady_state
-from linkwright.engine import compile_machine, drive_inertia
+from linkwright.analysis.turn_fit import turn_curve
+from linkwright.engine import Compiled, compile_machine, drive_inertia
 from linkwright.errors import ConvergenceError, FindingError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
 from linkwright.sizing.fit import with_flywheel
+
+Floats = NDArray[np.float64]
 
 # Relative accuracy of the flywheel's unevenness; four digits better than anything it is compared with.
 _CLOSE = 1e-9
@@ -36,6 +41,11 @@ _CLOSE = 1e-9
 _DOUBLINGS = 40
 
 _ITERATIONS = 60
+
+# Angles at which a body's reduced inertia is compared, a prime number so that no symmetry hides a variation,
+# and the share by which a constant varies with rounding.
+_ANGLES = 37
+_CONSTANT = 1e-12
 
 
 @dataclass(frozen=True)
@@ -173,7 +183,8 @@ def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, floa
 
     Notes
     -----
-    ω_m is the design speed, or the speed without load where none is given. By trapezoids over 1440 intervals.
+    ω_m is the design speed, or the speed without load where none is given. The extremes of ΔA are exact: they
+    are where the mean torque equals the torque of load and inertia, and at kinks.
 
     References
     ----------
@@ -181,15 +192,41 @@ def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, floa
     """
     assert machine.drive is not None
     compiled = compile_machine(machine)
-    reduced = reduction_of(compiled, 1440)
     omega_m = machine.drive.speed or compiled.speed_guess
-    phi = reduced.crank_angle
-    M_r = reduced.torque_load + reduced.viscous * omega_m + compiled.law_torques(phi, omega_m)[0]
-    surplus = np.trapezoid(M_r, phi) / (2 * np.pi) - M_r
-    A = np.concatenate([[0.0], np.cumsum(0.5 * (surplus[1:] + surplus[:-1]) * np.diff(phi))])
-    dA = A - 0.5 * reduced.inertia_reduced * omega_m**2
-    work = float(dA.max() - dA.min())
-    return work / (unevenness * omega_m**2) - float(drive_inertia(machine.drive)), work
+    turn = turn_curve(lambda phi: _load_and_inertia(compiled, phi, omega_m), compiled.kinks(), "excess work")
+    # The curve of −ΔA.
+    stored = turn.excess(0, 1, 0.5 * omega_m**2)
+    work = stored.extreme(+1)[0] - stored.extreme(-1)[0]
+    return work / (unevenness * omega_m**2) - constant_inertia(machine), work
+
+
+def constant_inertia(machine: Machine) -> float:
+    """Inertia of what turns in a constant ratio to the crank: drive, and bodies of constant reduced inertia.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    float
+        At the crank [kg m²].
+    """
+    total = 0.0 if machine.drive is None else float(drive_inertia(machine.drive))
+    phi = turn_angles(_ANGLES)
+    for name, body in machine.bodies.items():
+        alone = machine.with_entries({"drive": None, "loads": {}, "bodies": {name: body}})
+        J = compile_machine(alone).reductions(phi)[0]
+        total += float(J.max()) if np.ptp(J) <= _CONSTANT * J.max() else 0.0
+    return total
+
+
+def _load_and_inertia(compiled: Compiled, phi: Floats, omega: float) -> Floats:
+    """Resisting torque at a speed, and reduced inertia, (2, n)."""
+    J, _, load, dry, viscous = compiled.reductions(phi)
+    M_r = load + dry + viscous * omega + compiled.law_torques(phi, omega)[0]
+    return np.stack([M_r, J])
 
 
 def _unevenness(machine: Machine) -> float | None:
@@ -264,9 +301,8 @@ def _verified(
     note = f"Flywheel for an unevenness of {wanted:g} by linkwright size." if inertia > 0 else ""
     machine = with_flywheel(bare, inertia, note=note)
     steady = _steady(machine)
-    up = _run_up(machine, steady)
-    up_without = _run_up(bare) if inertia > 0 else up
-    times = (up.time if up else None, up_without.time if up_without else None)
+    up, why_not = _run_up(machine, steady)
+    up_without, why_not_without = _run_up(bare) if inertia > 0 else (up, why_not)
     return FlywheelChoice(
         inertia=inertia,
         unevenness_wanted=wanted,
@@ -274,33 +310,35 @@ def _verified(
         unevenness_without=without,
         inertia_estimate=classical[0],
         excess_work=classical[1],
-        run_up_time=times[0],
-        run_up_time_without=times[1],
+        run_up_time=up.time if up else None,
+        run_up_time_without=up_without.time if up_without else None,
         iterations=iterations,
-        warnings=tuple(_costs(inertia, *times)),
+        warnings=tuple(_costs(inertia, up or why_not, up_without or why_not_without)),
         machine=machine,
         steady=steady,
         run_up=up,
     )
 
 
-def _run_up(machine: Machine, steady: SteadyState | None = None) -> RunUp | None:
-    """The run-up; None if it fails, or if the motor has none."""
+def _run_up(machine: Machine, steady: SteadyState | None = None) -> tuple[RunUp | None, str]:
+    """The run-up, or why there is none; neither for a motor of constant speed, which has no run-up."""
     assert machine.drive is not None
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
-        return None
+        return None, ""
     try:
-        return run_up(machine, steady=steady)
-    except FindingError:
-        return None
+        return run_up(machine, steady=steady), ""
+    except FindingError as error:
+        return None, str(error)
 
 
-def _costs(inertia: float, time: float | None, before: float | None) -> list[str]:
-    """What the flywheel does to the run-up, in a sentence."""
-    if inertia == 0:
+def _costs(inertia: float, after: RunUp | str, before: RunUp | str) -> list[str]:
+    """What the flywheel does to the run-up, in a sentence; a text is the reason why there is none."""
+    if not isinstance(after, RunUp):
+        machine = f"with the flywheel of {inertia:.4g} kg m² the machine" if inertia else "the machine"
+        return [f"{machine} does not run up: {after}"] if after else []
+    if not inertia:
         return []
-    if time is None:
-        return [f"with the flywheel of {inertia:.4g} kg m² the machine does not run up"]
-    if before is None:
-        return [f"the run-up takes {time:.3g} s; without the flywheel the machine does not run up"]
-    return [f"the flywheel lengthens the run-up from {before:.3g} s to {time:.3g} s"]
+    takes = f"the run-up takes {after.time:.3g} s"
+    if not isinstance(before, RunUp):
+        return [f"{takes}; without the flywheel the machine does not run up: {before}"]
+    return [f"the flywheel lengthens the run-up from {before.time:.3g} s to {after.time:.3g} s"]

@@ -31,10 +31,9 @@ from linkwright.analysis.cam.hertz import LineContact, Material, line_contact
 from linkwright.analysis.cam.lift_off import speed_of_loss
 from linkwright.analysis.cam.profile import CamProfile, Flank
 from linkwright.analysis.forces import forces
-from linkwright.analysis.kinetostatics.motion import Motion
 from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.result import Result
-from linkwright.engine import compile_machine
+from linkwright.analysis.steady_state import steady_state
 from linkwright.engine.cam import Extreme
 from linkwright.errors import FindingError
 from linkwright.machine import Machine
@@ -92,7 +91,7 @@ class LoadedCam(Result):
     pressure : ndarray, shape (n,), or None
         Pressure over the crank angle [Pa].
     findings : tuple of str
-        Contact that is lost, a roller that does not fit, in sentences.
+        Contact that is lost, a roller that does not fit, angles at which there are no forces, in sentences.
     """
 
     crank_angle: Floats
@@ -146,7 +145,7 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
         The machine has no motion.
     """
     cam = profile.cam
-    pressed = partial(_pressed, machine, profile.name, speed)
+    pressed = partial(_pressed, machine, speed)
     angles = _angles(profile)
     found = pressed(angles)
     force = found.drives[profile.name]
@@ -176,7 +175,7 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
         float(hertz.shear[hardest]) if hertz else None,
         float(hertz.shear_depth[hardest]) if hertz else None,
         hertz.pressure if hertz else None,
-        (*misfit, *_left(profile, -least.value, least.angle, size, found)),
+        (*misfit, *_left(profile, -least.value, least.angle, size, found), *found.findings),
     )
 
 
@@ -192,15 +191,11 @@ def _angles(profile: CamProfile) -> Floats:
     return found
 
 
-def _pressed(machine: Machine, name: str, speed: float | None, angles: Floats) -> Forces:
+def _pressed(machine: Machine, speed: float | None, angles: Floats) -> Forces:
     """Forces at crank angles of one turn, in steady motion or at a speed."""
     drive = machine.drive
     if speed is None and drive is not None and drive.motor is not None:
-        status, _, curves = compile_machine(machine).steady(angles, _ACCURACY)
-        if status != 0 or curves is None:
-            raise FindingError(f"there is no steady motion that presses on cam {name}")
-        time, omega, epsilon = curves[:3]
-        return forces(machine, Motion(angles, omega, epsilon, time))
+        return forces(machine, steady_state(machine, accuracy=_ACCURACY, angles=angles))
     return forces(machine, speed=speed, angles=angles)
 
 

@@ -22,7 +22,7 @@ _PHASES, _OFFSETS = 180, 9
 _MEAN_PHASES, _MEAN_OFFSETS = 90, 41
 
 
-def every_head(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
+def every_head(described: Topper, edges: list[Edge], d: float, *, charts: bool = True) -> dict[str, Any]:
     """What heads need, and what is left of them.
 
     Parameters
@@ -33,6 +33,9 @@ def every_head(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]
         Its edge, or the two directions of it.
     d : float
         Diameter of the heads [m].
+    charts : bool
+        Whether to follow all phases; else only whether the edge is long enough, and what a shorter one
+        leaves.
 
     Returns
     -------
@@ -40,7 +43,10 @@ def every_head(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]
         Entries of `TopperStudy`, from ``phase`` to ``uncut_by_phase`` and from ``length_exact`` to
         ``uncut_share_mean``.
     """
-    return _needed(described, edges, d) | _left(described, edges, d) | _by_phase(described, edges, d)
+    found = unknown_heads() | _needed(described, edges, d)
+    if charts or found["length_exact"] > described.edge_length:
+        found |= _left(described, edges, d)
+    return found | _by_phase(described, edges, d) if charts else found
 
 
 def unknown_heads() -> dict[str, Any]:

@@ -74,7 +74,7 @@ def pass_over(
     FindingError
         The edge runs over heads and back again and again, and hardly goes on.
     """
-    _require_advance(edges, roots)
+    require_advance(edges, roots)
     phase = roots.phase(edges[0].knife.rate, edges[0].forward_speed)
     diameter, missed = roots.diameter, roots.is_missed
     needed, left = np.zeros(len(phase)), np.zeros(len(phase))
@@ -94,8 +94,21 @@ def pass_over(
     return Pass(needed, left)
 
 
-def _require_advance(edges: Sequence[Edge], roots: Roots) -> None:
-    """Refuse an edge that cannot be followed over the largest head farthest from the row."""
+def require_advance(edges: Sequence[Edge], roots: Roots) -> None:
+    """Refuse an edge that cannot be followed over the largest head farthest from the row.
+
+    Parameters
+    ----------
+    edges : sequence of Edge
+        The edge, or its two directions.
+    roots : Roots
+        The roots of a field.
+
+    Raises
+    ------
+    FindingError
+        It goes to and fro over that head too often; says how often.
+    """
     largest, farthest = float(roots.diameter.max()), float(np.abs(roots.offset).max())
     for edge in edges:
         reason = hardly_goes_on(edge, largest, farthest)

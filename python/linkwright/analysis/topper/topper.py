@@ -152,13 +152,16 @@ class TopperStudy(Result):
     obstacle: str | None
 
 
-def topper(machine: Machine) -> TopperStudy:
+def topper(machine: Machine, *, charts: bool = True) -> TopperStudy:
     """Study the knife of a topper.
 
     Parameters
     ----------
     machine : Machine
         A machine with a topper.
+    charts : bool
+        Whether to follow all phases for their curves and for the mean that is left; else these are NaN, and
+        so is what is left where the edge is long enough.
 
     Returns
     -------
@@ -183,7 +186,7 @@ def topper(machine: Machine) -> TopperStudy:
     edges = edges_of(machine, described)
     reasons = [hardly_goes_on(edge, d, described.offset) for edge in edges]
     obstacle = next((each for each in reasons if each), None)
-    cut = _closed(described, edges[0], d) if obstacle else every_head(described, edges, d)
+    cut = _closed(described, edges[0], d) if obstacle else every_head(described, edges, d, charts=charts)
     return TopperStudy(
         head_diameter=d,
         cap_volume=float(cap_volume(described.root_diameter, described.cut_height)),

@@ -3,8 +3,9 @@ r"""Speeds that shafts do not bear for ever: barred, and passed quickly, or not 
 A range is barred where a shaft's vibratory stress is above what is permitted for ever. Its bounds are where
 the two are equal, sought with the response itself. About a critical speed :math:`n_c` classification
 societies ask for at least :math:`16 n_c/(18 - \lambda) \le n \le (18 - \lambda) n_c/16`, λ being its ratio to
-the speed of service. Where the stress is also above what is permitted while passing, the range may not even
-be passed.
+the speed of service. Critical is where the stress peaks: damping, dampers above all, has it beside the
+speed at which an order meets a natural frequency without damping. Where the stress is also above what is
+permitted while passing, the range may not even be passed.
 
 References
 ----------
@@ -22,13 +23,15 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.criteria import PASSING_STRESS, VIBRATORY_STRESS, Criterion
-from linkwright.analysis.torsion.exceedance import Exceedance
-from linkwright.analysis.torsion.resonance import Resonance
+from linkwright.analysis.torsion.exceedance import Exceedance, peaks_between
 from linkwright.analysis.torsion.survey import Survey, survey
 from linkwright.machine import Machine
 from linkwright.machine.propulsion_shaft import barred_speeds
 
 Floats = NDArray[np.float64]
+
+# Even speeds at which a range is looked at for the peaks in it.
+_POINTS = 100
 
 
 @dataclass(frozen=True)
@@ -51,11 +54,12 @@ class BarredRange(Result):
         Lowest and highest speed of each part in which the stress is above what is permitted while passing
         [rad/s].
     critical_speed, order : float or None
-        Of the resonances in the range that which stresses the shaft most [rad/s], and its order.
+        Of the peaks of the stress in the range the highest [rad/s], and the order that makes most of it; None
+        where the stress peaks beyond the speeds looked at.
     class_min, class_max : float or None
-        What is barred about it by the formula of the societies [rad/s].
-    ratio_max : float
-        Highest speed of the range over that of service.
+        What is barred about all peaks in it by the formula of the societies [rad/s].
+    service_speed : float
+        That λ = 1 stands for [rad/s].
     ratio_permitted : float
         Up to which the rule lets speeds be barred; infinite without a rule.
     """
@@ -74,7 +78,7 @@ class BarredRange(Result):
     order: float | None
     class_min: float | None
     class_max: float | None
-    ratio_max: float
+    service_speed: float
     ratio_permitted: float
 
     @property
@@ -87,7 +91,7 @@ class BarredRange(Result):
     @property
     def may_be_barred(self) -> bool:
         """Whether it lies where speeds may be barred in normal operation."""
-        return self.ratio_max <= self.ratio_permitted
+        return self.barred[1] <= self.ratio_permitted * self.service_speed
 
     @property
     def barred(self) -> tuple[float, float]:
@@ -139,12 +143,13 @@ def surveyed_ranges(seen: Survey) -> tuple[BarredRange, ...]:
     above = [each for each in seen.exceeded if rows[each.row][1] == VIBRATORY_STRESS]
     if not above:
         return ()
-    peaks = seen.criteria_at(np.array([each.peak for each in above]))
+    worst = seen.criteria_at(np.array([each.peak for each in above]))
+    peaks = _peaks(seen, above)
     found = []
     for column, each in enumerate(above):
         row = rows.index((rows[each.row][0], PASSING_STRESS))
         passing = [other for other in seen.exceeded if other.row == row]
-        found.append(_range(seen, each, column, (peaks[each.row], peaks[row]), passing))
+        found.append(_range(seen, each, column, (worst[each.row], worst[row]), passing, peaks[column]))
     return tuple(found)
 
 
@@ -174,13 +179,14 @@ def _range(
     seen: Survey,
     above: Exceedance,
     column: int,
-    peaks: tuple[Criterion, Criterion],
+    worst: tuple[Criterion, Criterion],
     passing: list[Exceedance],
+    peaks: list[float],
 ) -> BarredRange:
     """One range with its numbers."""
-    for_ever, transient = peaks
-    nearest = _critical(seen, above, for_ever.part)
-    formula = (None, None) if nearest is None else barred_speeds(nearest.speed, seen.service)
+    for_ever, transient = worst
+    critical, order = _critical(seen, above.row, peaks)
+    formula = [barred_speeds(each, seen.service) for each in peaks]
     limit = seen.at.train.shafts[for_ever.part].limit
     return BarredRange(
         shaft=for_ever.part,
@@ -197,26 +203,65 @@ def _range(
             for each in passing
             if each.low < above.high and each.high > above.low
         ),
-        critical_speed=None if nearest is None else nearest.speed,
-        order=None if nearest is None else nearest.order,
-        class_min=formula[0],
-        class_max=formula[1],
-        ratio_max=above.high / seen.service,
+        critical_speed=critical,
+        order=order,
+        class_min=min((low for low, _ in formula), default=None),
+        class_max=max((high for _, high in formula), default=None),
+        service_speed=seen.service,
         ratio_permitted=np.inf if limit is None else limit.barred_ratio_max,
     )
 
 
-def _critical(seen: Survey, above: Exceedance, shaft: str) -> Resonance | None:
-    """Of the resonances in a range that of the order which stresses the shaft most; None without any."""
-    inside = [each for each in seen.resonances if above.low <= each.speed <= above.high]
-    if not inside:
-        return None
-    at = seen.carried_at(np.array([each.speed for each in inside]))
-    row = at.shafts.index(shaft)
-    place = {order: n for n, order in enumerate(at.orders.tolist())}
-    # A resonance without damping is infinite, and the worst.
-    size = [
-        np.nan_to_num(np.abs(at.shaft_torques[place[one.order], row, n]), nan=np.inf)
-        for n, one in enumerate(inside)
+def _peaks(seen: Survey, above: list[Exceedance]) -> list[list[float]]:
+    """Speeds at which the stress peaks in each range; not its ratio to a limit that falls with the speed."""
+
+    def sizes(at: Floats) -> Floats:
+        return np.array([_size(each) for each in seen.criteria_at(at)])
+
+    grids = [_grid(seen, each) for each in above]
+    every = np.split(sizes(np.concatenate(grids)), np.cumsum([len(grid) for grid in grids])[:-1], axis=1)
+    tops = [
+        (n, above[n].row, grid[k - 1 : k + 2], values[above[n].row, k])
+        for n, (grid, values) in enumerate(zip(grids, every, strict=True))
+        for k in _maxima(values[above[n].row])
     ]
-    return inside[int(np.argmax(size))]
+    found = peaks_between(
+        sizes,
+        [(row, float(about[0]), float(about[2])) for _, row, about, _ in tops],
+        [(float(about[1]), float(value)) for _, _, about, value in tops],
+    )
+    listed: list[list[float]] = [[] for _ in above]
+    for (n, *_), peak in zip(tops, found, strict=True):
+        listed[n].append(peak)
+    return listed
+
+
+def _grid(seen: Survey, each: Exceedance) -> Floats:
+    """Speeds of a range close enough to show its peaks, those of resonances among them."""
+    inside = seen.speeds[(seen.speeds > each.low) & (seen.speeds < each.high)]
+    return np.unique(np.concatenate([np.linspace(each.low, each.high, _POINTS), inside]))
+
+
+def _maxima(values: Floats) -> list[int]:
+    """Places that are no lower than both their neighbours, and higher than one."""
+    here, before, after = values[1:-1], values[:-2], values[2:]
+    found: list[int] = (1 + np.flatnonzero((here > before) & (here >= after))).tolist()
+    return found
+
+
+def _size(each: Criterion) -> Floats:
+    """What was found, infinite at a resonance that nothing damps."""
+    return np.where(np.isfinite(each.found), each.found, np.inf)
+
+
+def _critical(seen: Survey, row: int, peaks: list[float]) -> tuple[float | None, float | None]:
+    """Of the peaks in a range the highest, and the order that is largest there; None without any."""
+    if not peaks:
+        return None, None
+    at = np.array(peaks)
+    highest = int(np.argmax(_size(seen.criteria_at(at)[row])))
+    carried = seen.carried_at(at[[highest]])
+    torque = np.abs(carried.shaft_torques[:, carried.shafts.index(seen.criteria[row].part), 0])
+    # A resonance without damping is infinite, and the largest.
+    order = carried.orders[int(np.argmax(np.nan_to_num(torque, nan=np.inf)))]
+    return peaks[highest], float(order)

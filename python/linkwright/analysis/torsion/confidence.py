@@ -9,9 +9,11 @@ finite sum,
 .. math:: A = \tfrac2\pi \left[\vartheta + \sin\vartheta \left(\cos\vartheta + \tfrac23 \cos^3\vartheta +
     \dots\right)\right] \text{ to } \cos^{f-2}\vartheta,\ f \text{ odd}
 
+and the ratio F of two variances is, after Paulson, normal in its cube root to three digits.
+
 References
 ----------
-.. [1] Abramowitz and Stegun, Handbook of Mathematical Functions, 1964, 26.7.3 and 26.7.4.
+.. [1] Abramowitz and Stegun, Handbook of Mathematical Functions, 1964, 26.7.3, 26.7.4 and 26.6.15.
 """
 
 from __future__ import annotations
@@ -55,6 +57,30 @@ def coverage_factor(level: float, freedom: int | None = None) -> float:
         middle = (low + high) / 2
         low, high = (middle, high) if _within(middle, freedom) < level else (low, middle)
     return math.sqrt(freedom) * math.tan((low + high) / 2)
+
+
+def chance_of_ratio(ratio: float, above: int, below: int | None = None) -> float:
+    """Probability that a ratio of two variances is at least as large by chance.
+
+    Parameters
+    ----------
+    ratio : float
+        F, variance above over variance below.
+    above : int
+        Degrees of freedom of the variance above.
+    below : int, optional
+        Of that below; without them it is known.
+
+    Returns
+    -------
+    float
+        Between 0 and 1.
+    """
+    if ratio <= 0:
+        return 1.0
+    a, b = 2 / (9 * above), 0.0 if below is None else 2 / (9 * below)
+    root = math.cbrt(ratio)
+    return 1 - NormalDist().cdf(((1 - b) * root - (1 - a)) / math.sqrt(b * root**2 + a))
 
 
 def _within(theta: float, freedom: int) -> float:

@@ -30,105 +30,25 @@ References
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.result import Result
-from linkwright.analysis.torsion.confidence import coverage_factor
+from linkwright.analysis.torsion.cylinder_factors import Diagnosis
 from linkwright.analysis.torsion.cylinder_response import cylinder_response
 from linkwright.analysis.torsion.excited import Excited
+from linkwright.analysis.torsion.least_squares import Fit, least_squares
 from linkwright.analysis.torsion.measured_speed import MeasuredSpeed
 from linkwright.errors import InputError, ShapeError
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
-# Singular values below this share of the largest are rounding.
-_ROUNDING = 1e-10
-# Part of a cylinder in what cannot be told from which on its factor is not told.
-_OPEN = 1e-6
 # Cosine between responses from which on two cylinders are called alike.
 _ALIKE = 0.99
 # Orders that differ by a smaller share are one.
 _EQUAL = 1e-9
-
-
-@dataclass(frozen=True)
-class Diagnosis(Result):
-    """How strongly each cylinder fires.
-
-    Attributes
-    ----------
-    cylinders : tuple of str
-        Their names.
-    factor : ndarray, shape (cylinders,)
-        Firing part over that of a healthy cylinder; 1 where it cannot be told.
-    deviation : ndarray, shape (cylinders,)
-        Standard deviation of each; infinite where it cannot be told.
-    covariance : ndarray, shape (cylinders, cylinders)
-        Of the factors, as far as they can be told.
-    condition : float
-        Largest over smallest singular value; infinite where cylinders cannot be told apart.
-    misfit : float
-        What is left over for each degree of freedom, over the noise if that is known, else [rad/s]; NaN
-        without any degree of freedom.
-    freedom : int
-        Equations less factors told.
-    is_noise_known : bool
-        Whether the noise was given, or estimated.
-    warnings : tuple of str
-        What limits the diagnosis.
-    """
-
-    cylinders: tuple[str, ...]
-    factor: Floats
-    deviation: Floats
-    covariance: Floats
-    condition: float
-    misfit: float
-    freedom: int
-    is_noise_known: bool
-    warnings: tuple[str, ...]
-
-    def half_width(self, level: float = 0.95) -> Floats:
-        """Half width of the interval about each factor.
-
-        Parameters
-        ----------
-        level : float
-            Probability that it holds the truth, for each cylinder by itself.
-
-        Returns
-        -------
-        ndarray, shape (cylinders,)
-        """
-        return coverage_factor(level, None if self.is_noise_known else self.freedom) * self.deviation
-
-    def weak(self, level: float = 0.95) -> tuple[str, ...]:
-        """Cylinders that fire less than a healthy one, the weakest first.
-
-        Parameters
-        ----------
-        level : float
-            Probability that none is named in a healthy engine; shared out to the cylinders (Bonferroni).
-
-        Returns
-        -------
-        tuple of str
-            Those whose intervals, one-sided, lie below 1.
-        """
-        each = 1 - 2 * (1 - level) / len(self.cylinders)
-        below = self.factor + self.half_width(each) < 1
-        order = np.argsort(self.factor)
-        return tuple(self.cylinders[n] for n in order if below[n])
-
-    @property
-    def relative(self) -> Floats:
-        """Factors over their mean, shape (cylinders,): where the load of the engine is not known."""
-        found: Floats = self.factor / self.factor.mean()
-        return found
 
 
 def diagnosis(
@@ -175,43 +95,89 @@ def diagnosis(
     names = _names(at, sources, cylinders)
     rest = at.torques.harmonics[:, :, 0] - sources.sum(axis=0)
     every = cylinder_response(at, np.concatenate([sources, rest[None]]), measured.disc, rigid=rigid)
-    columns = every[:, _places(at, measured)]
-    noise = np.ones(len(measured.orders)) if measured.noise is None else measured.noise
-    A = _stacked(columns[:-1] / noise).T
+    columns = every[:, places(at.torques.orders, measured)]
+    A = equations(columns[:-1], measured).T
     # What is sought is how far factors are from 1, so that what cannot be told stays healthy.
-    y = _stacked((measured.harmonics - columns.sum(axis=0)) / noise)
-    return _solved(A, y, names, is_known=measured.noise is not None)
+    y = equations(measured.harmonics - columns.sum(axis=0), measured)
+    return diagnosed(least_squares(A, y, is_known=measured.noise is not None), A, names, measured)
 
 
-def _solved(A: Floats, y: Floats, names: tuple[str, ...], *, is_known: bool) -> Diagnosis:
-    """Least squares with what it can tell."""
-    U, s, Vt = np.linalg.svd(A, full_matrices=True)
-    # A cylinder that adds nothing has no singular value at all if equations are fewer.
-    rank = int((s > _ROUNDING * s.max(initial=0.0)).sum())
-    freedom = len(y) - rank
-    if not is_known and freedom < 1:
+def equations(harmonics: Complexes, measured: MeasuredSpeed) -> Floats:
+    """Real and imaginary parts over their noise.
+
+    Parameters
+    ----------
+    harmonics : ndarray of complex, shape (..., orders)
+        Speeds at the orders measured [rad/s].
+    measured : MeasuredSpeed
+        With the noise; without one it is taken as 1 rad/s.
+
+    Returns
+    -------
+    ndarray, shape (..., 2 orders)
+        Equations for least squares.
+    """
+    scaled = harmonics if measured.noise is None else harmonics / measured.noise
+    found: Floats = np.concatenate([scaled.real, scaled.imag], axis=-1)
+    return found
+
+
+def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpeed) -> Diagnosis:
+    """What a fit says of the cylinders.
+
+    Parameters
+    ----------
+    fit : Fit
+        How far the factors are from 1; behind them, where they are fitted, delays and how far the compression
+        is from 1.
+    A : ndarray, shape (equations, parameters)
+        Its equations.
+    names : tuple of str
+        Of the cylinders.
+    measured : MeasuredSpeed
+        What was fitted.
+
+    Returns
+    -------
+    Diagnosis
+        Factors with their uncertainty.
+
+    Raises
+    ------
+    InputError
+        Noise is neither known nor left over.
+    """
+    is_known = measured.noise is not None
+    if not is_known and fit.freedom < 1:
         remedy = f"measure more than {len(names) / 2:.4g} orders, or give the noise"
         raise InputError(
-            f"{len(y) // 2} orders for {len(names)} cylinders leave nothing to tell noise by: {remedy}"
+            f"{len(measured.orders)} orders for {len(names)} cylinders leave nothing to tell noise by: "
+            f"{remedy}"
         )
-    change = Vt[:rank].T @ ((U[:, :rank].T @ y) / s[:rank])
-    left = y - A @ change
-    misfit = float(np.sqrt(left @ left / freedom)) if freedom else float("nan")
-    covariance = (Vt[:rank].T / s[:rank] ** 2) @ Vt[:rank] * (1.0 if is_known else misfit**2)
-    open_part = np.linalg.norm(Vt[rank:], axis=0) > _OPEN
-    deviation = np.where(open_part, np.inf, np.sqrt(np.diag(covariance)))
+    n, (delay, compression) = len(names), _further(fit, len(names))
     found = Diagnosis(
         cylinders=names,
-        factor=np.where(open_part, 1.0, 1 + change),
-        deviation=deviation,
-        covariance=covariance,
-        condition=float(s[0] / s[-1]) if rank == len(names) else float("inf"),
-        misfit=misfit,
-        freedom=freedom,
+        factor=np.where(fit.is_open[:n], 1.0, 1 + fit.values[:n]),
+        deviation=fit.deviation[:n],
+        covariance=fit.covariance[:n, :n],
+        condition=fit.condition,
+        misfit=fit.misfit,
+        freedom=fit.freedom,
         is_noise_known=is_known,
         warnings=(),
+        delay=delay[0],
+        delay_deviation=delay[1],
+        compression=None if compression[0] is None else 1 + compression[0],
+        compression_deviation=compression[1],
     )
-    return Diagnosis(**{**vars(found), "warnings": tuple(_warnings(found, A, open_part))})
+    return replace(found, warnings=tuple(_warnings(found, A[:, :n], fit.is_open[:n])))
+
+
+def _further(fit: Fit, n: int) -> list[tuple[Floats, Floats] | tuple[None, None]]:
+    """Values and deviations of delay and compression, if they were fitted."""
+    if len(fit.values) == n:
+        return [(None, None), (None, None)]
+    return [(fit.values[at : at + n], fit.deviation[at : at + n]) for at in (n, 2 * n)]
 
 
 def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list[str]:
@@ -231,18 +197,11 @@ def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list
     blind = ~open_part & (found.half_width() > 1)
     if blind.any():
         listed.append(f"cylinders {', '.join(names[blind])}: not even a misfire would show against the noise")
-    # A misfit has the mean 1 and the deviation 1/√(2f); three of them are rare.
-    if found.is_noise_known and found.freedom and found.misfit > 1 + 3 / np.sqrt(2 * found.freedom):
+    if found.is_refuted:
         listed.append(
             f"what is left over is {found.misfit:.3g} times the noise: the train or its torques differ"
         )
     return listed
-
-
-def _stacked(rows: Complexes) -> Floats:
-    """Real and imaginary parts as equations, (…, 2 orders)."""
-    found: Floats = np.concatenate([rows.real, rows.imag], axis=-1)
-    return found
 
 
 def _names(at: Excited, sources: Complexes, cylinders: Sequence[str] | None) -> tuple[str, ...]:
@@ -261,9 +220,26 @@ def _names(at: Excited, sources: Complexes, cylinders: Sequence[str] | None) -> 
     return names
 
 
-def _places(at: Excited, measured: MeasuredSpeed) -> NDArray[np.intp]:
-    """Where the measured orders stand among those of the train."""
-    orders = at.torques.orders
+def places(orders: Floats, measured: MeasuredSpeed) -> NDArray[np.intp]:
+    """Where the measured orders stand among others.
+
+    Parameters
+    ----------
+    orders : ndarray, shape (orders,)
+        Of the torques of a train.
+    measured : MeasuredSpeed
+        Of one of its discs.
+
+    Returns
+    -------
+    ndarray of int
+        One for each measured order.
+
+    Raises
+    ------
+    InputError
+        The train has not got one of them.
+    """
     place = np.abs(orders[:, None] - measured.orders).argmin(axis=0)
     apart = np.abs(orders[place] - measured.orders) > _EQUAL * measured.orders
     if apart.any():

@@ -27,8 +27,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.closure import require_full_turn, require_one_turn
-from linkwright.analysis.reduction import mean_laws, mean_over_turn, turn_nodes
+from linkwright.analysis.reduction import law_harmonics, mean_laws, mean_over_turn
 from linkwright.analysis.sound_loads import require_same_turns, require_sound_loads
+from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import InputError
 from linkwright.machine import ConstantSpeedMotor, Machine, Train
@@ -36,10 +37,6 @@ from linkwright.machine.drive_train import CRANK, MOTOR, STIFFNESS_KEYS, drive_t
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-
-# Orders for which one piece between two kinks does, even if it is a whole turn: e^{iνφ} turns by 4π in it,
-# which is little for 24 nodes.
-_ORDERS_OF_A_PIECE = 2.0
 
 # Relative step of a central difference: its error is of second order, 1e-10, rounding over it likewise.
 _STEP = 1e-5
@@ -92,8 +89,8 @@ def mean_inertia(machine: Machine) -> float:
         The mechanism does not close all round.
     """
     compiled = mechanism_alone(machine)
-    phi, weights = turn_nodes(compiled)
-    return float(weights @ compiled.reductions(phi)[0])
+    turn = turn_curve(lambda phi: compiled.reductions(phi)[:1], compiled.kinks(), "reduced inertia")
+    return float(turn.mean()[0])
 
 
 def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -> Complex:
@@ -123,16 +120,13 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
 
     Notes
     -----
-    Dead centres of a friction are kinks between which the torque is integrated, so that no sample is lost to
-    a jump.
+    The torque is a series between the dead centres of its frictions, and its harmonics are integrals of that
+    series, so that no sample is lost to a jump.
     """
     nu, omega = _orders(orders), _positive(speed)
     compiled = mechanism_alone(machine)
-    pieces = 1 + int(nu.max(initial=0.0) / _ORDERS_OF_A_PIECE)
-    phi, weights = turn_nodes(compiled, pieces)
     size = np.where(nu == 0, 1.0, 2.0) * (nu == np.round(nu))
-    waves = size[:, None] * weights * np.exp(-1j * np.outer(nu, phi))
-    found = -_resistance_harmonics(compiled, phi, waves, omega)
+    found: Complex = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
     found[nu == 0] -= compiled.speed_load(omega)
     return found[:, 0] if np.ndim(speed) == 0 else found
 
@@ -201,13 +195,19 @@ def mechanism_alone(machine: Machine) -> Compiled:
     return compiled
 
 
-def _resistance_harmonics(compiled: Compiled, phi: Floats, waves: Complex, omega: Floats) -> Complex:
-    """Harmonics of what resists at constant speeds, inertia included, (orders, speeds) [N m]."""
+def _resistance_harmonics(compiled: Compiled, nu: Floats, omega: Floats) -> Complex:
+    """Mean of what resists at constant speeds, inertia included, times e^{−iνφ}, (orders, speeds) [N m]."""
+    turn = turn_curve(lambda phi: _parts(compiled, phi), compiled.kinks(), "torque of the mechanism")
+    # Each part has its power of the speed.
+    found: Complex = turn.harmonics(nu).T @ np.array([omega**0, omega, omega**2])
+    found += law_harmonics(compiled, omega, nu).T
+    return found
+
+
+def _parts(compiled: Compiled, phi: Floats) -> Floats:
+    """Torques at speed 0, per speed and per square of the speed, (3, n)."""
     _, J_d1, load, dry, viscous = compiled.reductions(phi)
-    # Parts of the torque, each with its power of the speed.
-    parts, powers = np.array([load + dry, viscous, 0.5 * J_d1]), np.array([omega**0, omega, omega**2])
-    found: Complex = (waves @ parts.T) @ powers
-    return found + waves @ compiled.law_torques(phi, omega).T if compiled.has_laws else found
+    return np.stack([load + dry, viscous, 0.5 * J_d1])
 
 
 def _resistance(compiled: Compiled, omega: Floats) -> Floats:

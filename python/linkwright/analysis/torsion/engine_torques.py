@@ -47,6 +47,49 @@ class CylinderTorques:
     banks: tuple[GasTorque, ...]
 
 
+@dataclass(frozen=True)
+class CylinderStates:
+    r"""How cylinders work, in some states of an engine.
+
+    .. math:: M_\nu = \kappa M_\nu^\mathrm{motored}
+        + x\,e^{-i\nu\delta}\left(M_\nu^\mathrm{firing} - M_\nu^\mathrm{motored}\right)
+
+    Attributes
+    ----------
+    combustion : ndarray, shape (cylinders, states)
+        x: 1 healthy, 0 without combustion.
+    delay : ndarray, shape (cylinders, states), or float
+        δ, crank angle by which the torque of the combustion is late [rad].
+    compression : ndarray, shape (cylinders, states), or float
+        κ: 1 tight, less where the cylinder leaks.
+    """
+
+    combustion: Floats
+    delay: Floats | float = 0.0
+    compression: Floats | float = 1.0
+
+    def torque(self, gas: CylinderTorques) -> Complexes:
+        """Gas torques of the cylinders.
+
+        Parameters
+        ----------
+        gas : CylinderTorques
+            Of healthy cylinders.
+
+        Returns
+        -------
+        ndarray of complex, shape (cylinders, orders, states)
+            M_ν [N m].
+        """
+        combustion, delay, compression = (
+            each[:, None]
+            for each in np.broadcast_arrays(self.combustion, np.asarray(self.delay), self.compression)
+        )
+        late = np.exp(-1j * gas.orders[:, None] * delay)
+        found: Complexes = compression * gas.motored + combustion * late * (gas.firing - gas.motored)
+        return found
+
+
 def cylinder_torques(engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0) -> CylinderTorques:
     """Gas torques of the cylinders of an engine, each with its phase.
 
@@ -94,10 +137,30 @@ def engine_sources(engine: ReciprocatingEngine, speeds: Floats, highest: float =
     list of Source
         One a throw, in order.
     """
-    gas = cylinder_torques(engine, speeds, highest)
-    factor = np.array([engine.factor(n + 1) for n in range(engine.n_cylinders)])[:, None, None]
-    torque = gas.motored + factor * (gas.firing - gas.motored)
-    moving = _moving_parts(engine, speeds, gas.orders)
+    factors = np.array([engine.factor(n + 1) for n in range(engine.n_cylinders)])
+    return throw_sources(engine, cylinder_torques(engine, speeds, highest), CylinderStates(factors[:, None]))
+
+
+def throw_sources(engine: ReciprocatingEngine, gas: CylinderTorques, states: CylinderStates) -> list[Source]:
+    """Torques on the throws of an engine whose cylinders work more or less.
+
+    Parameters
+    ----------
+    engine : ReciprocatingEngine
+        The engine.
+    gas : CylinderTorques
+        Of its cylinders, at some speeds.
+    states : CylinderStates
+        Of the cylinders at each speed; one column stands for all speeds, and many columns with one speed of
+        the gas are as many states of the engine at that speed.
+
+    Returns
+    -------
+    list of Source
+        One a throw, in order, with a column for each speed or state.
+    """
+    torque = states.torque(gas)
+    moving = _moving_parts(engine, gas.banks[0].speeds, gas.orders)
     found = []
     for n, angle in enumerate(engine.throws):
         own = sum(torque[c] for c, place in enumerate(engine.places) if place.throw == n)

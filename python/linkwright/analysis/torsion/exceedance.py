@@ -21,9 +21,9 @@ _CLOSE = 1e-10
 _NARROW = 1e-10
 _BOUND_ROUNDS = 100
 
-# Points to which the neighbourhood of a peak is cut in one round, and rounds: to some 10⁻⁴ of it.
+# Points to which the neighbourhood of a peak is cut in one round, and rounds: to some 10⁻⁷ of it.
 _CUTS = 8
-_PEAK_ROUNDS = 6
+_PEAK_ROUNDS = 12
 
 
 class Exceedance(NamedTuple):
@@ -74,7 +74,7 @@ def exceedances(curves: Curves, speeds: Floats, values: Floats) -> list[Exceedan
     bound = dict(zip(((row, inside, outside) for row, inside, outside in edges), bounds, strict=True))
     tops = [(row, n + int(np.argmax(values[row, n : m + 1]))) for row, n, m in runs]
     between = [(row, speeds[max(n - 1, 0)], speeds[min(n + 1, last)]) for row, n in tops]
-    peaks = _peaks(curves, between, [(speeds[n], values[row, n]) for row, n in tops])
+    peaks = peaks_between(curves, between, [(speeds[n], values[row, n]) for row, n in tops])
     return [
         Exceedance(
             row,
@@ -119,10 +119,25 @@ def _bounds(curves: Curves, edges: list[tuple[int, float, float]]) -> list[float
     return found
 
 
-def _peaks(
+def peaks_between(
     curves: Curves, between: list[tuple[int, float, float]], known: list[tuple[float, float]]
 ) -> list[float]:
-    """Speeds of the highest values between two speeds, all at once; at least as high as what is known."""
+    """Speeds of the highest values of curves between two speeds, all at once.
+
+    Parameters
+    ----------
+    curves : callable
+        Speeds, (n,), to values, (rows, n); NaN counts as below.
+    between : list of tuple
+        Row, lowest and highest speed of each peak [rad/s].
+    known : list of tuple of float
+        A speed between these and its value, for each; no lower one is returned [rad/s].
+
+    Returns
+    -------
+    list of float
+        [rad/s].
+    """
     if not between:
         return []
     rows = np.array([row for row, _, _ in between])

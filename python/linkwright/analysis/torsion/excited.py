@@ -5,6 +5,7 @@ Mean torques go through the shafts as statics has it, and set couplings to the s
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -121,6 +122,40 @@ def prepared(machine: Machine, speeds: Floats | None = None) -> Excited:
     place = {name: k for k, name in enumerate(train.discs)}
     speeds = _speeds(machine, referred.speed, place) if speeds is None else np.atleast_1d(speeds) * 1.0
     sources, damping = _sources(machine, referred.speed, place, speeds)
+    return under(machine, train, referred, speeds, sources, damping)
+
+
+def under(
+    machine: Machine,
+    train: Train,
+    referred: ReferredTrain,
+    speeds: Floats,
+    sources: Iterable[Source],
+    damping: Floats | None = None,
+) -> Excited:
+    """A train under torques of its engine or mechanism, and those of its file.
+
+    Parameters
+    ----------
+    machine : Machine
+        That has the train.
+    train : Train
+        Of discs, shafts and gears.
+    referred : ReferredTrain
+        The same, referred to its first disc.
+    speeds : ndarray, shape (speeds,)
+        Of the first disc; a speed may stand there more than once, with other torques [rad/s].
+    sources : iterable of Source
+        Torques of the engine or of the mechanism, with their mean.
+    damping : ndarray, shape (discs, speeds), optional
+        Of motor and mechanism [N m s/rad].
+
+    Returns
+    -------
+    Excited
+        What the train is under each column of torques: loads follow the engine, and couplings have the slope
+        at the mean torque.
+    """
     torques = torques_of(
         train,
         referred.speed,
@@ -183,6 +218,17 @@ def pulsates(train: Train) -> bool:
     return bool(train.excitations) or waves or train.engine is not None
 
 
+def highest_order(train: Train) -> float:
+    """Last order of an engine's torques.
+
+    Parameters
+    ----------
+    train : Train
+        As its file describes it.
+    """
+    return float(TrainRun.model_fields["orders_max"].default if train.run is None else train.run.orders_max)
+
+
 def _sources(
     machine: Machine, turning: Floats, place: dict[str, int], speeds: Floats
 ) -> tuple[list[Source], Floats | None]:
@@ -191,9 +237,7 @@ def _sources(
         return mechanism_sources(machine, turning, place, speeds)
     if machine.train.engine is None:
         return [], None
-    run = machine.train.run
-    highest = TrainRun.model_fields["orders_max"].default if run is None else run.orders_max
-    return engine_sources(machine.train.engine, speeds, highest), None
+    return engine_sources(machine.train.engine, speeds, highest_order(machine.train)), None
 
 
 def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:

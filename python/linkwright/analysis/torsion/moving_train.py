@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.torsion.excited import highest_order
 from linkwright.analysis.torsion.free import lead_speeds
 from linkwright.analysis.torsion.loaded_start import BEFORE
 from linkwright.analysis.torsion.moving_engine import engine_motion_torques, throw_inertias
@@ -27,7 +28,6 @@ from linkwright.machine.train_event import (
     TorqueCourse,
     TorqueStep,
 )
-from linkwright.machine.train_run import TrainRun
 from linkwright.machine.train_torques import Harmonic, LoadHarmonic, TrainLoad
 from linkwright.machine.train_transient import TrainTransient, transient_faults
 from linkwright.machine.whole_train import whole_train
@@ -173,9 +173,7 @@ def _engine(train: Train, manoeuvre: TrainTransient) -> list[TrainTorque]:
             "train.transient.gas_speed: found nothing, expected the speed at which gas torques are taken, as "
             "the motion starts at rest and [train.run] gives no speed of service"
         )
-    run = train.run
-    highest = TrainRun.model_fields["orders_max"].default if run is None else run.orders_max
-    return engine_motion_torques(train.engine, manoeuvre, speed, highest)
+    return engine_motion_torques(train.engine, manoeuvre, speed, highest_order(train))
 
 
 def _outside(whole: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainTorque]:

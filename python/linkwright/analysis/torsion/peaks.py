@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
+from linkwright.analysis.torsion.exceedance import peaks_between
 from linkwright.analysis.torsion.survey import Survey
 
 Floats = NDArray[np.float64]
@@ -43,14 +44,30 @@ def torque_peaks(seen: Survey) -> TorquePeaks:
     Returns
     -------
     TorquePeaks
-        A peak that damping broadens is met by the speeds of the run, a sharp one lies at its resonance.
+        The highest of all speeds and resonances, sought between its neighbours as well.
     """
+    resonant = np.setdiff1d([each.speed for each in seen.resonances], seen.at.torques.speeds)
     every, vibratory = seen.at.torques.speeds, seen.found.shaft_torque_vibratory
-    resonant = np.unique([each.speed for each in seen.resonances])
     if len(resonant):
-        beside = seen.carried_at(resonant).shaft_torque_vibratory
         every = np.concatenate([every, resonant])
-        vibratory = np.concatenate([vibratory, beside], axis=1)
-    size = np.where(np.isfinite(vibratory), vibratory, np.inf)
+        vibratory = np.concatenate([vibratory, seen.carried_at(resonant).shaft_torque_vibratory], axis=1)
+    order = np.argsort(every)
+    every, size = every[order], _finite(vibratory[:, order])
     worst = size.argmax(axis=1)
-    return TorquePeaks(seen.found.shafts, size[np.arange(len(size)), worst], every[worst])
+    about = np.clip(worst[:, None] + [-1, 1], 0, len(every) - 1)
+    speed = np.array(
+        peaks_between(
+            lambda at: _finite(seen.carried_at(at).shaft_torque_vibratory),
+            [(row, *every[pair].tolist()) for row, pair in enumerate(about)],
+            [(float(every[k]), float(size[row, k])) for row, k in enumerate(worst)],
+        )
+    )
+    rows = np.arange(len(size))
+    return TorquePeaks(
+        seen.found.shafts, _finite(seen.carried_at(speed).shaft_torque_vibratory)[rows, rows], speed
+    )
+
+
+def _finite(torque: Floats) -> Floats:
+    """Torques, infinite at a resonance that nothing damps."""
+    return np.where(np.isfinite(torque), torque, np.inf)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkwright.analysis.torsion.diagnosis import Diagnosis
+from linkwright.analysis.torsion.cylinder_factors import Diagnosis
 from linkwright.analysis.torsion.engine_diagnosis import engine_diagnosis
 from linkwright.analysis.torsion.excited import excited
 from linkwright.analysis.torsion.free import train_of
@@ -67,6 +67,36 @@ class RecordDiagnosis:
             The weakest first.
         """
         return self.found.weak(level) if self.is_plausible else ()
+
+    def late(self, level: float = 0.95) -> tuple[str, ...]:
+        """Cylinders that fire late; none where the factors are not plausible.
+
+        Parameters
+        ----------
+        level : float
+            As of `Diagnosis.late`.
+
+        Returns
+        -------
+        tuple of str
+            The latest first.
+        """
+        return self.found.late(level) if self.is_plausible else ()
+
+    def leaking(self, level: float = 0.95) -> tuple[str, ...]:
+        """Cylinders that compress less than a tight one; none where the factors are not plausible.
+
+        Parameters
+        ----------
+        level : float
+            As of `Diagnosis.leaking`.
+
+        Returns
+        -------
+        tuple of str
+            The worst first.
+        """
+        return self.found.leaking(level) if self.is_plausible else ()
 
     @property
     def warnings(self) -> tuple[str, ...]:

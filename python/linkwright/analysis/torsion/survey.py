@@ -1,4 +1,4 @@
-"""A train looked at closely: at the speeds of its run, at its resonances, and at any speed between.
+"""A train looked at closely: at the speeds of its run, at its resonances and peaks, and at any speed between.
 
 Torques of an engine or of a mechanism take long to find and change little from speed to speed. Between the
 speeds of the run they are interpolated, by cubics through the four speeds about; the response to them is that
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.torsion.carried import Carried, carried
 from linkwright.analysis.torsion.criteria import Criterion, criteria
-from linkwright.analysis.torsion.exceedance import Exceedance, exceedances
+from linkwright.analysis.torsion.exceedance import Exceedance, exceedances, peaks_between
 from linkwright.analysis.torsion.excited import Excited, excited, loaded
 from linkwright.analysis.torsion.resonance import Resonance, resonances
 from linkwright.analysis.torsion.stress import service_speed
@@ -27,6 +27,9 @@ Values = TypeVar("Values", NDArray[np.float64], NDArray[np.complex128])
 
 # Speeds that differ by a smaller share are one.
 _EQUAL = 1e-9
+
+# Share of a limit from which on a peak between the speeds might be above it.
+_NEAR = 0.8
 
 # Speeds about a speed, through which a cubic goes.
 _ABOUT = 4
@@ -62,31 +65,53 @@ class Survey:
 
     @cached_property
     def speeds(self) -> Floats:
-        """Those of the run and of the resonances, shape (n,) [rad/s]."""
-        return np.sort(np.concatenate([self.at.torques.speeds, self._further]))
+        """Those of the run, of the resonances and of peaks of what limits ask for, shape (n,) [rad/s]."""
+        return self._with_peaks[0]
 
     @cached_property
     def criteria(self) -> list[Criterion]:
         """All limits at these speeds."""
-        run = criteria(self.machine, self.at, self.found, self.service)
-        if not len(self._further):
-            return run
-        order = np.argsort(np.concatenate([self.at.torques.speeds, self._further]))
-        return [
+        return self._with_peaks[1]
+
+    @cached_property
+    def _with_peaks(self) -> tuple[Floats, list[Criterion]]:
+        """Speeds and limits, once peaks are found: damping has them beside the resonances."""
+        speeds, limits = self._joined(
+            self.at.torques.speeds, criteria(self.machine, self.at, self.found, self.service), self._further
+        )
+        places = [(n, k) for n, each in enumerate(limits) for k in _highest(each.ratio)]
+        peaks = peaks_between(
+            self._ratios,
+            [(n, speeds[max(k - 1, 0)], speeds[min(k + 1, len(speeds) - 1)]) for n, k in places],
+            [(speeds[k], limits[n].ratio[k]) for n, k in places],
+        )
+        return self._joined(speeds, limits, np.setdiff1d(peaks, speeds))
+
+    def _joined(
+        self, speeds: Floats, limits: list[Criterion], further: Floats
+    ) -> tuple[Floats, list[Criterion]]:
+        """Speeds and limits with those at further speeds."""
+        if not len(limits) or not len(further):
+            return np.sort(np.concatenate([speeds, further])), limits
+        every = np.concatenate([speeds, further])
+        order = np.argsort(every)
+        return every[order], [
             one._replace(
                 found=np.append(one.found, other.found)[order],
                 permitted=np.append(one.permitted, other.permitted)[order],
             )
-            for one, other in zip(run, self.criteria_at(self._further), strict=True)
+            for one, other in zip(limits, self.criteria_at(further), strict=True)
         ]
+
+    def _ratios(self, speeds: Floats) -> Floats:
+        """Found over permitted at any speeds, (limits, speeds)."""
+        return np.array([each.ratio for each in self.criteria_at(speeds)])
 
     @cached_property
     def exceeded(self) -> list[Exceedance]:
         """Ranges in which limits are not kept, by their place among the criteria."""
         ratios = np.array([each.ratio for each in self.criteria]).reshape(-1, len(self.speeds))
-        return exceedances(
-            lambda at: np.array([each.ratio for each in self.criteria_at(at)]), self.speeds, ratios
-        )
+        return exceedances(self._ratios, self.speeds, ratios)
 
     def criteria_at(self, speeds: Floats) -> list[Criterion]:
         """All limits at any speeds between the lowest and the highest.
@@ -128,6 +153,13 @@ class Survey:
         apart = np.abs(every[:, None] - run).min(axis=1, initial=np.inf) > _EQUAL * every
         found: Floats = every[apart]
         return found
+
+
+def _highest(ratio: Floats) -> list[int]:
+    """Places of the highest value, and of all maxima that might pass the limit between the speeds."""
+    inside = np.concatenate([[False], (ratio[1:-1] >= ratio[:-2]) & (ratio[1:-1] >= ratio[2:]), [False]])
+    near = np.flatnonzero(inside & (ratio > _NEAR)).tolist()
+    return sorted({int(np.argmax(ratio)), *near}) if ratio.max(initial=0.0) > 0 else []
 
 
 def survey(machine: Machine, at: Excited | None = None, found: Carried | None = None) -> Survey:

@@ -207,7 +207,7 @@ def _against_barring(each: BarredRange) -> str:
     if not each.may_be_barred:
         highest = each.ratio_permitted
         return f"speeds above {highest:.0%} of the speed of service may not be barred in normal operation"
-    if each.speed_min * each.ratio_max / each.speed_max <= 1.0 <= each.ratio_max:
+    if each.barred[0] <= each.service_speed <= each.barred[1]:
         return "the speed of service lies in it"
     return ""
 

@@ -1,0 +1,105 @@
+r"""Linear least squares with what it can tell, by singular values.
+
+.. math:: A = U S V^T, \qquad \hat x = V S^{-1} U^T y, \qquad \mathrm{cov}\, \hat x = \sigma^2 V S^{-2} V^T
+
+σ is 1 where equations are divided by their noise, else estimated from what is left over. What has no singular
+value is left at zero, and the parameters that take part in it are open.
+
+References
+----------
+.. [1] Golub and Van Loan, Matrix Computations, 4th ed. 2013, section 5.5: least squares by singular values.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+# Singular values below this share of the largest are rounding, also of columns that are differences.
+_ROUNDING = 1e-9
+# Part of a parameter in what cannot be told from which on it is open.
+_OPEN = 1e-6
+
+
+class Fit(NamedTuple):
+    """Parameters that fit some equations best.
+
+    Attributes
+    ----------
+    values : ndarray, shape (parameters,)
+        The smallest of all that fit equally well.
+    deviation : ndarray, shape (parameters,)
+        Standard deviations; infinite for what is open.
+    covariance : ndarray, shape (parameters, parameters)
+        As far as it can be told.
+    is_open : ndarray of bool, shape (parameters,)
+        What the equations do not tell.
+    condition : float
+        Largest over smallest singular value; infinite where something is open.
+    misfit : float
+        Root of what is left over for each degree of freedom; NaN without any.
+    freedom : int
+        Equations less parameters told.
+    """
+
+    values: Floats
+    deviation: Floats
+    covariance: Floats
+    is_open: NDArray[np.bool_]
+    condition: float
+    misfit: float
+    freedom: int
+
+
+def least_squares(A: Floats, y: Floats, *, is_known: bool) -> Fit:
+    """Fit parameters to equations.
+
+    Parameters
+    ----------
+    A : ndarray, shape (equations, parameters)
+        The equations.
+    y : ndarray, shape (equations,)
+        Their right-hand sides.
+    is_known : bool
+        Whether the noise of each is 1, or estimated from what is left over.
+
+    Returns
+    -------
+    Fit
+        The parameters with their uncertainty.
+    """
+    U, s, Vt = np.linalg.svd(A, full_matrices=True)
+    # A parameter that does nothing has no singular value at all if equations are fewer.
+    rank = int((s > _ROUNDING * s.max(initial=0.0)).sum())
+    freedom = len(y) - rank
+    values = Vt[:rank].T @ ((U[:, :rank].T @ y) / s[:rank])
+    left = y - A @ values
+    misfit = float(np.sqrt(left @ left / freedom)) if freedom else float("nan")
+    covariance = (Vt[:rank].T / s[:rank] ** 2) @ Vt[:rank] * (1.0 if is_known else misfit**2)
+    is_open = np.linalg.norm(Vt[rank:], axis=0) > _OPEN
+    return Fit(
+        values=values,
+        deviation=np.where(is_open, np.inf, np.sqrt(np.diag(covariance))),
+        covariance=covariance,
+        is_open=is_open,
+        condition=float(s[0] / s[-1]) if rank == A.shape[1] else float("inf"),
+        misfit=misfit,
+        freedom=freedom,
+    )
+
+
+def scaled(fit: Fit, factor: float) -> Fit:
+    """The same fit with larger uncertainty.
+
+    Parameters
+    ----------
+    fit : Fit
+        The fit.
+    factor : float
+        By which its deviations are larger.
+    """
+    return fit._replace(deviation=factor * fit.deviation, covariance=factor**2 * fit.covariance)

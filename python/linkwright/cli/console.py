@@ -1,0 +1,77 @@
+"""The terminal, by rich: words of a file are printed as they are, whatever rich would make of them.
+
+`[red]` in a name is a name. Style comes from `rich.text.Text` and from the ``style`` of columns alone; a test
+sees to it that no other module makes a console.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.progress import Progress
+    from rich.text import Text
+
+# Width for files and pipes, which have none of their own.
+_WIDTH = 100
+
+
+def console(*, error: bool = False) -> Console:
+    """A console that reads no markup, no emoji codes and no numbers in what it prints.
+
+    Parameters
+    ----------
+    error : bool
+        Standard error in place of standard output.
+    """
+    from rich.console import Console
+
+    stream = sys.stderr if error else sys.stdout
+    width = None if stream.isatty() else _WIDTH
+    return Console(stderr=error, markup=False, emoji=False, highlight=False, width=width)
+
+
+def styled(*parts: str | tuple[str, str]) -> Text:
+    """A text of plain parts and of pairs of a part and its style, such as ``("fails", "red")``."""
+    from rich.text import Text
+
+    return Text.assemble(*parts)
+
+
+def progress_bar(words: str, total: float) -> Progress:
+    """A bar on standard error that vanishes when it is stopped; its task is the first.
+
+    Parameters
+    ----------
+    words : str
+        What is being done; words of this package, never of a file.
+    total : float
+        At which it is done.
+    """
+    from rich.progress import Progress
+
+    drawn = Progress(console=console(error=True), transient=True)
+    drawn.add_task(words, total=total)
+    drawn.start()
+    return drawn
+
+
+def plain(text: str) -> str:
+    """A text in which what would steer the terminal is written as an escape.
+
+    Parameters
+    ----------
+    text : str
+        Such as a message with words of a file in it.
+
+    Returns
+    -------
+    str
+        The same but for control characters, and those that turn the direction of writing.
+    """
+    return "".join(
+        letter if letter.isprintable() or letter == "\n" else letter.encode("unicode_escape").decode()
+        for letter in text
+    )

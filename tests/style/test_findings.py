@@ -1,0 +1,85 @@
+"""No finding is dropped: one collector a study, and no handler that forgets what it caught."""
+
+from __future__ import annotations
+
+import ast
+from functools import cache
+from pathlib import Path
+
+import linkwright
+from linkwright import errors
+
+SOURCE = Path(linkwright.__file__).parent
+
+OURS = {
+    name
+    for name, each in vars(errors).items()
+    if isinstance(each, type) and issubclass(each, errors.LinkwrightError)
+} | {"Exception", "BaseException"}
+
+# Handlers that leave an error of ours without a word, and why nothing is lost by it.
+SILENT = {
+    ("cli/check.py", "_whole"): "lengths that no rotator has are told by the study, and by the check",
+    ("report/scene.py", "_closes"): "the same, and a mechanism that does not move is not drawn",
+    ("report/scene_cam.py", "_contacts"): "a cam without room for its second follower is told by the study",
+    ("report/torsion_figures.py", "_manoeuvre"): "a record too short for orders has no waterfall",
+    ("sizing/flywheel.py", "_unevenness"): "no steady motion is an answer there: δ counts as infinite",
+    ("units.py", "_from_pint"): "a text that pint does not know is told with the units that are known",
+}
+
+
+@cache
+def trees() -> tuple[tuple[str, ast.Module], ...]:
+    files = sorted(SOURCE.rglob("*.py"))
+    return tuple(
+        (each.relative_to(SOURCE).as_posix(), ast.parse(each.read_text(encoding="utf-8"))) for each in files
+    )
+
+
+def caught(handler: ast.ExceptHandler) -> set[str]:
+    """Names of the types that a handler catches."""
+    kinds = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
+    return {
+        each.attr if isinstance(each, ast.Attribute) else getattr(each, "id", "BaseException")
+        for each in kinds
+    }
+
+
+def is_told(handler: ast.ExceptHandler) -> bool:
+    """Whether the error is raised on, replaced by another, or used by its name."""
+    inside = [node for statement in handler.body for node in ast.walk(statement)]
+    names = {node.id for node in inside if isinstance(node, ast.Name)}
+    return handler.name in names or any(isinstance(node, ast.Raise) for node in inside)
+
+
+def silent_handlers() -> set[tuple[str, str]]:
+    found = set()
+    for file, tree in trees():
+        for function in ast.walk(tree):
+            if isinstance(function, ast.FunctionDef):
+                for node in ast.walk(function):
+                    if isinstance(node, ast.ExceptHandler) and caught(node) & OURS and not is_told(node):
+                        found.add((file, function.name))
+    return found
+
+
+def test_no_handler_forgets_an_error_of_ours() -> None:
+    assert silent_handlers() == SILENT.keys()
+
+
+def test_a_study_has_one_collector_of_findings() -> None:
+    # A second collector is one whose findings nobody asks for; a check is a study of its own.
+    made = [
+        file
+        for file, tree in trees()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Findings"
+    ]
+    assert sorted(made) == ["analysis/findings.py", "analysis/soundness.py", "analysis/study.py"]
+
+
+def test_nothing_is_suppressed_by_contextlib() -> None:
+    used = [
+        file for file, tree in trees() for node in ast.walk(tree) if getattr(node, "id", "") == "suppress"
+    ]
+    assert used == []
