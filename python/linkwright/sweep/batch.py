@@ -170,7 +170,9 @@ def steady_states(
     require_one_turn(compiled)
     status, table, turns = compiled.steady_rows(accuracy)
     if not compiled.two_turns[0]:
-        status[compiled.two_turns], table[compiled.two_turns] = TWO_TURNS, np.nan
+        # The first machine was checked above.
+        longer = np.broadcast_to(compiled.two_turns, status.shape)
+        status[longer], table[longer] = TWO_TURNS, np.nan
     columns = dict(zip(_COLUMNS, np.ascontiguousarray(table.T), strict=False))
     return SteadyStates(entries=arrays, status=status, turns_swept=turns, **columns)
 
