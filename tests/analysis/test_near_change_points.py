@@ -15,6 +15,9 @@ import linkwright as lw
 from linkwright.engine import compile_machine
 from linkwright.errors import AssemblyError
 
+# Nothing here is to be computed with what is not finite.
+pytestmark = pytest.mark.filterwarnings("error::RuntimeWarning")
+
 # How far a parallelogram is from a rhombus, over its side.
 EXCESSES = [0.0, 1e-15, 1e-14, 3e-13, 1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 2e-4, 1e-3, 1e-2, 0.3]
 
@@ -337,6 +340,27 @@ def test_a_rod_that_all_but_reaches_is_refused(off: float) -> None:
             lw.kinematics(machine)
 
 
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 2 * np.pi])
+def test_a_lever_whose_pin_passes_over_its_pivot_is_refused_there(angle: float) -> None:
+    """It turns about at once, by 180°: neither that nor what it does at the point is made up."""
+    machine = lw.loads("""
+        format = 1
+        name = "lever"
+        [mechanism.points]
+        D = { x = 0.1 }
+        [mechanism.cranks]
+        A = { radius = 0.1 }
+        [mechanism.slotted_levers]
+        L = { pin = "A", pivot = "D" }
+    """)
+    for ask in (lambda: lw.pose(machine, angle), lambda: lw.kinematics(machine, [angle - 0.5, angle + 0.5])):
+        with pytest.raises(AssemblyError, match="L reaches a change point at crank angle 0"):
+            ask()
+    # On one side of it the lever turns at half the speed of the crank.
+    link = lw.kinematics(machine, [angle + 0.5, angle + 5.5]).links["L"]
+    np.testing.assert_allclose(link.d1, 0.5, atol=1e-14)
+
+
 # -- batches -------------------------------------------------------------------------------------------------
 
 DRIVE = """
@@ -397,3 +421,26 @@ def test_steady_motion_of_a_batch_is_that_of_each_machine() -> None:
         alone = lw.steady_state(lw.replace(machine, dict(zip(addresses, values, strict=True))))
         np.testing.assert_allclose(found.speed_max[row], alone.speed_max, rtol=1e-7)
         np.testing.assert_allclose(found.acceleration_max[row], alone.acceleration_max, rtol=1e-6)
+
+
+def test_random_linkages_give_answers_or_findings() -> None:
+    """Every analysis of positions, of random and of special four-bars: no warning, no NaN."""
+    rng = np.random.default_rng(3)
+    for _ in range(4):
+        a, b, c, d = (float(10 ** rng.uniform(-1, 1)) for _ in range(4))
+        for lengths in ((a, b, c, d), (a, b, a, b), (a, b, b, a), (a, a, a, a)):
+            machine = four_bar(lengths, turned=float(rng.uniform(-3, 3)))
+            whole = lw.closure(machine).turns_fully
+            try:
+                assert np.isfinite(
+                    lw.pose(machine, float(rng.choice([0.0, 1.0, np.pi]))).points["R"].position
+                ).all()
+                assert np.isfinite(lw.linkage(machine).transmission_angles["R"]).all()
+            except AssemblyError:
+                assert not whole
+
+
+def test_coupler_curve_of_a_rhombus() -> None:
+    """The joint of the parallelogram runs on a circle about the pivot."""
+    found = lw.coupler_curve(four_bar((1.0,) * 4), "R")
+    np.testing.assert_allclose(found.length, 2 * np.pi, atol=1e-9)

@@ -54,6 +54,9 @@ _SAME = 1e-7
 # Doublings of the turns looked at in a motion that never repeats: some 8000 turns either way.
 _DOUBLINGS = 13
 
+# Kind of the rows of slotted levers (`crates/linkwright-core/src/plan.rs`).
+_LEVER = 6
+
 # Number of a link among what the core can give the motion of.
 _LINK = 1
 
@@ -334,26 +337,45 @@ def _feels_one_turn(compiled: Compiled) -> bool:
 
 
 def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None:
-    """Raise if the mechanism does not close at one of some crank angles.
+    """Raise if the mechanism does not close at one of some crank angles, or is not determined between them.
 
     Raises
     ------
     AssemblyError
-        Says which element does not close, where the mechanism closes, and what to change.
+        Says which element does not close, where the mechanism closes, and what to change; or which change
+        point lies at one of the angles or between them, where the motion does not go on by itself.
     """
     if not compiled.dyads:
         return
     gaps = compiled.gaps(angles)
     closes = (gaps >= 0).all(axis=0)
-    if closes.all():
+    if closes.all() and not has_levers(compiled):
         return
     at = float(angles[int(np.argmin(closes))])
     found = closure_of(compiled)
+    if closes.all():
+        if _meets_change_point(found, angles):
+            raise closure_error(found, machine)
+        return
     if found.turns_fully:
         # Less than nothing by rounding alone.
         return
     text = f"at crank angle {_deg(at)}° {_sentence(found, machine)}"
     raise AssemblyError(text, element=found.element, crank_angle=at)
+
+
+def has_levers(compiled: Compiled) -> bool:
+    """Whether there is a dyad that is not carried on through a change point: levers turn about there."""
+    return any(row[0] == _LEVER for row in compiled.rows)
+
+
+def _meets_change_point(found: Closure, angles: Floats) -> bool:
+    """Whether a change point where the motion does not go on lies at one of the angles, or between them."""
+    if found.change_point is None or found.turns is None:
+        return False
+    turns = (angles - found.change_point) / (2 * np.pi * found.turns)
+    near = np.abs(turns - np.round(turns)) * 2 * np.pi * found.turns < _BESIDE
+    return bool(near.any() or np.ptp(np.floor(turns)) > 0)
 
 
 def closure_error(found: Closure, machine: Machine) -> AssemblyError:

@@ -134,14 +134,17 @@ def transmission(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> tuple[F
     mu : ndarray, shape (n,)
         0 to π [rad].
     slope : ndarray, shape (n,)
-        ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot.
+        ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of the crank.
     """
     if dyad.kind == "RPR":
         offset = compiled.parameters[dyad.row[6]]
         return np.arctan2(np.abs(found[0][0]), offset), found[0][1] * float(offset != 0)
     (e, e1), (f, f1) = _directions(compiled, dyad, list(found))
     cross, dot = e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]
-    return np.arctan2(np.abs(cross), dot), np.broadcast_to(f1 - e1, cross.shape)
+    # At a limit of the crank both rates are infinite, and their difference is no number.
+    with np.errstate(invalid="ignore"):
+        slope = np.broadcast_to(f1 - e1, cross.shape)
+    return np.arctan2(np.abs(cross), dot), slope
 
 
 def _directions(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> list[tuple[Floats, Floats]]:

@@ -3,12 +3,12 @@
 
 use linkwright_core::drive::{Drive, Motor, Span};
 use linkwright_core::formula::{Formula, Op, Variable};
-use linkwright_core::linkage::coupled::{AngleOf, Law, Runner, Source, Sum, Turn};
 use linkwright_core::linkage::arm::{self, Arm};
+use linkwright_core::linkage::coupled::{AngleOf, Law, Runner, Source, Sum, Turn};
 use linkwright_core::linkage::folding::{ChangePoint, Folding};
-use linkwright_core::linkage::in_line::in_line;
 use linkwright_core::linkage::group::{Bar, Carried, Condition, Group};
 use linkwright_core::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
+use linkwright_core::linkage::in_line::in_line;
 use linkwright_core::linkage::trace::{Path, follow};
 use linkwright_core::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod};
 use linkwright_core::plan::Plan;
