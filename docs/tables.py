@@ -1,7 +1,8 @@
-"""Write the tables of `docs/file_format.md` from the descriptions themselves: ``python docs/tables.py``.
+"""Write the tables of the pages that are said by the code already: ``python docs/tables.py``.
 
-A table stands between ``<!-- keys: NAME -->`` and ``<!-- end -->``, where NAME is a class of
-`linkwright.machine`. A test fails if the page is not what this file would write.
+In `docs/file_format.md` a table stands between ``<!-- keys: NAME -->`` and ``<!-- end -->``, where NAME is a
+class of `linkwright.machine`; in `docs/units.md` the ranges of all quantities between ``<!-- ranges -->`` and
+``<!-- end -->``. A test fails if a page is not what this file would write.
 """
 
 from __future__ import annotations
@@ -16,10 +17,11 @@ from pydantic_core import PydanticUndefined
 
 from linkwright import machine
 from linkwright.machine.schema_walk import mark_of, model_of, words_of
-from linkwright.units import Quantity, QuantityList
+from linkwright.units import COUNT, KINDS, Quantity, QuantityList, size_words
 
-PAGE = Path(__file__).with_name("file_format.md")
+PAGES = tuple(Path(__file__).with_name(name) for name in ("file_format.md", "units.md"))
 
+_RANGES = re.compile(r"(<!-- ranges -->\n).*?(<!-- end -->)", re.DOTALL)
 _BLOCK = re.compile(r"(<!-- keys: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 _HEAD = "| key | is | unit | if left out | meaning |\n| --- | --- | --- | --- | --- |\n"
@@ -27,7 +29,15 @@ _HEAD = "| key | is | unit | if left out | meaning |\n| --- | --- | --- | --- | 
 
 def written(text: str) -> str:
     """The page with all its tables made anew."""
+    text = _RANGES.sub(lambda block: block[1] + ranges() + block[2], text)
     return _BLOCK.sub(lambda block: block[1] + table(getattr(machine, block[2])) + block[3], text)
+
+
+def ranges() -> str:
+    """The sizes that each quantity may have."""
+    head = "| quantity | unit | smallest | largest |\n| --- | --- | --- | --- |\n"
+    rows = ((kind.noun, kind.unit or "–", *size_words(kind)) for kind in (*KINDS, COUNT))
+    return head + "".join("| " + " | ".join(row) + " |\n" for row in rows)
 
 
 def models(text: str) -> list[str]:
@@ -117,4 +127,5 @@ def _kind(field: FieldInfo) -> str:
 
 
 if __name__ == "__main__":
-    PAGE.write_text(written(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+    for page in PAGES:
+        page.write_text(written(page.read_text(encoding="utf-8")), encoding="utf-8")

@@ -7,6 +7,11 @@ number (SI) or a text such as ``"200 mm"``, and stores the SI float. Fields with
 An angle is kept apart from a plain number: a speed in ``1/min`` or ``Hz`` is refused, because books differ on
 whether that counts turns or radians. `COMMON` holds the usual spellings, so that most files are read without
 loading pint, which costs more than everything else together; any other spelling goes to pint.
+
+Every kind has a range of sizes, from far below the smallest instrument to far above the largest plant, so
+that products of a dozen numbers neither overflow nor vanish. It is declared here with the kind, held by every
+reader, and printed in `docs/units.md`. Specks below the smallest size are what arithmetic leaves of zero: a
+quantity with a sign keeps them, one that may be zero is zero there, and one that may not is refused.
 """
 
 from __future__ import annotations
@@ -54,6 +59,8 @@ class Kind:
         A text that is valid for it.
     dimension : Dimension
         Of the SI unit.
+    least, most : float
+        Smallest size that counts, and largest [SI unit].
     angle_free : bool
         The radian may be written or left out: N·m/rad and N·m are the same torque per angle.
     """
@@ -63,6 +70,8 @@ class Kind:
     unit_word: str
     example: str
     dimension: Dimension
+    least: float
+    most: float
     angle_free: bool = False
 
     @property
@@ -115,52 +124,82 @@ _W = Dimension(m=2, kg=1, s=-3)
 _K = Dimension(K=1)
 _ONE = Dimension()
 
-LENGTH = Kind("a length", "m", "metres", "0.2 m", _M)
-ANGLE = Kind("an angle", "rad", "radians", "30 deg", _RAD)
-MASS = Kind("a mass", "kg", "kilograms", "1000 kg", _KG)
-TIME = Kind("a time", "s", "seconds", "0.5 s", _S)
-SPEED = Kind("an angular speed", "rad/s", "radians per second", "1000 rpm", _RAD_S)
+LENGTH = Kind("a length", "m", "metres", "0.2 m", _M, 1e-9, 1e6)
+ANGLE = Kind("an angle", "rad", "radians", "30 deg", _RAD, 1e-9, 1e7)
+MASS = Kind("a mass", "kg", "kilograms", "1000 kg", _KG, 1e-12, 1e12)
+TIME = Kind("a time", "s", "seconds", "0.5 s", _S, 1e-9, 1e9)
+SPEED = Kind("an angular speed", "rad/s", "radians per second", "1000 rpm", _RAD_S, 1e-9, 1e6)
 ANGULAR_ACCELERATION = Kind(
-    "an angular acceleration", "rad/s^2", "radians per second squared", "10 rad/s^2", _RAD_S2
+    "an angular acceleration", "rad/s^2", "radians per second squared", "10 rad/s^2", _RAD_S2, 1e-9, 1e12
 )
-VELOCITY = Kind("a velocity", "m/s", "metres per second", "1.5 m/s", _M_S)
-ACCELERATION = Kind("an acceleration", "m/s^2", "metres per second squared", "9.81 m/s^2", _M_S2)
-FORCE = Kind("a force", "N", "newtons", "3.5 kN", _N)
-TORQUE = Kind("a torque", "N m", "newton metres", "120 N m", _N_M, angle_free=True)
-ENERGY = Kind("an energy", "J", "joules", "500 J", _N_M)
-POWER = Kind("a power", "W", "watts", "5.5 kW", _W)
+VELOCITY = Kind("a velocity", "m/s", "metres per second", "1.5 m/s", _M_S, 1e-9, 1e6)
+ACCELERATION = Kind("an acceleration", "m/s^2", "metres per second squared", "9.81 m/s^2", _M_S2, 1e-9, 1e12)
+FORCE = Kind("a force", "N", "newtons", "3.5 kN", _N, 1e-12, 1e12)
+TORQUE = Kind("a torque", "N m", "newton metres", "120 N m", _N_M, 1e-15, 1e12, angle_free=True)
+ENERGY = Kind("an energy", "J", "joules", "500 J", _N_M, 1e-15, 1e15)
+POWER = Kind("a power", "W", "watts", "5.5 kW", _W, 1e-15, 1e12)
 INERTIA = Kind(
-    "a moment of inertia", "kg m^2", "kilogram metres squared", "0.14 kg m^2", _KG_M2, angle_free=True
+    "a moment of inertia",
+    "kg m^2",
+    "kilogram metres squared",
+    "0.14 kg m^2",
+    _KG_M2,
+    1e-18,
+    1e15,
+    angle_free=True,
 )
-MASS_PER_LENGTH = Kind("a mass per length", "kg/m", "kilograms per metre", "80 kg/m", _KG_M)
-SECTION_MODULUS = Kind("a section modulus", "m^3", "cubic metres", "25 cm^3", _M3)
-DENSITY = Kind("a density", "kg/m^3", "kilograms per cubic metre", "7850 kg/m^3", _KG_M3)
-PRESSURE = Kind("a pressure", "Pa", "pascals", "210 GPa", _PA)
-STIFFNESS = Kind("a stiffness", "N/m", "newtons per metre", "2000 N/m", _N_PER_M)
+MASS_PER_LENGTH = Kind("a mass per length", "kg/m", "kilograms per metre", "80 kg/m", _KG_M, 1e-12, 1e9)
+SECTION_MODULUS = Kind("a section modulus", "m^3", "cubic metres", "25 cm^3", _M3, 1e-18, 1e6)
+DENSITY = Kind("a density", "kg/m^3", "kilograms per cubic metre", "7850 kg/m^3", _KG_M3, 1e-3, 1e6)
+PRESSURE = Kind("a pressure", "Pa", "pascals", "210 GPa", _PA, 1e-3, 1e15)
+STIFFNESS = Kind("a stiffness", "N/m", "newtons per metre", "2000 N/m", _N_PER_M, 1e-15, 1e15)
 TORSIONAL_STIFFNESS = Kind(
-    "a torsional stiffness", "N m/rad", "newton metres per radian", "5e4 N m/rad", _N_M_RAD, angle_free=True
+    "a torsional stiffness",
+    "N m/rad",
+    "newton metres per radian",
+    "5e4 N m/rad",
+    _N_M_RAD,
+    1e-12,
+    1e18,
+    angle_free=True,
 )
-DAMPING = Kind("a damping", "N s/m", "newton seconds per metre", "300 N s/m", _N_S_M)
+DAMPING = Kind("a damping", "N s/m", "newton seconds per metre", "300 N s/m", _N_S_M, 1e-12, 1e15)
 TORSIONAL_DAMPING = Kind(
     "a torsional damping",
     "N m s/rad",
     "newton metre seconds per radian",
     "4 N m s/rad",
     _N_M_S_RAD,
+    1e-15,
+    1e15,
     angle_free=True,
 )
-TEMPERATURE = Kind("an absolute temperature", "K", "kelvins", "330 K", _K)
-RATIO = Kind("a ratio", "", "", "90 %", _ONE)
+# Of vibration, counted in cycles; of a shaft it would leave open whether turns or radians are meant.
+FREQUENCY = Kind("a frequency", "Hz", "hertz", "50 Hz", _PER_SECOND, 1e-9, 1e6)
+TEMPERATURE = Kind("an absolute temperature", "K", "kelvins", "330 K", _K, 1e-3, 1e6)
+RATIO = Kind("a ratio", "", "", "90 %", _ONE, 1e-9, 1e9)
 # What is counted, such as teeth, or set by its author, such as an exponent: no share of anything.
-COUNT = Kind("a number", "", "", "4", _ONE)
+COUNT = Kind("a number", "", "", "4", _ONE, 1e-9, 1e9)
 # Derivatives of a follower's lift, or of its swing, by the angle of the cam.
-LIFT_D1 = Kind("a length per cam angle", "m/rad", "metres per radian", "20 mm/rad", _M_RAD)
+LIFT_D1 = Kind("a length per cam angle", "m/rad", "metres per radian", "20 mm/rad", _M_RAD, 1e-9, 1e6)
 LIFT_D2 = Kind(
-    "a length per cam angle squared", "m/rad^2", "metres per radian squared", "50 mm/rad^2", _M_RAD2
+    "a length per cam angle squared",
+    "m/rad^2",
+    "metres per radian squared",
+    "50 mm/rad^2",
+    _M_RAD2,
+    1e-9,
+    1e9,
 )
-LIFT_D3 = Kind("a length per cam angle cubed", "m/rad^3", "metres per radian cubed", "90 mm/rad^3", _M_RAD3)
-SWING_D2 = Kind("a number per angle", "1/rad", "per radian", "0.5 1/rad", _PER_RAD)
-SWING_D3 = Kind("a number per angle squared", "1/rad^2", "per radian squared", "0.9 1/rad^2", _PER_RAD2)
+LIFT_D3 = Kind(
+    "a length per cam angle cubed", "m/rad^3", "metres per radian cubed", "90 mm/rad^3", _M_RAD3, 1e-9, 1e12
+)
+SWING_D2 = Kind("a number per angle", "1/rad", "per radian", "0.5 1/rad", _PER_RAD, 1e-9, 1e6)
+SWING_D3 = Kind(
+    "a number per angle squared", "1/rad^2", "per radian squared", "0.9 1/rad^2", _PER_RAD2, 1e-9, 1e9
+)
+# A number in whatever unit, such as a constant of a formula.
+_OF_ANY_KIND = Kind("a number", "", "", "90 %", _ONE, 1e-18, 1e18)
 
 KINDS = (
     LENGTH,
@@ -184,6 +223,7 @@ KINDS = (
     TORSIONAL_STIFFNESS,
     DAMPING,
     TORSIONAL_DAMPING,
+    FREQUENCY,
     TEMPERATURE,
     RATIO,
     LIFT_D1,
@@ -254,6 +294,8 @@ COMMON: dict[Dimension, dict[str, float]] = {
 _FACTORS = {text: (factor, dimension) for dimension, row in COMMON.items() for text, factor in row.items()}
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+# A number without a unit: digits, a point, an exponent.
+NUMBER = re.compile(_NUMBER, re.ASCII)
 _VALUE = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
 _VALUES = re.compile(rf"({_NUMBER}(?:[\s,;]+{_NUMBER})*)\s*(.*)", re.DOTALL)
 _DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+\s*[^\d\s,]*")
@@ -264,6 +306,9 @@ _TWO_READINGS = re.compile(r"/\s*[^\s/()]+\s+[^\s/]")
 _BARE_POWER = re.compile(r"[A-Za-z]\d")
 # Scales of temperature with a zero of their own.
 _OTHER_ZERO = re.compile(r"(deg ?)?[CF]|celsius|fahrenheit|degree_[a-z]+", re.IGNORECASE)
+
+# How Python writes exponents, 1e-09 and 1e+06.
+_ZEROS = re.compile(r"e\+?(-?)0*")
 
 # A value is shown on one line of a terminal, together with a few words.
 _SHOWN = 80
@@ -291,7 +336,7 @@ def parse(value: object, kind: Kind) -> float:
     Raises
     ------
     UnitError
-        The value is no such quantity: wrong type, not finite, unknown unit, wrong dimension.
+        The value is no such quantity: wrong type or dimension, unknown unit, beyond the range of the kind.
 
     Examples
     --------
@@ -300,13 +345,13 @@ def parse(value: object, kind: Kind) -> float:
     """
     if isinstance(value, str):
         number, unit = _split(value, kind)
-        return _finite(float(number) * _factor(unit, kind, value), value, kind)
+        return _in_range(float(number) * _factor(unit, kind, value), value, kind)
     if isinstance(value, bool) or not isinstance(value, Real):
         raise _wrong(value, kind)
     try:
-        return _finite(float(value), value, kind)
+        return _in_range(float(value), value, kind)
     except OverflowError:
-        raise _wrong(value, kind, "the number is too large") from None
+        raise _wrong(value, kind, range_words(kind)) from None
 
 
 def parse_any(value: object) -> float:
@@ -333,13 +378,13 @@ def parse_any(value: object) -> float:
     (2000.0, 3.0)
     """
     if not isinstance(value, str):
-        return parse(value, RATIO)
-    number, unit = _split(value, RATIO)
+        return parse(value, _OF_ANY_KIND)
+    number, unit = _split(value, _OF_ANY_KIND)
     text = _normal(unit)
     known = _FACTORS.get(text) or _from_pint(text)
     if known is None:
-        raise _wrong(value, RATIO, _unknown_unit(unit, text))
-    return _finite(float(number) * known[0], value, RATIO)
+        raise _wrong(value, _OF_ANY_KIND, _unknown_unit(unit, text))
+    return _in_range(float(number) * known[0], value, _OF_ANY_KIND)
 
 
 def parse_list(value: object, kind: Kind) -> list[float]:
@@ -514,11 +559,42 @@ def _other_quantity(unit: str, dimension: Dimension, kind: Kind) -> str:
     return f'"{unit}" is a unit of {other}' if other else f'"{unit}" measures something else'
 
 
-def _finite(number: float, found: object, kind: Kind) -> float:
-    """The number itself, unless it is infinite or not a number."""
+def _in_range(number: float, found: object, kind: Kind) -> float:
+    """The number itself, unless it is larger than any of its kind, infinite, or not a number."""
     if not math.isfinite(number):
         raise _wrong(found, kind, "the number must be finite")
+    if abs(number) > kind.most:
+        raise _wrong(found, kind, range_words(kind))
     return number
+
+
+def range_words(kind: Kind) -> str:
+    """The range of a kind, in words.
+
+    Parameters
+    ----------
+    kind : Kind
+        The quantity.
+
+    Returns
+    -------
+    str
+        Such as ``"a length is between 1e-9 and 1e6 m in size"``.
+    """
+    least, most = size_words(kind)
+    return f"{kind.word} is between {least} and {most} {kind.unit}".rstrip() + " in size"
+
+
+def size_words(kind: Kind) -> tuple[str, str]:
+    """The smallest and the largest size of a kind, as written by hand: ``("1e-9", "1e6")``.
+
+    Parameters
+    ----------
+    kind : Kind
+        The quantity.
+    """
+    least, most = (_ZEROS.sub(r"e\1", f"{size:.0e}") for size in (kind.least, kind.most))
+    return least, most
 
 
 def show(value: object) -> str:
@@ -558,6 +634,11 @@ FRACTION = Bound(" above 0 and up to 1,", {"exclusiveMinimum": 0, "maximum": 1},
 INSIDE_ONE = Bound(
     " between 0 and 1,", {"exclusiveMinimum": 0, "exclusiveMaximum": 1}, lambda value: 0 < value < 1
 )
+ACUTE = Bound(
+    " between -90 and 90 deg,",
+    {"exclusiveMinimum": -math.pi / 2, "exclusiveMaximum": math.pi / 2},
+    lambda value: -math.pi / 2 < value < math.pi / 2,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -578,9 +659,29 @@ class Quantity:
             number = parse(value, self.kind)
         except UnitError as error:
             raise _reported(error.problem, self.expected) from None
-        if not self.bound.holds(number):
-            raise _reported(Problem(found=show(value)), self.expected)
-        return number
+        if not self.holds(number):
+            raise _reported(Problem(found=show(value), remedy=self.remedy(number)), self.expected)
+        return 0.0 if self._is_speck(number) else number
+
+    def holds(self, number: float) -> bool:
+        """Whether an SI value is such a quantity: finite, within its bound and the range of its kind."""
+        in_bound = math.isfinite(number) and self.bound.holds(number)
+        return in_bound and abs(number) <= self.kind.most and not self._is_nothing(number)
+
+    def remedy(self, number: float) -> str:
+        """The range of the kind, if that is what an SI value is beyond; empty if its bound says it all."""
+        if not math.isfinite(number):
+            return "the number must be finite"
+        beyond = abs(number) > self.kind.most or self._is_nothing(number)
+        return range_words(self.kind) if beyond else ""
+
+    def _is_speck(self, number: float) -> bool:
+        """Whether a size that cannot be negative is too small to count."""
+        return 0 < number < self.kind.least and not self.bound.holds(-number)
+
+    def _is_nothing(self, number: float) -> bool:
+        """Whether it is so where zero is no answer either."""
+        return self._is_speck(number) and not self.bound.holds(0.0)
 
     def steps(self) -> CoreSchema:
         """The steps of validation: our reader, then a float."""
@@ -589,7 +690,8 @@ class Quantity:
     def json_schema(self) -> dict[str, Any]:
         """What an editor may offer for the value."""
         noun, unit = self.kind.noun, self.kind.unit_word
-        number = {"type": "number", "description": f"{noun} in {unit}" if unit else noun, **self.bound.schema}
+        limits = {"minimum": -self.kind.most, "maximum": self.kind.most, **self.bound.schema}
+        number = {"type": "number", "description": f"{noun} in {unit}" if unit else noun, **limits}
         text = {"type": "string", "description": f"{noun} with its unit", "examples": [self.kind.example]}
         return {"anyOf": [number, text]}
 

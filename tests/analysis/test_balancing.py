@@ -102,7 +102,7 @@ def test_partial_balance_shifts_the_first_harmonic(share: float) -> None:
 def test_wrong_links_are_named() -> None:
     with pytest.raises(MachineError, match=r"R\.coupler(.|\n)*A, R\.rocker"):
         balance(animal(FOUR_BAR), ["R.coupler"], speed=1.0)
-    with pytest.raises(MachineError, match="radius"):
+    with pytest.raises(InputError, match="radius"):
         balance(animal(FOUR_BAR), ["A"], speed=1.0, radius=-1.0)
     with pytest.raises(MachineError, match="pin of a crank"):
         partial_balance(lw.loads(ENGINE), "T")

@@ -103,7 +103,7 @@ f = { kind = "force", on = "c", force = 1000, direction = "180 deg" }
     ("size", "said"),
     [
         ("base_radius = 0.04\nroller_radius = 0.01\noffset = 0.05", "less than base_radius"),
-        ("base_radius = 1e300\nroller_radius = 0.01", "lengths and lifts below"),
+        ("base_radius = 1e300\nroller_radius = 0.01", "between 1e-9 and 1e6 m"),
         ("base_radius = 0.04\nroller_radius = 0.01\nfriction = 0.1", "a roller, which rolls"),
         ('base_radius = 0.04\nfollower = "oscillating"\narm_pivot = "O"', "another place"),
     ],

@@ -247,7 +247,7 @@ def test_samples_that_do_not_do() -> None:
         measured_speed("d", np.zeros(24), 2, [6.0])
     with pytest.raises(InputError, match=r"order 0\.25 does not repeat in 2 turns"):
         measured_speed("d", np.zeros(100), 2, [0.25])
-    with pytest.raises(InputError, match="sample 1"):
+    with pytest.raises(InputError, match="samples: found nan at index 1"):
         measured_speed("d", [1.0, np.nan, 1.0, 1.0], 1, [1.0])
 
 

@@ -500,7 +500,7 @@ def test_wrong_input_is_named() -> None:
         forces(machine, speed=1.0, friction={"B": Friction(0.1)})
     with pytest.raises(MachineError, match=r"friction\.A\.radius"):
         forces(machine, speed=1.0, friction={"A": Friction(0.1)})
-    with pytest.raises(MachineError, match=r"friction\.S\.guide\.coefficient"):
+    with pytest.raises(InputError, match=r"friction\.S\.guide\.coefficient"):
         forces(machine, speed=1.0, friction={"S.guide": Friction(-0.1)})
     with pytest.raises(ShapeError, match="one machine"):
         forces(lw.replace(machine, {"mechanism.cranks.A.radius": np.array([0.1, 0.2])}), speed=1.0)

@@ -166,7 +166,7 @@ def test_pose_near_a_limit() -> None:
     assert lw.pose(limited, limit - 1e-4).near_limit == ("R",)
     with pytest.raises(AssemblyError, match=r"at crank angle 90.00°.*78\.58°"):
         lw.pose(limited, np.pi / 2)
-    with pytest.raises(ShapeError, match="finite"):
+    with pytest.raises(InputError, match="finite"):
         lw.pose(limited, np.nan)
 
 

@@ -112,10 +112,11 @@ def test_bearings_make_a_throw_stiffer() -> None:
     """e grows with k, from the computed one to free bearings."""
     each = throw()
     k = restraint_length(each)
-    found = [compliance(throw(restraint_length=f * k)) for f in (1.0, 2.0, 10.0, 1e9)]
+    found = [compliance(throw(restraint_length=f * k)) for f in (1.0, 2.0, 10.0, 1e6)]
     assert found == sorted(found)
     assert compliance(each) == pytest.approx(found[0], rel=1e-15)
-    assert compliance(each, "free") == pytest.approx(found[-1], rel=1e-8)
+    # What is left of the restraint falls with its length.
+    assert compliance(each, "free") == pytest.approx(found[-1], rel=1e-5)
 
 
 def test_without_a_crank_radius_it_is_a_shaft() -> None:

@@ -84,6 +84,18 @@ def test_dead_centre(tmp_path: Path) -> None:
     assert json.loads(done.stdout)["results"]["slider_crank"]["stroke"] == 0.1
 
 
+def test_cautions_are_printed(task: Path) -> None:
+    """A poor transmission angle is told on the terminal and in JSON."""
+    wide = ("dead-centre", "--swing", "110 deg", "--time-ratio", "1.5")
+    told = json.loads(run(*wide, "--json").stdout)
+    assert "transmission angle falls to" in told["warnings"][0]
+    assert "warnings" not in told["results"]["crank_rocker"]
+    assert f"Warning: {told['warnings'][0]}" in run(*wide).stdout
+    task.write_text(PATH)
+    found = json.loads(run("path", "--task", task, "--json").stdout)["results"]["path_generator"]
+    assert found["starts"] >= found["found_by"] > 0
+
+
 def test_line(tmp_path: Path) -> None:
     out = tmp_path / "m.toml"
     assert run("line", "--kind", "hoeken", "--length", "200 mm", "--out", out).exit_code == 0

@@ -6,12 +6,14 @@ import contextlib
 import math
 import subprocess
 import sys
-from typing import Any
+from typing import Annotated, Any
 
+import numpy as np
 import pint
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pydantic import TypeAdapter, ValidationError
 
 from linkwright import units
 from linkwright.errors import UnitError
@@ -105,7 +107,7 @@ def test_texts_give_si(text: object, kind: units.Kind, value: float | None) -> N
         (True, units.LENGTH, "true"),
         (math.nan, units.LENGTH, "finite"),
         (math.inf, units.LENGTH, "finite"),
-        (10**400, units.LENGTH, "too large"),
+        (10**400, units.LENGTH, "between 1e-9 and 1e6 m"),
         (None, units.LENGTH, "a length"),
         ([1], units.LENGTH, "a length"),
     ],
@@ -123,9 +125,37 @@ def test_any_text_is_a_number_or_a_unit_error(text: str) -> None:
         assert math.isfinite(units.parse(text, units.LENGTH))
 
 
-@given(st.floats(allow_nan=False, allow_infinity=False), st.sampled_from(units.KINDS))
-def test_si_texts_read_back_as_the_same_float(value: float, kind: units.Kind) -> None:
+@given(st.floats(-1, 1), st.sampled_from(units.KINDS))
+def test_si_texts_read_back_as_the_same_float(share: float, kind: units.Kind) -> None:
+    value = share * kind.most
     assert units.parse(units.to_text(value, kind), kind) == value
+
+
+@pytest.mark.parametrize("kind", [*units.KINDS, units.COUNT], ids=lambda kind: kind.noun)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_range_of_a_kind_is_held_by_every_reader(kind: units.Kind, sign: int) -> None:
+    assert units.parse(sign * kind.most, kind) == sign * kind.most
+    beyond = sign * kind.most * 1.001
+    for value in (beyond, f"{beyond!r} {kind.unit}", sign * 1e300, np.float64(beyond)):
+        with pytest.raises(UnitError, match="in size") as caught:
+            units.parse(value, kind)
+        assert units.range_words(kind) in str(caught.value)
+    with pytest.raises(UnitError, match="in size"):
+        units.parse_list([0, beyond], kind)
+
+
+@pytest.mark.parametrize("kind", [*units.KINDS, units.COUNT], ids=lambda kind: kind.noun)
+def test_specks_are_zero_where_zero_may_stand_and_no_size_where_it_may_not(kind: units.Kind) -> None:
+    marks = (units.Quantity(kind), units.positive(kind), units.not_negative(kind))
+    signed, positive, not_negative = (TypeAdapter(Annotated[float, mark]) for mark in marks)
+    for value in (1e-320, 1e-300, 0.999 * kind.least):
+        assert signed.validate_python(value) == value
+        assert signed.validate_python(-value) == -value
+        assert not_negative.validate_python(value) == 0.0
+        with pytest.raises(ValidationError) as caught:
+            positive.validate_python(value)
+        assert caught.value.errors()[0]["ctx"]["remedy"] == units.range_words(kind)
+    assert positive.validate_python(kind.least) == not_negative.validate_python(kind.least) == kind.least
 
 
 @pytest.mark.parametrize("kind", units.KINDS, ids=lambda kind: kind.noun)

@@ -65,9 +65,10 @@ def test_docstring_of_the_package_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     assert doctest.testmod(lw).failed == 0
 
 
-def test_tables_of_the_machine_file_are_those_of_the_code() -> None:
-    page = (DOCS / "file_format.md").read_text(encoding="utf-8")
-    assert tables().written(page) == page, "run: python docs/tables.py"
+@pytest.mark.parametrize("page", ["file_format.md", "units.md"])
+def test_tables_of_the_pages_are_those_of_the_code(page: str) -> None:
+    text = (DOCS / page).read_text(encoding="utf-8")
+    assert tables().written(text) == text, "run: python docs/tables.py"
 
 
 def test_every_part_of_a_machine_file_has_its_table() -> None:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.forces import forces
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.kinetostatics.motion import Motion, motion_at
 from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.kinetostatics.scene import Scene, left, unit
@@ -26,6 +27,7 @@ from linkwright.errors import MachineError, Problem
 from linkwright.machine import Body, Machine
 from linkwright.machine.base import suggestion
 from linkwright.machine.structure import FRAME
+from linkwright.units import LENGTH, SPEED, positive
 
 Floats = NDArray[np.float64]
 
@@ -130,13 +132,16 @@ def balance(
     Raises
     ------
     MachineError
-        A link that does not exist or does not turn about a fixed point; a radius that is not positive.
+        A link that does not exist or does not turn about a fixed point.
+    InputError
+        A speed of 0, or a radius that is not positive.
 
     References
     ----------
     .. [1] Berkof, Lowen, A new method for completely force balancing simple linkages, J. Eng. Ind. 91 (1969).
     .. [2] Lowen, Tepper, Berkof, Balancing of linkages – an update, Mech. Mach. Theory 18 (1983).
     """
+    require_turning(speed)
     scene = Scene(machine, motion_at(machine, None, speed=speed, n=n))
     _check_links(scene, links)
     before = forces(machine, scene.motion)
@@ -204,8 +209,7 @@ def with_counterweights(
     for link, u in moments.items():
         at = radius.get(link) if isinstance(radius, Mapping) else radius
         at = scene.links[link].length if at is None else at
-        if not np.isfinite(at) or at <= 0:
-            raise MachineError([Problem("radius", f"{at:g} m", f"a length greater than 0 on {link}")])
+        in_range(**{f"radius of {link}": (at, positive(LENGTH))})
         size, angle = float(np.hypot(*u)), float(np.arctan2(u[1], u[0]))
         found.append(Counterweight(link, size, angle, size / at, at))
         if size > _NOTHING * largest:
@@ -213,6 +217,12 @@ def with_counterweights(
             bodies[_free_name(link, bodies)] = Body(on=link, mass=size / at, inertia=0.0, **place)
     balanced = machine.with_entries({"bodies": bodies})
     return Balance(balanced, tuple(found), before, forces(balanced, scene.motion))
+
+
+def require_turning(speed: float | None) -> None:
+    """Refuse a speed at which there is no inertia to balance."""
+    if speed is not None:
+        in_range(speed=(abs(speed), positive(SPEED)))
 
 
 def _free_name(link: str, bodies: Mapping[str, Body]) -> str:

@@ -5,14 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.balancing import Balance, with_counterweights
+from linkwright.analysis.balancing import Balance, require_turning, with_counterweights
 from linkwright.analysis.forces import forces
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.kinetostatics.inertia import masses
 from linkwright.analysis.kinetostatics.motion import motion_at
 from linkwright.analysis.kinetostatics.scene import Scene, left, unit
 from linkwright.errors import MachineError, Problem
 from linkwright.machine import Machine
 from linkwright.machine.base import suggestion
+from linkwright.units import RATIO, not_negative
 
 Floats = NDArray[np.float64]
 
@@ -61,6 +63,8 @@ def partial_balance(
     ----------
     .. [1] Norton, Design of Machinery, chapter 13 (equivalent masses, balancing the engine).
     """
+    in_range(share=(share, not_negative(RATIO)))
+    require_turning(speed)
     part = machine.linkage.sliders.get(slider)
     if part is None or part.crank not in machine.linkage.cranks:
         able = [

@@ -16,6 +16,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.kinetostatics.applied import Applied, applied
 from linkwright.analysis.kinetostatics.collect import Collector
 from linkwright.analysis.kinetostatics.equilibrium import Equilibrium
@@ -29,11 +30,19 @@ from linkwright.analysis.kinetostatics.wrench import Wrenches
 from linkwright.analysis.steady_state import SteadyState
 from linkwright.analysis.transient import Transient
 from linkwright.engine import drive_inertia
-from linkwright.errors import InputError
 from linkwright.machine import Drive, Machine
+from linkwright.units import ANGLE, Bound, Quantity
 
 # Pressure angle of involute teeth by DIN 867 and ISO 53 [rad].
 PRESSURE_ANGLE = float(np.radians(20.0))
+
+
+# Teeth press along a line between their common tangent, 0, and the line of centres.
+_ACUTE = Bound(
+    " of 0 or more and below 90 deg,",
+    {"minimum": 0, "exclusiveMaximum": np.pi / 2},
+    lambda value: 0 <= value < np.pi / 2,
+)
 
 
 def forces(
@@ -89,10 +98,7 @@ def forces(
     ----------
     .. [1] Norton, Design of Machinery, chapter 11.
     """
-    if not 0 <= pressure_angle < np.pi / 2:
-        raise InputError(
-            f"pressure_angle: found {pressure_angle:g} rad, expected 0 or more and less than π/2"
-        )
+    in_range(pressure_angle=(pressure_angle, Quantity(ANGLE, _ACUTE)))
     scene = Scene(
         machine, motion_at(machine, motion, speed=speed, acceleration=acceleration, angles=angles, n=n)
     )

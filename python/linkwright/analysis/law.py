@@ -17,8 +17,10 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.taylor import Taylor
 from linkwright.errors import ShapeError
+from linkwright.units import ANGLE, TIME, Quantity
 
 Floats = NDArray[np.float64]
 
@@ -149,15 +151,21 @@ class TableLaw:
     """
 
     def __init__(self, times: ArrayLike, angles: ArrayLike) -> None:
+        in_range(times=(times, Quantity(TIME)), angles=(angles, Quantity(ANGLE)))
         t, phi = (np.asarray(each, dtype=float) for each in (times, angles))
-        if t.ndim != 1 or t.shape != phi.shape or len(t) < 3 or not np.isfinite([t, phi]).all():
+        if t.ndim != 1 or t.shape != phi.shape or len(t) < 3:
             raise ShapeError(
-                f"a table of times and angles needs two lists of one length, at least 3 finite numbers each; "
+                f"a table of times and angles needs two lists of one length, at least 3 numbers each; "
                 f"found shapes {t.shape} and {phi.shape}"
             )
-        if (np.diff(t) <= 0).any():
-            at = int(np.argmax(np.diff(t) <= 0))
-            raise ShapeError(f"times must increase; found {t[at]:g} s followed by {t[at + 1]:g} s")
+        # Of what is closer together than the smallest time, no speed can be told.
+        close = np.diff(t) < TIME.least / 2
+        if close.any():
+            at = int(np.argmax(close))
+            raise ShapeError(
+                f"times must increase by {TIME.least:g} s or more; found {t[at]:g} s followed by "
+                f"{t[at + 1]:g} s"
+            )
         self.times, self.angles = t, phi
         self._bend = _natural_spline(t, phi)
 
@@ -210,14 +218,14 @@ class FunctionLaw:
         """
         variable = Taylor.variable(np.asarray(times, dtype=float))
         try:
+            # Where the law has no value or is beyond all numbers, `motion` says when.
             with np.errstate(all="ignore"):
-                found = self.function(variable)
+                return variable._like(self.function(variable)).derivatives
         except TypeError as error:
             raise ShapeError(
                 f"the law uses a function without a known derivative ({error}); write it with arithmetic and "
                 "numpy's elementary functions, or give it as a table"
             ) from None
-        return variable._like(found).derivatives
 
 
 def as_law(law: Law | Callable[[Any], Any] | Sequence[ArrayLike]) -> Law:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.closure import closure_of, require_closed
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.kinematics import checked_angles, everything, kinematics_of
 from linkwright.analysis.law import Law, as_law
 from linkwright.analysis.result import Result
@@ -23,6 +24,7 @@ from linkwright.analysis.roots import brackets, zeros
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import AssemblyError, ShapeError
 from linkwright.machine import Machine
+from linkwright.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
 
 Floats = NDArray[np.float64]
 
@@ -112,8 +114,8 @@ def motion(
     ------
     AssemblyError
         The law leaves the range in which the mechanism closes; says at what time and crank angle.
-    ShapeError
-        Times or law are not usable.
+    InputError
+        Times or law are not usable, or the law goes beyond the range of angles, speeds or accelerations.
     """
     t = checked_angles(times)
     if len(t) == 0 or (np.diff(t) <= 0).any():
@@ -124,6 +126,12 @@ def motion(
     if not np.isfinite(rates).all():
         first = t[int(np.argmin(np.isfinite(rates).all(axis=0)))]
         raise ShapeError(f"the law gives no finite angle or rate at t = {first:g} s")
+    given = (
+        ("angle", Quantity(ANGLE)),
+        ("speed", Quantity(SPEED)),
+        ("acceleration", Quantity(ANGULAR_ACCELERATION)),
+    )
+    in_range(**{f"crank {name} by the law": (rates[n], kind) for n, (name, kind) in enumerate(given)})
     _require_within(compiled, machine, driver, t)
     found = kinematics_of(compiled, np.ascontiguousarray(rates[0]), everything(compiled), third=True)
     columns = rates[:, :, None]

@@ -12,10 +12,11 @@ import numpy as np
 
 from linkwright.analysis.closure import require_closed
 from linkwright.analysis.dyads import dyads_of, evaluate, transmission, transmission_channels
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.kinematics import everything, kinematics_of
 from linkwright.engine import compile_machine
-from linkwright.errors import ShapeError
 from linkwright.machine import Machine
+from linkwright.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
 
 # A dyad whose links are nearer than this to one line, as the sine of the angle between them, is near a limit.
 _NEAR = 0.1
@@ -108,14 +109,14 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
     ------
     AssemblyError
         The mechanism does not close there.
-    ShapeError
-        A number is not finite.
+    InputError
+        A number is not finite, or beyond its range.
     """
-    if not np.isfinite([crank_angle, speed, acceleration]).all():
-        raise ShapeError(
-            f"finite numbers are needed for angle, speed and acceleration of the crank, found "
-            f"{crank_angle!r}, {speed!r}, {acceleration!r}"
-        )
+    in_range(
+        crank_angle=(crank_angle, Quantity(ANGLE)),
+        speed=(speed, Quantity(SPEED)),
+        acceleration=(acceleration, Quantity(ANGULAR_ACCELERATION)),
+    )
     compiled = compile_machine(machine).first()
     at = np.array([crank_angle], dtype=np.float64)
     require_closed(compiled, machine, at)

@@ -22,11 +22,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.closure import require_full_turn, require_one_turn, turn_angles
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_same_turns
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError, StartError, SteadyStateError
 from linkwright.machine import Machine
+from linkwright.units import ANGLE, positive
 
 Floats = NDArray[np.float64]
 
@@ -137,7 +139,8 @@ def whole_steps(step: float) -> int:
     InputError
         The step does not divide the turn.
     """
-    n = round(2 * np.pi / step) if 0 < step < np.pi else 0
+    in_range(step=(step, positive(ANGLE)))
+    n = round(2 * np.pi / step) if step < np.pi else 0
     if n == 0 or abs(n * step - 2 * np.pi) > 1e-6:
         raise InputError(f"a step of {np.degrees(step):g}° does not divide the turn; 1° is usual")
     return n

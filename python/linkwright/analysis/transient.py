@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.closure import require_full_turn
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.reduction import NO_INERTIA
 from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_half_turns, require_sound_loads
 from linkwright.engine import compile_machine
 from linkwright.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
+from linkwright.units import ANGLE, COUNT, SPEED, TIME, Quantity, not_negative, positive
 
 Floats = NDArray[np.float64]
 
@@ -170,12 +172,14 @@ def transient(
     ----------
     .. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5 (DOP853).
     """
-    if not (np.isfinite(duration) or np.isfinite(turns)) or not duration > 0 or not turns > 0:
-        raise InputError("a positive, finite duration [s] or number of turns is needed")
-    if not (np.isfinite(speed) and speed >= 0 and np.isfinite(angle)):
-        raise InputError(
-            f"a speed of {speed:g} rad/s at {angle:g} rad: expected numbers, the speed not negative"
-        )
+    if duration == turns == np.inf:
+        raise InputError("duration, turns: found neither, expected one of them as the end of the motion")
+    in_range(
+        angle=(angle, Quantity(ANGLE)),
+        speed=(speed, not_negative(SPEED)),
+        duration=(None if duration == np.inf else duration, positive(TIME)),
+        turns=(None if turns == np.inf else turns, positive(COUNT)),
+    )
     if not 1e-14 <= accuracy <= 1e-2:
         raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-14 to 1e-2")
     if motor and machine.drive and isinstance(machine.drive.motor, ConstantSpeedMotor):

@@ -140,9 +140,11 @@ def _pose_rows(found: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
 def _turn(machine: Machine, speed: CrankSpeed, steps: int, *, json: bool, csv: bool) -> str:
     """A revolution at a constant speed."""
     from linkwright.analysis.law import constant_speed
+    from linkwright.units import SPEED
 
-    if speed.value <= 0:
-        raise InputError(f"--speed: found {speed.value:g} rad/s, expected a speed above zero for a turn")
+    if speed.value < SPEED.least:
+        expected = f"a speed above zero for a turn, {SPEED.least:g} rad/s or more"
+        raise InputError(f"--speed: found {speed.value:g} rad/s, expected {expected}")
     times = (0.0, 2 * pi / speed.value)
     told = {"crank_speed": speed.value, "speed_source": speed.source}
     head = f"one revolution of the crank in {times[1]:.6g} s, {speed}"
@@ -228,24 +230,10 @@ def _is_table(law: str) -> bool:
 def _law(text: str) -> Law:
     """A formula, or the table in a file."""
     if _is_table(text):
-        return _table_law(Path(text))
+        from linkwright.analysis.law import TableLaw
+        from linkwright.files.law_table import read_law_table
+
+        return TableLaw(*read_law_table(Path(text)))
     from linkwright.analysis.law_formula import FormulaLaw
 
     return FormulaLaw(text)
-
-
-def _table_law(path: Path) -> Law:
-    """A table of times [s] and angles [rad]; a first line that is no numbers is its head."""
-    from linkwright.analysis.law import TableLaw
-
-    rows = []
-    for k, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
-        parts = line.replace(";", ",").split(",")
-        try:
-            time, angle = (float(part) for part in parts)
-        except ValueError:
-            if k == 1 or not line.strip():
-                continue
-            raise InputError(f"{path}:{k}: found {line!r}, expected a time and an angle") from None
-        rows.append((time, angle))
-    return TableLaw([time for time, _ in rows], [angle for _, angle in rows])

@@ -122,4 +122,5 @@ def command_line() -> str:
     import shlex
     import sys
 
-    return shlex.join(["linkwright", *sys.argv[1:]])
+    # A name of a file may be bytes that are no UTF-8; a report is.
+    return shlex.join(["linkwright", *sys.argv[1:]]).encode("utf-8", "backslashreplace").decode()

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import typer
 
 
-def print_json(found: dict[str, Any]) -> None:
+def print_json(found: dict[str, Any], warnings: Sequence[str] = ()) -> None:
     """One object on standard output."""
     from json import dumps
 
-    typer.echo(dumps(found | {"findings": [], "warnings": []}, allow_nan=False, ensure_ascii=False))
+    told = {"findings": [], "warnings": list(warnings)}
+    typer.echo(dumps(found | told, allow_nan=False, ensure_ascii=False))
 
 
 def plain(value: Any) -> Any:
@@ -32,6 +34,8 @@ _RATIOS = (
     "relative",
     "straightness",
     "evaluated",
+    "starts",
+    "found",
     "rate",
     "seed",
     "links",

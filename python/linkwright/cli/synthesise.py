@@ -217,7 +217,7 @@ def _proportions(texts: list[str]) -> dict[str, float]:
 
 @contextmanager
 def _tracked() -> Iterator[Any]:
-    """Something to call after every generation, with a bar on standard error once that takes long."""
+    """Something to call after every step, with a bar on standard error once that takes long."""
     from time import monotonic
 
     start = monotonic()
@@ -225,7 +225,7 @@ def _tracked() -> Iterator[Any]:
 
     def track(done: int, total: int) -> None:
         if not bars and monotonic() - start > _PATIENCE and sys.stderr.isatty():
-            bars.append(progress_bar("generations", total))
+            bars.append(progress_bar("refinement", total))
         for bar in bars:
             bar.update(bar.task_ids[0], completed=done)
 
@@ -243,12 +243,17 @@ def _finish(
     from linkwright.files.write import dumps
 
     machine: Machine = found.machine  # type: ignore[attr-defined]
+    entries = found.to_dict(curves=curves)
+    # Lines of the catalogue have none.
+    warnings = entries.pop("warnings", [])
     if out is not None:
         put(dumps(machine), out, force=force)
     if json:
-        print_json({"machine": machine.name, "results": {what: plain(found.to_dict(curves=curves))}})
+        print_json({"machine": machine.name, "results": {what: plain(entries)}}, warnings)
         return
     typer.echo(machine.name)
-    for name, value in found.to_dict().items():
+    for name, value in entries.items():
         typer.echo(f"  {name.replace('_', ' '):<26} {words(name, value)}")
+    for warning in warnings:
+        typer.echo(f"Warning: {warning}")
     typer.echo(f"Written: {out}" if out else "--out FILE writes the machine file.")

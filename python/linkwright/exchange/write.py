@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Iterable
 from pathlib import Path as File
 
+from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError
 from linkwright.exchange.drawing import PROFILE, Drawing, Measured, Written
 from linkwright.exchange.dxf import write_dxf
@@ -18,6 +19,7 @@ from linkwright.exchange.step import write_step
 from linkwright.exchange.svg import write_svg
 from linkwright.exchange.table import By, table, write_csv
 from linkwright.files.output import file_name, trial, unwritable
+from linkwright.units import ANGLE, LENGTH, positive
 
 # Step of tables [rad].
 STEP = math.radians(1)
@@ -73,6 +75,7 @@ def write_drawing(
     InputError
         A format, form, tolerance or step that does not exist, or a directory that cannot be written.
     """
+    in_range(tolerance=(tolerance, positive(LENGTH)), step=(step, positive(ANGLE)))
     formats = tuple(formats)
     if unknown := [each for each in formats if each not in ALL_FORMATS]:
         raise InputError(f'format "{unknown[0]}": expected {", ".join(ALL_FORMATS)}')

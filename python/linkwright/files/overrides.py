@@ -75,6 +75,11 @@ def parse(text: str) -> Override:
     >>> parse("drive.gearbox.ratio=10").value
     10
     """
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        shown = show(text.encode("utf-8", "backslashreplace").decode())
+        raise InputError(f"--set\n  found:    {shown}\n  expected: UTF-8 text") from None
     address, equals, value = text.partition("=")
     if not equals or not address.strip():
         expected = 'PATH=VALUE, such as mechanism.cranks.A2.phase="80 deg"'

@@ -12,12 +12,14 @@ import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
 from linkwright.errors import MachineFileError, Problem
+from linkwright.files.text_file import TextError, text_of
 from linkwright.machine.text import join
-from linkwright.units import show
+from linkwright.units import NUMBER, show
 
 # Kinds of tables whose points may be in a file, and a head for each.
 _EXAMPLES = {
@@ -25,6 +27,9 @@ _EXAMPLES = {
     "table": "angle [deg], lift [mm]",
     "measured": "root_diameter [mm], cut_height [mm], offset [mm]",
 }
+
+# A million lines of a measurement.
+_LARGEST = 20_000_000
 
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 
@@ -172,13 +177,18 @@ def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, lis
 def _lines(path: Path, key: str) -> list[tuple[int, list[str]]]:
     """Number and cells of each line that is neither empty nor a comment."""
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in file)
-            return [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "no UTF-8 text"
-        found = f"{path}, which cannot be read ({reason})"
-        raise MachineFileError([Problem(key, found, "a file of comma-separated values")]) from None
+        text = text_of(path, _LARGEST)
+    except TextError as error:
+        found, expected = f"{path}, {error.found}", "a file of comma-separated values"
+        raise MachineFileError([Problem(key, found, expected, error.remedy)]) from None
+    lines = StringIO(text, newline="")
+    reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in lines)
+    try:
+        return [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
+    except csv.Error:
+        found, expected = "a cell that does not end", f"cells of at most {csv.field_size_limit()} characters"
+        remedy = 'close the quotation mark (")'
+        raise MachineFileError([Problem(key, found, expected, remedy, str(path), reader.line_num)]) from None
 
 
 def _row_problems(key: str, names: list[str], row: list[str]) -> Iterator[Problem]:
@@ -192,10 +202,7 @@ def _row_problems(key: str, names: list[str], row: list[str]) -> Iterator[Proble
 
 
 def _is_number(cell: str) -> bool:
-    try:
-        return math.isfinite(float(cell))
-    except ValueError:
-        return False
+    return NUMBER.fullmatch(cell.strip()) is not None and math.isfinite(float(cell))
 
 
 def _with_unit(number: str, unit: str | None) -> Any:

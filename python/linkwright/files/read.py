@@ -16,6 +16,7 @@ from linkwright.errors import MachineError, MachineFileError, Problem
 from linkwright.files.lines import key_lines, line_of
 from linkwright.files.overrides import Override, apply, parse_all
 from linkwright.files.points import Column, with_points
+from linkwright.files.text_file import TextError, text_of
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.text import split
 from linkwright.units import show
@@ -177,29 +178,11 @@ def loads_as(
 def _text(path: Path) -> str:
     """The text of a file, or the problem with it."""
     try:
-        with path.open("rb") as file:
-            data = file.read(_LARGEST + 1)
-    except IsADirectoryError:
-        raise _unreadable(path, "a directory") from None
-    except FileNotFoundError:
-        raise _unreadable(path, "no such file", _similar(path)) from None
-    except PermissionError:
-        raise _unreadable(path, "a file without permission to read it") from None
-    except (OSError, ValueError) as error:
-        raise _unreadable(path, f"a file that cannot be read ({error})") from None
-    return _decoded(path, data)
-
-
-def _decoded(path: Path, data: bytes) -> str:
-    """The bytes of a file as text."""
-    if len(data) > _LARGEST:
-        raise _unreadable(path, f"more than {_LARGEST // 1_000_000} MB", expected=_TOO_LARGE)
-    try:
-        # Editors on Windows may put a mark in front of the text.
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        found = f"no UTF-8 text (byte {error.start + 1})"
-        raise _unreadable(path, found, "save the file as UTF-8") from None
+        text = text_of(path, _LARGEST)
+    except TextError as error:
+        expected = _TOO_LARGE if error.found.startswith("more than") else "a machine file"
+        remedy = error.remedy or _similar(path)
+        raise _unreadable(path, error.found, remedy, expected) from None
     if not text.strip():
         remedy = 'start from a template: "linkwright new --list" names them'
         raise _unreadable(path, "an empty file", remedy)
@@ -213,10 +196,12 @@ def _unreadable(
 
 
 def _similar(path: Path) -> str:
-    """A file beside the missing one with a similar name."""
+    """A file beside a missing one with a similar name."""
     from linkwright.machine.base import close_match
 
     try:
+        if path.exists():
+            return ""
         names = [each.name for each in path.parent.glob("*.toml")]
     except OSError:
         return ""

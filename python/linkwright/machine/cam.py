@@ -27,17 +27,23 @@ from linkwright.machine.follower_motion import FollowerMotion, follower_motion
 from linkwright.machine.follower_train import FollowerTrain
 from linkwright.machine.motion_section import MotionSection
 from linkwright.machine.section_faults import section_faults
-from linkwright.units import ANGLE, PRESSURE, RATIO, Angle, Bound, Length, Quantity, not_negative, positive
+from linkwright.units import (
+    ACUTE,
+    ANGLE,
+    PRESSURE,
+    RATIO,
+    Angle,
+    Bound,
+    Length,
+    Quantity,
+    not_negative,
+    positive,
+)
 
 if TYPE_CHECKING:
     from linkwright.motion_laws.motion_law import MotionLaw
     from linkwright.motion_laws.programme import Programme
 
-_ACUTE = Bound(
-    " between -90 and 90 deg,",
-    {"exclusiveMinimum": -np.pi / 2, "exclusiveMaximum": np.pi / 2},
-    lambda value: -np.pi / 2 < value < np.pi / 2,
-)
 _LIMIT = Bound(
     " between 0 and 90 deg,",
     {"exclusiveMinimum": 0, "exclusiveMaximum": np.pi / 2},
@@ -107,7 +113,7 @@ class Cam(Checked):
         description="Of the follower's line to the left of the cam's centre; of an oscillating face, from "
         "its pivot to the cam.",
     )
-    face_tilt: Annotated[float, Quantity(ANGLE, _ACUTE)] = Field(
+    face_tilt: Annotated[float, Quantity(ANGLE, ACUTE)] = Field(
         0.0, description="Of a translating face: of its normal from the direction of travel."
     )
     arm_pivot: str | None = Field(None, description="Fixed point that an oscillating follower turns about.")

@@ -12,6 +12,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.machine.base import fault
 from linkwright.machine.cam import Cam
 from linkwright.machine.element import Crank, FixedPoint, Guide, LinearDriver
+from linkwright.units import LENGTH
 
 if TYPE_CHECKING:
     from linkwright.machine.mechanism import Mechanism
@@ -163,23 +164,18 @@ def cam_place_faults(mechanism: Mechanism) -> Iterator[InitErrorDetails]:
     Yields
     ------
     InitErrorDetails
-        An offset beyond the prime circle; an arm too short or too long for the base circle; sizes beyond
-        all measure.
+        An offset beyond the prime circle; an arm too short or too long for the base circle, or on its centre.
     """
     points = mechanism.fixed_points()
     for name, cam in mechanism.cams.items():
         size = sizes(cam, points)
-        if any(np.abs(each).max() > _LARGEST for each in (*size, cam.stroke)):
-            expected = f"lengths and lifts below {_LARGEST:g} m"
-            yield fault("cams", name, found="sizes beyond all measure", expected=expected)
+        if cam.is_oscillating and np.min(size.distance) < LENGTH.least:
+            expected = "another place than the cam's centre"
+            yield fault("cams", name, "arm_pivot", found=cam.arm_pivot, expected=expected)
             continue
         start = start_of(cam, size)
         if np.isnan(start).any() or (not cam.is_oscillating and np.any(start <= 0)):
             yield from _unreached(name, cam, size)
-
-
-# Beyond this no cam is meant, and squares overflow [m].
-_LARGEST = 1e6
 
 
 def _unreached(name: str, cam: Cam, size: Sizes) -> Iterator[InitErrorDetails]:
@@ -190,9 +186,6 @@ def _unreached(name: str, cam: Cam, size: Sizes) -> Iterator[InitErrorDetails]:
         remedy = f"make base_radius larger than {least:.6g} m or the offset smaller"
         expected = f"less than base_radius + roller_radius, {np.min(prime):.6g} m"
         yield fault("cams", name, "offset", found=cam.offset, expected=expected, remedy=remedy)
-    elif size.distance == 0:
-        expected = "another place than the cam's centre"
-        yield fault("cams", name, "arm_pivot", found=cam.arm_pivot, expected=expected)
     elif cam.is_roller:
         low = abs(size.distance - size.arm) - size.roller_radius
         high = size.distance + size.arm - size.roller_radius

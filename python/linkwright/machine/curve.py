@@ -28,18 +28,23 @@ def curve_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iter
     Yields
     ------
     InitErrorDetails
-        Too few points, arguments that do not increase, lists of different length.
+        Too few points, arguments that do not increase or are not told apart, lists of different length.
     """
     points: tuple[float, ...] = getattr(owner, argument)
+    mark = mark_of(annotation_at(type(owner), (argument,)))
+    # A slope is a difference of values over one of arguments: these have a size of their kind, too.
+    apart = 0.0 if mark is None else mark.kind.least
     if len(points) < 2:
         yield fault(argument, found=_values(len(points)), expected="at least 2 values")
     for place, (before, here) in enumerate(pairwise(points), start=1):
-        if here <= before:
-            yield not_rising(owner, argument, place, before, here)
+        if here <= before or here - before < 0.5 * apart:
+            yield not_rising(owner, argument, place, before, here, apart)
     yield from _length_faults(owner, argument, values)
 
 
-def not_rising(owner: BaseModel, name: str, place: int, before: float, here: float) -> InitErrorDetails:
+def not_rising(
+    owner: BaseModel, name: str, place: int, before: float, here: float, apart: float = 0.0
+) -> InitErrorDetails:
     """The fault of a value that should be more than the one before it.
 
     Parameters
@@ -52,10 +57,13 @@ def not_rising(owner: BaseModel, name: str, place: int, before: float, here: flo
         Of the value in its list.
     before, here : float
         The one before it, and itself, in SI.
+    apart : float
+        Least difference of the two [SI]; 0 where any will do.
     """
     mark = mark_of(annotation_at(type(owner), (name,)))
     least = f"{before:.6g}" if mark is None else worded(before, mark.kind)
-    return fault(name, place, found=here, expected=f"more than {least}, the value before it")
+    by = f" by {apart:g} or more" if here > before else ""
+    return fault(name, place, found=here, expected=f"more than {least}, the value before it{by}")
 
 
 def unread_file(found: str) -> InitErrorDetails:

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.closure import turn_angles
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.run_up import RunUp, run_up
 from linkwright.analysis.steady_state import SteadyState, steady_state
@@ -31,6 +32,7 @@ from linkwright.engine import Compiled, compile_machine, drive_inertia
 from linkwright.errors import ConvergenceError, FindingError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
 from linkwright.sizing.fit import with_flywheel
+from linkwright.units import RATIO, Bound, Quantity
 
 Floats = NDArray[np.float64]
 
@@ -46,6 +48,13 @@ _ITERATIONS = 60
 # and the share by which a constant varies with rounding.
 _ANGLES = 37
 _CONSTANT = 1e-12
+
+
+# δ = (ω_max − ω_min)/ω_m with the mean of the extremes is 2 where the crank comes to rest.
+UNEVENNESS = Quantity(
+    RATIO,
+    Bound(" between 0 and 2,", {"exclusiveMinimum": 0, "exclusiveMaximum": 2}, lambda value: 0 < value < 2),
+)
 
 
 @dataclass(frozen=True)
@@ -127,8 +136,7 @@ def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
     ----------
     .. [1] Artobolevsky, Theory of Mechanisms and Machines: flywheel by Mertsalov's method.
     """
-    if not 0 < unevenness < 2:
-        raise InputError(f"unevenness {unevenness:g}: expected a number between 0 and 2, such as 0.05")
+    in_range(unevenness=(unevenness, UNEVENNESS))
     if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: a flywheel is sized for a motor; add [drive.motor]")
     bare = with_flywheel(machine, 0.0)

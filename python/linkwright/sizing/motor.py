@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.run_up import RunUp
 from linkwright.analysis.steady_state import SteadyState
 from linkwright.errors import FindingError, InputError
@@ -13,9 +14,10 @@ from linkwright.machine import CatalogueMotor, InductionMotor, Machine, motors
 from linkwright.machine import motor as catalogue_motor
 from linkwright.sizing.checks import DECISIVE, Check, Checked, motion_checks, rating_checks
 from linkwright.sizing.fit import with_flywheel, with_motor
-from linkwright.sizing.flywheel import flywheel_inertia
+from linkwright.sizing.flywheel import UNEVENNESS, flywheel_inertia
 from linkwright.sizing.inertia import KNOWN, rotor_inertia
 from linkwright.sizing.power import RequiredPower, required_power
+from linkwright.units import INERTIA, RATIO, not_negative, positive
 
 By = Literal["all", "fixed-start", "power"]
 Track = Callable[[Sequence[CatalogueMotor]], Iterable[CatalogueMotor]]
@@ -226,13 +228,16 @@ def choose_motor(
     ----------
     .. [1] Paper 1: required power, then a motor of the catalogue.
     """
+    in_range(
+        reserve=(reserve, positive(RATIO)),
+        unevenness=(unevenness, UNEVENNESS),
+        **{f"inertias of {type}": (J, not_negative(INERTIA)) for type, J in (inertias or {}).items()},
+    )
     required = required_power(machine)
     if not required.power > 0:
         raise InputError(
             f"the mean load is {required.torque_load_mean:.4g} N m: there is no motor to size for it"
         )
-    if not reserve > 0:
-        raise InputError(f"power reserve {reserve:g}: expected a number greater than 0, such as 1.1")
     given = own_inertia(machine) | {catalogue_motor(type).type: J for type, J in (inertias or {}).items()}
     judge = _Judge(machine, required, reserve, by, free_ratio or not _has_ratio(machine), unevenness, given)
     found = sorted((judge.candidate(known) for known in track(motors())), key=_rank)

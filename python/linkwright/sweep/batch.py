@@ -160,6 +160,8 @@ def steady_states(
     """
     if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
+    if not 1e-13 <= accuracy <= 1e-2:
+        raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a motor of constant speed has the same speed in every machine")
     require_same_turns(machine)

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.coverage import COARSE
 from linkwright.analysis.topper.edge import Edge, edges_of, require_topper
@@ -23,7 +24,7 @@ from linkwright.analysis.topper.roots import Roots, draw_roots
 from linkwright.errors import FindingError, InputError
 from linkwright.machine import ConstantKnife, Machine, MemberKnife, Topper
 from linkwright.machine.base import suggestion
-from linkwright.units import ANGLE, LENGTH, VELOCITY, Kind, worded
+from linkwright.units import ANGLE, INSIDE_ONE, LENGTH, RATIO, VELOCITY, Kind, Quantity, worded
 
 Floats = NDArray[np.float64]
 
@@ -143,6 +144,7 @@ def sweep_field(
     axes = {name: _axis(name, values) for name, values in over.items()}
     shape = tuple(len(axis) for axis in axes.values())
     _require(shape)
+    in_range(level=(level, Quantity(RATIO, INSIDE_ONE)))
     grid = np.meshgrid(*axes.values(), indexing="ij")
     columns = {name: values.ravel() for name, values in zip(axes, grid, strict=True)}
     roots, n = draw_roots(topper, seed), int(np.prod(shape))

@@ -18,14 +18,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.result import Result
-from linkwright.errors import InputError, SynthesisError
+from linkwright.analysis.in_range import in_range
+from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
+from linkwright.synthesis.transmission import Transmits
+from linkwright.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -38,7 +41,7 @@ SOURCE = "Synthesised by linkwright from its dead centres"
 
 
 @dataclass(frozen=True)
-class CrankRocker(Result):
+class CrankRocker(Transmits):
     """A crank-rocker for given dead centres.
 
     Attributes
@@ -61,6 +64,8 @@ class CrankRocker(Result):
         The linkage, its frame along x.
     """
 
+    remedy: ClassVar[str] = "ask for a smaller swing, or a time ratio nearer to 1"
+
     swing: float
     crank_angle_forward: float
     time_ratio: float
@@ -73,6 +78,13 @@ class CrankRocker(Result):
     crank_angle_outer: float
     crank_angle_inner: float
     machine: Machine
+
+
+_SWING = Bound(
+    " between 0 and 180 deg,",
+    {"exclusiveMinimum": 0, "exclusiveMaximum": np.pi},
+    lambda value: 0 < value < np.pi,
+)
 
 
 def crank_rocker(
@@ -108,8 +120,12 @@ def crank_rocker(
     ----------
     .. [1] VDI 2130.
     """
-    check(swing=(swing, np.pi), time_ratio=(time_ratio, np.inf), frame=(frame, np.inf))
-    check(coupler_max=(coupler_max, np.inf))
+    in_range(
+        swing=(swing, Quantity(ANGLE, _SWING)),
+        time_ratio=(time_ratio, positive(RATIO)),
+        frame=(frame, positive(LENGTH)),
+        coupler_max=(coupler_max, positive(RATIO)),
+    )
     delta = delta_of(time_ratio)
     families = [_Family(swing, delta, side) for side in (1.0, -1.0)]
     low = max(np.sin(abs(delta) / 2), np.sin(swing / 2) / coupler_max)
@@ -118,14 +134,6 @@ def crank_rocker(
     if not mu > 0:
         raise SynthesisError(_no_crank_rocker(swing, time_ratio, coupler_max))
     return family.result(t, time_ratio, frame)
-
-
-def check(**given: tuple[float, float]) -> None:
-    """Raise unless each number is positive and below its bound."""
-    for name, (value, bound) in given.items():
-        if not 0 < value < bound or not np.isfinite(value):
-            limit = f" less than {bound:.6g}" if np.isfinite(bound) else ""
-            raise InputError(f"{name} {value:g}: expected a positive number{limit}")
 
 
 def delta_of(time_ratio: float) -> float:

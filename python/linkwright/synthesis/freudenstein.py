@@ -21,6 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.synthesis.damped_step import damped_step
+
 Floats = NDArray[np.float64]
 
 # Start angles tried for each one that is free: every 15° where two are, every 2.5° where one is.
@@ -172,20 +174,14 @@ def _residuals(crank: Floats, rocker: Floats, K: Floats, starts: Floats) -> tupl
 def _refined(
     crank: Floats, rocker: Floats, K: Floats, starts: Floats, free: NDArray[np.bool_]
 ) -> tuple[Floats, Floats]:
-    """Levenberg–Marquardt from every start at once.
-
-    References
-    ----------
-    .. [1] D. Marquardt, An algorithm for least-squares estimation of nonlinear parameters, SIAM 11 (1963)
-    431–441.
-    """
+    """Levenberg–Marquardt from every start at once."""
     moving = np.concatenate([np.ones(3, dtype=bool), free])
     x = np.concatenate([K, starts], axis=1)
     damping = np.full(len(x), 1e-3)
     residual, J = _residuals(crank, rocker, x[:, :3], x[:, 3:])
     cost = np.sum(residual**2, axis=1)
     for _ in range(_STEPS):
-        step = _step(residual, J[:, :, moving], damping)
+        step = damped_step(residual, J[:, :, moving], damping)
         trial = x.copy()
         trial[:, moving] += step
         new, new_J = _residuals(crank, rocker, trial[:, :3], trial[:, 3:])
@@ -199,22 +195,6 @@ def _refined(
         )
         damping = np.clip(np.where(better, damping / 10, damping * 10), 1e-15, 1e15)
     return x[:, :3], x[:, 3:]
-
-
-def _step(residual: Floats, J: Floats, damping: Floats) -> Floats:
-    """Damped Gauss–Newton steps, (m, k): least squares of the Jacobian with the damping below it.
-
-    The augmented system is solved by orthogonal factors, so that the residual of an exact solution reaches
-    rounding.
-    """
-    k = J.shape[2]
-    scale = np.sqrt(damping)[:, None] * np.maximum(np.linalg.norm(J, axis=1), 1e-12)
-    below = scale[:, :, None] * np.eye(k)
-    tall = np.concatenate([J, below], axis=1)
-    right = np.concatenate([-residual, np.zeros((len(J), k))], axis=1)
-    Q, R = np.linalg.qr(tall)
-    step: Floats = np.linalg.solve(R, np.einsum("mnk,mn->mk", Q, right)[:, :, None])[:, :, 0]
-    return step
 
 
 def _positive(K: Floats, starts: Floats, free: NDArray[np.bool_]) -> tuple[Floats, Floats]:

@@ -17,13 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.kinematics import motions
-from linkwright.analysis.result import Result
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, side_of
 from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, scan, solve
 from linkwright.synthesis.function_scale import Scale
 from linkwright.synthesis.task import FunctionTask
+from linkwright.synthesis.transmission import Transmits
 
 Floats = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ SOURCE = "Synthesised by linkwright as a function generator"
 
 
 @dataclass(frozen=True)
-class FunctionGenerator(Result):
+class FunctionGenerator(Transmits):
     """A four-bar linkage that generates a function.
 
     Attributes

@@ -1,17 +1,18 @@
 """Path generation: a four-bar linkage whose coupler point passes given points as its crank turns.
 
-A global search (`evolution`) over nine or ten numbers, each generation one batch of machines in the core, and
-then Gauss and Newton's method with damping on the best, where derivatives by lengths are differences in one
-more batch and those by crank angles are exact. With given crank angles the point is compared at those angles,
-else with the nearest place of the curve, and the places must follow one another in the order of the points.
+Some ten thousand shapes, each in its best pose, are judged (`path_starts`); the best of each group begins a
+refinement by least squares (`path_refine`), all at once: coarse at first, to the end for those that lead.
+Several starts that end at the same error are the evidence that it is the least; how many did is told. With
+given crank angles the point is compared at those angles, else with the nearest place of the curve, and the
+places must follow one another in the order of the points.
 
 Source: D. Nolle, K. H. Hunt, Optimum synthesis of planar linkages to generate coupler curves, Journal of
-Mechanisms 6 (1971) 267–287 for the statement as least squares; the search: see `evolution`.
+Mechanisms 6 (1971) 267–287 for the statement as least squares.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -19,31 +20,41 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.kinematics import motions
-from linkwright.analysis.result import Result
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
-from linkwright.synthesis.evolution import Generation, evolve
-from linkwright.synthesis.four_bar import Assembly, FourBar, worst_transmission
-from linkwright.synthesis.path_model import PathModel
+from linkwright.synthesis.four_bar import worst_transmission
+from linkwright.synthesis.path_model import Linkages, PathModel
 from linkwright.synthesis.path_refine import refine
+from linkwright.synthesis.path_starts import TRIALS, starts
 from linkwright.synthesis.task import PathTask
+from linkwright.synthesis.transmission import Transmits
+from linkwright.synthesis.turning_shape import shape
 
 Floats = NDArray[np.float64]
 
-# Of the last generation this many are refined; the best of the search need not be the best after refinement.
-_REFINED = 6
+# Stages of the refinement: weight of broken constraints, steps over the task's, share of the linkages that go
+# through it, the best first. A weight of 1 draws starts towards what is allowed; one of 0.1 lets them move
+# along their constraints, as distances of a thousandth of the path then count as much.
+_STAGES = ((1.0, 0.1, 1.0), (0.1, 0.35, 1.0), (0.1, 1.0, 0.2))
 
-# Generations after which the best is refined, to see whether the search can end.
-_TRY = 50
+# Errors within this share of the least are the same minimum; within the next, the transmission angle decides.
+_SAME = 0.01
+_ALIKE = 1e-3
+
+# Errors over the size of the path that are rounding.
+_ROUNDING = 1e-12
+
+# Starts that end at the least error before it counts as the least there is.
+_SURE = 3
 
 SOURCE = "Synthesised by linkwright for given points of a path"
 
-# Called after every generation with generations done and to be done at most.
+# Called after every step with steps done and to be done at most.
 Track = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
-class PathGenerator(Result):
+class PathGenerator(Transmits):
     """A four-bar linkage whose coupler point follows given points.
 
     Attributes
@@ -62,19 +73,21 @@ class PathGenerator(Result):
         ``error_rms`` over the size of the path [–].
     transmission_angle_min : float
         Least transmission angle in the turn [rad].
+    starts, found_by : int
+        Starts that were refined, and how many of them ended at this error, within 1 %.
     evaluated : int
-        Machines that were computed.
+        Linkages that were computed.
     rate : float
-        Machines computed a second, by the clock.
+        Linkages computed a second, by the clock.
     seed : int
         Start of the random numbers.
     crank_angles : ndarray, shape (n,)
         Crank angles of the points in the machine [rad].
     x, y : ndarray, shape (n,)
         What the coupler point reaches there [m].
-    history : ndarray, shape (generations,)
-        Root of the mean square of the best machine's errors after each generation of both searches [m]; NaN
-        as long as none keeps the constraints.
+    history : ndarray, shape (steps,)
+        Root of the mean square of the best linkage's errors after each step of the refinement [m]; NaN as
+        long as none keeps the constraints.
     machine : Machine
         The linkage; its point ``P`` draws the path.
     """
@@ -91,6 +104,8 @@ class PathGenerator(Result):
     error_max: float
     error_relative: float
     transmission_angle_min: float
+    starts: int
+    found_by: int
     evaluated: int
     rate: float
     seed: int
@@ -99,6 +114,17 @@ class PathGenerator(Result):
     y: Floats
     history: Floats
     machine: Machine
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What to know of the search and of the linkage."""
+        if self.found_by >= _SURE:
+            return super().warnings
+        told = (
+            f"only {self.found_by} of {self.starts} starts ended at this error: there may be a better "
+            "linkage; raise population"
+        )
+        return (told, *super().warnings)
 
 
 def path_generator(task: PathTask, *, track: Track | None = None) -> PathGenerator:
@@ -109,91 +135,106 @@ def path_generator(task: PathTask, *, track: Track | None = None) -> PathGenerat
     task : PathTask
         Points, timing, constraints, and the size of the search.
     track : callable, optional
-        Called after every generation with generations done and to be done at most.
+        Called after every step of the refinement with steps done and to be done at most.
 
     Returns
     -------
     PathGenerator
-        The best linkage of both assemblies; the same for the same task.
+        The linkage of the least error; where several have it, the one with the greatest least transmission
+        angle. The same for the same task.
 
     Raises
     ------
     SynthesisError
         No linkage that was tried keeps the constraints.
-
-    Notes
-    -----
-    Both assemblies are searched, one after the other. A search ends at the accuracy of the task, at its
-    generations, or when it has come to rest; at the accuracy, the other assembly is left out.
     """
     began = perf_counter()
-    total = 2 * task.generations
-    searches = []
-    for turn, assembly in enumerate(("left", "right")):
-        model = PathModel(task, "left" if assembly == "left" else "right")
-        done = turn * task.generations
-        searches.append(_searched(model, task.seed + turn, track, done, total))
-        if any(cost < model.enough for cost, _, _ in searches[-1].refined):
-            break
-    candidates = [each for search in searches for each in search.refined]
-    evaluated = sum(search.evaluated for search in searches)
-    if not candidates:
-        raise SynthesisError(_none(task, searches, evaluated))
-    best = min(candidates, key=lambda each: each[0])
-    history = np.sqrt(np.concatenate([search.history for search in searches]))
-    return _result(best[1], best[2], evaluated, perf_counter() - began, history)
+    model = PathModel(task)
+    search = _Search(model, starts(model, task.population), track)
+    search.run()
+    rows, errors, broken = search.rows, search.errors(), model.violation(search.rows)
+    evaluated = search.evaluated + task.population * TRIALS
+    kept = broken <= 0.0
+    if not kept.any():
+        raise SynthesisError(_none(task, float(broken.min()), evaluated))
+    least = float(errors[kept].min())
+    exact = max(task.accuracy, _ROUNDING)
+    found_by = int((kept & (errors <= max((1 + _SAME) * least, exact))).sum())
+    alike = np.flatnonzero(kept & (errors <= max((1 + _ALIKE) * least, exact)))
+    best = alike[np.argmax(_transmission(model, rows.take(alike)))]
+    effort = _Effort(found_by, evaluated, evaluated / (perf_counter() - began), search.told())
+    return _result(model, rows.take(np.array([best])), effort)
+
+
+class _Search:
+    """All starts on their way through the stages of the refinement."""
+
+    def __init__(self, model: PathModel, rows: Linkages, track: Track | None) -> None:
+        self.model, self.rows, self.track = model, rows, track
+        self.evaluated, self.done = 0, 0
+        self.history: list[float] = []
+        self._stages = [
+            (w, max(1, round(steps * model.task.generations)), part) for w, steps, part in _STAGES
+        ]
+        self._total = sum(steps for _, steps, _ in self._stages)
+
+    def run(self) -> None:
+        """Refine all, then the leading ones, from stage to stage."""
+        for weight, steps, share in self._stages:
+            merit = self.errors() ** 2 + self.model.violation(self.rows) ** 2
+            leading = np.sort(np.argsort(merit, kind="stable")[: max(1, round(share * len(merit)))])
+            part = self.rows.take(leading)
+            end = self.done + steps
+            for count in refine(self.model, part, weight, steps):
+                self.evaluated += count
+                self._tell(part)
+            self.rows.put(leading, part)
+            self.done = end
+
+    def errors(self) -> Floats:
+        """Root of the mean square of the distances of all rows, over the size of the path, (m,)."""
+        return self.model.errors(self.rows)
+
+    def told(self) -> Floats:
+        """The history, NaN where nothing was found yet."""
+        history = np.array(self.history)
+        return np.where(np.isfinite(history), history, np.nan)
+
+    def _tell(self, part: Linkages) -> None:
+        """Keep the best error so far after a step, and tell of the step."""
+        self.done += 1
+        kept = self.model.violation(part) <= 0.0
+        best = float(self.model.errors(part)[kept].min(initial=np.inf)) * self.model.size
+        self.history.append(min(best, self.history[-1] if self.history else np.inf))
+        if self.track is not None:
+            self.track(self.done, self._total)
 
 
 @dataclass(frozen=True)
-class _Search:
-    """What a search of one assembly found: cost, model and row of the refined ones."""
+class _Effort:
+    """What a search took, and how often it met the best."""
 
-    refined: list[tuple[float, PathModel, Floats]]
+    found_by: int
     evaluated: int
+    rate: float
     history: Floats
-    violation: float
 
 
-def _searched(model: PathModel, seed: int, track: Track | None, done: int, total: int) -> _Search:
-    """Search one assembly and refine the best rows."""
-    task, history, work = model.task, [], 0
-    state: Generation | None = None
-    for state in evolve(model.judge, model.low, model.high, task.population, seed):
-        history.append(state.cost if state.violation == 0 else np.nan)
-        if track is not None:
-            track(done + state.number, total)
-        if state.number >= task.generations:
-            break
-        if state.number % _TRY == 0 and state.violation == 0:
-            refined, count = _refined(model, state.population[:1])
-            work += count
-            if refined and refined[0][0] < model.enough:
-                return _Search(refined, work + state.evaluated, np.array(history), 0.0)
-    assert state is not None
-    refined, count = _refined(model, state.population[:_REFINED] if state.violation == 0 else ())
-    return _Search(refined, work + count + state.evaluated, np.array(history), state.violation)
+def _transmission(model: PathModel, rows: Linkages) -> Floats:
+    """Least transmission angles, (m,) [rad]."""
+    lengths, _ = shape(rows.p[:, :3], rows.is_double)
+    return worst_transmission(np.ones(len(lengths)), *lengths.T)
 
 
-def _refined(model: PathModel, rows: Iterable[Floats]) -> tuple[list[tuple[float, PathModel, Floats]], int]:
-    """Cost, model and improved row of the rows that keep the constraints; how many linkages it took."""
-    found, work = [], 0
-    for row in rows:
-        cost, better, count = refine(model, row)
-        work += count
-        if np.isfinite(cost):
-            found.append((cost, model, better))
-    return found, work
-
-
-def _result(model: PathModel, row: Floats, evaluated: int, seconds: float, history: Floats) -> PathGenerator:
+def _result(model: PathModel, row: Linkages, effort: _Effort) -> PathGenerator:
     """The machine of a row, analysed again."""
     task = model.task
-    bar, place, angles = linkage(model, row)
+    bar, place, angles = model.linkage(row)
     machine = bar.machine(task.name or "Path generator", points={"P": place}, source=SOURCE)
     table = motions(machine, angles, points=["P"])[0]
-    errors = np.hypot(table[0] - model.x, table[1] - model.y)
+    errors = np.hypot(table[0] - task.x, table[1] - task.y)
     rms = float(np.sqrt(np.mean(errors**2)))
-    sizes = (np.array([each]) for each in (bar.frame, bar.crank, bar.coupler, bar.rocker))
+    worst = float(_transmission(model, row)[0])
     return PathGenerator(
         type=bar.type,
         frame=float(bar.frame),
@@ -206,37 +247,25 @@ def _result(model: PathModel, row: Floats, evaluated: int, seconds: float, histo
         error_rms=rms,
         error_max=float(errors.max()),
         error_relative=rms / model.size,
-        transmission_angle_min=float(worst_transmission(*sizes)[0]),
-        evaluated=evaluated,
-        rate=evaluated / seconds,
+        transmission_angle_min=worst,
+        starts=task.population,
+        found_by=effort.found_by,
+        evaluated=effort.evaluated,
+        rate=effort.rate,
         seed=task.seed,
         crank_angles=angles,
         x=table[0].copy(),
         y=table[1].copy(),
-        history=history,
+        history=effort.history,
         machine=machine,
     )
 
 
-def linkage(model: PathModel, row: Floats) -> tuple[FourBar, complex, Floats]:
-    """Linkage, coupler point and crank angles of the points of a row."""
-    x = row[: model.n_entries]
-    assembly: Assembly = model.assembly
-    pivots = complex(x[0], x[1]), complex(x[2], x[3])
-    if model.timed is None:
-        angles = model.nearest(row)
-        return FourBar(*pivots, x[4], x[5], x[6], assembly), complex(x[7], x[8]), angles
-    # Machine angle zero is that of the task's own count.
-    phase = float(np.angle(np.exp(1j * x[9])))
-    return FourBar(*pivots, x[4], x[5], x[6], assembly, phase), complex(x[7], x[8]), model.timed
-
-
-def _none(task: PathTask, searches: list[_Search], evaluated: int) -> str:
+def _none(task: PathTask, least: float, evaluated: int) -> str:
     """That nothing keeps the constraints, and by how much the best fails."""
-    least = min(search.violation for search in searches)
     return (
         f"none of {evaluated} linkages keeps all constraints ({task.linkage}, transmission angle at least "
         f"{np.degrees(task.transmission_angle_min):.4g}°, lengths within {task.length_ratio_max:g} to 1, "
         f"points in order, pivots in their box); the nearest violates them by {least:.3g} in sum. Lower "
-        "transmission_angle_min, raise length_ratio_max, widen pivots, or give more generations"
+        "transmission_angle_min, raise length_ratio_max, widen pivots, or raise population"
     )

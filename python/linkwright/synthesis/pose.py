@@ -12,17 +12,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.kinematics import motions
-from linkwright.analysis.result import Result
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
 from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
 from linkwright.synthesis.slider_pose import guide_slider
 from linkwright.synthesis.task import MovingPoint, PoseTask
+from linkwright.synthesis.transmission import Transmits
 from linkwright.synthesis.travel import listed, travel, way
 
 Floats = NDArray[np.float64]
@@ -38,7 +39,7 @@ SOURCE = "Synthesised by linkwright for given poses"
 
 
 @dataclass(frozen=True)
-class PoseGuide(Result):
+class PoseGuide(Transmits):
     """A linkage whose coupler passes through given poses.
 
     Attributes
@@ -66,6 +67,8 @@ class PoseGuide(Result):
     machine : Machine
         The linkage; its point ``P`` is the body's origin.
     """
+
+    remedy: ClassVar[str] = "choose other points of the body"
 
     linkage: str
     type: str

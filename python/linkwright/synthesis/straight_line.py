@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.kinematics import motions
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError, SynthesisError
@@ -21,6 +22,7 @@ from linkwright.machine import Machine
 from linkwright.machine.base import suggestion
 from linkwright.synthesis.four_bar import machine_of
 from linkwright.synthesis.line_kinds import KINDS, LineKind, Tables
+from linkwright.units import LENGTH, positive
 
 Floats = NDArray[np.float64]
 
@@ -125,8 +127,7 @@ def straight_line(
     .. [1] Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
     """
     found = _kind(kind)
-    if not (0 < length < np.inf):
-        raise InputError(f"length {length:g}: expected a positive length")
+    in_range(length=(length, positive(LENGTH)))
     chosen = found.proportions | _checked(found, proportions or {})
     try:
         with np.errstate(all="raise"):
@@ -210,8 +211,7 @@ def _checked(kind: LineKind, proportions: Mapping[str, float]) -> dict[str, floa
     for name, value in proportions.items():
         if name not in kind.proportions:
             raise InputError(f"{kind.title} has no length {name}; {suggestion(name, kind.proportions)}")
-        if not (0 < value < np.inf):
-            raise InputError(f"{name} {value:g}: expected a positive length")
+        in_range(**{name: (value, positive(LENGTH))})
     return dict(proportions)
 
 

@@ -10,21 +10,24 @@ Source: VDI 2130; Volmer, Getriebetechnik: Koppelgetriebe.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.result import Result
+from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError, SynthesisError
 from linkwright.machine import Machine
-from linkwright.synthesis.dead_centre import SOURCE, best, check, delta_of, joints
+from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints
 from linkwright.synthesis.four_bar import cross, machine_of
+from linkwright.synthesis.transmission import Transmits
+from linkwright.units import LENGTH, RATIO, positive
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class StrokeCrank(Result):
+class StrokeCrank(Transmits):
     """A slider-crank for a given stroke and time ratio.
 
     Attributes
@@ -44,6 +47,8 @@ class StrokeCrank(Result):
     machine : Machine
         The linkage, its guide along x.
     """
+
+    remedy: ClassVar[str] = "give a longer rod, or a time ratio nearer to 1"
 
     stroke: float
     crank_angle_forward: float
@@ -85,7 +90,11 @@ def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = 
     ----------
     .. [1] VDI 2130.
     """
-    check(stroke=(stroke, np.inf), time_ratio=(time_ratio, np.inf), rod=(1.0 if rod is None else rod, np.inf))
+    in_range(
+        stroke=(stroke, positive(LENGTH)),
+        time_ratio=(time_ratio, positive(RATIO)),
+        rod=(rod, positive(LENGTH)),
+    )
     delta = delta_of(time_ratio)
     if rod is None and delta == 0:
         raise InputError(

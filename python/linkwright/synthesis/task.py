@@ -218,11 +218,17 @@ class PathTask(Task):
         None, description="Longest link; without it, four sizes of the path."
     )
     seed: int = Field(
-        1, ge=0, description="Start of the random numbers; the same seed gives the same linkage."
+        1, ge=0, description="Seed of the random generator; the same seed gives the same linkage."
     )
-    population: int = Field(120, ge=20, le=100_000, description="Linkages in a generation.")
-    generations: int = Field(600, ge=1, le=1_000_000, description="Generations at most, for each assembly.")
-    accuracy: Ratio = Field(1e-6, description="Error over size of the path at which the search ends.")
+    population: int = Field(240, ge=20, le=100_000, description="Starts that are refined.")
+    generations: int = Field(
+        600, ge=1, le=1_000_000, description="Steps of the refinement at most, in its last stage."
+    )
+    accuracy: Ratio = Field(
+        1e-9,
+        description="Error over size of the path below which linkages count as exact; of such the one with "
+        "the greatest transmission angle is given.",
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         n = len(self.x)

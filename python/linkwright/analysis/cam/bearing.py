@@ -31,9 +31,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.cam.checks import alike, not_negative, positive
+from linkwright.analysis.cam.checks import alike
 from linkwright.analysis.cam.follower_load import CamCourse
+from linkwright.analysis.in_range import in_range
 from linkwright.errors import FindingError
+from linkwright.units import LENGTH, RATIO, not_negative, positive
 
 Floats = NDArray[np.float64]
 
@@ -124,8 +126,12 @@ class StemGuide:
 
     def __post_init__(self) -> None:
         """Refuse numbers that no guide has."""
-        positive(length=self.length)
-        not_negative(overhang=self.overhang, coefficient=self.coefficient, diameter=self.diameter)
+        in_range(
+            length=(self.length, positive(LENGTH)),
+            overhang=(self.overhang, not_negative(LENGTH)),
+            coefficient=(self.coefficient, not_negative(RATIO)),
+            diameter=(self.diameter, not_negative(LENGTH)),
+        )
 
     def held(self, course: CamCourse, push: Push) -> Held:
         """Reactions and friction for a normal force of one.
@@ -182,8 +188,11 @@ class ArmPivot:
 
     def __post_init__(self) -> None:
         """Refuse numbers that no pivot has."""
-        positive(arm=self.arm)
-        not_negative(coefficient=self.coefficient, radius=self.radius)
+        in_range(
+            arm=(self.arm, positive(LENGTH)),
+            coefficient=(self.coefficient, not_negative(RATIO)),
+            radius=(self.radius, not_negative(LENGTH)),
+        )
 
     def held(self, course: CamCourse, push: Push) -> Held:
         """Reaction and friction for a normal force of one.

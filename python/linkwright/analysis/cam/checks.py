@@ -1,74 +1,13 @@
-"""Inputs that make no sense, told by name, with what was found and what belongs there."""
+"""Arrays that belong together, brought to one length."""
 
 from __future__ import annotations
-
-from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.errors import InputError, ShapeError
+from linkwright.errors import ShapeError
 
 Floats = NDArray[np.float64]
-
-
-def positive(**values: ArrayLike) -> None:
-    """Raise unless every number is finite and greater than zero.
-
-    Parameters
-    ----------
-    **values : array_like, shape (...)
-        By the name that the message shall have.
-
-    Raises
-    ------
-    InputError
-        One is not.
-    """
-    _each(values.items(), "a finite number greater than 0", lambda x: np.isfinite(x) & (x > 0))
-
-
-def not_negative(**values: ArrayLike) -> None:
-    """Raise unless every number is finite and zero or more.
-
-    Parameters
-    ----------
-    **values : array_like, shape (...)
-        By the name that the message shall have.
-
-    Raises
-    ------
-    InputError
-        One is not.
-    """
-    _each(values.items(), "a finite number of 0 or more", lambda x: np.isfinite(x) & (x >= 0))
-
-
-def finite(**values: ArrayLike) -> None:
-    """Raise unless every number is finite.
-
-    Parameters
-    ----------
-    **values : array_like, shape (...)
-        By the name that the message shall have.
-
-    Raises
-    ------
-    InputError
-        One is not.
-    """
-    _each(values.items(), "a finite number", np.isfinite)
-
-
-def _each(values: Iterable[tuple[str, ArrayLike]], expected: str, sound: object) -> None:
-    """Raise for the first number that is not sound."""
-    assert callable(sound)
-    for name, value in values:
-        numbers = np.asarray(value, dtype=float)
-        wrong = np.flatnonzero(~sound(numbers))
-        if len(wrong):
-            place = f" at index {wrong[0]}" if numbers.ndim else ""
-            raise InputError(f"{name}: found {numbers.flat[wrong[0]]:g}{place}, expected {expected}")
 
 
 def alike(**values: ArrayLike) -> dict[str, Floats]:

@@ -25,10 +25,11 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.cam.backlash import SideChange, side_changes
 from linkwright.analysis.cam.bearing import ArmPivot, Bearing, Held, NoFriction, Push, pushes
-from linkwright.analysis.cam.checks import not_negative
 from linkwright.analysis.cam.follower_load import CamCourse, FollowerLoad, force_along
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError
+from linkwright.units import LENGTH, RATIO, not_negative
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -146,7 +147,7 @@ def contact_force(
     FindingError
         The follower is drawn into its guide.
     """
-    not_negative(friction=friction, clearance=clearance)
+    in_range(friction=(friction, not_negative(RATIO)), clearance=(clearance, not_negative(LENGTH)))
     if friction and not course.sliding.any():
         raise InputError(
             "sliding: found zero everywhere, expected the sliding of the contact, since it has friction"

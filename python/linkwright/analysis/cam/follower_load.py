@@ -16,8 +16,22 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.cam.checks import alike, finite, not_negative, positive
+from linkwright.analysis.cam.checks import alike
+from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError
+from linkwright.units import (
+    ANGLE,
+    ANGULAR_ACCELERATION,
+    DAMPING,
+    FORCE,
+    LENGTH,
+    MASS,
+    SPEED,
+    STIFFNESS,
+    Quantity,
+    not_negative,
+    positive,
+)
 
 Floats = NDArray[np.float64]
 
@@ -48,8 +62,23 @@ class FollowerLoad:
 
     def __post_init__(self) -> None:
         """Refuse numbers that no follower has."""
-        not_negative(mass=self.mass, spring_rate=self.spring_rate, damping=self.damping)
-        finite(preload=self.preload, load=self.load)
+        in_range(
+            mass=(self.mass, not_negative(MASS)),
+            spring_rate=(self.spring_rate, not_negative(STIFFNESS)),
+            damping=(self.damping, not_negative(DAMPING)),
+            preload=(self.preload, Quantity(FORCE)),
+            load=(self.load, Quantity(FORCE)),
+        )
+
+
+# What the entries of a course are; lift and offset count in m, or in rad of an oscillating follower.
+_COURSE = {
+    "cam_angle": Quantity(ANGLE),
+    **dict.fromkeys(("lift", "lift_d1", "lift_d2", "sliding", "offset"), Quantity(LENGTH)),
+    "pressure_angle": Quantity(ANGLE),
+    "speed": positive(SPEED),
+    "acceleration": Quantity(ANGULAR_ACCELERATION),
+}
 
 
 @dataclass(frozen=True)
@@ -89,8 +118,7 @@ class CamCourse:
     def __post_init__(self) -> None:
         """Bring all to one length; refuse what is no course."""
         given = {each.name: getattr(self, each.name) for each in fields(self)}
-        finite(**given)
-        positive(speed=self.speed)
+        in_range(**{name: (value, _COURSE[name]) for name, value in given.items()})
         for name, array in alike(**given).items():
             object.__setattr__(self, name, array)
         if (np.diff(self.cam_angle) < 0).any():

@@ -20,12 +20,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.cam.checks import positive
 from linkwright.analysis.cam.lift_steps import Ends, steps, without_steps
 from linkwright.analysis.cam.one_mass import OneMass
 from linkwright.analysis.cam.oscillator import Indices, Oscillation, in_pieces, oscillation, pole
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.motion_laws.motion_law import Extreme, MotionLaw, combined
+from linkwright.units import COUNT, SPEED, positive
 
 Floats = NDArray[np.float64]
 
@@ -239,7 +240,7 @@ def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 7
     FindingError
         Undamped and at resonance.
     """
-    positive(speed=speed, n=n)
+    in_range(speed=(speed, positive(SPEED)), n=(n, positive(COUNT)))
     without_steps(lift, "turn")
     train = Train(lift, model, speed, "turn")
     phi = np.linspace(lift.start, lift.end, n + 1)
@@ -339,6 +340,7 @@ def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: ArrayLike) -> 
     FindingError
         Undamped and at resonance.
     """
+    in_range(speeds=(speeds, positive(SPEED)))
     speed = np.atleast_1d(np.asarray(speeds, dtype=float))
     found = [follower_vibration(lift, model, float(omega), n=1) for omega in speed]
     names = ("force_max", "force_min", "acceleration_max", "departure_max")

@@ -21,9 +21,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.cam.checks import alike, finite, positive
+from linkwright.analysis.cam.checks import alike
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import FindingError, InputError
+from linkwright.units import FORCE, LENGTH, PRESSURE, Quantity, positive
 
 Floats = NDArray[np.float64]
 
@@ -56,7 +58,7 @@ class Material:
 
     def __post_init__(self) -> None:
         """Refuse numbers that no material has."""
-        positive(modulus=self.modulus)
+        in_range(modulus=(self.modulus, positive(PRESSURE)))
         if not -1.0 < self.poisson <= 0.5:
             raise InputError(f"poisson: found {self.poisson:g}, expected more than -1 and at most 0.5")
 
@@ -147,8 +149,7 @@ def line_contact(
     ----------
     .. [1] K. L. Johnson, Contact Mechanics (1985), section 4.2(c).
     """
-    positive(length=length)
-    finite(force=force)
+    in_range(length=(length, positive(LENGTH)), force=(force, Quantity(FORCE)))
     given = alike(force=force, radius=radius, radius_other=radius_other)
     kappa = _curvature(given["radius"], given["radius_other"])
     compliance = material.compliance + material_other.compliance

@@ -24,12 +24,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.cam.checks import positive
 from linkwright.analysis.cam.follower_load import FollowerLoad
 from linkwright.analysis.cam.lift_steps import steps, without_steps
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import FindingError, InputError
 from linkwright.motion_laws.motion_law import Extreme, MotionLaw, combined
+from linkwright.units import FORCE, MASS, SPEED, not_negative, positive
 
 Floats = NDArray[np.float64]
 
@@ -90,7 +91,7 @@ def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = N
         The lift jumps or is not one turn long; the load is an array, or there is no mass.
     """
     without_steps(lift, "turn")
-    positive(mass=follower.mass)
+    in_range(mass=(follower.mass, positive(MASS)))
     held = _spring(lift, follower, load)
     low = held.extremes()[0]
     if low.value <= 0:
@@ -240,7 +241,7 @@ def least_preload(
     InputError
         The lift jumps or is not one turn long; the load is an array, or the speed makes no sense.
     """
-    positive(speed=speed)
+    in_range(speed=(speed, positive(SPEED)), contact=(contact, not_negative(FORCE)))
     without_steps(lift, "turn")
     _no_drop(lift, "no preload holds the follower there")
     held = _spring(lift, follower, load).scaled(1.0, -follower.preload)

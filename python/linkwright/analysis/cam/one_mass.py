@@ -17,9 +17,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from linkwright.analysis.cam.checks import finite, not_negative, positive
+from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError
 from linkwright.machine.follower_train import FollowerTrain
+from linkwright.units import FORCE, MASS, RATIO, STIFFNESS, Quantity, not_negative, positive
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,13 +52,14 @@ class OneMass:
 
     def __post_init__(self) -> None:
         """Refuse numbers that make no oscillator."""
-        positive(mass=self.mass, stiffness=self.stiffness)
-        not_negative(
-            damping_ratio=self.damping_ratio,
-            damping_ratio_frame=self.damping_ratio_frame,
-            spring_rate=self.spring_rate,
+        in_range(
+            mass=(self.mass, positive(MASS)),
+            stiffness=(self.stiffness, positive(STIFFNESS)),
+            damping_ratio=(self.damping_ratio, not_negative(RATIO)),
+            damping_ratio_frame=(self.damping_ratio_frame, not_negative(RATIO)),
+            spring_rate=(self.spring_rate, not_negative(STIFFNESS)),
+            preload=(self.preload, Quantity(FORCE)),
         )
-        finite(preload=self.preload)
         if self.damping_ratio_all >= 1:
             raise InputError(
                 f"damping_ratio and damping_ratio_frame: found {self.damping_ratio_all:g} together, expected "

@@ -12,13 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.cam.checks import positive
 from linkwright.analysis.cam.lift_steps import Ends, continuity, steps
 from linkwright.analysis.cam.one_mass import OneMass
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import FindingError, InputError
 from linkwright.motion_laws.motion_law import MotionLaw
 from linkwright.motion_laws.polydyne import polydyne_correction, polydyne_lift
+from linkwright.units import SPEED, positive
 
 Floats = NDArray[np.float64]
 
@@ -87,7 +88,7 @@ def polydyne(wanted: MotionLaw, model: OneMass, speed: float, ends: Ends = "dwel
     FindingError
         x, x′ or x″ jumps: the lift would have to jump.
     """
-    positive(speed=speed)
+    in_range(speed=(speed, positive(SPEED)))
     if model.damping_ratio:
         raise InputError(
             f"damping_ratio: found {model.damping_ratio:g}, expected 0: with a damper in the train no lift "

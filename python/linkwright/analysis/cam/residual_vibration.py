@@ -22,14 +22,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis import roots
-from linkwright.analysis.cam.checks import positive
 from linkwright.analysis.cam.follower_vibration import Train
 from linkwright.analysis.cam.lift_steps import steps, without_steps
 from linkwright.analysis.cam.one_mass import OneMass
 from linkwright.analysis.cam.oscillator import in_pieces, nodes_for, pole
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError
 from linkwright.motion_laws.motion_law import MotionLaw
+from linkwright.units import FRACTION, RATIO, SPEED, Quantity, positive
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -200,8 +201,8 @@ def residual_over_speed(rise: MotionLaw, model: OneMass, speed: ArrayLike) -> Re
     InputError
         The lift jumps or has no total lift; a speed that makes no sense.
     """
+    in_range(speed=(speed, positive(SPEED)))
     omega = np.atleast_1d(np.asarray(speed, dtype=float))
-    positive(speed=omega)
     return residual_spectrum(
         rise,
         rise.length * model.natural_frequency / (2 * np.pi * omega),
@@ -214,9 +215,7 @@ def residual_over_speed(rise: MotionLaw, model: OneMass, speed: ArrayLike) -> Re
 def _kernel(rise: MotionLaw, tau: Floats, train: tuple[float, float, float]) -> _Kernel:
     """The rise with one mass whose natural period is the unit of time; given are ζ, ζ_f and κ."""
     zeta, zeta_f, share = train
-    positive(ratio=tau, share=share)
-    if share > 1:
-        raise InputError(f"share: found {share:g}, expected at most 1, for k/(k + k_r)")
+    in_range(ratio=(tau, positive(RATIO)), share=(share, Quantity(RATIO, FRACTION)))
     without_steps(rise, "dwell")
     square = 4 * math.pi**2
     unit = OneMass(1.0, share * square, zeta, zeta_f, (1 - share) * square)

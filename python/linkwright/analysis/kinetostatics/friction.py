@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from linkwright.analysis.in_range import in_range
 from linkwright.errors import MachineError, Problem
 from linkwright.machine.base import suggestion
 from linkwright.machine.structure import Pair
+from linkwright.units import DAMPING, LENGTH, RATIO, TORSIONAL_DAMPING, not_negative
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +53,9 @@ def checked(friction: Mapping[str, Friction], pairs: Mapping[str, Pair]) -> dict
     Raises
     ------
     MachineError
-        A pair that does not exist or has no friction of this kind; a number that is negative or missing.
+        A pair that does not exist or has no friction of this kind; a number that is missing.
+    InputError
+        A number that is negative or beyond its range.
     """
     problems = [found for name, each in friction.items() if (found := _problem(name, each, pairs))]
     if problems:
@@ -68,10 +71,18 @@ def _problem(name: str, each: Friction, pairs: Mapping[str, Pair]) -> Problem | 
         return Problem(
             key, name, f"the name of a pin, guide or slot: {', '.join(able)}", suggestion(name, able)
         )
-    for entry in ("coefficient", "radius", "viscous", "length"):
-        value = getattr(each, entry)
-        if not math.isfinite(value) or value < 0:
-            return Problem(f"{key}.{entry}", f"{value:g}", "a number of 0 or more")
+    unit_of_viscous = TORSIONAL_DAMPING if pairs[name].kind == "pin" else DAMPING
+    in_range(
+        **{
+            f"{key}.{entry}": (getattr(each, entry), not_negative(kind))
+            for entry, kind in (
+                ("coefficient", RATIO),
+                ("radius", LENGTH),
+                ("viscous", unit_of_viscous),
+                ("length", LENGTH),
+            )
+        }
+    )
     if pairs[name].kind == "pin" and each.coefficient and not each.radius:
         return Problem(f"{key}.radius", "none", "the radius of the pin, since its torque is μ r R")
     if pairs[name].kind != "pin" and each.radius:

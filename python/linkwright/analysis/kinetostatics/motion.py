@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.closure import turn_angles
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.analysis.transient import Transient
 from linkwright.errors import InputError, ShapeError
 from linkwright.machine import Machine
+from linkwright.units import ANGULAR_ACCELERATION, SPEED, Quantity
 
 Floats = NDArray[np.float64]
 
@@ -95,6 +97,7 @@ def motion_at(
             "speed: found none, expected that of the crank, as there is neither a motor nor drive.speed; "
             'give one, such as --speed "10 rad/s"'
         )
+    in_range(speed=(speed, Quantity(SPEED)), acceleration=(acceleration, Quantity(ANGULAR_ACCELERATION)))
     return _at_speed(speed, acceleration, turn_angles(n) if angles is None else angles)
 
 
@@ -106,7 +109,5 @@ def _at_speed(speed: float, acceleration: float, angles: ArrayLike) -> Motion:
         raise ShapeError(f"crank angles in radians are needed, found {angles!r}") from None
     if phi.ndim != 1 or not phi.size or not np.isfinite(phi).all():
         raise ShapeError(f"a list of finite crank angles is needed, found an array of shape {phi.shape}")
-    if not np.isfinite([speed, acceleration]).all():
-        raise InputError(f"speed {speed} rad/s, acceleration {acceleration} rad/s²: expected finite numbers")
-    time = phi / speed if speed else phi
+    time = phi / speed if abs(speed) >= SPEED.least else phi
     return Motion(phi, np.full_like(phi, speed), np.full_like(phi, acceleration), time)

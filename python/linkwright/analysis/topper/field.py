@@ -25,6 +25,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.coverage import COARSE
 from linkwright.analysis.topper.edge import Edge, edges_of, require_topper
@@ -33,8 +34,8 @@ from linkwright.analysis.topper.passes import Pass, Watch, pass_over
 from linkwright.analysis.topper.roots import Roots, draw_roots, field_of
 from linkwright.analysis.topper.share_curve import QUANTILES, ShareCurve
 from linkwright.analysis.topper.slicing import slicing
-from linkwright.errors import InputError
 from linkwright.machine import Machine, Topper
+from linkwright.units import INSIDE_ONE, RATIO, Quantity
 
 Floats = NDArray[np.float64]
 
@@ -191,19 +192,11 @@ def topper_field(
         The edge runs over heads and back again and again, and hardly goes on.
     """
     topper = require_topper(machine)
-    _require(seed, level)
+    in_range(level=(level, Quantity(RATIO, INSIDE_ONE)))
     roots = draw_roots(topper, seed)
     edges = edges_of(machine, topper)
     found = pass_over(edges, roots, length=topper.edge_length, fine=fine, watch=watch)
     return field_result(topper, edges, roots, found, level)
-
-
-def _require(seed: int | None, level: float) -> None:
-    """Refuse what is no seed or no level."""
-    if seed is not None and seed < 0:
-        raise InputError(f"seed: found {seed}, expected a whole number of 0 or more")
-    if not 0 < level < 1:
-        raise InputError(f"level: found {level:g}, expected a number between 0 and 1, such as 0.95")
 
 
 def field_result(

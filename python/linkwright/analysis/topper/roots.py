@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
 from linkwright.analysis.topper.head import cap_volume, head_diameter
+from linkwright.errors import InputError
 from linkwright.machine import MeasuredField, RandomField, Topper
 from linkwright.machine.scatter import ConstantScatter
 from linkwright.machine.topper_field import even_offset
@@ -130,7 +131,14 @@ def draw_roots(topper: Topper, seed: int | None = None) -> Roots:
     -------
     Roots
         The same for the same seed.
+
+    Raises
+    ------
+    InputError
+        The seed is negative.
     """
+    if seed is not None and seed < 0:
+        raise InputError(f"seed: found {seed}, expected a whole number of 0 or more")
     field = field_of(topper)
     rng = np.random.default_rng(field.seed if seed is None else seed)
     fixed = topper.motion.phase

@@ -19,10 +19,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result, finite
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
 from linkwright.analysis.topper.every_phase import every_phase_length
 from linkwright.analysis.topper.published import length_consistent, length_published
+from linkwright.units import ACUTE, ANGLE, LENGTH, Quantity, positive
 
 Floats = NDArray[np.float64]
 
@@ -152,7 +154,17 @@ def length_verdict(
     -------
     LengthVerdict
         A demand for each way.
+
+    Raises
+    ------
+    InputError
+        An angle or a length that makes no sense.
     """
+    in_range(
+        edge_angle=(edge_angle, Quantity(ANGLE, ACUTE)),
+        diameter=(diameter, positive(LENGTH)),
+        offset=(offset, Quantity(LENGTH)),
+    )
     ways = [way for way in WAYS if stroke or way != "every_phase"]
     found = (_demand(claim, way, edge_angle, diameter, offset, stroke) for way in ways)
     return LengthVerdict(edge_angle, diameter + 2 * offset, tuple(found))

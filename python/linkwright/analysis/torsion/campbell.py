@@ -31,11 +31,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.free import FreeVibration
 from linkwright.analysis.torsion.modes_over_speed import ModesAt, constant, over_speed
 from linkwright.errors import InputError
 from linkwright.machine import Machine
+from linkwright.units import COUNT, RATIO, SPEED, not_negative, positive
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -170,7 +172,8 @@ def campbell(
 
 def _range(given: tuple[float, float] | None) -> tuple[float, float] | None:
     """Two speeds, checked."""
-    if given is not None and not 0 < given[0] < given[1] < math.inf:
+    in_range(speed_range=(given, positive(SPEED)))
+    if given is not None and not given[0] < given[1]:
         found = f"{given[0]:g} to {given[1]:g} rad/s"
         raise InputError(f"speed_range: found {found}, expected two speeds above 0, the lower one first")
     return given
@@ -178,7 +181,8 @@ def _range(given: tuple[float, float] | None) -> tuple[float, float] | None:
 
 def _orders(orders: Floats) -> Floats:
     """Orders, checked."""
-    if orders.ndim != 1 or not len(orders) or not (np.isfinite(orders) & (orders > 0)).all():
+    in_range(orders=(orders, positive(COUNT)))
+    if orders.ndim != 1 or not len(orders):
         raise InputError(f"orders: found {orders.tolist()}, expected a list of numbers above 0")
     return orders
 
@@ -187,11 +191,10 @@ def _ratios(given: float | Floats | None, modes: int) -> Floats | None:
     """A ζ for every mode, checked."""
     if given is None:
         return None
+    in_range(damping_ratios=(given, not_negative(RATIO)))
     ratios = np.asarray(given, float)
-    if ratios.shape not in ((), (modes,)) or not (ratios >= 0).all():
-        raise InputError(
-            f"damping_ratios: found {ratios.tolist()}, expected one number of 0 or more, or {modes}"
-        )
+    if ratios.shape not in ((), (modes,)):
+        raise InputError(f"damping_ratios: found {ratios.tolist()}, expected one number, or {modes}")
     return np.broadcast_to(ratios, modes)
 
 

@@ -29,13 +29,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.damped_modes import damped_modes
 from linkwright.analysis.torsion.excited import prepared
 from linkwright.analysis.torsion.free import lead_speeds, train_of, twists_of
 from linkwright.engine.train import ReferredTrain, refer
-from linkwright.errors import InputError
 from linkwright.machine import Machine
+from linkwright.units import SPEED, positive
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -147,8 +148,7 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
     InputError
         The machine has no train, or the speed is none above zero.
     """
-    if speed is not None and not 0 < speed < math.inf:
-        raise InputError(f"speed: found {speed:g} rad/s, expected a speed above 0")
+    in_range(speed=(speed, positive(SPEED)))
     referred, disc_damping = _at(machine, speed)
     eigenvalues, masses = damped_modes(referred)
     shapes = _scaled(referred.speed * masses[:, referred.mass])

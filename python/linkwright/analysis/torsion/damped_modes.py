@@ -92,4 +92,18 @@ def _pairs(omega: Floats, C: Floats, H: Floats) -> tuple[Complexes, Complexes]:
     # Nothing drives a train that is left to itself: a growth as small as this is rounding.
     growth = (s.real > 0) & (s.real < 1e-14 * len(A) * np.abs(A).max(initial=0.0))
     s.real[growth] = 0.0
-    return s, (vectors[n:] / s).T
+    return s, np.where(s == 0, _at_rest(omega, C, vectors), vectors[n:] / np.where(s == 0, 1.0, s)).T
+
+
+def _at_rest(omega: Floats, C: Floats, vectors: Complexes) -> Complexes:
+    """p of eigenvalues that rounding left at zero: stiffness gives the elastic part, damping the free one.
+
+    Where s is zero, so are the velocities s p, and p = y/ω of the elastic motions; those without stiffness
+    follow in the limit of (s + C_ff) p_f = -C_fe p_e, since each of them is damped and none damps another.
+    """
+    n, m = len(omega), len(C)
+    elastic = vectors[:n] / omega[:, None]
+    free = m - n
+    following = -(C[:free, free:] @ elastic) / np.diag(C)[:free, None]
+    found: Complexes = np.concatenate([following, elastic])
+    return found

@@ -23,6 +23,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.damper_rules import rubber_rule, tuned_rule, viscous_rule
 from linkwright.analysis.torsion.free import FreeVibration, free_vibration
@@ -30,6 +31,7 @@ from linkwright.analysis.torsion.ring_on_train import Holding, RingOnTrain, best
 from linkwright.errors import InputError
 from linkwright.machine import Machine
 from linkwright.machine.base import suggestion
+from linkwright.units import INERTIA, RATIO, positive
 
 Floats = NDArray[np.float64]
 Kind = Literal["viscous", "tuned", "rubber"]
@@ -198,13 +200,10 @@ def _twisting(found: FreeVibration, mode: int) -> int:
 
 def _require(ring_inertia: float, kind: str, loss_factor: float | None) -> None:
     """Refuse what is no damper."""
-    if not 0 < ring_inertia < math.inf:
-        raise InputError(f"ring_inertia: found {ring_inertia:g} kg m², expected a number greater than 0")
+    in_range(ring_inertia=(ring_inertia, positive(INERTIA)), loss_factor=(loss_factor, positive(RATIO)))
     if kind not in _RULES:
         raise InputError(
             f'kind: found "{kind}", expected one of ' + ", ".join(f'"{each}"' for each in _RULES)
         )
-    if loss_factor is not None and (kind != "rubber" or not 0 < loss_factor < math.inf):
-        raise InputError(
-            f'loss_factor: found {loss_factor:g}, expected a number greater than 0, of kind "rubber"'
-        )
+    if loss_factor is not None and kind != "rubber":
+        raise InputError(f'loss_factor: found {loss_factor:g} with kind "{kind}", expected kind "rubber"')

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.engine_torques import cylinder_torques
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
@@ -20,6 +21,7 @@ from linkwright.machine.reciprocating.engine_motion import (
 from linkwright.machine.reciprocating.equivalent_inertia import published_throw_inertia
 from linkwright.machine.reciprocating.firing import firing_angles
 from linkwright.machine.reciprocating.throw_compliance import compliances
+from linkwright.units import SPEED, positive
 
 Floats = NDArray[np.float64]
 
@@ -97,7 +99,13 @@ def engine_data(engine: ReciprocatingEngine, speed: float) -> EngineData:
     -------
     EngineData
         Discs, stiffness, firing, gas.
+
+    Raises
+    ------
+    InputError
+        A speed that is not above zero.
     """
+    in_range(speed=(speed, positive(SPEED)))
     given = engine.stiffness is not None
     formulas = {} if engine.throw is None else compliances(engine.throw)
     angles, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)

@@ -23,12 +23,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.free import own_stiffness, train_of, twists_of
 from linkwright.engine.train import ReferredTrain, refer
 from linkwright.errors import FindingError, InputError
 from linkwright.machine import Machine, Train
 from linkwright.machine.base import suggestion
+from linkwright.units import FREQUENCY, not_negative
 
 Floats = NDArray[np.float64]
 
@@ -108,8 +110,7 @@ def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) 
     .. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.4.
     """
     train = train_of(machine)
-    if not 0 <= frequency < math.inf:
-        raise InputError(f"frequency: found {frequency:g} Hz, expected a number of 0 or more")
+    in_range(frequency=(frequency, not_negative(FREQUENCY)))
     end = _last(train) if end is None else end
     if end not in train.discs:
         remedy = suggestion(end, train.discs)

@@ -14,7 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError, ShapeError
+from linkwright.units import COUNT, SPEED, Quantity, positive
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -75,11 +77,11 @@ def measured_speed(
     InputError
         A sample is no number, or an order does not repeat in these turns.
     """
+    in_range(
+        samples=(samples, Quantity(SPEED)), orders=(orders, positive(COUNT)), noise=(noise, positive(SPEED))
+    )
     values, wanted = np.asarray(samples, float), np.atleast_1d(np.asarray(orders, float))
     waves = wanted * turns
-    if not np.isfinite(values).all():
-        first = int(np.argmin(np.isfinite(values)))
-        raise InputError(f"sample {first} of the speed of {disc} is {values[first]}: expected finite numbers")
     apart = np.abs(waves - np.rint(waves)) > _EQUAL * np.maximum(waves, 1.0)
     if apart.any() or (waves < 1).any():
         order = wanted[apart | (waves < 1)][0]

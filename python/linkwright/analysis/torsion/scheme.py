@@ -23,12 +23,13 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.free import own_stiffness, train_of
 from linkwright.engine.train import HELD, ReferredTrain, refer
-from linkwright.errors import InputError
 from linkwright.machine import Machine, Train
 from linkwright.machine.train import GROUND
+from linkwright.units import LENGTH, positive
 
 Floats = NDArray[np.float64]
 
@@ -132,8 +133,7 @@ def scheme(machine: Machine, *, diameter: float = 0.1) -> Scheme:
     AssemblyError
         The mechanism behind a drive line does not close all round.
     """
-    if not 0 < diameter < math.inf:
-        raise InputError(f"diameter: found {diameter:g} m, expected a length greater than 0")
+    in_range(diameter=(diameter, positive(LENGTH)))
     train = train_of(machine)
     referred = refer(train)
     inertia = np.array([disc.inertia for disc in train.discs.values()])

@@ -22,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.carried import Carried, carried
 from linkwright.analysis.torsion.excited import excited
@@ -31,6 +32,7 @@ from linkwright.machine import Machine, Shaft
 from linkwright.machine.drive_train import CRANK
 from linkwright.machine.shaft_limit import ShaftLimit, StressedSection
 from linkwright.machine.train_speeds import speeds as turning
+from linkwright.units import SPEED, positive
 
 Floats = NDArray[np.float64]
 
@@ -97,6 +99,7 @@ def shaft_stress(machine: Machine, found: Carried | None = None, service: float 
     ----------
     .. [1] IACS, UR M68, 2021, M68.5.
     """
+    in_range(service=(service, positive(SPEED)))
     found = carried(excited(machine)) if found is None else found
     known = stressed(train_of(machine).shafts)
     rows = [found.shafts.index(name) for name in known]

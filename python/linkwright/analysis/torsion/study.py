@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.torsion.campbell import CampbellDiagram, campbell
 from linkwright.analysis.torsion.damped import DampedVibration, damped_vibration
 from linkwright.analysis.torsion.engine_data import EngineData, engine_data
@@ -25,6 +26,7 @@ from linkwright.analysis.torsion.verdict import Verdict, verdict
 from linkwright.machine import Machine, Train
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.reciprocating.firing import firing_angles
+from linkwright.units import FREQUENCY, not_negative
 
 # Share by which loads may be off what the engine gives without a word.
 _FITS = 0.1
@@ -135,8 +137,9 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
     Raises
     ------
     InputError
-        The machine has no train.
+        The machine has no train; a frequency that makes no sense.
     """
+    in_range(holzer=(holzer, not_negative(FREQUENCY)))
     free = free_vibration(machine)
     tables = tuple(holzer_table(machine, frequency) for frequency in holzer)
     damped = damped_vibration(machine, _service(machine)) if _is_damped(machine) else None

@@ -24,8 +24,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError
+from linkwright.units import COUNT, positive
 
 Floats = NDArray[np.float64]
 
@@ -142,7 +144,8 @@ def _require(t: Floats, phi: Floats, x: Floats, highest: float, step: float, tur
             f"time, angle and signal have shapes {t.shape}, {phi.shape}, {x.shape}: expected lists of one "
             "length"
         )
-    if not (0 < step <= highest < np.inf):
+    in_range(highest=(highest, positive(COUNT)), step=(step, positive(COUNT)))
+    if step > highest:
         raise InputError(f"orders up to {highest:g} in steps of {step:g}: expected 0 < step ≤ highest")
     if turns < 2 / step - 1e-9:
         raise InputError(

@@ -16,13 +16,14 @@ the change of the moles by combustion are left out of mR: together some three pe
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.errors import ConvergenceError, MachineError, Problem
+from linkwright.errors import ConvergenceError, FindingError, MachineError, Problem
 from linkwright.machine.reciprocating.burnt_gas import burnable, heat_ratio
 from linkwright.machine.reciprocating.cycle_mesh import CycleMesh
 from linkwright.machine.reciprocating.wall_heat import GasState, WallHeat
@@ -174,6 +175,7 @@ def closed_trace(gas: ClosedGas, rule: Rule, motored: Array | None = None) -> Cl
         split = _split(gas, p, _exponent(gas, T, Q), C)
         Q = rule(split)
         new = split.without + Q * split.per_heat
+        _check_positive(gas, new)
         change, p = float(np.abs(new / p - 1).max()), new
         if change < _TOLERANCE:
             _check_air(gas, Q)
@@ -185,6 +187,17 @@ def closed_trace(gas: ClosedGas, rule: Rule, motored: Array | None = None) -> Cl
         iterations=_ITERATIONS,
         residual=change,
     )
+
+
+def _check_positive(gas: ClosedGas, p: Array) -> None:
+    """Refuse a pressure that no gas has."""
+    if not (p > 0).all():
+        load, place = np.unravel_index(int(np.argmin(np.where(p > 0, np.inf, p))), p.shape)
+        angle = math.degrees(float(gas.mesh.angle[place]))
+        raise FindingError(
+            f"the pressure in the cylinder would be {p[load, place]:.4g} Pa at {angle:.4g}° after the top "
+            "dead centre of firing, less than none; check releases of heat, load and charge pressure"
+        )
 
 
 def _exponent(gas: ClosedGas, T: Array, Q: Array) -> Array:
@@ -213,6 +226,11 @@ def _conductance(gas: ClosedGas, p: Array, T: Array, motored: Array) -> Array | 
     return gas.wall.conductance(state) / gas.speed
 
 
+# ln of a change of pressure. Compression alone gives 5; walls that do so much more leave no gas to compute,
+# and twice as much is no number any more.
+_FASTEST = 300.0
+
+
 def _split(gas: ClosedGas, p: Array, gamma: Array, C: Array | None) -> Split:
     """Pressure as a linear function of the heat, with γ and conductance of an iterate."""
     V, w = gas.volume, gas.mesh.weight
@@ -223,8 +241,13 @@ def _split(gas: ClosedGas, p: Array, gamma: Array, C: Array | None) -> Split:
         loss = (gamma - 1) * C
         decay += loss / gas.charge
         source = loss * gas.wall.wall_temperature / V
-    E = np.exp(gas.mesh.integrals(decay))
-    E_end = np.exp(decay @ w)[:, None]
+    course, whole = gas.mesh.integrals(decay), (decay @ w)[:, None]
+    if not (np.abs(course) <= _FASTEST).all():
+        raise FindingError(
+            "the walls change the pressure of the gas by a factor of more than e^300 within a cycle; check "
+            "speed, bore, charge pressure and the factor of [train.engine.gas.walls]"
+        )
+    E, E_end = np.exp(course), np.exp(whole)
     released = (gamma - 1) * (gas.kept * gas.release / V) * E
     a, a_end = gas.pressure_closing + np.zeros_like(E), gas.pressure_closing
     if source is not None:

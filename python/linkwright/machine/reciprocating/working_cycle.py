@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.errors import MachineError, Problem
+from linkwright.errors import FindingError, MachineError, Problem
 from linkwright.machine.reciprocating.closed_cycle import (
     ClosedGas,
     ClosedTrace,
@@ -136,6 +136,7 @@ class WorkingCycle:
         def rule(split: Split) -> Array:
             p_a = self._mean_effective(split.without, split.opening_without, exchange)
             p_b = self._mean_effective(split.per_heat, split.opening_per_heat, none)
+            _check_work(p_b)
             check_reach(wanted[:, 0], p_a[:, 0], self.closed.speed[:, 0])
             return (wanted - p_a) / p_b
 
@@ -159,7 +160,17 @@ class WorkingCycle:
             # The peak lies between points; how far beyond the greatest of them, the last iterate says.
             beyond = split.last.max(axis=1) / peak(angle, split.last)
             burns = split.per_heat > 0
+            _check_work(burns.max(axis=1))
             room = (wanted * beyond[:, None] - split.without) / np.where(burns, split.per_heat, 1.0)
             return np.asarray(np.where(burns, room, np.inf).min(axis=1, keepdims=True))
 
         return rule
+
+
+def _check_work(work: Array) -> None:
+    """Refuse heat that does no work, or raises no pressure, so that no heat gives what is wanted."""
+    if not (work > 0).all():
+        raise FindingError(
+            "the heat released in a cylinder does no work: it comes so early, so late or so suddenly that no "
+            "load goes with it; check start, duration and form factor of [train.engine.gas] releases"
+        )
