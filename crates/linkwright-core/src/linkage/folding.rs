@@ -130,7 +130,7 @@ fn sign_of<R: Real>(
         product = product * q[at.reach].select_lt(R::splat(0.0), R::splat(1.0), factor);
     }
     // A side that is not known is NaN, and so is all that hangs on it.
-    let unknown = side - side;
+    let unknown = side * 0.0;
     product.select_lt(R::splat(0.0), R::splat(-1.0), R::splat(1.0)) + unknown
 }
 
