@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -138,3 +139,23 @@ def test_conjugate_cams_have_a_drawing_each(groove: str, tmp_path: Path) -> None
     assert result.exit_code == 0, result.output
     names = {path.name for path in (tmp_path / "o").glob("[!.]*")}
     assert {"shuttle.dxf", "shuttle_second.dxf", "shuttle_second.csv"} <= names
+
+
+def test_the_cams_of_a_search_keep_their_limit_between_the_angles_too() -> None:
+    """Steps of a tenth of a micrometre about the radius at which the pressure angle is at its limit."""
+    done = run("search", ROLLER_CAM, "--vary", "base_radius=0.21694:0.21697:301", "--count", "3", "--json")
+    found = json.loads(done.stdout)["results"]["cam_search"]
+    assert done.exit_code == 0
+    assert len(found["smallest"]) == 3
+    for each in found["smallest"]:
+        assert each["pressure_angle_max"] <= math.radians(30) * (1 + 1e-12)
+    # The angles of the search alone let some pass.
+    assert found["n_kept"] > 150
+
+
+def test_a_search_without_a_cam_that_keeps_its_limit_has_a_finding() -> None:
+    done = run("search", ROLLER_CAM, "--vary", "base_radius=0.21695:0.21696:11", "--json")
+    assert done.exit_code == 1
+    found = json.loads(done.stdout)
+    assert found["results"]["cam_search"]["n_kept"] > 0
+    assert "between the angles too" in found["findings"][0]

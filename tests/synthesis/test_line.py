@@ -112,7 +112,7 @@ def test_what_is_wrong_is_told() -> None:
         lw.straight_line("hoekn", 1.0)
     with pytest.raises(InputError, match="no length cranck"):
         lw.straight_line("hoeken", 1.0, proportions={"cranck": 1})
-    with pytest.raises(InputError, match="length -1"):
+    with pytest.raises(InputError, match="length: found -1"):
         lw.straight_line("hoeken", -1.0)
     with pytest.raises(SynthesisError, match="does not close"):
         lw.straight_line("watt", 1.0, crank_range=(-1.5, 1.5))

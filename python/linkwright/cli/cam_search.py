@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -56,6 +57,12 @@ Count = Annotated[
 # Cams that a search may have: a table of them still fits into the memory.
 _MOST = 50_000_000
 
+# Cams of a search that are looked at exactly, some milliseconds each, until enough of them keep their limits.
+_EXACT_MOST = 1000
+
+# Share by which a cam may pass a limit by rounding.
+_ROUNDING = 1e-12
+
 
 def search(
     file: File,
@@ -71,22 +78,25 @@ def search(
 ) -> None:
     """The smallest cams that keep their limits, among many.
 
-    Each is looked at at the same angles; those that are shown are looked at exactly. Exit code 1 if none
-    keeps the limits.
+    Each is looked at at the same angles; those that are shown are looked at exactly, and keep their limits at
+    all angles. Exit code 1 if none does.
     """
     from linkwright.analysis.cam.profile import the_cam
     from linkwright.files import read
     from linkwright.sweep.cams import search_cams
-    from linkwright.units import ANGLE, LENGTH, parse
+    from linkwright.units import ANGLE, LENGTH
 
     machine = read(file, set or [], allow_outside=allow_outside)
     name, chosen = the_cam(machine, cam)
-    steep = chosen.limit if pressure_angle is None else parse(pressure_angle, ANGLE)
-    tight = (chosen.curvature_limit or 0.0) if curvature_radius is None else parse(curvature_radius, LENGTH)
+    steep, tight = chosen.limit, chosen.curvature_limit or 0.0
+    if pressure_angle is not None:
+        steep = option_value("--pressure-angle", pressure_angle, ANGLE)
+    if curvature_radius is not None:
+        tight = option_value("--curvature-radius", curvature_radius, LENGTH)
     columns = _columns(vary or [])
     found = search_cams(machine, name, entries=columns, laws=law or [])
     keeps = found.keeps(steep, tight)
-    best = [(int(i), _exact(machine, name, found, int(i))) for i in found.smallest(keeps, count)]
+    best = _smallest(machine, name, found, keeps, count, lambda cam: _keeps(cam, steep, tight))
     if json:
         _print_json(machine, found, keeps, best)
     else:
@@ -131,6 +141,33 @@ def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
     return name, np.linspace(low, high, int(parts[2]))
 
 
+def _smallest(
+    machine: Machine,
+    name: str,
+    found: Cams,
+    keeps: NDArray[np.bool_],
+    count: int,
+    is_kept: Callable[[CamProfile], bool],
+) -> list[tuple[int, CamProfile]]:
+    """The smallest cams that keep the limits exactly: between the angles of a search they may not."""
+    best: list[tuple[int, CamProfile]] = []
+    for i in found.smallest(keeps, _EXACT_MOST):
+        profile = _exact(machine, name, found, int(i))
+        best += [(int(i), profile)] if is_kept(profile) else []
+        if len(best) == count:
+            break
+    return best
+
+
+def _keeps(profile: CamProfile, steep: float, tight: float) -> bool:
+    """Whether a cam can be made and keeps its limits, to rounding."""
+    from linkwright.analysis.cam.faults import cam_faults
+
+    convex = profile.curvature_radius_convex_min
+    gentle = profile.pressure_angle_max <= steep * (1 + _ROUNDING)
+    return gentle and (convex is None or convex >= tight * (1 - _ROUNDING)) and not cam_faults(profile)
+
+
 def _exact(machine: Machine, name: str, found: Cams, i: int) -> CamProfile:
     """One of the cams, looked at exactly."""
     from linkwright.analysis.cam.profile import cam_profile
@@ -158,7 +195,20 @@ def _print_json(machine: Machine, found: Cams, keeps: NDArray[np.bool_], best: l
     rows = [_row(found, i, profile) for i, profile in best]
     counts = {"n_cams": len(keeps), "n_sound": int(found.is_sound.sum()), "n_kept": int(keeps.sum())}
     results = {"cam_search": {**counts, "smallest": rows}}
-    typer.echo(dumps({"machine": machine.name, "results": results, "findings": [], "warnings": []}))
+    told = {"findings": _findings(keeps, best), "warnings": _findings(keeps, best)}
+    typer.echo(dumps({"machine": machine.name, "results": results, **told}))
+
+
+def _findings(keeps: NDArray[np.bool_], best: list[Any]) -> list[str]:
+    """That there is no cam to show."""
+    if best:
+        return []
+    if not keeps.any():
+        return ["None keeps the limits: vary more, or allow more."]
+    looked = min(int(keeps.sum()), _EXACT_MOST)
+    return [
+        f"None of the {looked} smallest keeps the limits between the angles too: vary more, or allow more."
+    ]
 
 
 def _print(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
@@ -171,7 +221,7 @@ def _print(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
         f"{len(keeps)} cams looked at, {int(found.is_sound.sum())} sound, {int(keeps.sum())} keep the limits"
     )
     if not best:
-        out.print("FINDING  None keeps the limits: vary more, or allow more.")
+        out.print(f"FINDING  {_findings(keeps, best)[0]}")
         return
     units = {"face_tilt": ("deg", 180 / np.pi), "lift_factor": ("", 1.0)}
     table = Table(box=None, header_style="", pad_edge=False)

@@ -28,6 +28,7 @@ from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
 from linkwright.synthesis.transmission import Transmits
+from linkwright.synthesis.verify import element_of, require_met, require_transmission
 from linkwright.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
 
 Floats = NDArray[np.float64]
@@ -114,7 +115,7 @@ def crank_rocker(
     InputError
         A swing not between 0 and 180°, a time ratio or a length that is not positive.
     SynthesisError
-        No crank-rocker has this swing and this time ratio.
+        No crank-rocker has this swing and this time ratio, or none that keeps them when it is analysed again.
 
     References
     ----------
@@ -133,7 +134,21 @@ def crank_rocker(
     family, t, mu = max(found, key=lambda each: np.nan_to_num(each[2]))
     if not mu > 0:
         raise SynthesisError(_no_crank_rocker(swing, time_ratio, coupler_max))
-    return family.result(t, time_ratio, frame)
+    return _verified(family.result(t, time_ratio, frame))
+
+
+def _verified(made: CrankRocker) -> CrankRocker:
+    """The crank-rocker, if its machine has the dead centres that were asked for."""
+    found = element_of(made.machine, "B.rocker")
+    require_met("a swing", made.swing, found.swing, "rad")
+    require_met("a time ratio", *slow_over_quick(made.time_ratio, found.time_ratio))
+    require_transmission(made.transmission_angle_min, found)
+    return made
+
+
+def slow_over_quick(time_ratio: float, found: float | None) -> tuple[float, float | None]:
+    """A time ratio as the analysis counts it, the slower way first; without a slower way it is 1."""
+    return max(time_ratio, 1 / time_ratio), 1.0 if found is None else found
 
 
 def delta_of(time_ratio: float) -> float:

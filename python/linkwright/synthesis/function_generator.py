@@ -24,6 +24,7 @@ from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, scan, solve
 from linkwright.synthesis.function_scale import Scale
 from linkwright.synthesis.task import FunctionTask
 from linkwright.synthesis.transmission import Transmits
+from linkwright.synthesis.verify import require_met
 
 Floats = NDArray[np.float64]
 
@@ -171,7 +172,11 @@ def _generator(task: FunctionTask, scale: Scale, fit: Fit) -> FunctionGenerator:
             f"{np.degrees(task.transmission_angle_min):.4g}°)"
         )
     name = task.name or f"Function generator, {task.function or 'table'}"
-    return _analysed(scale, fit, bar, bar.machine(name, source=SOURCE), b < 0, mu)
+    made = _analysed(scale, fit, bar, bar.machine(name, source=SOURCE), b < 0, mu)
+    if len(scale.points) == task.unknowns:
+        # As many points as unknowns are met exactly.
+        require_met("an error at its points", 0.0, made.angle_error_points, "rad", size=1.0)
+    return made
 
 
 def _bar(task: FunctionTask, scale: Scale, fit: Fit, r: float, c: float, b: float) -> FourBar:

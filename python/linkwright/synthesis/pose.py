@@ -25,6 +25,7 @@ from linkwright.synthesis.slider_pose import guide_slider
 from linkwright.synthesis.task import MovingPoint, PoseTask
 from linkwright.synthesis.transmission import Transmits
 from linkwright.synthesis.travel import listed, travel, way
+from linkwright.synthesis.verify import require_met
 
 Floats = NDArray[np.float64]
 
@@ -235,8 +236,12 @@ def _travelled(
 
 
 def _errors(task: PoseTask, machine: Machine, angles: Floats, link: str) -> tuple[float, float]:
-    """How far the analysed machine is from the poses, in place [m] and in turning [rad]."""
+    """How far the analysed machine is from the poses, in place [m] and in turning [rad]; a finding if far."""
     table = motions(machine, angles, points=["P"], links=[link])[0]
     place = np.abs(table[0] + 1j * table[1] - np.asarray(task.poses.x) - 1j * np.asarray(task.poses.y))
     turned = (table[6] + 1j * table[7]) * np.exp(-1j * np.asarray(task.poses.angle))
-    return float(place.max()), float(np.abs(np.angle(turned / turned[0])).max())
+    error, turning = float(place.max()), float(np.abs(np.angle(turned / turned[0])).max())
+    extent = np.abs(body_places(task, task.crank_point) - body_origin(task)).max()
+    require_met("a distance of the body from its poses", 0.0, error, "m", size=float(extent))
+    require_met("a turning of the body off its poses", 0.0, turning, "rad", size=1.0)
+    return error, turning

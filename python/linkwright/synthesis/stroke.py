@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError, SynthesisError
 from linkwright.machine import Machine
-from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints
+from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints, slow_over_quick
 from linkwright.synthesis.four_bar import cross, machine_of
 from linkwright.synthesis.transmission import Transmits
+from linkwright.synthesis.verify import element_of, require_met, require_transmission
 from linkwright.units import LENGTH, RATIO, positive
 
 Floats = NDArray[np.float64]
@@ -84,7 +85,7 @@ def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = 
     InputError
         A stroke, time ratio or rod that is not positive, or no rod at a time ratio of 1.
     SynthesisError
-        No slider-crank has this stroke, time ratio and rod.
+        No slider-crank has this stroke, time ratio and rod, or none that keeps them when analysed again.
 
     References
     ----------
@@ -107,7 +108,16 @@ def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = 
         mu = float(_slide_transmission(np.array([t]), delta)[0]) if np.sin(abs(delta) / 2) < t < 1 else np.nan
     if not mu > 0:
         raise SynthesisError(_no_slider_crank(stroke, time_ratio, rod, delta))
-    return _stroke_crank(stroke, time_ratio, delta, t, mu)
+    return _verified(_stroke_crank(stroke, time_ratio, delta, t, mu))
+
+
+def _verified(made: StrokeCrank) -> StrokeCrank:
+    """The slider-crank, if its machine has the dead centres that were asked for."""
+    found = element_of(made.machine, "B")
+    require_met("a stroke", made.stroke, found.stroke, "m")
+    require_met("a time ratio", *slow_over_quick(made.time_ratio, found.time_ratio))
+    require_transmission(made.transmission_angle_min, found)
+    return made
 
 
 def _slide_transmission(t: Floats, delta: float) -> Floats:

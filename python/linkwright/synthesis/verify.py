@@ -1,0 +1,73 @@
+"""What a synthesis returns is analysed again, and must be what was asked for."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkwright.analysis.linkage import ElementMotion, linkage
+from linkwright.errors import SynthesisError
+from linkwright.machine import Machine
+
+# Share by which a linkage may miss what was asked for. Lengths and places are good to some 1e-16 of the
+# longest link; a crank of a ten-thousandth of it, with dead centres among such numbers, keeps seven digits.
+MET = 1e-6
+
+
+def require_met(
+    what: str, wanted: float, found: float | None, unit: str = "", size: float | None = None
+) -> None:
+    """Raise unless a linkage has what was asked for.
+
+    Parameters
+    ----------
+    what : str
+        The quantity, with its article: "a swing".
+    wanted, found : float
+        What was asked for, and what the analysis of the machine finds; None if it has no such thing.
+    unit : str
+        Unit of both, for the message; angles in ``"rad"`` are told in degrees.
+    size : float, optional
+        What the difference is compared with, instead of the wanted value.
+
+    Raises
+    ------
+    SynthesisError
+        The analysis finds something else; with both numbers.
+    """
+    size = abs(wanted) if size is None else size
+    # "not less or equal" holds for NaN too.
+    if found is None or not abs(found - wanted) <= MET * size:
+        factor, unit = (180 / np.pi, "°") if unit == "rad" else (1.0, f" {unit}".rstrip())
+        has = "none" if found is None else f"{factor * found:.9g}{unit}"
+        raise SynthesisError(
+            f"the linkage made for {what} of {factor * wanted:.9g}{unit} has {has} when it is analysed "
+            "again: its links are too unlike in length; ask for something less extreme"
+        )
+
+
+def element_of(machine: Machine, output: str) -> ElementMotion:
+    """The motion of one output of a machine, by its analysis.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    output : str
+        Name of the link or slide.
+    """
+    return next(each for each in linkage(machine).elements if each.output == output)
+
+
+def require_transmission(wanted: float, found: ElementMotion) -> None:
+    """Raise unless the least transmission angle over a revolution is the one that is returned.
+
+    Parameters
+    ----------
+    wanted : float
+        The one that is returned [rad].
+    found : ElementMotion
+        By the analysis of the machine.
+    """
+    low, high = found.transmission_angle_min, found.transmission_angle_max
+    least = None if low is None or high is None else min(low, np.pi - high)
+    require_met("a least transmission angle", wanted, least, "rad", size=1.0)
