@@ -15,9 +15,10 @@
 | `CamError` | finding | a cam cannot be made or followed |
 | `SynthesisError` | finding | no linkage does what was asked for |
 | `ExchangeError` | finding | a curve cannot be manufactured, or a written file does not keep its tolerance |
+| `InternalError` | – | the program contradicted itself: a fault of Linkwright, not of the input |
 
-An input error means exit code 2 of the command line, a finding exit code 1. Nothing here needs the
-compiled core.
+An input error means exit code 2 of the command line, a finding exit code 1, an internal one exit code 70.
+Nothing here needs the compiled core.
 """
 
 from __future__ import annotations
@@ -83,6 +84,33 @@ class FindingError(LinkwrightError):
     """The input is sound, and the answer is that the machine cannot do it."""
 
     exit_code: ClassVar[int] = 1
+
+
+class InternalError(LinkwrightError):
+    """The program contradicted itself.
+
+    Parameters
+    ----------
+    analysis : str
+        What was being computed.
+    reason : str
+        What was wrong, and where in the program.
+    """
+
+    # EX_SOFTWARE of sysexits.h.
+    exit_code: ClassVar[int] = 70
+
+    def __init__(self, analysis: str, reason: str) -> None:
+        super().__init__(analysis, reason)
+        self.analysis = analysis
+        self.reason = reason
+
+    def __str__(self) -> str:
+        """What to do about it, too."""
+        return (
+            f"{self.analysis}: internal error, {self.reason}; the input is not to blame: please report it "
+            "with the machine file and the command"
+        )
 
 
 class UnitError(InputError):

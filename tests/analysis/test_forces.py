@@ -505,7 +505,7 @@ def test_wrong_input_is_named() -> None:
     with pytest.raises(ShapeError, match="one machine"):
         forces(lw.replace(machine, {"mechanism.cranks.A.radius": np.array([0.1, 0.2])}), speed=1.0)
     for angles in ("abc", [], [[0.0, 1.0]]):
-        with pytest.raises(ShapeError, match="crank angles"):
+        with pytest.raises(ShapeError, match="angles"):
             forces(machine, speed=1.0, angles=angles)
     with pytest.raises(InputError, match="nothing that moves"):
         forces(lw.loads('format = 1\nname = "x"\n[mechanism.points]\nD = { x = 1 }'), speed=1.0)

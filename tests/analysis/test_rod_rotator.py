@@ -302,7 +302,10 @@ def test_force_in_the_link_by_power(rocking: RodRotatorMotion) -> None:
     taken = np.where(rocking.string_speed != 0, rocking.worm_torque * np.abs(rocking.lever_speed), 0)
     np.testing.assert_allclose(given, taken, rtol=0, atol=1e-10)
     assert rocking.worm_torque == pytest.approx(200 / (40 * 0.4))
-    assert rocking.link_force_max >= np.abs(rocking.link_force).max() * (1 - 1e-12)
+    # Samples at 0.002° fall short of a smooth peak by 1e-9 of it.
+    fine = rod_rotator(INTERMITTENT, n=200_000).link_force
+    assert rocking.link_force_max == pytest.approx(np.abs(fine).max(), rel=1e-8)
+    assert rocking.link_force_max >= np.abs(fine).max() * (1 - 1e-12)
 
 
 def test_no_arm_at_change_points(turning: RodRotatorMotion) -> None:

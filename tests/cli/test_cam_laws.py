@@ -10,7 +10,8 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from linkwright.cli import _group, application
+from linkwright.cli import application
+from linkwright.cli.commands import _group
 from linkwright.motion_laws.catalogue import LAWS
 
 RUNNER = CliRunner()

@@ -11,6 +11,7 @@ ROOT = Path(__file__).parents[2] / "python" / "linkwright"
 LEVEL = {
     "errors": 0,
     "units": 1,
+    "public": 1,
     "motion_laws": 2,
     "machine": 3,
     "files": 4,

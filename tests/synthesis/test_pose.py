@@ -13,6 +13,7 @@ from linkwright.files import dumps, loads
 from linkwright.synthesis import MovingPoint, Poses, PoseTask
 from linkwright.synthesis.four_bar import FourBar
 from linkwright.synthesis.slider_pose import circle_of_sliders
+from linkwright.synthesis.transmission import least_transmission
 from linkwright.synthesis.travel import travel
 
 POSES = Poses(x=(0, 0.04, 0.06), y=(0, 0.02, 0.06), angle=(0, np.radians(20), np.radians(50)))
@@ -184,3 +185,12 @@ def test_poses_on_two_circuits_are_a_finding() -> None:
     )
     with pytest.raises(SynthesisError, match="neither direction"):
         lw.pose_guide(task)
+
+
+def test_least_transmission_angle_between_samples() -> None:
+    """Where crank and frame are in line, whatever angles are looked at; else at an end."""
+    bar = FourBar(0j, 1 + 0j, 0.3, 0.9, 0.7)
+    exact = np.arccos((0.9**2 + 0.7**2 - 0.7**2) / (2 * 0.9 * 0.7))
+    assert least_transmission(bar.transmission_angle, -1.0, 0.5) == pytest.approx(exact, abs=1e-12)
+    ends = bar.transmission_angle(np.array([0.5, 1.0]))
+    assert least_transmission(bar.transmission_angle, 1.0, 0.5) == pytest.approx(ends.min(), abs=1e-12)

@@ -4,6 +4,7 @@
 //! accuracy asked for (a kink of the drive's characteristic inside the range of speed, no convergence) are
 //! done again one by one by [`crate::steady`], which also names the reason when there is no answer.
 
+use crate::call::{in_threads, poll};
 use crate::cycle::{Machine, Turn};
 use crate::jet::Jet;
 use crate::lanes::{Job, in_lanes};
@@ -107,16 +108,20 @@ pub fn row_of_steady(s: &Steady) -> [f64; QUANTITIES] {
 /// number of turns swept.
 pub fn steady_rows(plan: &Plan, rows: &Rows<'_>, accuracy: f64, out: &mut [f64]) -> (Vec<Status>, u64) {
     let mut status = vec![Status::Ok; rows.n];
-    let sweeps: u64 = status
-        .par_chunks_mut(CHUNK)
-        .zip(out.par_chunks_mut(CHUNK * QUANTITIES))
-        .enumerate()
-        .map(|(chunk, (status, out))| {
-            let first = chunk * CHUNK;
-            let swept = in_lanes(Chunk { plan, rows, first, status, out });
-            swept + retry(plan, rows, first, accuracy, status, out)
-        })
-        .sum();
+    let sweeps: u64 = in_threads(|crew| {
+        status
+            .par_chunks_mut(CHUNK)
+            .zip(out.par_chunks_mut(CHUNK * QUANTITIES))
+            .enumerate()
+            .map(|(chunk, (status, out))| {
+                crew.task(|| {
+                    let first = chunk * CHUNK;
+                    let swept = in_lanes(Chunk { plan, rows, first, status, out });
+                    swept + retry(plan, rows, first, accuracy, status, out)
+                })
+            })
+            .sum()
+    });
     (status, sweeps)
 }
 
@@ -234,7 +239,7 @@ pub fn rows_in_line(plan: &Plan, rows: &Rows<'_>, element: usize) -> Vec<(usize,
         // Waking threads would take longer than doing it.
         return of_row(0);
     }
-    (0..rows.n).into_par_iter().flat_map_iter(of_row).collect()
+    in_threads(|crew| (0..rows.n).into_par_iter().flat_map_iter(|row| crew.task(|| of_row(row))).collect())
 }
 
 /// What is asked of a motion at every angle.
@@ -277,9 +282,10 @@ pub fn motions(plan: &Plan, rows: &Rows<'_>, phi: &[f64], channels: &[Channel], 
     };
     if rows.n == 1 {
         // One machine: each task takes a piece of the turn.
-        let piece = (TASK / width).next_multiple_of(64);
+        let piece = (TASK / width).max(1).next_multiple_of(64);
         let mut pieces: Vec<Vec<&mut [f64]>> = (0..n.div_ceil(piece)).map(|_| Vec::new()).collect();
         for list in out.chunks_exact_mut(n) {
+            poll();
             for (piece, part) in pieces.iter_mut().zip(list.chunks_mut(piece)) {
                 piece.push(part);
             }
@@ -291,13 +297,19 @@ pub fn motions(plan: &Plan, rows: &Rows<'_>, phi: &[f64], channels: &[Channel], 
             // Waking threads would take longer than doing it.
             pieces.into_iter().enumerate().for_each(task);
         } else {
-            pieces.into_par_iter().enumerate().for_each(task);
+            in_threads(|crew| {
+                pieces.into_par_iter().enumerate().for_each(|piece| crew.task(|| task(piece)));
+            });
         }
     } else {
         let at_once = (TASK / (width * n)).max(1);
-        out.par_chunks_mut(width * n * at_once).enumerate().for_each(|(k, out)| {
+        let task = |(k, out): (usize, &mut [f64])| {
             let lists = out.chunks_exact_mut(width * n).map(|row| row.chunks_exact_mut(n).collect());
             job(k * at_once, 0..n, lists.collect());
+        };
+        in_threads(|crew| {
+            let tasks = out.par_chunks_mut(width * n * at_once).enumerate();
+            tasks.for_each(|rows| crew.task(|| task(rows)));
         });
     }
 }
@@ -349,6 +361,7 @@ impl Job for MotionJob<'_, '_> {
         let mut m = Motion::new(&plan.mechanism, &q);
         let mut rest = Motion::new(&plan.mechanism, &row);
         for (i, mut out) in out.into_iter().enumerate() {
+            poll();
             for (k, &slot) in rows.slots.iter().enumerate() {
                 row[slot] = rows.values[k * rows.n + first + i];
                 q[slot] = R::splat(row[slot]);
@@ -445,6 +458,7 @@ impl Job for ThirdJob<'_> {
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let mut lanes = vec![0.0; R::LANES];
         for (block, phi) in self.phi.chunks(R::LANES).enumerate() {
+            poll();
             lanes[..phi.len()].copy_from_slice(phi);
             let angle = Angle::new(Jet::variable(R::load(&lanes)));
             self.plan.mechanism.place::<Jet<R, 4>, 1>(&q, angle, &mut m);
@@ -508,6 +522,7 @@ impl Job for GapJob<'_> {
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let mut lanes = vec![0.0; R::LANES];
         for (block, phi) in self.phi.chunks(R::LANES).enumerate() {
+            poll();
             lanes[..phi.len()].copy_from_slice(phi);
             self.plan.mechanism.place::<R, 1>(&q, Angle::new(R::load(&lanes)), &mut m);
             for (k, gap) in m.gaps.iter().enumerate() {
@@ -524,6 +539,7 @@ pub fn reductions(plan: &Plan, q: &[f64], phi: &[f64], out: &mut [f64]) {
     let mut m = Motion::new(&plan.mechanism, q);
     let n = phi.len();
     for (i, &phi_i) in phi.iter().enumerate() {
+        poll();
         let r = plan.reduce::<f64, 2>(q, Angle::new(phi_i), 1.0, &mut m);
         for (k, value) in [r.J, r.J_d1, r.load, r.dry, r.viscous].into_iter().enumerate() {
             out[k * n + i] = value;
@@ -536,6 +552,7 @@ pub fn law_torques(plan: &Plan, q: &[f64], phi: &[f64], omega: &[f64], out: &mut
     let mut m = Motion::new(&plan.mechanism, q);
     let mut given = Vec::new();
     for (i, &phi_i) in phi.iter().enumerate() {
+        poll();
         plan.mechanism.place::<f64, 1>(q, Angle::new(phi_i), &mut m);
         given.clear();
         plan.give(q, phi_i, &m, &mut given);

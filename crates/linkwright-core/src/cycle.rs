@@ -10,6 +10,7 @@
 //! Newton step of the turn-to-turn map, and the product of the steps' growth is that map's derivative: the
 //! multiplier of a small disturbance over one turn (stable when below 1 in size).
 
+use crate::call::poll;
 use crate::dual::Dual;
 use crate::gauss::{B, C, S, StageNewton, stage_newton};
 use crate::law::Given;
@@ -304,6 +305,7 @@ impl<R: Real> Turn<R> {
         // Newton's correction squares from sweep to sweep: below √tolerance the next is below tolerance.
         let last = tolerance.sqrt().min(1e-7);
         while self.sweeps < SWEEPS_MAX {
+            poll();
             R::outline(
                 #[inline(always)]
                 || self.sweep(machine, &mut work),

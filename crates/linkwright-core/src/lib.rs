@@ -21,6 +21,7 @@
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
 //! | [`rk`], [`transient`] | motion in time from given angle and speed, with its events |
 //! | [`batch`] | many machines: lanes and threads |
+//! | [`call`] | threads of a call, and how it is stopped |
 //! | [`cam`] | profiles of cams: contact, pressure angle, curvature, many cams |
 //! | [`topper`] | knives over the heads of roots: what they cut, and what they leave |
 //! | [`torsion`] | natural frequencies, mode shapes and motion in time of trains of discs and shafts |
@@ -32,6 +33,7 @@
 #![allow(missing_docs)]
 
 pub mod batch;
+pub mod call;
 pub mod cam;
 pub mod cycle;
 pub mod drive;

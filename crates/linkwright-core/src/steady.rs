@@ -5,6 +5,7 @@
 //! the motor's or gearbox's characteristic has a kink at some speed, the angles at which the speed passes it
 //! are found on each mesh and become ends of steps on the next.
 
+use crate::call::poll;
 use crate::cycle::{Machine, Step, Turn};
 use crate::gauss::S;
 use crate::lanes::{Job, in_lanes};
@@ -75,6 +76,7 @@ pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Status> {
     let mut mesh = Mesh { plan, q, breaks: &breaks, n: FIRST, tolerance: accuracy * 1e-2, last: None };
     let (mut crossings, mut sweeps) = (Vec::new(), 0);
     while mesh.n <= FINEST {
+        poll();
         let with_crossings = merged(&breaks, &crossings);
         let found = in_lanes(Mesh { breaks: &with_crossings, ..mesh })?;
         sweeps += found.sweeps;
@@ -380,6 +382,7 @@ impl Job for ReadCurves<'_> {
         let mut lanes = vec![0.0; n];
         let mut k = 0;
         for phis in self.phi.chunks(n) {
+            poll();
             for lane in 0..n {
                 let phi = phis[lane.min(phis.len() - 1)];
                 k = self.mark_before(phi, k);

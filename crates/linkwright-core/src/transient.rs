@@ -8,6 +8,7 @@
 //! under dry friction, knots of tables), speeds at which the drive's characteristic has a kink, standstill.
 //! At standstill the dry loads decide: what is left of the drive's torque must exceed them to move on.
 
+use crate::call::poll;
 use crate::cycle::Machine;
 use crate::law::Given;
 use crate::linkage::Motion;
@@ -217,6 +218,7 @@ impl Path {
         let (_, y) = self.now();
         let mut k0 = follower.derivative(0.0, &y);
         for _ in 0..STEPS_MAX {
+            poll();
             self.trajectory.epsilon.push(k0[1]);
             let (t, y) = self.now();
             if let Some(end) = self.is_over(t, &y, &k0) {

@@ -5,11 +5,12 @@ use linkwright_core::cam::search::{Cams, RESULTS, search};
 use linkwright_core::cam::shape::{Quantity, ROWS};
 use linkwright_core::cam::{Cam as CoreCam, Dimensions, Kind};
 use linkwright_core::motion_law::MotionLaw;
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::plan_error;
+use crate::guard::{filled, guarded, require_room, zeros};
 use crate::{Curve, Floats, Table};
 
 /// A law and the kind of cam that follows it.
@@ -25,26 +26,11 @@ pub(crate) struct Cam {
 type Shaped<'py> = (Curve<'py>, Bound<'py, PyArray1<u32>>, Table<'py>, Table<'py>, Vec<Table<'py>>);
 
 fn table<'py>(py: Python<'py>, rows: &[Vec<f64>], width: usize) -> PyResult<Table<'py>> {
-    let table = PyArray2::<f64>::zeros(py, [rows.len(), width], false);
+    let table = zeros(py, "cam", [rows.len(), width])?;
     for (to, from) in table.readwrite().as_slice_mut()?.chunks_exact_mut(width.max(1)).zip(rows) {
         to.copy_from_slice(from);
     }
     Ok(table)
-}
-
-/// A table that a kernel fills while the interpreter's lock is let go.
-fn filled<'py>(
-    py: Python<'py>,
-    shape: [usize; 2],
-    fill: impl FnOnce(&mut [f64]) + Send,
-) -> PyResult<Table<'py>> {
-    let out = PyArray2::<f64>::zeros(py, shape, false);
-    {
-        let mut to = out.readwrite();
-        let to = to.as_slice_mut()?;
-        py.detach(|| fill(to));
-    }
-    Ok(out)
 }
 
 fn dimensions(list: &Floats<'_>) -> PyResult<Dimensions<f64>> {
@@ -57,9 +43,9 @@ fn dimensions(list: &Floats<'_>) -> PyResult<Dimensions<f64>> {
 #[pymethods]
 impl Cam {
     #[new]
-    fn new(law: Floats<'_>, kind: u8, sense: f64, side: f64) -> PyResult<Self> {
+    fn new(py: Python<'_>, law: Floats<'_>, kind: u8, sense: f64, side: f64) -> PyResult<Self> {
         let mut list = law.as_slice()?;
-        let law = MotionLaw::decode(&mut list).map_err(plan_error)?;
+        let law = guarded(py, "law of a cam", || MotionLaw::decode(&mut list))?.map_err(plan_error)?;
         let kind = Kind::of(kind).ok_or_else(|| PyValueError::new_err("no such kind of cam"))?;
         Ok(Cam { law, kind, sense, side })
     }
@@ -75,7 +61,8 @@ impl Cam {
         if levels.iter().any(|&(row, _)| row >= ROWS) {
             return Err(PyValueError::new_err("no such row"));
         }
-        let (shape, extremes, passes) = py.detach(|| {
+        require_room("cam", [ROWS + 3, n])?;
+        let (shape, extremes, passes) = guarded(py, "cam", || {
             let shape = cam.shape(&self.law, n);
             let mut extremes = Vec::new();
             for &what in Quantity::of_kind(self.kind) {
@@ -92,7 +79,7 @@ impl Cam {
                 })
                 .collect();
             (shape, extremes, passes)
-        });
+        })?;
         let width = shape.phi.len();
         Ok((
             PyArray1::from_vec(py, shape.phi),
@@ -113,7 +100,7 @@ impl Cam {
     ) -> PyResult<Table<'py>> {
         let cam = CoreCam::new(self.kind, self.sense, self.side, dimensions(&size)?);
         let phi = phi.as_slice()?;
-        filled(py, [ROWS, phi.len()], |to| cam.rows(&self.law, phi, before, to))
+        filled(py, "cam", [ROWS, phi.len()], |to| cam.rows(&self.law, phi, before, to))
     }
 
     /// Place, first and second derivative of a curve beside the pitch curve, seen from the cam.
@@ -127,7 +114,7 @@ impl Cam {
     ) -> PyResult<Table<'py>> {
         let cam = CoreCam::new(self.kind, self.sense, self.side, dimensions(&size)?);
         let phi = phi.as_slice()?;
-        filled(py, [6, phi.len()], |to| cam.curves(&self.law, phi, before, away, to))
+        filled(py, "profile of a cam", [6, phi.len()], |to| cam.curves(&self.law, phi, before, away, to))
     }
 
     /// Results of many cams; each column has one entry or one a cam.
@@ -146,8 +133,10 @@ impl Cam {
             return Err(PyValueError::new_err("six dimensions and the factor on the lift"));
         };
         let size = Dimensions { base_radius, roller_radius, offset, distance, arm, tilt };
+        let analysis = "search of cams";
+        require_room(analysis, [3, per_turn])?;
         let cams = Cams { kind: self.kind, sense: self.sense, side: self.side, size, lift, n };
-        filled(py, [n, RESULTS], |to| search(&self.law, &cams, per_turn, to))
+        filled(py, analysis, [n, RESULTS], |to| search(&self.law, &cams, per_turn, to))
     }
 }
 
@@ -158,7 +147,7 @@ pub(crate) fn cam_crossings<'py>(py: Python<'py>, x: Floats<'_>, y: Floats<'_>) 
     if x.len() != y.len() {
         return Err(PyValueError::new_err("as many x as y"));
     }
-    let found = py.detach(|| crossings(x, y));
+    let found = guarded(py, "crossings of a profile", || crossings(x, y))?;
     let rows: Vec<Vec<f64>> = found.iter().map(|c| vec![c.first, c.second, c.x, c.y]).collect();
     table(py, &rows, 4)
 }

@@ -6,12 +6,14 @@
 mod arrays;
 mod cam;
 mod errors;
+mod guard;
 mod topper;
 mod torsion;
 mod torsion_transient;
 
 use arrays::{as_indices, below, channels, column};
 use errors::plan_error;
+use guard::{filled, guarded, keep_panics, zeros};
 use linkwright_core::batch::{self, QUANTITIES, Rows};
 use linkwright_core::kinks as core_kinks;
 use linkwright_core::lanes::in_lanes;
@@ -36,6 +38,7 @@ struct Plan(CorePlan);
 impl Plan {
     #[new]
     fn new(
+        py: Python<'_>,
         sizes: Ints<'_>,
         elements: Ints<'_>,
         bodies: Ints<'_>,
@@ -59,7 +62,7 @@ impl Plan {
             formulas: formulas.as_slice()?,
             motion_laws: motion_laws.as_slice()?,
         };
-        CorePlan::decode(&code).map(Plan).map_err(plan_error)
+        guarded(py, "translation of the machine", || CorePlan::decode(&code))?.map(Plan).map_err(plan_error)
     }
 
     #[getter]
@@ -101,11 +104,11 @@ fn steady_state<'py>(
     phi: Floats<'_>,
 ) -> PyResult<Solved<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
-    let solved = py.detach(|| {
+    let solved = guarded(py, "steady motion", || {
         let found = steady(&plan.0, q, accuracy)?;
         let curves = in_lanes(ReadCurves { plan: &plan.0, q, marks: &found.marks, phi });
         Ok((found, curves))
-    });
+    })?;
     let (found, curves) = match solved {
         Ok(solved) => solved,
         Err(status) => {
@@ -130,10 +133,10 @@ fn steady_state<'py>(
         &curves.load_torque,
         &curves.J,
     ];
-    let table = PyArray2::<f64>::zeros(py, [rows.len(), phi.len()], false);
+    let table = zeros(py, "steady motion", [rows.len(), phi.len()])?;
     {
         let mut to = table.readwrite();
-        for (to, from) in to.as_slice_mut()?.chunks_exact_mut(phi.len()).zip(rows) {
+        for (to, from) in to.as_slice_mut()?.chunks_exact_mut(phi.len().max(1)).zip(rows) {
             to.copy_from_slice(from);
         }
     }
@@ -152,11 +155,12 @@ fn steady_rows<'py>(
     let n = values.as_array().ncols();
     let slots = as_indices(slots.as_slice()?, plan.0.n_parameters)?;
     let rows = Rows { base: plan.parameters(&q)?, slots: &slots, values: values.as_slice()?, n };
-    let out = PyArray2::<f64>::zeros(py, [n, QUANTITIES], false);
+    let analysis = "steady motion of many machines";
+    let out = zeros(py, analysis, [n, QUANTITIES])?;
     let (status, turns) = {
         let mut to = out.readwrite();
         let to = to.as_slice_mut()?;
-        py.detach(|| batch::steady_rows(&plan.0, &rows, accuracy, to))
+        guarded(py, analysis, || batch::steady_rows(&plan.0, &rows, accuracy, to))?
     };
     let status: Vec<u8> = status.into_iter().map(|s| s as u8).collect();
     Ok((PyArray1::from_vec(py, status), out, turns))
@@ -182,8 +186,7 @@ fn motions(
     if out.len() != size {
         return Err(PyValueError::new_err(format!("out holds {} numbers, {size} are needed", out.len())));
     }
-    py.detach(|| batch::motions(&plan.0, &rows, phi, &channels, out));
-    Ok(())
+    guarded(py, "motions", || batch::motions(&plan.0, &rows, phi, &channels, out))
 }
 
 #[pyfunction]
@@ -197,13 +200,7 @@ fn third<'py>(
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let channels = channels(what.as_slice()?, &plan.0)?;
     let width = channels.iter().map(|c| c.third_width()).sum();
-    let out = PyArray2::<f64>::zeros(py, [width, phi.len()], false);
-    {
-        let mut to = out.readwrite();
-        let to = to.as_slice_mut()?;
-        py.detach(|| batch::third(&plan.0, q, phi, &channels, to));
-    }
-    Ok(out)
+    filled(py, "third derivatives", [width, phi.len()], |to| batch::third(&plan.0, q, phi, &channels, to))
 }
 
 #[pyfunction]
@@ -219,7 +216,7 @@ fn in_line(
     let slots = as_indices(slots.as_slice()?, plan.0.n_parameters)?;
     let rows = Rows { base: plan.parameters(&q)?, slots: &slots, values: values.as_slice()?, n };
     below(element, plan.0.mechanism.elements.len())?;
-    let found = py.detach(|| batch::rows_in_line(&plan.0, &rows, element));
+    let found = guarded(py, "change points", || batch::rows_in_line(&plan.0, &rows, element))?;
     let tuple = |(row, at): (usize, CoreInLine)| (row, at.phi, at.spare, at.series, at.arms, at.lost.into());
     Ok(found.into_iter().map(tuple).collect())
 }
@@ -235,7 +232,8 @@ fn follow_group<'py>(
 ) -> PyResult<Option<Traced<'py>>> {
     let (q, near) = (plan.parameters(&q)?, near.as_slice()?);
     below(element, plan.0.mechanism.elements.len())?;
-    let found = py.detach(|| trace::follow(&plan.0.mechanism, element, q, phi, near));
+    let mechanism = &plan.0.mechanism;
+    let found = guarded(py, "assembly of a group", || trace::follow(mechanism, element, q, phi, near))?;
     Ok(found.map(|path| {
         let places = path.places.into_iter().map(|list| column(py, list)).collect();
         (column(py, path.phi), places, path.turns)
@@ -245,25 +243,14 @@ fn follow_group<'py>(
 #[pyfunction]
 fn gaps<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>, phi: Floats<'_>) -> PyResult<Table<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
-    let out = PyArray2::<f64>::zeros(py, [plan.0.mechanism.n_gaps, phi.len()], false);
-    {
-        let mut to = out.readwrite();
-        let to = to.as_slice_mut()?;
-        py.detach(|| batch::gaps(&plan.0, q, phi, to));
-    }
-    Ok(out)
+    let shape = [plan.0.mechanism.n_gaps, phi.len()];
+    filled(py, "closure", shape, |to| batch::gaps(&plan.0, q, phi, to))
 }
 
 #[pyfunction]
 fn reductions<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>, phi: Floats<'_>) -> PyResult<Table<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
-    let out = PyArray2::<f64>::zeros(py, [5, phi.len()], false);
-    {
-        let mut to = out.readwrite();
-        let to = to.as_slice_mut()?;
-        py.detach(|| batch::reductions(&plan.0, q, phi, to));
-    }
-    Ok(out)
+    filled(py, "reduction to the crank", [5, phi.len()], |to| batch::reductions(&plan.0, q, phi, to))
 }
 
 #[pyfunction]
@@ -275,13 +262,8 @@ fn law_torques<'py>(
     omega: Floats<'_>,
 ) -> PyResult<Table<'py>> {
     let (q, phi, omega) = (plan.parameters(&q)?, phi.as_slice()?, omega.as_slice()?);
-    let out = PyArray2::<f64>::zeros(py, [omega.len(), phi.len()], false);
-    {
-        let mut to = out.readwrite();
-        let to = to.as_slice_mut()?;
-        py.detach(|| batch::law_torques(&plan.0, q, phi, omega, to));
-    }
-    Ok(out)
+    let shape = [omega.len(), phi.len()];
+    filled(py, "torques of the laws", shape, |to| batch::law_torques(&plan.0, q, phi, omega, to))
 }
 
 #[pyfunction]
@@ -292,9 +274,12 @@ fn motor_torques<'py>(
     omega: Floats<'_>,
 ) -> PyResult<(Curve<'py>, Curve<'py>)> {
     let q = plan.parameters(&q)?;
-    let torque = |&omega: &f64| plan.0.motor_torque(q, omega);
-    let motor: Vec<f64> = omega.as_slice()?.iter().map(torque).collect();
-    let crank = motor.iter().map(|&torque| plan.0.geared_torque(q, torque)).collect();
+    let omega = omega.as_slice()?;
+    let (motor, crank) = guarded(py, "torques of the motor", || {
+        let motor: Vec<f64> = omega.iter().map(|&omega| plan.0.motor_torque(q, omega)).collect();
+        let crank = motor.iter().map(|&torque| plan.0.geared_torque(q, torque)).collect();
+        (motor, crank)
+    })?;
     Ok((PyArray1::from_vec(py, motor), PyArray1::from_vec(py, crank)))
 }
 
@@ -311,7 +296,7 @@ fn transient<'py>(
 ) -> PyResult<Followed<'py>> {
     let q = plan.parameters(&q)?;
     let start = Start { phi, omega, duration, turns, accuracy };
-    let path = py.detach(|| follow(&plan.0, q, &start));
+    let path = guarded(py, "motion in time", || follow(&plan.0, q, &start))?;
     let curves = [path.t, path.phi, path.omega, path.epsilon].map(|list| column(py, list));
     let torques = [path.drive_torque, path.load_torque];
     Ok((path.end as u8, torques, path.evaluations, curves.into()))
@@ -320,13 +305,21 @@ fn transient<'py>(
 #[pyfunction]
 fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Curve<'py>> {
     let q = plan.parameters(&q)?;
-    Ok(column(py, py.detach(|| core_kinks::kinks(&plan.0, q))))
+    Ok(column(py, guarded(py, "kinks of the motion", || core_kinks::kinks(&plan.0, q))?))
 }
 
 #[pymodule(gil_used = false)]
 mod _core {
     #[pymodule_export]
     const FORMAT: u32 = linkwright_core::plan::FORMAT;
+
+    #[pymodule_init]
+    #[allow(clippy::unnecessary_wraps)] // pyo3 has it so.
+    fn init(_module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        super::keep_panics();
+        Ok(())
+    }
+
     #[pymodule_export]
     use super::cam::{Cam, cam_crossings};
     #[pymodule_export]

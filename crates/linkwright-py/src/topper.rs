@@ -3,11 +3,11 @@
 use linkwright_core::motion_law::MotionLaw;
 use linkwright_core::topper::heads::{Heads, RESULTS, cover};
 use linkwright_core::topper::knife::{Knife, Law};
-use numpy::{PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::plan_error;
+use crate::guard::{filled, guarded, require_room};
 use crate::{Floats, Table};
 
 /// A knife: its law, as harmonics (a, b, a, b, …) or in pieces, and how it goes.
@@ -18,6 +18,7 @@ pub(crate) struct TopperKnife(Knife);
 impl TopperKnife {
     #[new]
     fn new(
+        py: Python<'_>,
         law: Floats<'_>,
         in_pieces: bool,
         corners: Vec<f64>,
@@ -29,7 +30,8 @@ impl TopperKnife {
     ) -> PyResult<Self> {
         let mut list = law.as_slice()?;
         let law = if in_pieces {
-            Law::Pieces(MotionLaw::decode(&mut list).map_err(plan_error)?)
+            let law = guarded(py, "law of a knife", || MotionLaw::decode(&mut list))?;
+            Law::Pieces(law.map_err(plan_error)?)
         } else {
             Law::Harmonics(list.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect())
         };
@@ -61,12 +63,8 @@ impl TopperKnife {
             return Err(PyValueError::new_err("columns of one entry, or one for each head"));
         }
         let heads = Heads { radius, offset, phase, n };
-        let out = PyArray2::<f64>::zeros(py, [n, RESULTS], false);
-        {
-            let mut to = out.readwrite();
-            let to = to.as_slice_mut()?;
-            py.detach(|| cover(&self.0, &heads, length, fine, to));
-        }
-        Ok(out)
+        let analysis = "heads under a knife";
+        require_room(analysis, [3, fine])?;
+        filled(py, analysis, [n, RESULTS], |to| cover(&self.0, &heads, length, fine, to))
     }
 }

@@ -6,6 +6,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadwriteArr
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::guard::{guarded, require_room, zeros};
 use crate::{Curve, Floats, Ints, Table};
 
 /// Natural frequencies, and mode shapes row by row; `None` where shafts close a loop.
@@ -18,14 +19,16 @@ pub(crate) fn torsion_modes<'py>(
 ) -> PyResult<Option<(Curve<'py>, Table<'py>)>> {
     let (inertia, stiffness) = (inertia.as_slice()?, stiffness.as_slice()?);
     let (ends, _) = ends.as_slice()?.as_chunks();
-    let parts = match Forest::new(inertia, ends, stiffness) {
+    let analysis = "natural frequencies";
+    let parts = match guarded(py, analysis, || Forest::new(inertia, ends, stiffness))? {
         Forest::Trees(parts) => parts,
         Forest::Loops => return Ok(None),
         Forest::Wrong => {
             return Err(PyValueError::new_err("no train: inertias are positive, stiffnesses not negative"));
         }
     };
-    let found = py.detach(|| modes::modes_of_parts(&parts));
+    require_room(analysis, [inertia.len(); 2])?;
+    let found = guarded(py, analysis, || modes::modes_of_parts(&parts))?;
     let omega = PyArray1::from_slice(py, &found.omega);
     // The core has a row a disc.
     let shapes = PyArray2::<f64>::zeros(py, [inertia.len(); 2], true);
@@ -64,7 +67,7 @@ pub(crate) fn torsion_forced(
         ground: ground.as_slice()?,
     };
     let (orders, (torques, _)) = (orders.as_slice()?, torques.as_slice_mut()?.as_chunks_mut());
-    if py.detach(|| forced::forced(&train, &damping, orders, torques)) {
+    if guarded(py, "forced vibration", || forced::forced(&train, &damping, orders, torques))? {
         return Ok(());
     }
     Err(PyValueError::new_err("tables and torques do not have a place for every disc and speed"))
@@ -82,8 +85,12 @@ pub(crate) fn torsion_waves<'py>(
     if waves > 0 && coefficients.len() % waves != 0 {
         return Err(PyValueError::new_err("coefficients do not have a place for every wave"));
     }
-    let found = py.detach(|| waves::extremes(coefficients, waves));
-    let table = PyArray2::<f64>::zeros(py, [4, waves], false);
+    let analysis = "extremes of vibration";
+    let harmonics = coefficients.len() / waves.max(1);
+    // Cosines and sines of each harmonic at the places where waves are sampled, some four for each harmonic.
+    require_room(analysis, [harmonics, 4 * harmonics + 4])?;
+    let found = guarded(py, analysis, || waves::extremes(coefficients, waves))?;
+    let table = zeros(py, analysis, [4, waves])?;
     let mut rows = table.readwrite();
     for (nth, to) in rows.as_slice_mut()?.chunks_exact_mut(waves.max(1)).enumerate() {
         for (to, each) in to.iter_mut().zip(&found) {

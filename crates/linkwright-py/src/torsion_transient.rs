@@ -3,12 +3,13 @@
 use linkwright_core::torsion::transient::course::{self, Method, Request};
 use linkwright_core::torsion::transient::rates::Rates;
 use linkwright_core::torsion::transient::system::{Encoded, System};
-use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::column;
 use crate::errors::plan_error;
+use crate::guard::{guarded, require_room, zeros};
 use crate::{Curve, Floats, Ints, Table};
 
 /// How it ended, by which method; steps, rejected, evaluations; time reached, bound of the fastest swing, energies at start
@@ -33,6 +34,7 @@ impl TorsionSystem {
 impl TorsionSystem {
     #[new]
     fn new(
+        py: Python<'_>,
         inertia: Floats<'_>,
         damping: Floats<'_>,
         swing_damping: Floats<'_>,
@@ -62,7 +64,9 @@ impl TorsionSystem {
             curve_starts: curve_starts.as_slice()?,
             points: points.as_slice()?,
         };
-        System::decode(&code).map(TorsionSystem).map_err(plan_error)
+        guarded(py, "translation of the train", || System::decode(&code))?
+            .map(TorsionSystem)
+            .map_err(plan_error)
     }
 
     fn follow<'py>(
@@ -87,11 +91,13 @@ impl TorsionSystem {
         self.fits("angle", angle.len(), self.0.len())?;
         self.fits("speed", speed.len(), self.0.len())?;
         let request = Request { angle, speed, times, start, duration, accuracy, method, steps_max };
-        let found = py.detach(|| course::follow(&self.0, &request));
+        let analysis = "torsional motion in time";
+        require_room(analysis, [2 * self.0.len() + self.0.links.len() + 2, times.len()])?;
+        let found = guarded(py, analysis, || course::follow(&self.0, &request))?;
         let rows = found.samples.len() / times.len().max(1);
-        let samples = PyArray2::<f64>::zeros(py, [rows, times.len()], false);
+        let samples = zeros(py, analysis, [rows, times.len()])?;
         samples.readwrite().as_slice_mut()?.copy_from_slice(&found.samples);
-        let extremes = PyArray2::<f64>::zeros(py, [found.extremes.len(), 4], false);
+        let extremes = zeros(py, analysis, [found.extremes.len(), 4])?;
         extremes.readwrite().as_slice_mut()?.copy_from_slice(found.extremes.as_flattened());
         let [t0, v0, t1, v1] = found.energies;
         Ok((
@@ -116,17 +122,22 @@ impl TorsionSystem {
         let rows = angle.as_array().nrows();
         self.fits("angle", angle.as_array().ncols(), n)?;
         self.fits("speed", speed.len(), n)?;
-        let net = PyArray2::<f64>::zeros(py, [rows, n], false);
-        let inertia = PyArray2::<f64>::zeros(py, [rows, n], false);
+        let analysis = "torques on a train";
+        let (net, inertia) = (zeros(py, analysis, [rows, n])?, zeros(py, analysis, [rows, n])?);
         {
             let (mut net, mut inertia) = (net.readwrite(), inertia.readwrite());
-            let lists =
-                net.as_slice_mut()?.chunks_exact_mut(n).zip(inertia.as_slice_mut()?.chunks_exact_mut(n));
-            let mut rates = Rates::new(&self.0);
-            rates.enter(t);
-            for (angle, (net, inertia)) in angle.as_slice()?.chunks_exact(n).zip(lists) {
-                rates.net_torques(t, angle, speed, net, inertia);
-            }
+            let lists = net
+                .as_slice_mut()?
+                .chunks_exact_mut(n.max(1))
+                .zip(inertia.as_slice_mut()?.chunks_exact_mut(n.max(1)));
+            let angles = angle.as_slice()?.chunks_exact(n.max(1));
+            guarded(py, analysis, || {
+                let mut rates = Rates::new(&self.0);
+                rates.enter(t);
+                for (angle, (net, inertia)) in angles.zip(lists) {
+                    rates.net_torques(t, angle, speed, net, inertia);
+                }
+            })?;
         }
         Ok((net, inertia))
     }

@@ -27,6 +27,7 @@ from linkwright.errors import MachineError, Problem
 from linkwright.machine import Body, Machine
 from linkwright.machine.base import suggestion
 from linkwright.machine.structure import FRAME
+from linkwright.public import public
 from linkwright.units import LENGTH, SPEED, positive
 
 Floats = NDArray[np.float64]
@@ -99,6 +100,7 @@ def _rms(result: Forces, name: str) -> float:
     return float(np.sqrt(result.motion.mean(squares)))
 
 
+@public
 def balance(
     machine: Machine,
     links: Sequence[str],

@@ -19,6 +19,7 @@ from linkwright.analysis.dyads import dyads_of
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import InputError
 from linkwright.machine import Machine
+from linkwright.public import public
 
 # Dyads with two assemblies of which all combinations are looked at.
 _DYADS_MAX = 8
@@ -71,6 +72,7 @@ class Circuit:
         return any(branch.turns_fully for branch in self.branches)
 
 
+@public
 def circuits(machine: Machine) -> tuple[Circuit, ...]:
     """The circuits of a linkage.
 

@@ -24,6 +24,7 @@ from linkwright.analysis.roots import minima, zeros
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import AssemblyError, InputError
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -90,6 +91,7 @@ class Closure:
         return not self.element
 
 
+@public
 def closure(machine: Machine) -> Closure:
     """Find the crank angles at which the mechanism closes.
 

@@ -14,6 +14,7 @@ from linkwright.analysis.reduction import NO_INERTIA, Reduction, reduction
 from linkwright.analysis.result import Result
 from linkwright.errors import SteadyStateError
 from linkwright.machine import Machine
+from linkwright.public import public
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,7 @@ class ConstantEnergy(Result):
         return self.unevenness**2 + self.dynamism
 
 
+@public
 def constant_energy(machine: Machine) -> ConstantEnergy:
     """Measures of evenness at constant kinetic energy.
 

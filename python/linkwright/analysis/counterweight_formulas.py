@@ -14,11 +14,13 @@ from linkwright.analysis.kinetostatics.scene import Scene, left, unit
 from linkwright.errors import MachineError, Problem
 from linkwright.machine import Machine
 from linkwright.machine.base import suggestion
+from linkwright.public import public
 from linkwright.units import RATIO, not_negative
 
 Floats = NDArray[np.float64]
 
 
+@public
 def partial_balance(
     machine: Machine,
     slider: str,

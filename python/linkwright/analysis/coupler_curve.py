@@ -23,6 +23,7 @@ from linkwright.analysis.turning import Cycle
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import MachineError, Problem, ShapeError
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -105,6 +106,7 @@ class CouplerCurve(Result):
     cusps: tuple[Cusp, ...]
 
 
+@public
 def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) -> CouplerCurve:
     """The path of a point over the cycle.
 

@@ -13,6 +13,7 @@ from linkwright.analysis.forces import forces
 from linkwright.analysis.kinetostatics.result import Forces, PairForce
 from linkwright.errors import InputError
 from linkwright.machine import Machine, replace
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -44,6 +45,7 @@ class Extent:
     mean: float
 
 
+@public
 def envelope(result: Forces) -> list[Extent]:
     """How large every force and torque becomes.
 
@@ -90,6 +92,7 @@ def _extent(result: Forces, name: str, unit: str, values: Floats) -> Extent:
     return Extent(name, unit, float(values[at]), float(motion.crank_angle[at]), rms, motion.mean(values))
 
 
+@public
 def load_cases(machine: Machine, cases: Mapping[str, Mapping[str, Any]], **options: Any) -> dict[str, Forces]:
     """Forces of one machine under several loads.
 

@@ -31,6 +31,7 @@ from linkwright.analysis.steady_state import SteadyState
 from linkwright.analysis.transient import Transient
 from linkwright.engine import drive_inertia
 from linkwright.machine import Drive, Machine
+from linkwright.public import public
 from linkwright.units import ANGLE, Bound, Quantity
 
 # Pressure angle of involute teeth by DIN 867 and ISO 53 [rad].
@@ -45,6 +46,7 @@ _ACUTE = Bound(
 )
 
 
+@public
 def forces(
     machine: Machine,
     motion: SteadyState | Transient | Motion | None = None,

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.errors import ShapeError
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -38,6 +39,7 @@ class Harmonics:
         return found
 
 
+@public
 def harmonics(crank_angle: Floats, values: Floats, order: int = 8) -> Harmonics:
     """Fourier's series of a quantity over one turn.
 

@@ -13,6 +13,8 @@ from linkwright.analysis.closure import has_levers, require_closed
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import MachineError, Problem, ShapeError
 from linkwright.machine import Machine
+from linkwright.public import public
+from linkwright.public.arguments import array, shown
 
 Floats = NDArray[np.float64]
 
@@ -101,6 +103,7 @@ class Kinematics:
     slides: dict[str, SlideMotion]
 
 
+@public
 def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool = False) -> Kinematics:
     r"""Motion of every point, link and slide over the crank angle.
 
@@ -188,12 +191,9 @@ def checked_angles(angles: ArrayLike) -> Floats:
     ShapeError
         They are no list of finite numbers.
     """
-    try:
-        phi = np.ascontiguousarray(angles, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ShapeError(f"crank angles in radians are needed, found {angles!r}") from None
-    if phi.ndim != 1 or not np.isfinite(phi).all():
-        raise ShapeError(f"a list of finite crank angles is needed, found an array of shape {phi.shape}")
+    phi = array("crank angles", angles)
+    if phi.ndim != 1:
+        raise ShapeError(f"crank angles: found an array of shape {phi.shape}, expected a list")
     return phi
 
 
@@ -222,6 +222,7 @@ def _continuous(angles: Floats) -> Floats:
     return np.unwrap(angles) if has_jumps else angles
 
 
+@public
 def motions(
     machine: Machine,
     angles: ArrayLike,
@@ -229,7 +230,7 @@ def motions(
     points: Iterable[str] = (),
     links: Iterable[str] = (),
     slides: Iterable[str] = (),
-    out: Floats | None = None,
+    out: NDArray[np.float64] | None = None,
 ) -> Floats:
     """Motions of one or many machines as one array, at the speed of the core.
 
@@ -274,9 +275,23 @@ def motion_arrays(
             raise MachineError([Problem(part, name, expected)])
     shape = (compiled.n_rows, sum(_WIDTHS[part] for part, _ in what), len(angles))
     if out is None:
-        out = np.empty(shape)
-    if out.shape != shape or out.dtype != np.float64 or not out.flags.c_contiguous:
-        raise ShapeError(f"out must be a contiguous array of floats of shape {shape}, found {out.shape}")
+        out = _room(shape)
+    if (
+        not isinstance(out, np.ndarray)
+        or out.shape != shape
+        or out.dtype != np.float64
+        or not out.flags.carray
+    ):
+        expected = f"a contiguous array of floats of shape {shape} that may be written to"
+        raise ShapeError(f"out: found {shown(out)}, expected {expected}")
     kinds = list(_WIDTHS)
     compiled.motions(angles, [(kinds.index(part), known[part][name]) for part, name in what], out.reshape(-1))
     return out
+
+
+def _room(shape: tuple[int, ...]) -> Floats:
+    """An array to write into."""
+    try:
+        return np.empty(shape)
+    except (MemoryError, ValueError):
+        raise ShapeError(f"motions: {shape} numbers do not fit into memory; ask for fewer at once") from None

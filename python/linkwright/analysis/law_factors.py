@@ -26,6 +26,7 @@ from linkwright.motion_laws.catalogue import LAWS
 from linkwright.motion_laws.motion_law import MotionLaw
 from linkwright.motion_laws.piece import Piece
 from linkwright.motion_laws.zeros import zeros
+from linkwright.public import public
 
 # A jump below this share of the derivative's greatest value is rounding.
 _ROUNDING = 1e-9
@@ -73,6 +74,7 @@ class LawFactors(Result):
     remarks: tuple[str, ...]
 
 
+@public
 def law_factors(law: MotionLaw) -> LawFactors:
     """Factors of a motion law.
 
@@ -93,6 +95,7 @@ def law_factors(law: MotionLaw) -> LawFactors:
     return _of_unit(unit)
 
 
+@public
 def cam_laws() -> dict[str, LawFactors]:
     """Factors of all laws of the catalogue, with their usual parameters.
 

@@ -26,6 +26,7 @@ from linkwright.analysis.result import Result
 from linkwright.analysis.turning import Cycle, Swept, sweep
 from linkwright.engine import compile_machine
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -193,6 +194,7 @@ class Linkage(Result):
         return found
 
 
+@public
 def linkage(machine: Machine) -> Linkage:
     """Examine a linkage over its cycle.
 

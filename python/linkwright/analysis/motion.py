@@ -24,6 +24,7 @@ from linkwright.analysis.roots import brackets, zeros
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import AssemblyError, ShapeError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
 
 Floats = NDArray[np.float64]
@@ -90,6 +91,7 @@ def _columns(head: str, path: Path, at: Any) -> dict[str, Floats]:
     return places
 
 
+@public
 def motion(
     machine: Machine, law: Law | Callable[[Any], Any] | Sequence[ArrayLike], times: ArrayLike
 ) -> Motion:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from linkwright.engine import Compiled, compile_machine
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -25,6 +26,7 @@ _ANGLES = np.array([0.317, 1.291, 2.053, 3.371, 4.423, 5.687])
 _ROUNDING = 1e-9
 
 
+@public
 def period_turns(machine: Machine) -> int | None:
     """Turns of the crank after which every point and link is again where it was.
 

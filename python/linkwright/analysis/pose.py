@@ -16,6 +16,7 @@ from linkwright.analysis.in_range import in_range
 from linkwright.analysis.kinematics import everything, kinematics_of
 from linkwright.engine import compile_machine
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
 
 # A dyad whose links are nearer than this to one line, as the sine of the angle between them, is near a limit.
@@ -88,6 +89,7 @@ def _plain(each: PosePoint | PoseCoordinate) -> dict[str, Any]:
     return {name: list(x) if isinstance(x, tuple) else x for name, x in vars(each).items()}
 
 
+@public
 def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, acceleration: float = 0.0) -> Pose:
     """The pose at a crank angle.
 

@@ -23,6 +23,7 @@ from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import InputError
 from linkwright.machine import Machine, Mechanism, PumpingUnit
 from linkwright.machine.pumping_unit import BEAM_LINK
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -101,6 +102,7 @@ class PumpingUnitMotion(Result):
     gear: GearTorque | None
 
 
+@public
 def pumping_unit(machine: Machine, *, n: int = 360) -> PumpingUnitMotion:
     """Motion of the polished rod of a pumping unit, and the torque of its gearbox.
 

@@ -21,6 +21,7 @@ from linkwright.analysis.sound_loads import require_turn
 from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import Compiled
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -78,6 +79,7 @@ class Reduction(Result):
     viscous_mean: float
 
 
+@public
 def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     """Reduce masses and loads to the crank.
 

@@ -31,6 +31,7 @@ from linkwright.analysis.result import Result
 from linkwright.errors import InputError
 from linkwright.machine import Machine, RodRotator
 from linkwright.machine.rotator_lengths import Lengths
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -148,6 +149,7 @@ class RodRotatorMotion(Result):
     link_force_max: float | None
 
 
+@public
 def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
     """Motion of the rotator of a rod string, its reduction, and its forces.
 
@@ -220,7 +222,7 @@ def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
         string_turn_days=days,
         string_turns_per_day=None if days is None else 1 / days,
         **_at_speed(rotator, takes(curves), curves, speed),
-        **_forces(lever, rotator, takes, curves, fine),
+        **_forces(lever, rotator, takes, curves),
     )
 
 
@@ -312,7 +314,6 @@ def _forces(
     rotator: RodRotator,
     takes: Callable[[LeverMotion], Floats],
     curves: LeverMotion,
-    fine: LeverMotion,
 ) -> dict[str, Any]:
     """Torque at the worm and force in the link."""
     if rotator.string_torque is None or rotator.worm_ratio is None:
@@ -327,10 +328,20 @@ def _forces(
         size = np.where(np.abs(sine) < _NO_ARM, np.inf, size)
         return np.where(takes(motion) > 0, size, 0.0)
 
-    greatest = float(np.abs(force(fine)).max())
-    has_limit = rotator.regime == "intermittent" and np.isfinite(greatest)
     return {
         "worm_torque": torque,
         "link_force": force(curves),
-        "link_force_max": greatest if has_limit else None,
+        "link_force_max": _greatest(lever, force) if rotator.regime == "intermittent" else None,
     }
+
+
+def _greatest(lever: Lever, force: Callable[[LeverMotion], Floats]) -> float | None:
+    """Greatest size of the link's force over the revolution [N]; None where the link loses its arm."""
+
+    def arm(angles: Floats) -> Floats:
+        motion = lever.motion(angles)
+        return np.abs(np.sin(motion.link - motion.lever))
+
+    if turn_extreme(arm, -1)[0] < _NO_ARM:
+        return None
+    return turn_extreme(lambda angles: np.abs(force(lever.motion(angles))), +1)[0]

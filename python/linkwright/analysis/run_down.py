@@ -11,6 +11,7 @@ from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.analysis.transient import Transient, transient
 from linkwright.errors import SteadyStateError
 from linkwright.machine import Machine
+from linkwright.public import public
 
 # Turns after which a run-down is given up: nothing brakes.
 _TURNS_MAX = 1000.0
@@ -36,6 +37,7 @@ class RunDown(Result):
     motion: Transient
 
 
+@public
 def run_down(machine: Machine, *, steady: SteadyState | None = None) -> RunDown:
     """Let the machine run down from steady motion, motor off, brake applied if there is one.
 

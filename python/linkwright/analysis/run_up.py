@@ -13,6 +13,7 @@ from linkwright.analysis.steady_state import SteadyState, steady_state
 from linkwright.analysis.transient import End, Transient, transient
 from linkwright.errors import InputError, StartError, SteadyStateError
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -53,6 +54,7 @@ class RunUp(Result):
     motion: Transient
 
 
+@public
 def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
     """Run the machine up from its start angle and speed (``[run_up]`` of the file).
 

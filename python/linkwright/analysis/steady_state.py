@@ -21,6 +21,7 @@ from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -173,6 +174,7 @@ class SteadyState(Result):
         return max(abs(self.acceleration_min), abs(self.acceleration_max))
 
 
+@public
 def steady_state(
     machine: Machine, *, accuracy: float = 1e-9, n: int = 360, angles: Floats | None = None
 ) -> SteadyState:

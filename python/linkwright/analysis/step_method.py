@@ -28,6 +28,7 @@ from linkwright.analysis.sound_loads import require_same_turns
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError, StartError, SteadyStateError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.units import ANGLE, positive
 
 Floats = NDArray[np.float64]
@@ -90,6 +91,7 @@ class StepMotion(Result):
         return self.unevenness**2 + self.dynamism
 
 
+@public
 def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotion:
     """Motion from rest to steady motion by the step method.
 

@@ -50,6 +50,7 @@ from linkwright.analysis.transient import Transient, transient
 from linkwright.analysis.unit_cautions import unit_cautions
 from linkwright.engine import drive_inertia
 from linkwright.machine import ConstantSpeedMotor, Machine
+from linkwright.public import public
 
 # Intervals of the turn for all curves, a quarter of a degree: what the constant-energy limit and the run-up
 # ask of the curves that they are given.
@@ -157,6 +158,7 @@ class Study:
         }
 
 
+@public
 def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = None) -> Study:
     """Study a machine: reduction, steady motion, run-up, and run-down if there is a brake.
 

@@ -16,6 +16,7 @@ from linkwright.analysis.sound_loads import require_half_turns, require_sound_lo
 from linkwright.engine import compile_machine
 from linkwright.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
+from linkwright.public import public
 from linkwright.units import ANGLE, COUNT, SPEED, TIME, Quantity, not_negative, positive
 
 Floats = NDArray[np.float64]
@@ -126,6 +127,7 @@ def _quintic_slope(z: Floats, *ends: Floats) -> Floats:
     return slope
 
 
+@public
 def transient(
     machine: Machine,
     *,

@@ -1,125 +1,37 @@
-"""The command line, ``linkwright COMMAND …``: one command a file.
+"""The command line, ``linkwright COMMAND …``.
 
-A module of a command is imported at every start, so it imports what it computes with inside its function.
-To add a command, write its file and put its function into `COMMANDS`, or with its own commands into `GROUPS`.
+It begins here, before anything large is imported, so that an interrupt from the keyboard is heard at any
+time.
 """
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable
 from io import TextIOWrapper
-from typing import Annotated, Any
+from typing import TYPE_CHECKING
 
-import typer
+from linkwright.cli.interrupt import Interrupts
 
-from linkwright.cli.balance import balance
-from linkwright.cli.cam import CAM, cam
-from linkwright.cli.cam_file import cam_file
-from linkwright.cli.check import check
-from linkwright.cli.common import reports_errors
-from linkwright.cli.damper import TORSION
-from linkwright.cli.damper import torsion as torsion_group
-from linkwright.cli.default_command import group_with_default
-from linkwright.cli.diagnose import diagnose
-from linkwright.cli.forces import forces
-from linkwright.cli.motion import motion
-from linkwright.cli.new import new
-from linkwright.cli.papers import papers
-from linkwright.cli.run import run
-from linkwright.cli.schema import schema
-from linkwright.cli.size import size
-from linkwright.cli.synthesise import SYNTHESISE, synthesise
-from linkwright.cli.topper_best import best
-from linkwright.cli.topper_field import field, topper
-from linkwright.cli.torsion import torsion
-
-# In the order of the help.
-COMMANDS: tuple[Callable[..., Any], ...] = (
-    run,
-    check,
-    motion,
-    forces,
-    balance,
-    size,
-    papers,
-    new,
-    schema,
-)
-
-# Commands that have commands of their own: what the group does, and its commands.
-GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = (
-    (synthesise, SYNTHESISE),
-    (cam, CAM),
-    (torsion_group, (*TORSION, diagnose)),
-    (topper, (field, best)),
-)
-
-# Group → its command for a first word that names none of its commands, such as a file.
-_DEFAULTS: dict[str, Callable[..., Any]] = {"cam": cam_file, "torsion": torsion, "topper": run}
-
-
-def _version(wanted: bool) -> None:
-    """Print the version and end."""
-    if wanted:
-        from importlib.metadata import PackageNotFoundError, version
-
-        try:
-            typer.echo(f"linkwright {version('linkwright')}")
-        except PackageNotFoundError:
-            typer.echo("linkwright, run from its source without being installed")
-        raise typer.Exit
-
-
-Version = Annotated[
-    bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and end.")
-]
-
-
-def _top(version: Version = False) -> None:
-    """Computes how machines move: from the motor through gearbox and shaft to the mechanism and its work."""
+if TYPE_CHECKING:
+    import typer
 
 
 def application() -> typer.Typer:
     """The command line with all its commands."""
-    # Plain help: the boxes of rich cost more time than the whole of `check`.
-    app = typer.Typer(
-        add_completion=False, no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False
-    )
-    app.callback()(_top)
-    for command in COMMANDS:
-        app.command()(reports_errors(command))
-    for group, commands in GROUPS:
-        app.add_typer(
-            _group(commands, _DEFAULTS.get(group.__name__)), name=group.__name__, help=group.__doc__
-        )
-    return app
+    from linkwright.cli.commands import application
 
-
-def _group(commands: tuple[Callable[..., Any], ...], default: Callable[..., Any] | None) -> typer.Typer:
-    """A group of commands, with a command for what is none of them."""
-    # Never a word that somebody writes: a blank is in it.
-    hidden = "a file"
-    kind = None if default is None else group_with_default(hidden)
-    group = typer.Typer(cls=kind, no_args_is_help=True, rich_markup_mode=None)
-    group.callback()(_nothing)
-    for command in commands:
-        group.command()(reports_errors(command))
-    if default is not None:
-        group.command(hidden, hidden=True)(reports_errors(default))
-    return group
-
-
-def _nothing() -> None:
-    """A group with a single command is a group all the same."""
+    return application()
 
 
 def main() -> None:
     """Run the command line, for the console script."""
-    # Looking for plugins of pydantic among all installed packages costs more than reading a machine file.
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    # Names may hold letters that the terminal has not; they are no reason to fail.
-    if isinstance(sys.stdout, TextIOWrapper):
-        sys.stdout.reconfigure(errors="backslashreplace")
-    application()()
+    with Interrupts() as interrupts:
+        # Looking for plugins of pydantic among all installed packages costs more than reading a machine file.
+        os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+        # Names may hold letters that the terminal has not; they are no reason to fail.
+        if isinstance(sys.stdout, TextIOWrapper):
+            sys.stdout.reconfigure(errors="backslashreplace")
+        app = application()
+        interrupts.raise_from_now_on()
+        app()

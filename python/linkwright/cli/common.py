@@ -5,6 +5,7 @@
 | 0 | done |
 | 1 | the machine cannot do it: it does not close, does not start |
 | 2 | the input is wrong |
+| 70 | the program contradicted itself |
 | 130 | interrupted from the keyboard |
 """
 
@@ -18,6 +19,7 @@ from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
 import typer
 
 from linkwright.cli.console import plain
+from linkwright.cli.interrupt import EXIT_CODE
 from linkwright.errors import InputError, LinkwrightError, UnitError
 
 if TYPE_CHECKING:
@@ -25,9 +27,6 @@ if TYPE_CHECKING:
 
 P = ParamSpec("P")
 R = TypeVar("R")
-
-# What a shell reports for a program that was interrupted.
-_INTERRUPTED = 130
 
 File = Annotated[Path, typer.Argument(metavar="FILE", help="The machine file.", show_default=False)]
 Sets = Annotated[
@@ -77,7 +76,7 @@ def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
             typer.echo(plain(f"cannot read or write: {error}"), err=True)
             raise typer.Exit(InputError.exit_code) from None
         except KeyboardInterrupt:
-            raise typer.Exit(_INTERRUPTED) from None
+            raise typer.Exit(EXIT_CODE) from None
 
     return run
 

@@ -48,6 +48,8 @@ from linkwright.machine import (
     formula,
 )
 from linkwright.machine.outline import TABLES
+from linkwright.machine.plain import arrays
+from linkwright.machine.text import join
 
 Floats = NDArray[np.float64]
 
@@ -119,7 +121,7 @@ class Compiled:
 
     def first(self) -> Compiled:
         """The first machine alone."""
-        if not len(self.slots):
+        if self.n_rows == 1 and not len(self.slots):
             return self
         return replace(self, slots=np.empty(0, dtype=np.int32), values=np.empty((0, 1)))
 
@@ -132,7 +134,7 @@ class Compiled:
         ShapeError
             Entries vary from machine to machine.
         """
-        if len(self.slots):
+        if self.n_rows > 1 or len(self.slots):
             raise ShapeError(
                 f"this analysis takes one machine, and the entries describe {self.n_rows}; "
                 "use steady_states, kinematics or motions for many"
@@ -225,18 +227,18 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
         The machine is a torsional train, or a topper whose knife moves by a law, and nothing else.
     """
     _require_mechanism(machine)
-    parts = _parts(machine)
-    key = (id(machine), motor, brake)
-    known = _known.get(key)
-    if known and len(known[0]) == len(parts) and all(map(operator.is_, known[0], parts)):
-        return known[1]
     try:
+        parts = _parts(machine)
+        key = (id(machine), motor, brake)
+        known = _known.get(key)
+        if known and len(known[0]) == len(parts) and all(map(operator.is_, known[0], parts)):
+            return known[1]
         compiled = _translate(machine, motor=motor, brake=brake)
     except (ArithmeticError, ValueError, TypeError) as error:
         raise _not_usable(machine, str(error)) from None
     if not np.isfinite(compiled.parameters).all():
         raise _not_usable(machine, "a number that follows from them is not finite")
-    if len(compiled.slots):
+    if compiled.n_rows > 1 or len(compiled.slots):
         # Arrays are large, and may change in place.
         return compiled
     if len(_known) >= _KNOWN_MAX:
@@ -269,6 +271,11 @@ def _translate(machine: Machine, *, motor: bool, brake: bool) -> Compiled:
 
 def _not_usable(machine: Machine, reason: str) -> MachineError:
     """The error for entries that were exchanged unchecked, or are too large or too small to compute with."""
+    varying = [join(place) for place, _ in arrays(machine)]
+    if varying:
+        expected = "entries that can vary from machine to machine in a batch"
+        remedy = "compute machines that differ in one of these one by one"
+        return MachineError([Problem(", ".join(varying), reason, expected, remedy)])
     wrong = [
         Problem(address, f"{value!r}", "a finite number of usual size")
         for address, value in addresses(machine).items()
@@ -326,7 +333,11 @@ class _Translator(Rows):
     def table(self, x: Sequence[Any], y: Sequence[Any]) -> int:
         """Adds a table."""
         if any(np.ndim(value) for value in (*x, *y)):
-            raise ShapeError("the points of a table cannot vary from machine to machine in a batch")
+            points = ", ".join(join(place) for place, _ in arrays(self.machine) if place[-1].isdecimal())
+            raise ShapeError(
+                f"{points}: the points of a table cannot vary from machine to machine in a batch; "
+                "compute machines with others one by one"
+            )
         return self._table(x, y)
 
     # -- bodies ------------------------------------------------------------------------------------------
@@ -488,7 +499,7 @@ class _Translator(Rows):
     def result(self) -> Compiled:
         """Plan and parameters as arrays."""
         self.n_described = len(self.parameters)
-        columns = _columns(self.parameters, self.varying)
+        columns = _columns(self.parameters, self.varying, _row_count(self.machine))
         settled = Settled(self, columns, self._plan, self.mechanism.assembled_at)
         settled.run()
         parameters = settled.parameters
@@ -604,14 +615,26 @@ def _rows(rows: list[list[int]], width: int) -> NDArray[np.int32]:
     return _ints([value for row in rows for value in (*row, *[0] * (width - len(row)))])
 
 
-def _columns(parameters: list[Any], varying: list[int]) -> tuple[Floats, NDArray[np.int32], Floats]:
+def _row_count(machine: Machine) -> int:
+    """How many machines the entries describe, also those without an effect."""
+    found = {join(place): array for place, array in arrays(machine)}
+    if "mechanism.assembled_at" in found:
+        raise ShapeError(
+            "mechanism.assembled_at cannot vary from machine to machine in a batch: the places of the joints "
+            "are those of one crank angle; compute machines with others one by one"
+        )
+    shapes = {array.shape for array in found.values()}
+    if len(shapes) > 1 or any(len(shape) != 1 or not shape[0] for shape in shapes):
+        given = ", ".join(f"{address} {array.shape}" for address, array in found.items())
+        raise ShapeError(f"arrays of one length are needed, found shapes {given}")
+    return shapes.pop()[0] if shapes else 1
+
+
+def _columns(parameters: list[Any], varying: list[int], n: int) -> tuple[Floats, NDArray[np.int32], Floats]:
     """First row of all parameters; which vary; their values (k, n)."""
     columns = [np.asarray(parameters[slot], dtype=np.float64) for slot in varying]
-    lengths = {column.shape for column in columns}
-    if len(lengths) > 1 or any(column.ndim != 1 for column in columns):
-        raise ShapeError(f"arrays of one length are needed, found shapes {sorted(lengths)}")
     first = list(parameters)
     for slot, column in zip(varying, columns, strict=True):
         first[slot] = column[0]
-    values = np.ascontiguousarray(columns) if columns else np.empty((0, 1))
+    values = np.ascontiguousarray(columns) if columns else np.empty((0, n))
     return np.array(first, dtype=np.float64), _ints(varying), values

@@ -22,6 +22,7 @@ from linkwright.analysis.cam.profile import CamProfile, Flank
 from linkwright.exchange.curve import ClosedCurve, Side
 from linkwright.exchange.drawing import CUTTER_PATH, PITCH_CURVE, PROFILE, Drawing
 from linkwright.exchange.sides import turned
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -62,6 +63,7 @@ class TurnedCurve:
         return turned(vectors, np.full(len(vectors), self.angle))
 
 
+@public
 def cam_drawings(profile: CamProfile) -> tuple[Drawing, ...]:
     """The drawings of a cam.
 

@@ -19,6 +19,7 @@ from linkwright.exchange.step import write_step
 from linkwright.exchange.svg import write_svg
 from linkwright.exchange.table import By, table, write_csv
 from linkwright.files.output import file_name, trial, unwritable
+from linkwright.public import public
 from linkwright.units import ANGLE, LENGTH, positive
 
 # Step of tables [rad].
@@ -30,6 +31,7 @@ FORMATS = ("dxf", "csv", "svg")
 ALL_FORMATS = (*FORMATS, "step")
 
 
+@public
 def write_drawing(
     directory: str | os.PathLike[str],
     drawing: Drawing,

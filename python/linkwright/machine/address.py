@@ -15,6 +15,7 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.plain import field_names, keys, look
 from linkwright.machine.schema_walk import annotation_at, mark_of
 from linkwright.machine.text import join, split
+from linkwright.public.immutable import held
 from linkwright.units import Kind
 
 
@@ -163,14 +164,14 @@ class _Leaf:
 def _rebuilt(node: Any, tree: dict[str, Any] | _Leaf) -> Any:
     """The node with new values in it; the parts between are copied, the others shared."""
     if isinstance(tree, _Leaf):
-        return tree.value
+        return held(tree.value)
     new = {key: _rebuilt(look(node, key), below) for key, below in tree.items()}
     if isinstance(node, Description):
         names = field_names(type(node))
         return node.with_entries({names[key]: value for key, value in new.items()})
     if isinstance(node, tuple):
         return tuple(new.get(str(place), value) for place, value in enumerate(node))
-    return {**node, **new}
+    return held({**node, **new})
 
 
 def _numbers(node: object, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], float]]:

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Self
 from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from linkwright.public.immutable import held
 from linkwright.units import show
 
 
@@ -31,7 +32,13 @@ class Description(BaseModel):
         Self
             The copy; a description that completes its own entries completes them anew.
         """
-        return self.model_copy(update=dict(entries))
+        return self.model_copy(update={name: held(value) for name, value in entries.items()})
+
+    def model_post_init(self, context: Any, /) -> None:
+        """Hold tables that nobody writes to."""
+        for name, value in self.__dict__.items():
+            if type(value) is dict:
+                self.__dict__[name] = held(value)
 
 
 def wrong(found: str, expected: str, remedy: str = "") -> PydanticCustomError:

@@ -9,11 +9,11 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from linkwright.errors import ShapeError
 from linkwright.machine.follower_train import FollowerTrain
 from linkwright.machine.motion_section import Family, MotionSection, programme
+from linkwright.machine.plain import arrays
+from linkwright.machine.text import join
 
 if TYPE_CHECKING:
     from linkwright.motion_laws.motion_law import MotionLaw
@@ -50,16 +50,12 @@ class FollowerMotion:
     def __init__(
         self, sections: tuple[MotionSection, ...], family: Family, train: FollowerTrain | None
     ) -> None:
-        if any(isinstance(value, np.ndarray) for section in sections for _, value in section):
-            raise ShapeError(
-                "the sections of a cam cannot vary from machine to machine in a batch: "
-                "compute machines with other sections one by one"
-            )
-        if train is not None and any(isinstance(value, np.ndarray) for _, value in train):
-            raise ShapeError(
-                "the train of a follower cannot vary from machine to machine in a batch: "
-                "compute machines with other trains one by one"
-            )
+        for what, part in (("sections", sections), ("train", train)):
+            for place, _ in arrays(part):
+                raise ShapeError(
+                    f"{join((what, *place))}: the {what} of a cam cannot vary from machine to machine in a "
+                    "batch; compute machines with others one by one"
+                )
         self.programme: Programme = programme(sections, family)
         law = self.programme.law if train is None else train.lift_for(self.programme.law)
         least, greatest = law.extremes()

@@ -23,7 +23,7 @@ from linkwright.machine.cam_follower import follower_of
 from linkwright.machine.element import Cable, Crank, FixedPoint, LinearDriver, RigidPoint, Rocker
 from linkwright.machine.mechanism import Mechanism
 from linkwright.machine.outline import TABLES, Outline
-from linkwright.machine.plain import keys, look
+from linkwright.machine.plain import arrays, keys, look
 from linkwright.machine.pumping_unit import BEAM, BEAM_LINK, CRANK, CRANKSHAFT, ROD, SADDLE, PumpingUnit
 from linkwright.machine.rod_rotator import PIN, ROTATOR, RodRotator
 from linkwright.machine.rotator_lengths import lengths
@@ -156,7 +156,7 @@ def _merged(own: Mechanism, unit: PumpingUnit, rotator: RodRotator | None) -> Me
 
 def _has_arrays(*parts: BaseModel | None) -> bool:
     """Whether entries of some parts vary over many machines."""
-    return any(isinstance(value, np.ndarray) for part in parts if part is not None for _, value in part)
+    return any(True for _ in arrays(parts))
 
 
 def _kept(parts: tuple[object, ...], make: Callable[[], Mechanism], varies: bool) -> Mechanism:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from linkwright.machine.mechanism import Mechanism
 from linkwright.machine.structure import Structure, structure
+from linkwright.public import public
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +51,7 @@ class Mobility:
         return text
 
 
+@public
 def mobility(mechanism: Mechanism) -> Mobility:
     """Count links and pairs.
 

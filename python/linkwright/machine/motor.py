@@ -22,10 +22,10 @@ Entries that follow from others are completed when a motor is made; what was giv
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal, Self
 
+import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import InitErrorDetails
 
@@ -130,16 +130,16 @@ def breakdown_slip(slip_rated: Any, overload: Any, resistance_ratio: Any) -> Any
         s_k; NaN if no formula of this kind goes through the point.
     """
     s_n, lam, a = slip_rated, overload, resistance_ratio
-    square = 1 / s_n + 2 * a - 2 * lam * a
-    if isinstance(square, float) and square <= 0:
-        return math.nan
-    # A product, not a power: a power of floats raises where a product is infinite.
-    return (lam + _root(lam * lam - square * s_n)) / square
+    # Where no formula goes through the point, and beyond the range of floats, there is no slip.
+    with np.errstate(all="ignore"):
+        square = 1 / np.asarray(s_n) + 2 * a - 2 * lam * a
+        slip = np.where(square > 0, (lam + np.sqrt(lam * lam - square * s_n)) / square, np.nan)
+    return slip if slip.ndim else float(slip)
 
 
-def _root(value: Any) -> Any:
-    """Square root that is NaN, not complex, below zero; of a number or of an array."""
-    return math.nan if isinstance(value, float) and value < 0 else value**0.5
+def _coincide(first: Any, second: Any) -> bool:
+    """Whether two entries are one number; rows of many machines have no answer of their own there."""
+    return not np.ndim(first) and not np.ndim(second) and bool(first == second)
 
 
 CatalogueName = Annotated[str, AfterValidator(catalogue.checked_name)]
@@ -260,7 +260,7 @@ def with_breakdown_speed(given: Values) -> Values:
         return given
     omega_0, omega_n, M_n, M_k = (given[name] for name in needs)
     # A torque of zero is what is left of a power below the smallest numbers.
-    if isinstance(omega_n, float) and (omega_n == omega_0 or M_n == 0):
+    if _coincide(omega_n, omega_0) or _coincide(M_n, 0.0):
         return given
     s_k = breakdown_slip((omega_0 - omega_n) / omega_0, M_k / M_n, given.get("resistance_ratio", 0.0))
     return given | {"speed_breakdown": omega_0 * (1 - s_k)}
@@ -296,9 +296,10 @@ class DcMotor(Motor):
         if "torque_stall" in values or any(name not in values for name in needs):
             return values
         omega_0, omega_n, M_n = (values[name] for name in needs)
-        if isinstance(omega_n, float) and omega_n == omega_0:
+        if _coincide(omega_n, omega_0):
             return values
-        return values | {"torque_stall": M_n / (1 - omega_n / omega_0)}
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            return values | {"torque_stall": M_n / (1 - omega_n / omega_0)}
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from super()._faults()

@@ -6,9 +6,10 @@ checked even where its tables could not be turned into models. Both are read thr
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
+import numpy as np
 from pydantic import BaseModel
 
 
@@ -37,3 +38,11 @@ def look(node: object, key: str) -> Any:
     if isinstance(node, list | tuple):
         return node[int(key)] if key in keys(node) else None
     return None
+
+
+def arrays(node: object, place: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], np.ndarray]]:
+    """Arrays over many machines below a node, with their places."""
+    if isinstance(node, np.ndarray):
+        yield place, node
+    for key in keys(node):
+        yield from arrays(look(node, key), (*place, key))

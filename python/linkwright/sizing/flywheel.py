@@ -31,6 +31,7 @@ from linkwright.analysis.turn_fit import turn_curve
 from linkwright.engine import Compiled, compile_machine, drive_inertia
 from linkwright.errors import ConvergenceError, FindingError, InputError, SteadyStateError
 from linkwright.machine import ConstantSpeedMotor, Machine
+from linkwright.public import public
 from linkwright.sizing.fit import with_flywheel
 from linkwright.units import RATIO, Bound, Quantity
 
@@ -102,6 +103,7 @@ class FlywheelChoice(Result):
     run_up: RunUp | None
 
 
+@public
 def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
     """Find the flywheel on the crankshaft that gives a wanted unevenness.
 

@@ -12,6 +12,7 @@ from linkwright.analysis.steady_state import SteadyState
 from linkwright.errors import FindingError, InputError
 from linkwright.machine import CatalogueMotor, InductionMotor, Machine, motors
 from linkwright.machine import motor as catalogue_motor
+from linkwright.public import public
 from linkwright.sizing.checks import DECISIVE, Check, Checked, motion_checks, rating_checks
 from linkwright.sizing.fit import with_flywheel, with_motor
 from linkwright.sizing.flywheel import UNEVENNESS, flywheel_inertia
@@ -179,6 +180,7 @@ class MotorChoice:
         }
 
 
+@public
 def choose_motor(
     machine: Machine,
     *,

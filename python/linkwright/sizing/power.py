@@ -17,6 +17,7 @@ from linkwright.analysis.result import Result
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError
 from linkwright.machine import Machine
+from linkwright.public import public
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,7 @@ class RequiredPower(Result):
     source: str = "paper 1, required power before the choice of the motor"
 
 
+@public
 def required_power(machine: Machine) -> RequiredPower:
     r"""Find the power that the loads take at the design speed, at the motor's shaft.
 

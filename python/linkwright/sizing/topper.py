@@ -36,6 +36,7 @@ from linkwright.analysis.topper.field import TopperField, field_result
 from linkwright.analysis.topper.passes import Watch, pass_over
 from linkwright.analysis.topper.roots import draw_roots, field_of
 from linkwright.machine import Machine, MemberKnife, TopperLimits
+from linkwright.public import public
 from linkwright.sizing.knife_failing import Failing, failing_limit
 from linkwright.sizing.knife_search import MAP, KnifeGrid
 from linkwright.sizing.knife_trial import Trial, Trials, thinned
@@ -145,6 +146,7 @@ class KnifeSearch(Result):
     failing: Failing | None
 
 
+@public
 def best_knife(
     machine: Machine,
     *,

@@ -14,6 +14,8 @@ from linkwright.analysis.sound_loads import require_same_turns
 from linkwright.engine import compile_machine
 from linkwright.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.machine import ConstantSpeedMotor, Machine, get, replace
+from linkwright.public import public
+from linkwright.public.arguments import array
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -124,6 +126,7 @@ class SteadyStates:
         return pd.DataFrame({**self.entries, **columns, "status": self.status})
 
 
+@public
 def steady_states(
     machine: Machine, entries: Mapping[str, ArrayLike], *, accuracy: float = 1e-8
 ) -> SteadyStates:
@@ -168,7 +171,10 @@ def steady_states(
     arrays = _columns(machine, entries)
     compiled = compile_machine(replace(machine, arrays))
     if not len(compiled.slots):
-        raise InputError("none of the entries has an effect on the motion")
+        raise InputError(
+            f"{', '.join(arrays)}: no effect on the steady motion of {machine.name}; vary an entry of the "
+            "motor's characteristic, the mechanism, its bodies or its loads"
+        )
     require_one_turn(compiled)
     status, table, turns = compiled.steady_rows(accuracy)
     if not compiled.two_turns[0]:
@@ -181,18 +187,17 @@ def steady_states(
 
 def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:
     """The values as arrays of one length, each possible at its address."""
-    try:
-        arrays = {address: np.atleast_1d(np.asarray(value, float)) for address, value in entries.items()}
-    except (TypeError, ValueError):
-        raise ShapeError("arrays of plain numbers in SI are needed, found texts or lists of lists") from None
-    if any(array.size == 0 for array in arrays.values()):
+    arrays = {
+        address: np.atleast_1d(array(address, value, finite=False)) for address, value in entries.items()
+    }
+    if any(column.size == 0 for column in arrays.values()):
         raise ShapeError("arrays of at least one number are needed, found an empty one")
-    lengths = {array.shape for array in arrays.values()} - {(1,)}
+    lengths = {column.shape for column in arrays.values()} - {(1,)}
     if not arrays or len(lengths) > 1 or any(len(shape) != 1 for shape in lengths):
         raise ShapeError(f"arrays of one length are needed, found shapes {sorted(lengths)}")
     shape = lengths.pop() if lengths else (1,)
     columns = {
-        address: np.ascontiguousarray(np.broadcast_to(array, shape)) for address, array in arrays.items()
+        address: np.ascontiguousarray(np.broadcast_to(column, shape)) for address, column in arrays.items()
     }
     _check(machine, columns)
     return columns
@@ -204,13 +209,13 @@ def _check(machine: Machine, columns: Mapping[str, Floats]) -> None:
     Bounds of entries are intervals, so an impossible value is an extreme or lies beyond a possible one; of
     entries that depend on each other only these rows are looked at.
     """
-    for address, array in columns.items():
+    for address, column in columns.items():
         get(machine, address)
-        if not np.isfinite(array).all():
+        if not np.isfinite(column).all():
             raise MachineError([Problem(address, "NaN or infinite values", "finite numbers")])
-    rows = {int(pick(array)) for array in columns.values() for pick in (np.argmin, np.argmax)}
+    rows = {int(pick(column)) for column in columns.values() for pick in (np.argmin, np.argmax)}
     for row in sorted(rows):
-        entries = {address: float(array[row]) for address, array in columns.items()}
+        entries = {address: float(column[row]) for address, column in columns.items()}
         Machine.model_validate(_plain(replace(machine, entries)))
 
 

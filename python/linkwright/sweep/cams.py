@@ -22,6 +22,8 @@ from linkwright.machine.base import suggestion
 from linkwright.machine.cam_follower import Sizes
 from linkwright.machine.motion_law import PlainLaw
 from linkwright.machine.motion_section import ENDS, MotionSection
+from linkwright.public import public
+from linkwright.public.arguments import array
 
 Floats = NDArray[np.float64]
 
@@ -107,6 +109,7 @@ class Cams(Result):
         return numbers[order[:count]]
 
 
+@public
 def search_cams(
     machine: Machine,
     name: str | None = None,
@@ -235,7 +238,7 @@ def _columns(entries: Mapping[str, ArrayLike], useful: Sequence[str]) -> tuple[d
         if key not in useful:
             remedy = suggestion(key, useful)
             raise InputError(f'entries: found "{key}", expected what such a cam depends on; {remedy}')
-        columns[key] = np.atleast_1d(np.asarray(values, dtype=float))
+        columns[key] = np.atleast_1d(array(f"entries: {key}", values))
         if columns[key].ndim != 1 or not np.isfinite(columns[key]).all():
             raise InputError(f'entries: found no list of finite numbers for "{key}"')
         least = columns[key].min(initial=np.inf)
@@ -252,7 +255,10 @@ def _numbers(law: ArrayLike | None, n_laws: int, n: int) -> tuple[NDArray[np.int
     """Number of the law of each cam, and how often the variants are repeated."""
     if law is None:
         return np.repeat(np.arange(n_laws), n), n_laws
-    numbers = np.asarray(law, dtype=np.intp)
+    given = np.asarray(law)
+    if given.dtype.kind not in "iu" and (given != np.floor(given)).any():
+        raise InputError("law: expected whole numbers, the place of a law among the laws")
+    numbers = given.astype(np.intp)
     if numbers.ndim != 1 or (n > 1 and len(numbers) != n):
         raise ShapeError(f"law: found shape {numbers.shape}, expected one number for each of {n} cams")
     if ((numbers < 0) | (numbers >= n_laws)).any():

@@ -24,6 +24,8 @@ from linkwright.analysis.topper.roots import Roots, draw_roots
 from linkwright.errors import FindingError, InputError
 from linkwright.machine import ConstantKnife, Machine, MemberKnife, Topper
 from linkwright.machine.base import suggestion
+from linkwright.public import public
+from linkwright.public.arguments import array
 from linkwright.units import ANGLE, INSIDE_ONE, LENGTH, RATIO, VELOCITY, Kind, Quantity, worded
 
 Floats = NDArray[np.float64]
@@ -101,6 +103,7 @@ _FOUND = (
 )
 
 
+@public
 def sweep_field(
     machine: Machine,
     over: Mapping[str, ArrayLike],
@@ -222,7 +225,7 @@ def _axis(name: str, values: ArrayLike) -> Floats:
     """Values of an entry, or the fault."""
     if name not in ENTRIES:
         raise InputError(f'over: found "{name}", expected an entry of the knife; {suggestion(name, ENTRIES)}')
-    axis = np.atleast_1d(np.asarray(values, dtype=float))
+    axis = np.atleast_1d(array(f"over: {name}", values))
     if axis.ndim != 1 or not len(axis) or not np.isfinite(axis).all():
         raise InputError(f"over: found no list of finite numbers for {name}")
     wrong = _beyond(name, axis)

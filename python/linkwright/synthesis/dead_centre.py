@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.in_range import in_range
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
 from linkwright.synthesis.transmission import Transmits
 from linkwright.synthesis.verify import element_of, require_met, require_transmission
@@ -88,6 +89,7 @@ _SWING = Bound(
 )
 
 
+@public
 def crank_rocker(
     swing: float, time_ratio: float = 1.0, *, frame: float = 1.0, coupler_max: float = 3.0
 ) -> CrankRocker:

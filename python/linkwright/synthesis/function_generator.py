@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.kinematics import motions
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.four_bar import FourBar, side_of
 from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, scan, solve
 from linkwright.synthesis.function_scale import Scale
@@ -90,6 +91,7 @@ class FunctionGenerator(Transmits):
     machine: Machine
 
 
+@public
 def function_generator(task: FunctionTask) -> FunctionGenerator:
     """Find the four-bar linkage that generates a function.
 

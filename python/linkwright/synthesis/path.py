@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.kinematics import motions
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.four_bar import worst_transmission
 from linkwright.synthesis.path_model import Linkages, PathModel
 from linkwright.synthesis.path_refine import refine
@@ -127,6 +128,7 @@ class PathGenerator(Transmits):
         return (told, *super().warnings)
 
 
+@public
 def path_generator(task: PathTask, *, track: Track | None = None) -> PathGenerator:
     """Find the four-bar linkage whose coupler point passes given points.
 

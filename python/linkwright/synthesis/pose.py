@@ -20,10 +20,11 @@ from numpy.typing import NDArray
 from linkwright.analysis.kinematics import motions
 from linkwright.errors import SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
 from linkwright.synthesis.slider_pose import guide_slider
 from linkwright.synthesis.task import MovingPoint, PoseTask
-from linkwright.synthesis.transmission import Transmits
+from linkwright.synthesis.transmission import Transmits, least_transmission
 from linkwright.synthesis.travel import listed, travel, way
 from linkwright.synthesis.verify import require_met
 
@@ -86,6 +87,7 @@ class PoseGuide(Transmits):
     machine: Machine
 
 
+@public
 def pose_guide(task: PoseTask) -> PoseGuide:
     """Find the linkage whose coupler passes through given poses.
 
@@ -197,10 +199,10 @@ def _rocker_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> Pose
     angles = _travelled(task, bar.gap, pins, crank_pivot, f"a {bar.type}")
     origin = (body_origin(task) - pins[0]) / np.exp(1j * np.angle(joints[0] - pins[0]))
     machine = bar.machine(task.name or "Four-bar through poses", points={"P": origin}, source=SOURCE)
-    mu = bar.transmission_angle(np.linspace(angles[0], angles[-1], 721)).min()
+    mu = least_transmission(bar.transmission_angle, angles[0], angles[-1])
     errors = _errors(task, machine, angles, "B.coupler")
     lengths = (bar.frame, bar.crank, bar.coupler, bar.rocker, None)
-    return PoseGuide("four-bar", bar.type, *lengths, way(angles), float(mu), *errors, angles, machine)
+    return PoseGuide("four-bar", bar.type, *lengths, way(angles), mu, *errors, angles, machine)
 
 
 def _slider_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> PoseGuide:
@@ -209,10 +211,10 @@ def _slider_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> Pose
     angles = _travelled(task, guide.gap, pins, crank_pivot, "a slider-crank")
     origin = (body_origin(task) - pins[0]) / np.exp(1j * np.angle(guide.slider - pins[0]))
     machine = guide.machine(task.name or "Slider-crank through poses", origin, SOURCE)
-    mu = guide.transmission_angle(np.linspace(angles[0], angles[-1], 721)).min()
+    mu = least_transmission(guide.transmission_angle, angles[0], angles[-1])
     errors = _errors(task, machine, angles, "B.rod")
     lengths = (None, guide.crank, guide.rod, None, guide.offset)
-    return PoseGuide("slider-crank", guide.type, *lengths, way(angles), float(mu), *errors, angles, machine)
+    return PoseGuide("slider-crank", guide.type, *lengths, way(angles), mu, *errors, angles, machine)
 
 
 def body_origin(task: PoseTask) -> complex:

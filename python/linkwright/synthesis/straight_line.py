@@ -20,6 +20,7 @@ from linkwright.analysis.result import Result
 from linkwright.errors import InputError, SynthesisError
 from linkwright.machine import Machine
 from linkwright.machine.base import suggestion
+from linkwright.public import public
 from linkwright.synthesis.four_bar import machine_of
 from linkwright.synthesis.line_kinds import KINDS, LineKind, Tables
 from linkwright.units import LENGTH, positive
@@ -90,6 +91,7 @@ class StraightLine(Result):
     machine: Machine
 
 
+@public
 def straight_line(
     kind: str,
     length: float,
@@ -143,6 +145,7 @@ def straight_line(
     return _measured(found, machine, chosen, span, tables, length / unit)
 
 
+@public
 def straight_lines(length: float = 1.0) -> tuple[StraightLine, ...]:
     """The catalogue: all kinds with their usual proportions, for one length of line.
 

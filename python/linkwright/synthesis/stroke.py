@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError, SynthesisError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints, slow_over_quick
 from linkwright.synthesis.four_bar import cross, machine_of
 from linkwright.synthesis.transmission import Transmits
@@ -63,6 +64,7 @@ class StrokeCrank(Transmits):
     machine: Machine
 
 
+@public
 def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = None) -> StrokeCrank:
     """Find the slider-crank for a stroke and a time ratio.
 

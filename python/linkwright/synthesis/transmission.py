@@ -6,11 +6,16 @@ Werkstattstechnik 26 (1932) 61–64; VDI 2127, VDI 2130: 40° at least, 30° at 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkwright.analysis.result import Result
+from linkwright.analysis.turn_fit import turn_curve
+
+Floats = NDArray[np.float64]
 
 # Least transmission angles [rad]: of a linkage that runs fast or under load; of one that does not; and where
 # it is near its dead centre, as friction of the joints alone asks for some ten degrees.
@@ -49,6 +54,25 @@ def transmission_caution(angle: float, remedy: str = "") -> tuple[str, ...]:
     else:
         meaning = "enough at low speed and load; handbooks ask for 40° else"
     return (f"{found}: {meaning}" + (f"; {remedy}" if remedy else ""),)
+
+
+def least_transmission(of: Callable[[Floats], Floats], start: float, end: float) -> float:
+    """Least transmission angle while the crank turns from one angle to another, exactly [rad].
+
+    Parameters
+    ----------
+    of : callable
+        Transmission angle at crank angles [rad].
+    start, end : float
+        Crank angles [rad].
+
+    Returns
+    -------
+    float
+        At an end, or where crank and frame are in line.
+    """
+    turn = turn_curve(lambda phi: of(phi)[None], np.sort([start, end]), "transmission angle")
+    return turn.extreme(-1)[0]
 
 
 class Transmits(Result):

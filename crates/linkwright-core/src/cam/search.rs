@@ -5,6 +5,7 @@
 
 use super::shape::angles;
 use super::{Cam, Dimensions, Kind};
+use crate::call::{in_threads, poll};
 use crate::lanes::{Job, in_lanes};
 use crate::motion_law::MotionLaw;
 use crate::real::Real;
@@ -30,8 +31,10 @@ pub struct Cams<'a> {
 pub fn search(law: &MotionLaw, cams: &Cams<'_>, per_turn: usize, out: &mut [f64]) {
     let lifts: Vec<[f64; 3]> =
         law.pieces().iter().flat_map(|piece| angles(piece, per_turn).map(|phi| piece.at(phi))).collect();
-    out.par_chunks_mut(CHUNK * RESULTS).enumerate().for_each(|(k, out)| {
-        in_lanes(Chunk { lifts: &lifts, cams, first: k * CHUNK, out });
+    in_threads(|crew| {
+        out.par_chunks_mut(CHUNK * RESULTS).enumerate().for_each(|(k, out)| {
+            crew.task(|| in_lanes(Chunk { lifts: &lifts, cams, first: k * CHUNK, out }));
+        });
     });
 }
 
@@ -53,6 +56,7 @@ impl Job for Chunk<'_> {
         let n = self.out.len() / RESULTS;
         let mut row = vec![0.0; R::LANES];
         for at in (0..n).step_by(R::LANES) {
+            poll();
             let found = R::outline(
                 #[inline(always)]
                 || self.lanes::<R>(self.first + at),

@@ -5,6 +5,7 @@
 
 use super::group::Group;
 use super::{Element, Mechanism, Motion};
+use crate::call::poll;
 use crate::plane::{Angle, Place, Vec2};
 use std::f64::consts::TAU;
 
@@ -77,6 +78,7 @@ impl Follower<'_> {
         let mut last: Vec<Vec2<f64>> = self.group.unknowns.iter().map(|&k| self.m.points[k].p).collect();
         let mut halved = 0;
         loop {
+            poll();
             let guess = self.predicted(step);
             let kept = self.m.clone();
             match self.at(at + step, &guess) {

@@ -4,6 +4,7 @@ use super::knife::{Head, Knife};
 use super::needed::{Stations, half_chord, needed};
 use super::retreat;
 use super::uncut::{Scratch, uncut};
+use crate::call::{in_threads, poll};
 use crate::lanes::{Job, in_lanes};
 use crate::real::Real;
 use rayon::prelude::*;
@@ -28,14 +29,18 @@ pub struct Heads<'a> {
 pub fn cover(knife: &Knife, heads: &Heads<'_>, length: Option<f64>, fine: usize, out: &mut [f64]) {
     let longest = longest(knife, heads);
     let turns = knife.rate.abs() * 2.0 * longest / TAU;
-    let stations = Stations::new(fine + (fine as f64 * turns).min(MOST) as usize);
+    let stations = Stations::new(fine.saturating_add((fine as f64 * turns).min(MOST) as usize));
     let work = Work { knife, heads, half: length.map(|l| 0.5 * l), stations: &stations, longest };
-    out.par_chunks_mut(CHUNK * RESULTS).enumerate().for_each(|(k, out)| {
+    let task = |(k, out): (usize, &mut [f64])| {
         if knife.retreats() {
             work.one_by_one(k * CHUNK, out);
         } else {
             in_lanes(Chunk { work: &work, first: k * CHUNK, out });
         }
+    };
+    in_threads(|crew| {
+        let tasks = out.par_chunks_mut(CHUNK * RESULTS).enumerate();
+        tasks.for_each(|heads| crew.task(|| task(heads)));
     });
 }
 
@@ -81,6 +86,7 @@ impl Work<'_> {
     /// The scalar way, for an edge that retreats.
     fn one_by_one(&self, first: usize, out: &mut [f64]) {
         for (k, row) in out.chunks_exact_mut(RESULTS).enumerate() {
+            poll();
             let left = retreat::cover(self.knife, &self.head(first + k), self.half, self.stations);
             let [x, y] = self.point(left.p, left.s);
             row.copy_from_slice(&[2.0 * left.half, x, y, left.area[0], left.area[1], left.area[2]]);
@@ -116,6 +122,7 @@ impl Job for Chunk<'_> {
         let mut lanes = vec![0.0; 6 * R::LANES];
         let mut scratch = Scratch::default();
         for at in (0..n).step_by(R::LANES) {
+            poll();
             let found = R::outline(
                 #[inline(always)]
                 || self.lanes::<R>(self.first + at),

@@ -145,7 +145,7 @@ impl Knife {
 
     /// Turns of the law before and after a pass that a corner may fall into, for times up to `longest` from abreast.
     pub fn turns(&self, longest: f64) -> std::ops::RangeInclusive<i32> {
-        let turns = (self.rate.abs() * longest / TAU).ceil() as i32 + 1;
+        let turns = ((self.rate.abs() * longest / TAU).ceil() as i32).saturating_add(1);
         -turns..=turns
     }
 

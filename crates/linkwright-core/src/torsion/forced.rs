@@ -18,6 +18,7 @@
 //! Torsional Vibration Problems*, vol. 4.
 
 use super::Train;
+use crate::call::poll;
 use crate::lanes::{Job, in_lanes, scalar};
 use crate::real::Real;
 use std::ops::{Add, Mul};
@@ -142,6 +143,7 @@ impl Job for Forced<'_> {
             }
             let speed: R = lanes(damping.speeds, first, &mut buffer);
             for (block, &order) in torques.chunks_exact_mut(n * speeds).zip(orders) {
+                poll();
                 R::outline(
                     #[inline(always)]
                     || {

@@ -16,6 +16,7 @@
 //! Anal. Appl. 27 (2005) 153–175.
 
 use super::holzer::Holzer;
+use crate::call::poll;
 use crate::lanes::{Job, in_lanes};
 use crate::real::Real;
 
@@ -94,6 +95,7 @@ impl<R: Real> Search<'_, R> {
     fn sweep<const SLOPE: bool>(&mut self, places: &[f64]) {
         self.sweeps += 1;
         for first in (0..self.width).step_by(R::LANES) {
+            poll();
             let lambda = R::load(&places[first..]);
             let found = R::outline(
                 #[inline(always)]

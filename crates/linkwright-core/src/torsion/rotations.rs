@@ -8,6 +8,7 @@
 //! de Rijk, *A one-sided Jacobi algorithm*, SIAM J. Sci. Stat. Comput. 10 (1989) 359–371.
 
 use super::Train;
+use crate::call::poll;
 
 /// Sweeps over all pairs at most; ten are usual.
 const SWEEPS: usize = 40;
@@ -71,6 +72,7 @@ fn rotate_all(columns: &mut [Vec<f64>]) -> bool {
     let longest = columns.iter().map(|column| dot(column, column)).fold(0.0, f64::max);
     let mut rotated = false;
     for q in 1..columns.len() {
+        poll();
         let (before, rest) = columns.split_at_mut(q);
         let b = &mut rest[0];
         for a in before {

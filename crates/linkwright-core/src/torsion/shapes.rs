@@ -17,6 +17,7 @@
 //! Parlett, *The Symmetric Eigenvalue Problem*, section 11.7, for the gap.
 
 use super::Train;
+use crate::call::poll;
 use crate::lanes::{Job, in_lanes};
 use crate::real::Real;
 
@@ -64,6 +65,7 @@ impl Job for Shapes<'_> {
         let (mut padded, mut buffer) = (Vec::with_capacity(modes + 2 * R::LANES), vec![0.0; R::LANES]);
         let mut good = true;
         for first in (known..modes).step_by(R::LANES) {
+            poll();
             let n = R::LANES.min(modes - first);
             neighbours(lambda, first, R::LANES, &mut padded);
             let (found, straight) = R::outline(

@@ -11,6 +11,7 @@
 //! Source: Zygmund, *Trigonometric Series*, chapter X, for the bounds.
 
 use super::forced::Complex;
+use crate::call::{in_threads, poll};
 use crate::lanes::{Job, in_lanes};
 use crate::real::Real;
 use rayon::prelude::*;
@@ -47,13 +48,13 @@ pub fn extremes(coefficients: &[Complex], waves: usize) -> Vec<Extremes> {
     let harmonics = coefficients.len() / waves;
     let quarter = (FINE / 4 * harmonics.saturating_sub(1)).max(1);
     let table = turns(4 * quarter, quarter, harmonics);
-    let tasks = (0..waves.div_ceil(TASK)).into_par_iter();
-    let found: Vec<Vec<Extremes>> = tasks
-        .map(|task| {
-            let range = task * TASK..((task + 1) * TASK).min(waves);
-            in_lanes(Sampled { coefficients, waves, range, quarter, table: &table })
-        })
-        .collect();
+    let part = |task: usize| {
+        let range = task * TASK..((task + 1) * TASK).min(waves);
+        in_lanes(Sampled { coefficients, waves, range, quarter, table: &table })
+    };
+    let found: Vec<Vec<Extremes>> = in_threads(|crew| {
+        (0..waves.div_ceil(TASK)).into_par_iter().map(|task| crew.task(|| part(task))).collect()
+    });
     found.concat()
 }
 
@@ -83,6 +84,7 @@ impl Job for Sampled<'_> {
         let mut found = Vec::with_capacity(range.len());
         let end = range.end;
         for first in range.step_by(R::LANES) {
+            poll();
             R::outline(
                 #[inline(always)]
                 || {

@@ -29,6 +29,7 @@ from linkwright.analysis.cam.follower_load import CamCourse, FollowerLoad, force
 from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError
+from linkwright.public import public
 from linkwright.units import LENGTH, RATIO, not_negative
 
 Floats = NDArray[np.float64]
@@ -109,6 +110,7 @@ class ContactForce(Result):
     findings: tuple[str, ...]
 
 
+@public
 def contact_force(
     course: CamCourse,
     follower: FollowerLoad,

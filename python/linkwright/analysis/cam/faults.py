@@ -36,6 +36,7 @@ from linkwright.analysis.cam.profile import CamProfile, Flank
 from linkwright.engine.cam import crossings
 from linkwright.machine import Cam
 from linkwright.machine.cam_follower import start_of
+from linkwright.public import public
 
 # Angles that are named of many.
 _NAMED = 6
@@ -44,6 +45,7 @@ _NAMED = 6
 _SHARP = 1e-9
 
 
+@public
 def cam_faults(profile: CamProfile) -> tuple[str, ...]:
     """What makes the cam impossible, in sentences.
 
@@ -64,6 +66,7 @@ def cam_faults(profile: CamProfile) -> tuple[str, ...]:
     return (*found, *_diameter(profile))
 
 
+@public
 def cam_cautions(profile: CamProfile) -> tuple[str, ...]:
     """What the designer should know, in sentences.
 

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.cam.checks import alike
 from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError
+from linkwright.public import public
 from linkwright.units import (
     ANGLE,
     ANGULAR_ACCELERATION,
@@ -147,6 +148,7 @@ class CamCourse:
         return found
 
 
+@public
 def cam_course(
     cam_angle: ArrayLike,
     lift: tuple[ArrayLike, ArrayLike, ArrayLike],

@@ -26,6 +26,7 @@ from linkwright.analysis.cam.oscillator import Indices, Oscillation, in_pieces, 
 from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.motion_laws.motion_law import Extreme, MotionLaw, combined
+from linkwright.public import public
 from linkwright.units import COUNT, SPEED, positive
 
 Floats = NDArray[np.float64]
@@ -214,6 +215,7 @@ class Train:
         return tuple(Impulse(self.lift.breaks[k], float(self.steps[k] * self.speed)) for k in where)
 
 
+@public
 def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 720) -> FollowerVibration:
     """Periodic motion of the follower's mass at a constant speed of the cam.
 
@@ -316,6 +318,7 @@ class VibrationSweep(Result):
     keeps_contact: NDArray[np.bool_]
 
 
+@public
 def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: ArrayLike) -> VibrationSweep:
     """Largest values of the periodic motion at many speeds.
 

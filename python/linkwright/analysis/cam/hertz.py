@@ -25,6 +25,7 @@ from linkwright.analysis.cam.checks import alike
 from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import FindingError, InputError
+from linkwright.public import public
 from linkwright.units import FORCE, LENGTH, PRESSURE, Quantity, positive
 
 Floats = NDArray[np.float64]
@@ -112,6 +113,7 @@ class LineContact(Result):
     pressure_max: float
 
 
+@public
 def line_contact(
     force: ArrayLike,
     radius: ArrayLike,

@@ -12,6 +12,7 @@ from linkwright.analysis.cam.least_base import (
 )
 from linkwright.analysis.cam.profile import CamProfile
 from linkwright.analysis.result import Result
+from linkwright.public import public
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,7 @@ class LeastSizes(Result):
     curvature_limit: float | None
 
 
+@public
 def least_sizes(profile: CamProfile) -> LeastSizes:
     """The smallest sizes of a cam.
 

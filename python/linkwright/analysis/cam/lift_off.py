@@ -30,6 +30,7 @@ from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import FindingError, InputError
 from linkwright.motion_laws.motion_law import Extreme, MotionLaw, combined
+from linkwright.public import public
 from linkwright.units import FORCE, MASS, SPEED, not_negative, positive
 
 Floats = NDArray[np.float64]
@@ -66,6 +67,7 @@ class LiftOff(Result):
     force_spring: float
 
 
+@public
 def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = None) -> LiftOff:
     """The least speed at which the follower leaves the cam.
 
@@ -206,6 +208,7 @@ class LeastPreload(Result):
     cam_angle: float
 
 
+@public
 def least_preload(
     lift: MotionLaw,
     follower: FollowerLoad,

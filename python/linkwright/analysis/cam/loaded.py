@@ -37,6 +37,7 @@ from linkwright.analysis.steady_state import steady_state
 from linkwright.engine.cam import Extreme
 from linkwright.errors import FindingError
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -119,6 +120,7 @@ class LoadedCam(Result):
         return max(abs(self.force_max), abs(self.force_min))
 
 
+@public
 def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None) -> LoadedCam:
     """A cam under the loads of its machine.
 

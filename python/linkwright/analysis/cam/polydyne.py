@@ -19,6 +19,7 @@ from linkwright.analysis.result import Result
 from linkwright.errors import FindingError, InputError
 from linkwright.motion_laws.motion_law import MotionLaw
 from linkwright.motion_laws.polydyne import polydyne_correction, polydyne_lift
+from linkwright.public import public
 from linkwright.units import SPEED, positive
 
 Floats = NDArray[np.float64]
@@ -62,6 +63,7 @@ class Polydyne(Result):
     findings: tuple[str, ...]
 
 
+@public
 def polydyne(wanted: MotionLaw, model: OneMass, speed: float, ends: Ends = "dwell") -> Polydyne:
     """Lift for a wanted motion of the follower's mass.
 

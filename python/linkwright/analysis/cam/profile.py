@@ -22,6 +22,7 @@ from linkwright.engine.cam import Extreme, Shape
 from linkwright.errors import InputError
 from linkwright.machine import Cam, Machine
 from linkwright.machine.base import suggestion
+from linkwright.public import public
 from linkwright.units import show
 
 Floats = NDArray[np.float64]
@@ -202,6 +203,7 @@ def the_cam(machine: Machine, name: str | None = None) -> tuple[str, Cam]:
     return chosen, cams[chosen]
 
 
+@public
 def cam_profile(machine: Machine, name: str | None = None, *, n: int = ANGLES) -> CamProfile:
     """Look at a cam over a turn.
 

@@ -30,6 +30,7 @@ from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError
 from linkwright.motion_laws.motion_law import MotionLaw
+from linkwright.public import public
 from linkwright.units import FRACTION, RATIO, SPEED, Quantity, positive
 
 Floats = NDArray[np.float64]
@@ -94,6 +95,7 @@ class ResidualSpectrum(Result):
     quiet: tuple[Quiet, ...]
 
 
+@public
 def residual_spectrum(
     rise: MotionLaw,
     ratio: ArrayLike,
@@ -179,6 +181,7 @@ def residual_amplitude(
     return np.asarray(np.abs(kernel.amplitude(tau)) / _height(rise))
 
 
+@public
 def residual_over_speed(rise: MotionLaw, model: OneMass, speed: ArrayLike) -> ResidualSpectrum:
     """Primary and residual vibration of a rise between dwells, for speeds of the cam.
 

@@ -38,10 +38,17 @@ class Motion:
     time: Floats
 
     def mean(self, values: Floats) -> float:
-        """Mean of values (n,) over the time, or the angle of a machine at rest; without NaN."""
+        """Mean of values (n,) over the time, or the angle of a machine at rest; without NaN.
+
+        Where the crank turns one way, dt = dφ/ω: even angles then integrate a smooth revolution to rounding,
+        which uneven times do not.
+        """
         known = np.isfinite(values)
         if known.sum() < 2 or self.time[known][-1] == self.time[known][0]:
             return float(np.mean(values[known])) if known.any() else float("nan")
+        omega, phi = self.speed[known], self.crank_angle[known]
+        if (omega > 0).all() or (omega < 0).all():
+            return float(np.trapezoid(values[known] / omega, phi) / np.trapezoid(1 / omega, phi))
         t = self.time[known]
         return float(np.trapezoid(values[known], t) / (t[-1] - t[0]))
 

@@ -35,6 +35,7 @@ from linkwright.analysis.topper.roots import Roots, draw_roots, field_of
 from linkwright.analysis.topper.share_curve import QUANTILES, ShareCurve
 from linkwright.analysis.topper.slicing import slicing
 from linkwright.machine import Machine, Topper
+from linkwright.public import public
 from linkwright.units import INSIDE_ONE, RATIO, Quantity
 
 Floats = NDArray[np.float64]
@@ -154,6 +155,7 @@ class TopperField(Result):
         return self.quantile_length[4]
 
 
+@public
 def topper_field(
     machine: Machine,
     *,

@@ -19,6 +19,7 @@ from linkwright.analysis.topper.knife_drive import KnifeDrive, knife_drive
 from linkwright.analysis.topper.published import published_lengths
 from linkwright.analysis.topper.slicing import edge_use, slicing
 from linkwright.machine import Machine, Topper
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -152,6 +153,7 @@ class TopperStudy(Result):
     obstacle: str | None
 
 
+@public
 def topper(machine: Machine, *, charts: bool = True) -> TopperStudy:
     """Study the knife of a topper.
 

@@ -24,6 +24,7 @@ from linkwright.analysis.result import Result, finite
 from linkwright.analysis.topper.constant_speed import constant_speed_lengths
 from linkwright.analysis.topper.every_phase import every_phase_length
 from linkwright.analysis.topper.published import length_consistent, length_published
+from linkwright.public import public
 from linkwright.units import ACUTE, ANGLE, LENGTH, Quantity, positive
 
 Floats = NDArray[np.float64]
@@ -134,6 +135,7 @@ class LengthVerdict(Result):
         return tuple(finite(each.to_dict()) for each in self.demands)
 
 
+@public
 def length_verdict(
     claim: Claim, edge_angle: float, diameter: float, offset: float, stroke: Stroke | None = None
 ) -> LengthVerdict:

@@ -27,6 +27,7 @@ from linkwright.analysis.torsion.exceedance import Exceedance, peaks_between
 from linkwright.analysis.torsion.survey import Survey, survey
 from linkwright.machine import Machine
 from linkwright.machine.propulsion_shaft import barred_speeds
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -101,6 +102,7 @@ class BarredRange(Result):
         return low, high
 
 
+@public
 def barred_ranges(machine: Machine) -> tuple[BarredRange, ...]:
     """Speeds that the shafts of a train do not bear for ever.
 

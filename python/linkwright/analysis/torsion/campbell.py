@@ -37,6 +37,7 @@ from linkwright.analysis.torsion.free import FreeVibration
 from linkwright.analysis.torsion.modes_over_speed import ModesAt, constant, over_speed
 from linkwright.errors import InputError
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.units import COUNT, RATIO, SPEED, not_negative, positive
 
 Floats = NDArray[np.float64]
@@ -120,6 +121,7 @@ class CampbellDiagram(Result):
         return found | {"critical": [each._asdict() for each in self.critical]}
 
 
+@public
 def campbell(
     source: Machine | FreeVibration,
     orders: Sequence[float] | Floats | None = None,

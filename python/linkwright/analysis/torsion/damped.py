@@ -36,6 +36,7 @@ from linkwright.analysis.torsion.excited import prepared
 from linkwright.analysis.torsion.free import lead_speeds, train_of, twists_of
 from linkwright.engine.train import ReferredTrain, refer
 from linkwright.machine import Machine
+from linkwright.public import public
 from linkwright.units import SPEED, positive
 
 Floats = NDArray[np.float64]
@@ -127,6 +128,7 @@ class DampedVibration(Result):
         return {name: each for name, each in found.items() if name not in ("eigenvalues", "mode_shapes")}
 
 
+@public
 def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibration:
     """Free vibration of a train with damping.
 

@@ -31,6 +31,7 @@ from linkwright.analysis.torsion.ring_on_train import Holding, RingOnTrain, best
 from linkwright.errors import InputError
 from linkwright.machine import Machine
 from linkwright.machine.base import suggestion
+from linkwright.public import public
 from linkwright.units import INERTIA, RATIO, positive
 
 Floats = NDArray[np.float64]
@@ -99,6 +100,7 @@ class DamperDesign(Result):
     magnification_best: float
 
 
+@public
 def design_damper(
     machine: Machine,
     on: str,

@@ -34,6 +34,7 @@ from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import InputError
 from linkwright.machine import ConstantSpeedMotor, Machine, Train
 from linkwright.machine.drive_train import CRANK, MOTOR, STIFFNESS_KEYS, drive_train
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -42,6 +43,7 @@ Complex = NDArray[np.complex128]
 _STEP = 1e-5
 
 
+@public
 def drive_line(machine: Machine) -> Train:
     """The train of a machine's drive line, from the motor to the crank.
 
@@ -93,6 +95,7 @@ def mean_inertia(machine: Machine) -> float:
     return float(turn.mean()[0])
 
 
+@public
 def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -> Complex:
     r"""Harmonics of the torque with which a mechanism acts on its crank at constant speed.
 
@@ -131,6 +134,7 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     return found[:, 0] if np.ndim(speed) == 0 else found
 
 
+@public
 def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
     r"""How much motor and mechanism damp where their torques follow the speed.
 

@@ -21,6 +21,7 @@ from linkwright.machine.reciprocating.engine_motion import (
 from linkwright.machine.reciprocating.equivalent_inertia import published_throw_inertia
 from linkwright.machine.reciprocating.firing import firing_angles
 from linkwright.machine.reciprocating.throw_compliance import compliances
+from linkwright.public import public
 from linkwright.units import SPEED, positive
 
 Floats = NDArray[np.float64]
@@ -85,6 +86,7 @@ class EngineData(Result):
         return super().to_dict(curves=curves) | tables
 
 
+@public
 def engine_data(engine: ReciprocatingEngine, speed: float) -> EngineData:
     """What an engine is in a train.
 

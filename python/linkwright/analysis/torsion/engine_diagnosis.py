@@ -28,6 +28,7 @@ from linkwright.analysis.torsion.least_squares import Fit, least_squares, scaled
 from linkwright.analysis.torsion.measured_speed import MeasuredSpeed
 from linkwright.errors import ConvergenceError
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -47,6 +48,7 @@ _EXACT = 1e-9
 _WORSE, _HALVINGS = 1e-6, 10
 
 
+@public
 def engine_diagnosis(
     machine: Machine, measured: MeasuredSpeed, speed: float, *, rigid: bool = False
 ) -> Diagnosis:

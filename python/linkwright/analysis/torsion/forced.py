@@ -30,6 +30,7 @@ from linkwright.analysis.torsion.carried import Carried, carried_by, responses
 from linkwright.analysis.torsion.excited import Excited, excited
 from linkwright.analysis.torsion.synthesis import Orders, span
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -108,6 +109,7 @@ def _by_name(names: tuple[str, ...], rows: Floats) -> Mapping[str, list[float]]:
     return dict(zip(names, rows.tolist(), strict=True))
 
 
+@public
 def forced_vibration(machine: Machine, speeds: Floats | None = None) -> ForcedVibration:
     """Steady vibration of a train under its pulsating torques.
 

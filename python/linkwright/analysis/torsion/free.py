@@ -34,6 +34,7 @@ from linkwright.analysis.torsion.drive_line import drive_line
 from linkwright.engine.train import HELD, ReferredTrain, refer
 from linkwright.machine import Machine, Train
 from linkwright.machine.whole_train import whole_train
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -121,6 +122,7 @@ class FreeVibration(Result):
         return np.where(self.natural_frequencies[:, None] > 0, -self.kinetic_shares, 0.0)
 
 
+@public
 def free_vibration(machine: Machine) -> FreeVibration:
     """Natural frequencies and mode shapes of a train.
 

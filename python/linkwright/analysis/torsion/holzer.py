@@ -30,6 +30,7 @@ from linkwright.engine.train import ReferredTrain, refer
 from linkwright.errors import FindingError, InputError
 from linkwright.machine import Machine, Train
 from linkwright.machine.base import suggestion
+from linkwright.public import public
 from linkwright.units import FREQUENCY, not_negative
 
 Floats = NDArray[np.float64]
@@ -81,6 +82,7 @@ class HolzerTable(Result):
     residual_torque: float
 
 
+@public
 def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) -> HolzerTable:
     """Holzer's table of a train.
 

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError, ShapeError
+from linkwright.public import public
 from linkwright.units import COUNT, SPEED, Quantity, positive
 
 Floats = NDArray[np.float64]
@@ -47,6 +48,7 @@ class MeasuredSpeed:
     noise: Floats | None = None
 
 
+@public
 def measured_speed(
     disc: str, samples: ArrayLike, turns: int, orders: ArrayLike, noise: float | None = None
 ) -> MeasuredSpeed:

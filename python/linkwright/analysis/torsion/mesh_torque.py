@@ -33,6 +33,7 @@ from linkwright.analysis.torsion.excited import Excited, excited
 from linkwright.analysis.torsion.free import lead_speeds
 from linkwright.analysis.torsion.synthesis import span
 from linkwright.machine import Machine
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -87,6 +88,7 @@ class MeshTorque(Result):
         return parted
 
 
+@public
 def mesh_torques(machine: Machine, speeds: Floats | None = None) -> MeshTorque:
     """Torques of the gear stages of a train over its speeds.
 

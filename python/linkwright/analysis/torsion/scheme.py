@@ -29,6 +29,7 @@ from linkwright.analysis.torsion.free import own_stiffness, train_of
 from linkwright.engine.train import HELD, ReferredTrain, refer
 from linkwright.machine import Machine, Train
 from linkwright.machine.train import GROUND
+from linkwright.public import public
 from linkwright.units import LENGTH, positive
 
 Floats = NDArray[np.float64]
@@ -111,6 +112,7 @@ class Scheme(Result):
         return found | {"connections": [each._asdict() for each in self.connections]}
 
 
+@public
 def scheme(machine: Machine, *, diameter: float = 0.1) -> Scheme:
     """The equivalent scheme of a train.
 

@@ -32,6 +32,7 @@ from linkwright.machine import Machine, Shaft
 from linkwright.machine.drive_train import CRANK
 from linkwright.machine.shaft_limit import ShaftLimit, StressedSection
 from linkwright.machine.train_speeds import speeds as turning
+from linkwright.public import public
 from linkwright.units import SPEED, positive
 
 Floats = NDArray[np.float64]
@@ -73,6 +74,7 @@ class ShaftStress(Result):
         return self.vibratory / self.continuous
 
 
+@public
 def shaft_stress(machine: Machine, found: Carried | None = None, service: float | None = None) -> ShaftStress:
     """Stresses in the shafts of a train over its speeds.
 

@@ -26,6 +26,7 @@ from linkwright.analysis.torsion.verdict import Verdict, verdict
 from linkwright.machine import Machine, Train
 from linkwright.machine.reciprocating.engine import ReciprocatingEngine
 from linkwright.machine.reciprocating.firing import firing_angles
+from linkwright.public import public
 from linkwright.units import FREQUENCY, not_negative
 
 # Share by which loads may be off what the engine gives without a word.
@@ -119,6 +120,7 @@ class TorsionStudy:
         return found | {"scheme": self.scheme.to_dict(curves=True)}
 
 
+@public
 def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionStudy:
     """Study the torsional vibration of a train or of a drive line.
 

@@ -29,6 +29,7 @@ from linkwright.engine.train_transient import Moved, MovingTrain
 from linkwright.errors import ConvergenceError, InputError
 from linkwright.machine import Machine
 from linkwright.machine.train_transient import SAMPLES_MAX, TrainTransient
+from linkwright.public import public
 
 Floats = NDArray[np.float64]
 
@@ -127,6 +128,7 @@ class TorsionTransient(Result):
         return found
 
 
+@public
 def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None) -> TorsionTransient:
     """Follow a manoeuvre of a train in time.
 

@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import InputError
+from linkwright.public import public
 from linkwright.units import COUNT, positive
 
 Floats = NDArray[np.float64]
@@ -79,6 +80,7 @@ class Waterfall(Result):
         return found
 
 
+@public
 def waterfall(
     time: ArrayLike,
     angle: ArrayLike,

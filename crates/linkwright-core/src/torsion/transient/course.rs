@@ -6,6 +6,7 @@ use super::implicit::Implicit;
 use super::rates::Rates;
 use super::stepper::{Scale, Stepper};
 use super::system::System;
+use crate::call::poll;
 
 /// What to follow.
 #[derive(Clone, Copy, Debug)]
@@ -211,6 +212,7 @@ impl<'a, S: Stepper> Follower<'a, S> {
 
     /// One step; whether one keeps the accuracy.
     fn step(&mut self, mark: f64) -> bool {
+        poll();
         let t = self.course.time;
         let longest = (mark - t).min(REACH / self.rates.turning(&self.state).max(f64::MIN_POSITIVE));
         let at = (t, &self.state);

@@ -1,0 +1,65 @@
+"""An interrupt from the keyboard ends the command line with exit code 130, whatever it is doing.
+
+Until the commands are imported it ends the program on the spot: nothing has been written, and an exception in
+the middle of an import may come out as any other error. After that it is a `KeyboardInterrupt`, so that files
+are left as they should be.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from types import FrameType, TracebackType
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    from sys import UnraisableHookArgs
+
+# What a shell reports for a program that was interrupted.
+EXIT_CODE = 130
+
+
+class Interrupts:
+    """What is done about interrupts; a program that was started to ignore them does so."""
+
+    def __init__(self) -> None:
+        self.came = False
+
+    def __enter__(self) -> Interrupts:
+        """Begin to listen, before anything is imported."""
+        self.heard = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        if self.heard:
+            signal.signal(signal.SIGINT, _end)
+        return self
+
+    def raise_from_now_on(self) -> None:
+        """Raise `KeyboardInterrupt` on an interrupt."""
+        if self.heard:
+            sys.unraisablehook = _end_or_tell
+            signal.signal(signal.SIGINT, self._raise)
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """End the program if it was interrupted, whatever error came of that."""
+        if self.heard:
+            signal.signal(signal.SIGINT, _end)
+        is_done = isinstance(error, SystemExit) and not error.code
+        if self.came and error is not None and not is_done:
+            raise SystemExit(EXIT_CODE) from None
+
+    def _raise(self, number: int, frame: FrameType | None) -> NoReturn:
+        self.came = True
+        raise KeyboardInterrupt
+
+
+def _end(number: int, frame: FrameType | None) -> NoReturn:
+    os._exit(EXIT_CODE)
+
+
+def _end_or_tell(unraisable: UnraisableHookArgs) -> None:
+    """An interrupt where nothing can be raised, as in a finaliser, would be lost."""
+    if issubclass(unraisable.exc_type, KeyboardInterrupt):
+        os._exit(EXIT_CODE)
+    sys.__unraisablehook__(unraisable)

@@ -1,0 +1,122 @@
+"""Every number of every machine varies in a batch as it does one by one, or is refused by name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.engine import compile_machine
+from linkwright.errors import InputError, LinkwrightError
+from linkwright.machine import ConstantSpeedMotor, Machine
+
+MACHINES = sorted(Path("machines").glob("*.toml"))
+
+# Promised accuracy of a row in lanes.
+ROW = 1e-6
+
+
+def _with_mechanism() -> list[Machine]:
+    """Machines with a mechanism; rows of a batch do not pass change points."""
+    read = (lw.read(path) for path in MACHINES)
+    with_crank = [machine for machine in read if not machine.is_train_alone and not machine.is_topper_alone]
+    return [machine for machine in with_crank if not compile_machine(machine).passing]
+
+
+def _rows(value: float) -> np.ndarray:
+    """A number, a neighbour of it, and the number again."""
+    return np.array([value, value * 1.0001 if value else 1e-6, value])
+
+
+def _checked(machine: Machine) -> Machine:
+    return Machine.model_validate(machine.model_dump(by_alias=True, exclude_unset=True))
+
+
+def _require_named(error: LinkwrightError, address: str) -> None:
+    """A refusal names the entry, or one that it belongs to or stands beside."""
+    assert any(key in str(error) for key in address.split(".")[-3:]), f"{address}: {error}"
+
+
+@pytest.mark.parametrize("machine", _with_mechanism(), ids=lambda machine: machine.name)
+def test_motions_of_every_address(machine: Machine) -> None:
+    angles = np.linspace(0, 2 * np.pi, 7)
+    points = list(lw.kinematics(machine, angles).points)
+    refused = 0
+    for address, value in lw.addresses(machine).items():
+        column = _rows(value)
+        try:
+            found = lw.motions(lw.replace(machine, {address: column}), angles, points=points)
+        except InputError as error:
+            _require_named(error, address)
+            refused += 1
+            continue
+        assert len(found) == 3, address
+        np.testing.assert_array_equal(found[0], found[2], err_msg=address)
+        alone = lw.motions(lw.replace(machine, {address: column[1]}), angles, points=points)
+        # Sides and turns of angles are the first machine's; the numbers are the same to rounding.
+        np.testing.assert_allclose(found[1], alone[0], rtol=1e-12, atol=1e-12, err_msg=address)
+    # The crank angle of given places, and in a cam's sections angle, lift and two shares of each.
+    assert refused == (9 if machine.mechanism.cams else 1)
+
+
+def _has_characteristic(machine: Machine) -> bool:
+    motor = machine.drive and machine.drive.motor
+    return motor is not None and not isinstance(motor, ConstantSpeedMotor)
+
+
+@pytest.mark.parametrize(
+    "machine", list(filter(_has_characteristic, _with_mechanism())), ids=lambda machine: machine.name
+)
+def test_steady_motion_of_every_address(machine: Machine) -> None:
+    solved = 0
+    for address, value in lw.addresses(machine).items():
+        column = _rows(value)
+        try:
+            found = lw.steady_states(machine, {address: column})
+        except InputError as error:
+            _require_named(error, address)
+            continue
+        solved += 1
+        assert not found.status.any(), address
+        assert found.speed_max[0] == found.speed_max[2], address
+        alone = lw.steady_state(_checked(lw.replace(machine, {address: float(column[1])})))
+        np.testing.assert_allclose(found.speed_max[1], alone.speed_max, rtol=ROW, err_msg=address)
+        np.testing.assert_allclose(found.speed_min[1], alone.speed_min, rtol=ROW, err_msg=address)
+    assert solved > 10
+
+
+def test_entries_without_effect_have_none_one_by_one() -> None:
+    machine = lw.read("machines/roller_one_cart.toml")
+    plain = lw.steady_state(machine)
+    for address, value in lw.addresses(machine).items():
+        column = _rows(value)
+        try:
+            lw.steady_states(machine, {address: column})
+        except InputError as error:
+            if "no effect" in str(error):
+                alone = lw.steady_state(lw.replace(machine, {address: float(column[1])}))
+                assert alone.speed_max == plain.speed_max, address
+
+
+@pytest.mark.parametrize("address", ["speed_synchronous", "speed_rated", "torque_rated"])
+def test_a_row_without_a_characteristic_leaves_its_neighbours_alone(address: str) -> None:
+    # The breakdown speed of each row follows from entries that vary; none follows from the wrong row's.
+    machine = lw.read("machines/roller_one_cart.toml")
+    address = f"drive.motor.{address}"
+    values = np.full(40, lw.get(machine, address))
+    sound = lw.kinematics(lw.replace(machine, {address: values})).angles
+    assert len(sound) == 361
+    values[17] *= 1.5 if "torque" not in address else 10.0
+    motors = lw.replace(machine, {address: values}).drive.motor
+    knee = motors.speed_breakdown
+    assert np.isfinite(np.delete(knee, 17)).all()
+    assert (np.delete(knee, 17) == lw.get(machine, "drive.motor.speed_breakdown")).all()
+
+
+@pytest.mark.parametrize("shape", [(2, 2), (0,)])
+def test_arrays_that_are_no_rows(shape: tuple[int, ...]) -> None:
+    machine = lw.read("machines/roller_one_cart.toml")
+    with pytest.raises(InputError, match=r"drive\.gearbox\.ratio"):
+        lw.kinematics(lw.replace(machine, {"drive.gearbox.ratio": np.ones(shape)}))

@@ -1,0 +1,74 @@
+"""An interrupt from the keyboard ends the command line with exit code 130, also while it imports."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="needs signals of Unix")
+
+# A minute: the commands below would take longer.
+PATIENCE = 60.0
+
+
+def _start(*arguments: str) -> subprocess.Popen[str]:
+    # Each import is told of on standard error as soon as it is done.
+    command = [sys.executable, "-X", "importtime", "-m", "linkwright.cli", *arguments]
+    # Who started the tests may have let them ignore interrupts.
+    return subprocess.Popen(
+        command,
+        cwd=ROOT,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+
+
+def _wait_for(program: subprocess.Popen[str], module: str) -> None:
+    assert program.stderr is not None
+    for line in program.stderr:
+        if line.rstrip().endswith(f" {module}"):
+            return
+    pytest.fail(f"{module} was never imported")
+
+
+@pytest.mark.parametrize("module", ["typer.core", "linkwright.cli.commands"])
+def test_while_it_imports(module: str) -> None:
+    program = _start("run", "machines/roller_two_carts.toml", "--json")
+    _wait_for(program, module)
+    program.send_signal(signal.SIGINT)
+    _, told = program.communicate(timeout=PATIENCE)
+    assert program.returncode == 130
+    assert "Traceback" not in told
+
+
+@pytest.mark.parametrize("module", ["numpy", "linkwright.machine", "linkwright.analysis.study"])
+def test_while_a_command_imports(module: str) -> None:
+    program = _start("run", "machines/roller_two_carts.toml", "--json")
+    _wait_for(program, module)
+    program.send_signal(signal.SIGINT)
+    _, told = program.communicate(timeout=PATIENCE)
+    assert program.returncode == 130
+    assert "Traceback" not in told
+
+
+def test_while_it_computes() -> None:
+    program = _start("topper", "field", "machines/topper.toml", "--over", "edge_length=0.1:0.3:50000")
+    _wait_for(program, "linkwright.sweep.topper")
+    time.sleep(0.5)
+    program.send_signal(signal.SIGINT)
+    start = time.monotonic()
+    _, told = program.communicate(timeout=PATIENCE)
+    assert program.returncode == 130
+    assert "Traceback" not in told
+    # A second is promised; five leave room for a busy machine.
+    assert time.monotonic() - start < 5.0
