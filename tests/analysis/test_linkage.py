@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -479,3 +480,21 @@ def test_velocity_ratio_by_the_instant_centre() -> None:
         x = pin[0] + share * (joint[0] - pin[0])
         # The coupler's line meets the ground at the common instant centre of crank and rocker (Kennedy).
         assert motion.links["R.rocker"].d1[k] == pytest.approx(x / (x - d), rel=1e-11)
+
+
+def test_angles_lie_in_the_range_in_which_the_mechanism_moves() -> None:
+    """A lift on a screw, whose crank goes from some turns back to many turns forward."""
+    found = lw.linkage(lw.read(Path(__file__).parents[2] / "examples" / "scissor_lift" / "machine.toml"))
+    low, high = found.closure.ranges[0]
+    assert low < 0 < high
+    at = [angle for each in found.elements for angle in (each.low_angle, each.high_angle)]
+    at += [each.angle for each in found.dead_points]
+    assert at
+    assert all(low <= angle <= high for angle in at)
+
+
+def test_a_mechanism_that_closes_at_single_angles_does_not_move() -> None:
+    """A rocker of next to nothing, that a crank which turns many times passes at one angle a turn."""
+    gears = Path(__file__).parents[2] / "examples" / "gears_and_guides" / "machine.toml"
+    with pytest.raises(AssemblyError, match="closes only"):
+        lw.linkage(lw.read(gears, ["mechanism.rockers.C.rocker=1e-9"]))

@@ -7,17 +7,22 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import linkwright as lw
+from linkwright.analysis.torsion.balanced_start import balanced_start, mean_torques
 from linkwright.analysis.torsion.excited import excited
 from linkwright.analysis.torsion.forced import responded
 from linkwright.analysis.torsion.moving_engine import combustion_weight
-from linkwright.analysis.torsion.moving_train import mean_torques, moving_train
+from linkwright.analysis.torsion.moving_train import moving_train
+from linkwright.analysis.torsion.peak_judgement import PeakJudgement
 from linkwright.analysis.torsion.transient import follow_train, torsion_transient
 from linkwright.analysis.torsion.waterfall import waterfall
+from linkwright.cli import application
 from linkwright.errors import ConvergenceError, InputError, MachineError
 from linkwright.machine import Machine, TrainTransient
 from linkwright.plot.torsion_transient import orders_figure, transient_figure, waterfall_figure
+from linkwright.report.torsion_page import torsion_html
 
 V12 = Path(__file__).parents[2] / "machines" / "v_diesel.toml"
 
@@ -72,7 +77,8 @@ def test_engine_settles_to_its_forced_vibration() -> None:
     light = lw.loads(text)
     assert light.train is not None
     speed = 150.0
-    train = moving_train(light.train, manoeuvre(duration=1.0, speed=speed))
+    given = manoeuvre(duration=1.0, speed=speed, loads_follow=True)
+    train = balanced_start(moving_train(light.train, given), light.train, given)[0]
     # A hundredth of all torques: swinging shifts them over the angle, which linear vibration does not know.
     small = replace(train, torques=tuple(replace(each, scale=0.01 * each.scale) for each in train.torques))
     two_turns = 4 * np.pi / speed
@@ -96,7 +102,7 @@ def test_true_inertia_of_the_throws_is_near_its_mean() -> None:
     moved = torsion_transient(machine, manoeuvre(duration=1.0, speed=157.0))
     assert abs(moved.energy_error) < 1e-9
     assert moved.speed.mean() == pytest.approx(157.0, rel=2e-3)
-    assert any(note.startswith("loads count 0.99") for note in moved.notes)
+    assert moved.balance.startswith("combustion counts 1.00")
     assert any("hysteresis" in note for note in moved.notes)
     forced = responded(excited(machine, np.array([157.0])))
     crank = [n for n, name in enumerate(moved.shafts) if name.startswith("crank") or name == "tail"]
@@ -177,13 +183,151 @@ def test_load_step_of_a_plain_train() -> None:
     moved = torsion_transient(lw.loads(PLAIN), manoeuvre(duration=1.1, speed=150.0, events=[event]))
     before = moved.time < 0.1
     assert moved.torque[0, before] == pytest.approx(np.full(before.sum(), 500.0), rel=1e-6)
-    assert moved.notes == ("engine is driven by a constant 500 N m, what the loads need at the start",)
+    assert moved.balance == "engine is driven by a constant 500 N m, what the loads need at the start"
     # dω/dt = (500 − 250 ω/150)/4.2
     rate = 250 / 150 / 4.2
     wanted = 300 - 150 * np.exp(-rate * (moved.time[-1] - 0.1))
     mean = (3 * moved.speed[0, -1] + 1.2 * moved.speed[1, -1]) / 4.2
     # The load has the speed of the rotor, not the mean of both.
     assert mean == pytest.approx(wanted, rel=1e-5)
+
+
+CONVEYOR = """
+format = 1
+name = "Motor, gear, conveyor"
+[train]
+driver = "motor"
+[train.discs]
+motor = { inertia = "2 kg m^2" }
+pinion = { inertia = "0.1 kg m^2" }
+wheel = { inertia = "1 kg m^2" }
+drum = { inertia = "60 kg m^2" }
+[train.gears]
+stage = { between = ["pinion", "wheel"], ratio = 20 }
+[train.shafts]
+out = { between = ["wheel", "drum"], stiffness = "3 MN m/rad", damping = "2 kN m s/rad" }
+[train.couplings.rubber]
+between = ["motor", "pinion"]
+stiffness = "15 kN m/rad"
+damping = "30 N m s/rad"
+torque_permitted = "PERMITTED N m"
+[train.loads.conveyor]
+on = "drum"
+torque = "5 kN m"
+speed = "72 rpm"
+exponent = 0
+[train.transient]
+duration = "0.8 s"
+speed = "1450 rpm"
+BALANCE
+events = [{ kind = "load_step", time = "0.1 s", load = "conveyor", factor = 1.5 }]
+[train.transient.motors.m]
+on = "motor"
+[train.transient.motors.m.motor]
+kind = "induction"
+speed_synchronous = "1500 rpm"
+torque_breakdown = "900 N m"
+speed_breakdown = "1380 rpm"
+"""
+
+
+def conveyor(balance: str = "", permitted: str = "5000") -> Machine:
+    """The conveyor with another balance or limit."""
+    return lw.loads(CONVEYOR.replace("BALANCE", balance).replace("PERMITTED", permitted))
+
+
+def test_speed_settles_where_motor_and_load_meet() -> None:
+    """The load is what the file says, to rounding, before and after its step."""
+    moved = torsion_transient(conveyor())
+    drum, before = moved.discs.index("drum"), moved.time < 0.1
+    out = moved.torque[moved.shafts.index("out"), before]
+    assert out == pytest.approx(np.full(len(out), 5000.0), rel=1e-6)
+    # No swing before the step: the start is the steady state.
+    assert np.ptp(moved.speed[drum, before]) < 1e-6 * moved.speed[drum, 0]
+    assert "motor and loads balance, not at 1450 rpm" in moved.balance
+    # The work of the load is its torque times the angle of its disc.
+    step = int(before.sum())
+    turned = moved.angle[drum, step] - moved.angle[drum, 0], moved.angle[drum, -1] - moved.angle[drum, step]
+    assert moved.work["conveyor"] == pytest.approx(-5000 * turned[0] - 7500 * turned[1], rel=1e-3)
+
+
+def test_start_as_given_without_balance() -> None:
+    moved = torsion_transient(conveyor("balanced = false\nloaded = false"))
+    assert moved.balance == ""
+    assert moved.speed[0, 0] == pytest.approx(1450 * np.pi / 30, rel=1e-12)
+
+
+def test_loads_are_scaled_where_that_is_asked_for() -> None:
+    moved = torsion_transient(conveyor("loads_follow = true"))
+    assert "loads were scaled by" in moved.balance
+    assert moved.speed[0, 0] == pytest.approx(1450 * np.pi / 30, rel=1e-4)
+
+
+def test_combustion_follows_the_load() -> None:
+    """A governor gives what the loads ask for; a load step changes the loads of the file."""
+    less = V12.read_text(encoding="utf-8").replace('torque = "1400 N m"', 'torque = "1000 N m"')
+    machine = lw.loads(less)
+    assert machine.train is not None
+    given = manoeuvre(duration=1.0, speed=157.0)
+    train, speed, told = balanced_start(moving_train(machine.train, given), machine.train, given)
+    assert speed == 157.0
+    assert told.startswith("combustion counts 0.")
+    load = {each.name: each.scale for each in train.torques}["generator"]
+    assert load == -1000.0
+    assert mean_torques(train, speed).sum() == pytest.approx(0.0, abs=1e-9 * 1000)
+
+
+def test_limits_are_judged_in_the_manoeuvre(tmp_path: Path) -> None:
+    """The step takes the coupling above what it bears; a stronger one is kept."""
+    weak, strong = (torsion_transient(conveyor(permitted=size)) for size in ("300", "5000"))
+    (of_weak,), (of_strong,) = weak.judgements, strong.judgements
+    largest = float(np.abs(weak.torque[weak.shafts.index("rubber")]).max())
+    assert of_weak.found >= largest * (1 - 1e-12)
+    assert of_weak.found == pytest.approx(largest, rel=1e-3)
+    assert (of_weak.is_kept, of_strong.is_kept) == (False, True)
+    assert weak.findings == [f"{of_weak.words}."]
+    assert strong.findings == []
+    study = lw.torsion_study(conveyor(permitted="300"))
+    assert weak.findings[0] in study.findings
+    assert study.results()["transient"]["judgements"][0]["state"] == "exceeds"
+    assert "Limits in the manoeuvre" in torsion_html(study, command="")
+    assert "motor and loads balance" in study.balance
+    path = tmp_path / "conveyor.toml"
+    path.write_text(CONVEYOR.replace("BALANCE", "").replace("PERMITTED", "300"), encoding="utf-8")
+    run = CliRunner().invoke(application(), ["torsion", str(path)])
+    assert run.exit_code == 1
+    assert "rubber: torque" in run.output
+    # What counts other than given is said first.
+    assert run.output.startswith("Manoeuvre: the start is at")
+
+
+def test_stress_while_a_resonance_is_passed() -> None:
+    """Half of greatest less least stress within two turns, against what is permitted while passing."""
+    text = PLAIN.replace('"20 N m s/rad" }', '"20 N m s/rad", limit = { diameter = 0.05, LIMIT } }')
+    pulse = """
+[train.excitations.e]
+on = "engine"
+harmonics = [{ order = 2, torque = 90 }]
+[train.transient]
+duration = "2 s"
+speed = "60 rad/s"
+balanced = false
+events = [{ kind = "speed_course", on = "engine", times = [0, 2], speed = [60, 180], gain = 400 }]
+"""
+
+    def moved(transient: str, greatest: str) -> tuple[PeakJudgement, ...]:
+        limit = f"stress_permitted = 1e5, stress_transient = {transient}, stress_greatest = {greatest}"
+        return torsion_transient(lw.loads(text.replace("LIMIT", limit) + pulse)).judgements
+
+    greatest, passing = moved("1e6", "1e6")
+    W = np.pi / 16 * 0.05**3
+    assert (greatest.what, passing.what) == ("greatest stress", "vibratory stress while passing")
+    assert not greatest.is_kept
+    assert not passing.is_kept
+    assert passing.found < greatest.found
+    # At the peak the shaft swings by several times the 90 N m · 1.2/4.2 that it would carry at rest.
+    assert passing.found > 2 * 90 * 1.2 / 4.2 / W
+    assert all(each.is_kept for each in moved("1e9", "1e9"))
 
 
 def test_harmonics_of_loads_and_excitations() -> None:

@@ -25,6 +25,7 @@ from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import AssemblyError, InputError
 from linkwright.machine import Machine
 from linkwright.public import public
+from linkwright.units import ANGLE
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -89,6 +90,11 @@ class Closure:
     def turns_fully(self) -> bool:
         """Whether the crank can turn all round."""
         return not self.element
+
+    @property
+    def moves(self) -> bool:
+        """Whether the first range is more than a single angle, at which the mechanism stands."""
+        return bool(self.ranges) and self.ranges[0][1] - self.ranges[0][0] >= ANGLE.least
 
 
 @public

@@ -139,7 +139,7 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
     if point not in compiled.points:
         raise MachineError([Problem("point", point, f"one of {', '.join(compiled.points)}")])
     where = closure_of(compiled)
-    if not where.ranges:
+    if not where.moves:
         raise closure_error(where, machine)
     cycle = Cycle.of(where, turns_to_repeat(compiled) if where.turns_fully else None)
     return _Path(compiled, compiled.points[point], cycle).result(point, straight)
@@ -240,9 +240,8 @@ class _Path:
 
     def _cusps(self) -> list[Cusp]:
         at = self._stops()
-        turn = 2 * np.pi if self.cycle.span < 2 * np.pi * 1.01 else np.inf
         return [
-            Cusp(float(x), float(y), float(phi % turn))
+            Cusp(float(x), float(y), self.cycle.named(phi))
             for x, y, phi in zip(*self.at(at)[:2], at, strict=True)
         ]
 

@@ -30,7 +30,7 @@ class DeadPoint(NamedTuple):
     Attributes
     ----------
     angle : float
-        Crank angle, 0 to 2π or to the end of the period [rad].
+        Crank angle, within one turn, or within the longer period or range [rad].
     element : str
         Name of the dyad, or of the link or slide that turns back.
     kind : str
@@ -84,7 +84,6 @@ def _passed(swept: Swept) -> Iterator[DeadPoint]:
 
 
 def _reversals(swept: Swept) -> Iterator[DeadPoint]:
-    turn = max(2 * np.pi, round(swept.cycle.span / (2 * np.pi)) * 2 * np.pi)
     for k, output in enumerate(swept.outputs):
         for angle in swept.reversals(k):
-            yield DeadPoint(float(angle % turn), output.name, REVERSAL, 1)
+            yield DeadPoint(swept.cycle.named(angle), output.name, REVERSAL, 1)

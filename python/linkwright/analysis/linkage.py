@@ -211,7 +211,7 @@ def linkage(machine: Machine) -> Linkage:
     Raises
     ------
     AssemblyError
-        The mechanism closes nowhere.
+        The mechanism closes nowhere, or at single angles alone.
 
     References
     ----------
@@ -220,7 +220,7 @@ def linkage(machine: Machine) -> Linkage:
     """
     compiled = compile_machine(machine).first()
     where = closure_of(compiled)
-    if not where.ranges:
+    if not where.moves:
         raise closure_error(where, machine)
     period = turns_to_repeat(compiled) if where.turns_fully else None
     cycle = Cycle.of(where, period)

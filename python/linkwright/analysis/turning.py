@@ -75,6 +75,10 @@ class Cycle:
         """From the first angle to the last [rad]."""
         return float(self.angles[-1] - self.angles[0])
 
+    def named(self, angle: float) -> float:
+        """An angle as a reader counts it: within one turn, but as it is in a longer cycle or range [rad]."""
+        return float(angle % (2 * np.pi) if self.span < 2 * np.pi * 1.01 else angle)
+
 
 @dataclass(frozen=True)
 class Travel:
@@ -166,8 +170,7 @@ class Swept:
         values = self._positions(k, at)
         low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
         ratio = _time_ratio(at, values, cycle.span) if cycle.repeats else None
-        turn = 2 * np.pi if self.cycle.span < 2 * np.pi * 1.01 else np.inf
-        angles = (float(at[low] % turn), float(at[high] % turn))
+        angles = self.cycle.named(at[low]), self.cycle.named(at[high])
         return Travel(float(values[low]), float(values[high]), *angles, None, ratio)
 
     def _positions(self, k: int, at: Floats) -> Floats:
@@ -201,8 +204,8 @@ class Swept:
         )
         values = self._at(at)[0][k]
         low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
-        turn = 2 * np.pi if self.cycle.span < 2 * np.pi * 1.01 else np.inf
-        return float(values[low]), float(values[high]), float(at[low] % turn), float(at[high] % turn)
+        angles = self.cycle.named(at[low]), self.cycle.named(at[high])
+        return float(values[low]), float(values[high]), *angles
 
 
 def _time_ratio(at: Floats, values: Floats, span: float) -> float | None:

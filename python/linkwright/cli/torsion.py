@@ -68,8 +68,9 @@ def _object(study: TorsionStudy) -> str:
 
     from linkwright.analysis.result import finite
 
+    head = {"machine": study.machine.name} | ({"balance": study.balance} if study.balance else {})
     told = {"findings": study.findings, "warnings": [*study.findings, *study.warnings]}
-    shown = {"machine": study.machine.name, "results": finite(study.results()), **told}
+    shown = {**head, "results": finite(study.results()), **told}
     return dumps(shown, allow_nan=False, ensure_ascii=False) + "\n"
 
 
@@ -78,7 +79,7 @@ def _print(study: TorsionStudy) -> None:
     from linkwright.cli.tables import print_tables
     from linkwright.report.torsion_tables import study_tables
 
-    print_tables("", list(study_tables(study)), study.findings, study.warnings)
+    print_tables(study.balance, list(study_tables(study)), study.findings, study.warnings)
 
 
 def _write(study: TorsionStudy, shown: str, folder: OutputFolder, *, quiet: bool) -> None:

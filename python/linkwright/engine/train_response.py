@@ -131,6 +131,81 @@ def respond(referred: ReferredTrain, at: Operating, orders: Floats, torques: Com
     return q if (tree.order[1:] > tree.order[:-1]).all() else np.take(q, np.argsort(tree.order), axis=1)
 
 
+def shaft_torques(
+    referred: ReferredTrain, stiffness: Complexes, q: Complexes, forces: Complexes, size: Floats
+) -> Complexes:
+    """Torques of the shafts: stiffness times twist, or, in shafts as good as rigid, by equilibrium.
+
+    Rounding of the amplitudes times the stiffness is a torque, and so is that of the forces on one side of
+    the shaft. Of both ways the one is taken that has less of it.
+
+    Parameters
+    ----------
+    referred : ReferredTrain
+        The train.
+    stiffness : ndarray of complex, shape (orders, shafts, speeds)
+        k(1 + iη) + iωc [N m/rad].
+    q : ndarray of complex, shape (orders, masses, speeds)
+        Amplitudes [rad].
+    forces : ndarray of complex, shape (orders, masses, speeds)
+        On each mass from outside, with those of its inertia and its damping: what its shafts carry on [N m].
+    size : ndarray, shape (orders, masses, speeds)
+        Sum of the sizes of their parts [N m].
+
+    Returns
+    -------
+    ndarray of complex, shape (orders, shafts, speeds)
+        Positive if the first end drives the second, referred [N m].
+    """
+    first, second = referred.ends.T
+    held = np.concatenate([q, np.zeros_like(q[:, :1])], axis=1)
+    # Amplitudes at a resonance without damping are not finite, nor are torques.
+    with np.errstate(invalid="ignore", over="ignore"):
+        twisted: Complexes = stiffness * (held[:, first] - held[:, second])
+        tree = tree_of(referred)
+        if tree is None:
+            return twisted
+        rounding = np.abs(stiffness) * (np.abs(held[:, first]) + np.abs(held[:, second]))
+        balanced = by_equilibrium(referred, tree, stiffness, forces)
+        bound = np.abs(by_equilibrium(referred, tree, stiffness, size.astype(complex)))
+        return np.where(bound < rounding, balanced, twisted)
+
+
+def by_equilibrium(referred: ReferredTrain, tree: Tree, stiffness: Complexes, forces: Complexes) -> Complexes:
+    """Torques of the shafts of a tree from what acts on one side of each; parallel ones share by stiffness.
+
+    Parameters
+    ----------
+    referred : ReferredTrain
+        The train.
+    tree : Tree
+        Its masses.
+    stiffness : ndarray of complex, shape (orders, shafts, speeds)
+        By which shafts between the same two masses share [N m/rad].
+    forces : ndarray of complex, shape (orders, masses, speeds)
+        On each mass but for its shafts [N m].
+
+    Returns
+    -------
+    ndarray of complex, shape (orders, shafts, speeds)
+        Positive if the first end drives the second, referred [N m].
+    """
+    n = len(tree.order)
+    below = np.take(forces, tree.order, axis=1)
+    for row in range(n - 1, 0, -1):
+        below[:, tree.parent[row]] += below[:, row]
+    # Of the two ends of a shaft the one that hangs is that of its row; the ground is no mass.
+    place = np.append(np.argsort(tree.order), HELD)
+    found = np.zeros_like(stiffness)
+    for s, row in enumerate(tree.row.tolist()):
+        if row < n:
+            together = stiffness[:, tree.row == row].sum(axis=1)
+            share = np.divide(stiffness[:, s], together, out=np.zeros_like(together), where=together != 0)
+            sign = 1.0 if place[referred.ends[s, 0]] == row else -1.0
+            found[:, s] = sign * share * below[:, row]
+    return found
+
+
 def _whole(referred: ReferredTrain, at: Operating, orders: Floats, torques: Complexes) -> Complexes:
     """Amplitudes from the matrices, for trains with loops; not finite where they are singular."""
     n, speeds = len(referred.inertia), len(at.speeds)

@@ -53,9 +53,14 @@ class TrainTransient(Checked):
     angle: Angle = Field(0.0, description="Of the first disc at the start.")
     balanced: bool = Field(
         True,
-        description="Whether mean torques balance at the speed of the start, as in steady running: loads "
-        "follow an engine, a train without engine and motor is driven as much as it needs. From rest they "
-        "are as given.",
+        description="Whether mean torques balance at the start, as in steady running. Loads are as given: "
+        "a motor that drives has the speed at which they balance, near that given; the combustion of an "
+        "engine counts as much as they ask for; a train without engine and motor is driven by what they "
+        "need. From rest nothing is balanced.",
+    )
+    loads_follow: bool = Field(
+        False,
+        description="Whether loads are scaled instead, at the speed given, so that mean torques balance.",
     )
     loaded: bool = Field(
         True,

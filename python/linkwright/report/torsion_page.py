@@ -44,6 +44,7 @@ def torsion_html(study: TorsionStudy, *, command: str = "") -> str:
     context: dict[str, Any] = {
         "study": study,
         "machine": study.machine,
+        "balance": study.balance,
         "headline": list(_headline(study)),
         "groups": grouped(machine_parts(study.machine)),
         "tables": list(study_tables(study)),
@@ -75,9 +76,12 @@ def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
             at = int(np.argmin(np.abs(forced.speeds - run.service)))
             yield "unevenness in service, least", number(float(forced.unevenness[:, at].min()), 3), ""
             yield "unevenness in service, most", number(float(forced.unevenness[:, at].max()), 3), ""
-    if study.verdict is not None and study.verdict.judgements:
+    steady = () if study.verdict is None else study.verdict.judgements
+    moved = () if study.transient is None else study.transient.judgements
+    if steady or moved:
+        state = "ok" if study.verdict is None else study.verdict.state
         words = {"ok": "all limits kept", "bar": "speeds to be barred", "exceeds": "limits exceeded"}
-        yield "verdict", words[study.verdict.state], ""
+        yield "verdict", words["exceeds" if study.findings else state], ""
 
 
 def _largest_torque(peaks: TorquePeaks) -> Iterator[tuple[str, str, str]]:

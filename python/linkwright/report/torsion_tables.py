@@ -49,6 +49,8 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
     """
     if study.verdict is not None and study.verdict.judgements:
         yield _judgements(study.verdict)
+    if study.transient is not None and study.transient.judgements:
+        yield _peak_judgements(study.transient)
     if study.engine is not None:
         yield _engine(study.engine)
     yield from torsion_tables(study.free)
@@ -82,6 +84,23 @@ def _judgements(found: Verdict) -> Table:
         for each in found.judgements
     ]
     return Table("limits", "Limits", ("limit", "", "found", "permitted", "at rpm", "verdict"), rows)
+
+
+def _peak_judgements(moved: TorsionTransient) -> Table:
+    """Each limit and whether the manoeuvre keeps it."""
+    rows: list[Row] = [
+        (
+            f"{each.part}: {each.what}",
+            "",
+            _shown(each.found, each.kind.unit),
+            _shown(each.permitted, each.kind.unit),
+            f"{each.time:.5g}",
+            _STATES["ok" if each.is_kept else "exceeds"],
+        )
+        for each in moved.judgements
+    ]
+    heads = ("limit", "", "found", "permitted", "at s", "verdict")
+    return Table("manoeuvre_limits", "Limits in the manoeuvre", heads, rows)
 
 
 def _engine(data: EngineData) -> Table:

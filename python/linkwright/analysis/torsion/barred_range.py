@@ -62,7 +62,7 @@ class BarredRange(Result):
     service_speed : float
         That λ = 1 stands for [rad/s].
     ratio_permitted : float
-        Up to which the rule lets speeds be barred; infinite without a rule.
+        Up to which the rule lets speeds be barred; None without a rule.
     """
 
     shaft: str
@@ -73,26 +73,27 @@ class BarredRange(Result):
     worst_speed: float
     worst_stress: float
     continuous: float
-    transient: float
+    transient: float | None
     not_passable: tuple[tuple[float, float], ...]
     critical_speed: float | None
     order: float | None
     class_min: float | None
     class_max: float | None
     service_speed: float
-    ratio_permitted: float
+    ratio_permitted: float | None
 
     @property
     def is_passable(self) -> bool | None:
         """Whether it may be passed quickly; None if the limit does not say."""
         if self.not_passable:
             return False
-        return None if np.isnan(self.transient) else True
+        return None if self.transient is None else True
 
     @property
     def may_be_barred(self) -> bool:
         """Whether it lies where speeds may be barred in normal operation."""
-        return self.barred[1] <= self.ratio_permitted * self.service_speed
+        highest = self.ratio_permitted
+        return highest is None or self.barred[1] <= highest * self.service_speed
 
     @property
     def barred(self) -> tuple[float, float]:
@@ -199,7 +200,7 @@ def _range(
         worst_speed=above.peak,
         worst_stress=float(for_ever.found[column]),
         continuous=float(for_ever.permitted[column]),
-        transient=float(transient.permitted[column]),
+        transient=None if np.isnan(transient.permitted[column]) else float(transient.permitted[column]),
         not_passable=tuple(
             (max(each.low, above.low), min(each.high, above.high))
             for each in passing
@@ -210,7 +211,7 @@ def _range(
         class_min=min((low for low, _ in formula), default=None),
         class_max=max((high for _, high in formula), default=None),
         service_speed=seen.service,
-        ratio_permitted=np.inf if limit is None else limit.barred_ratio_max,
+        ratio_permitted=None if limit is None else limit.barred_ratio_max,
     )
 
 

@@ -1,7 +1,8 @@
 r"""What the shafts of a train carry as it vibrates: torque, its extremes over all orders, heat.
 
-The torque in a shaft is :math:`(k(1 + i\eta) + i\omega c)\,\Delta_\nu`, of which kΔ twists the steel. All
-orders are added up in phase before their extremes are taken.
+The torque in a shaft is :math:`(k(1 + i\eta) + i\omega c)\,\Delta_\nu`, of which kΔ twists the steel. In a
+shaft as good as rigid the twist is rounding, and its torque that of all inertia, damping and torques on one
+side of it. All orders are added up in phase before their extremes are taken.
 
 References
 ----------
@@ -20,7 +21,7 @@ from linkwright.analysis.result import Result
 from linkwright.analysis.torsion.excited import Excited
 from linkwright.analysis.torsion.free import lead_speeds
 from linkwright.analysis.torsion.synthesis import Orders, orders_together, span
-from linkwright.engine.train_response import respond
+from linkwright.engine.train_response import respond, shaft_torques
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -129,9 +130,9 @@ def carried_by(at: Excited, q: Complexes) -> Carried:
     k, c, loss = at.operating.stiffness, referred.damping[:, None], referred.loss_factor[:, None]
     lead = lead_speeds(referred)[:, None]
     # Stiffness and damping are referred, so that the torque is too.
-    swing = _differences(at, q)
     imaginary = loss * k + omega * c
-    torques = (k + 1j * imaginary) * (swing / lead)
+    flow = _flow(at, q, k + 1j * imaginary)
+    torques = flow / lead
     greatest, least = span(orders_together(orders), torques, at.mean_torques)
     return Carried(
         speeds=speeds,
@@ -143,14 +144,21 @@ def carried_by(at: Excited, q: Complexes) -> Carried:
         mean_torques=at.mean_torques,
         torque_greatest=greatest,
         torque_least=least,
-        shaft_heat=0.5 * (omega * imaginary * np.abs(swing) ** 2).sum(axis=0),
+        shaft_heat=0.5 * (omega * imaginary * _twist(flow, k + 1j * imaginary) ** 2).sum(axis=0),
     )
 
 
-def _differences(at: Excited, q: Complexes) -> Complexes:
-    """q of the first less that of the second end of each shaft, (orders, shafts, speeds)."""
-    # The ground is a last mass that stands still, HELD = −1.
-    held = np.concatenate([q, np.zeros_like(q[:, :1])], axis=1)
-    first, second = at.referred.ends.T
-    found: Complexes = held[:, first] - held[:, second]
-    return found
+def _flow(at: Excited, q: Complexes, stiffness: Complexes) -> Complexes:
+    """Torque of each shaft, referred to the first disc, (orders, shafts, speeds)."""
+    omega = at.torques.orders[:, None, None] * at.torques.speeds
+    outside = at.referred_harmonics()
+    inertia = omega**2 * at.referred.inertia[:, None] * q
+    damping = 1j * omega * at.operating.disc_damping * q
+    size = np.abs(outside) + np.abs(inertia) + np.abs(damping)
+    return shaft_torques(at.referred, stiffness, q, outside + inertia - damping, size)
+
+
+def _twist(flow: Complexes, stiffness: Complexes) -> Floats:
+    """Twist of each shaft, (orders, shafts, speeds) [rad]; 0 where nothing holds its ends together."""
+    size = np.abs(stiffness)
+    return np.abs(flow) / np.where(size > 0, size, 1.0) * (size > 0)

@@ -72,7 +72,8 @@ def _solved(omega: Floats, C: Floats, H: Floats) -> tuple[Complexes, Complexes]:
     vibrating = s.imag > 0
     lossy, shapes = _pairs(omega, C, H)
     # What creeps has no hysteresis, and of what vibrates there are as many as without.
-    ratio = np.where(lossy.imag > 0, -lossy.real / np.abs(lossy), np.inf)
+    vibrates = lossy.imag > 0
+    ratio = np.divide(-lossy.real, np.abs(lossy), out=np.full(len(lossy), np.inf), where=vibrates)
     least = np.argsort(ratio, kind="stable")[: np.count_nonzero(vibrating)]
     return np.concatenate([s[~vibrating], lossy[least]]), np.concatenate([p[~vibrating], shapes[least]])
 

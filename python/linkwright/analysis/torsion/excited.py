@@ -17,7 +17,7 @@ from linkwright.analysis.torsion.free import lead_speeds, train_of
 from linkwright.analysis.torsion.mechanism_torques import mechanism_sources, steady_speed
 from linkwright.analysis.torsion.torques import Source, Torques, torques_of
 from linkwright.engine.train import ReferredTrain, refer
-from linkwright.engine.train_response import Operating
+from linkwright.engine.train_response import Operating, by_equilibrium, tree_of
 from linkwright.errors import InputError
 from linkwright.machine import Machine, Train
 from linkwright.machine.drive_train import CRANK
@@ -268,9 +268,14 @@ def _mean_torques(referred: ReferredTrain, mean: Floats) -> Floats:
         M = M - referred.inertia[:, None] * (M.sum(axis=0) / referred.inertia.sum())
     # The ring of a fluid hangs on nothing else, so that any stiffness tells what takes it along.
     k = np.where(referred.stiffness > 0, referred.stiffness, referred.stiffness.max(initial=0.0) or 1.0)
-    # Of all torques that balance those of least energy, Σ T²/k: so ways in parallel share by stiffness.
-    scale = np.sqrt(k)[:, None]
-    carried: Floats = scale * (np.linalg.pinv((scale * referred.joins).T, rcond=1e-13) @ M)
+    tree = tree_of(referred)
+    if tree is None:
+        # Of all torques that balance those of least energy, Σ T²/k: so ways in parallel share by stiffness.
+        scale = np.sqrt(k)[:, None]
+        carried: Floats = scale * (np.linalg.pinv((scale * referred.joins).T, rcond=1e-13) @ M)
+    else:
+        stiffness = np.repeat(k[None, :, None].astype(complex), M.shape[1], axis=2)
+        carried = by_equilibrium(referred, tree, stiffness, M[None].astype(complex))[0].real
     # What is left of the rounding of large torques is none.
     carried[np.abs(carried) < _ROUNDING * np.abs(M).max(initial=0.0)] = 0.0
     return carried / lead_speeds(referred)[:, None]

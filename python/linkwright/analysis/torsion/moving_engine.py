@@ -28,6 +28,9 @@ from linkwright.machine.train_transient import TrainTransient
 
 Floats = NDArray[np.float64]
 
+# Name of what combustion adds in a cylinder, before its number.
+COMBUSTION = "combustion_"
+
 # Angles over a turn at which a throw is reduced: far beyond its harmonics.
 _SAMPLES = 256
 
@@ -81,7 +84,7 @@ def engine_motion_torques(
         gas = TrainTorque(f"gas_{number}", place.throw, shape=motored[place.bank], phase=-float(angle))
         factor = engine.factor(number)
         burns = TrainTorque(
-            f"combustion_{number}",
+            f"{COMBUSTION}{number}",
             place.throw,
             factor,
             shape=added[place.bank],

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.analysis.torsion.excited import highest_order
 from linkwright.analysis.torsion.free import lead_speeds
-from linkwright.analysis.torsion.loaded_start import BEFORE
 from linkwright.analysis.torsion.moving_engine import engine_motion_torques, throw_inertias
 from linkwright.engine.curve import Curve, odd, straight, switched
 from linkwright.engine.periodic_table import PeriodicTable, waves
@@ -39,9 +37,6 @@ _COUNTS = 0.05
 
 # Turns over which orders may repeat together to share one table.
 _TURNS_MAX = 8
-
-# Angles of two turns at which mean torques are taken: some twenty a wave of order 24.
-_MEAN_ANGLES = 1024
 
 
 def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
@@ -73,7 +68,7 @@ def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
     inertias = [] if train.engine is None else throw_inertias(train.engine)
     own[: len(inertias)] = 0.0
     damping, notes = _shaft_damping(referred, manoeuvre)
-    found = moving(
+    return moving(
         referred,
         own,
         swing_damping=[each.damping for each in whole.discs.values()],
@@ -83,7 +78,6 @@ def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
         torques=[*_engine(train, manoeuvre), *_outside(whole, manoeuvre, place), *_events(manoeuvre, place)],
         notes=notes,
     )
-    return _balanced(found, train, manoeuvre, place)
 
 
 def _require_fit(train: Train, manoeuvre: TrainTransient, discs: tuple[str, ...]) -> None:
@@ -92,31 +86,6 @@ def _require_fit(train: Train, manoeuvre: TrainTransient, discs: tuple[str, ...]
     if faults:
         told = ((each["loc"], getattr(each["type"], "context", None) or {}) for each in faults)
         raise MachineError([Problem(".".join(map(str, place)), **words) for place, words in told])
-
-
-def mean_torques(train: MovingTrain, speed: float, angle: float = 0.0) -> Floats:
-    """Mean torque on each mass over two turns of the first disc, without twist.
-
-    Parameters
-    ----------
-    train : MovingTrain
-        The train.
-    speed : float
-        Of its first disc [rad/s].
-    angle : float
-        Of its first disc where the two turns begin [rad].
-
-    Returns
-    -------
-    ndarray, shape (masses,)
-        At the speed of the first disc, at the start of the motion [N m].
-    """
-    turns = angle + 4 * np.pi * np.arange(_MEAN_ANGLES) / _MEAN_ANGLES
-    n = train.masses
-    mean: Floats = train.net_torques(BEFORE, np.repeat(turns[:, None], n, axis=1), np.full(n, speed))[0].mean(
-        0
-    )
-    return mean
 
 
 def _shaft_damping(referred: ReferredTrain, manoeuvre: TrainTransient) -> tuple[Floats, list[str]]:
@@ -258,36 +227,3 @@ def _events(manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainT
                     start=event.time,
                     end=event.end,
                 )
-
-
-def _balanced(
-    found: MovingTrain, train: Train, manoeuvre: TrainTransient, place: dict[str, int]
-) -> MovingTrain:
-    """The train with loads or drive such that mean torques balance at the start, if they shall."""
-    is_free = not (found.tip < 0).any()
-    if not (manoeuvre.balanced and manoeuvre.speed and is_free):
-        return found
-    left = float(mean_torques(found, manoeuvre.speed, manoeuvre.angle).sum())
-    if train.engine is None and not manoeuvre.motors:
-        driver = place[train.driver or next(iter(train.discs))]
-        drive = TrainTorque("driver", driver, -left / float(found.speed[driver]))
-        note = (
-            f"{found.discs[driver]} is driven by a constant {drive.scale:.5g} N m, what the loads need at "
-            "the start"
-        )
-        return replace(found, torques=(*found.torques, drive), notes=(*found.notes, note))
-    needed = sum(
-        float(found.speed[place[load.on]])
-        * load.resistance(float(found.speed[place[load.on]]) * manoeuvre.speed)
-        for load in train.loads.values()
-    )
-    factor = 1.0 + left / needed if needed else 1.0
-    if factor <= 0 or not needed:
-        note = "mean torques do not balance at the start: nothing drives, or there is no load"
-        return replace(found, notes=(*found.notes, note))
-    torques = tuple(
-        replace(each, scale=each.scale * factor) if each.name in train.loads else each
-        for each in found.torques
-    )
-    note = f"loads count {factor:.5g} times, so that mean torques balance at the start"
-    return replace(found, torques=torques, notes=(*found.notes, note))

@@ -32,6 +32,9 @@ from linkwright.units import FREQUENCY, not_negative
 # Share by which loads may be off what the engine gives without a word.
 _FITS = 0.1
 
+# Share by which loads that follow an engine are as they are given.
+_BALANCED = 1e-3
+
 # Share of a limit from which on it matters that more may be asked for beyond the speeds.
 _NEAR = 0.8
 
@@ -91,7 +94,13 @@ class TorsionStudy:
     def findings(self) -> list[str]:
         """What the machine does not bear, in sentences."""
         found = [] if self.verdict is None else self.verdict.judgements
-        return [f"{each.words}." for each in found if each.state == "exceeds"]
+        steady = [f"{each.words}." for each in found if each.state == "exceeds"]
+        return steady + ([] if self.transient is None else self.transient.findings)
+
+    @property
+    def balance(self) -> str:
+        """What counts other than the file says so that mean torques balance; empty where nothing does."""
+        return " ".join(_balance(self))
 
     @property
     def warnings(self) -> list[str]:
@@ -205,6 +214,19 @@ def _along(machine: Machine, at: Excited, forced: ForcedVibration) -> Unevenness
         return None
     firing = {str(n + 1): angle for n, angle in enumerate(angles)}
     return unevenness_along(at, forced, firing, train.engine.strokes // 2, train.run.service)
+
+
+def _balance(study: TorsionStudy) -> Iterator[str]:
+    """Torques of the file that count other than they are given."""
+    if study.transient is not None and study.transient.balance:
+        yield f"Manoeuvre: {study.transient.balance}."
+    at, train = study.excited, study.machine.train
+    if at is None or train is None or train.engine is None or not train.loads:
+        return
+    least, most = float(at.torques.load_factor.min()), float(at.torques.load_factor.max())
+    if abs(least - 1) > _BALANCED or abs(most - 1) > _BALANCED:
+        count = f"{least:.4g} to {most:.4g} times over the speeds"
+        yield f"Steady running: loads follow the engine, and count {count}."
 
 
 def _warnings(study: TorsionStudy) -> Iterator[str]:

@@ -15,16 +15,18 @@ angle.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.analysis.result import Result
+from linkwright.analysis.torsion.balanced_start import balanced_start
 from linkwright.analysis.torsion.loaded_start import loaded_angles
 from linkwright.analysis.torsion.moving_drive import moving_drive
 from linkwright.analysis.torsion.moving_train import moving_train
+from linkwright.analysis.torsion.peak_judgement import PeakJudgement, judged
 from linkwright.engine.train_transient import Moved, MovingTrain
 from linkwright.errors import ConvergenceError, InputError
 from linkwright.machine import Machine
@@ -79,6 +81,10 @@ class TorsionTransient(Result):
         Bound of the fastest swing at the start [Hz].
     notes : tuple of str
         What was assumed.
+    balance : str
+        What was changed so that mean torques balance at the start; empty where nothing was.
+    judgements : tuple of PeakJudgement
+        Limits of shafts and couplings against the largest torques.
     """
 
     time: Floats
@@ -106,6 +112,13 @@ class TorsionTransient(Result):
     evaluations: int
     frequency_bound: float
     notes: tuple[str, ...]
+    balance: str = ""
+    judgements: tuple[PeakJudgement, ...] = ()
+
+    @property
+    def findings(self) -> list[str]:
+        """Limits that are exceeded, in sentences."""
+        return [f"{each.words}." for each in self.judgements if not each.is_kept]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Extremes by name of shaft and disc; with ``curves`` also the samples.
@@ -121,6 +134,7 @@ class TorsionTransient(Result):
             Plain numbers, texts and lists, ready for JSON.
         """
         found = super().to_dict(curves=curves) | {"work": self.work, "loss": self.loss}
+        found["judgements"] = [each.to_dict() for each in self.judgements]
         for names, kind in ((self.shafts, "torque"), (self.discs, "speed")):
             for end in ("max", "max_time", "min", "min_time"):
                 values = getattr(self, f"{kind}_{end}")
@@ -161,12 +175,15 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
         raise InputError(f"{machine.name} has no manoeuvre: {remedy}")
     if machine.train is None:
         train, manoeuvre = moving_drive(machine, manoeuvre)
+        speed, balance = manoeuvre.speed, ""
     else:
-        train = moving_train(machine.train, manoeuvre)
-    return follow_train(
+        train, speed, balance = balanced_start(
+            moving_train(machine.train, manoeuvre), machine.train, manoeuvre
+        )
+    moved = follow_train(
         train,
         duration=manoeuvre.duration,
-        speed=manoeuvre.speed,
+        speed=speed,
         angle=manoeuvre.angle,
         loaded=manoeuvre.loaded and manoeuvre.speed > 0,
         settle=_settle(manoeuvre),
@@ -175,6 +192,7 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
         method=manoeuvre.method,
         steps_max=manoeuvre.steps_max,
     )
+    return replace(moved, balance=balance, judgements=judged(machine, moved))
 
 
 def follow_train(
