@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from linkwright.analysis.cam.lift_steps import Ends, steps, without_steps
 from linkwright.analysis.cam.one_mass import OneMass
@@ -27,6 +27,7 @@ from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.motion_laws.motion_law import Extreme, MotionLaw, combined
 from linkwright.public import public
+from linkwright.public.arguments import Column
 from linkwright.units import COUNT, SPEED, positive
 
 Floats = NDArray[np.float64]
@@ -319,7 +320,7 @@ class VibrationSweep(Result):
 
 
 @public
-def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: ArrayLike) -> VibrationSweep:
+def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: Column) -> VibrationSweep:
     """Largest values of the periodic motion at many speeds.
 
     Parameters
