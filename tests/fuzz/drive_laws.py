@@ -72,7 +72,8 @@ def _powers(found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
     # Where a drive idles, rounding of the speed on its characteristic is all that there is.
     steep = np.abs(compiled.motor_torques(np.array([0.9, 1.1]) * found.speed_max)[1]).max()
     worst = np.abs(rest).max()
-    if not worst <= WITHIN * terms.max() + 1e-13 * steep:
+    rounding = 1e-13 * steep + 1e-15 * (J * found.speed**2).max()
+    if not worst <= WITHIN * terms.max() + rounding:
         raise PromiseError(f"torques are out of balance by {worst / terms.max():.2g} of the largest", inputs)
 
 
