@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from linkwright.errors import ShapeError
 from linkwright.public import public
@@ -40,7 +40,7 @@ class Harmonics:
 
 
 @public
-def harmonics(crank_angle: Floats, values: Floats, order: int = 8) -> Harmonics:
+def harmonics(crank_angle: Floats, values: ArrayLike, order: int = 8) -> Harmonics:
     """Fourier's series of a quantity over one turn.
 
     Parameters
@@ -63,7 +63,10 @@ def harmonics(crank_angle: Floats, values: Floats, order: int = 8) -> Harmonics:
         The angles are not one turn in even steps, a value is missing, or the order is too high.
     """
     phi = np.asarray(crank_angle, dtype=np.float64)
-    table = np.asarray(values, dtype=np.float64).reshape(len(phi), -1)[:-1]
+    table = np.atleast_1d(np.asarray(values, dtype=np.float64))
+    if len(table) != len(phi):
+        raise ShapeError(f"values: found {len(table)} rows, expected one for each of {len(phi)} crank angles")
+    table = table.reshape(len(phi), -1)[:-1]
     steps = len(table)
     even = steps > 1 and np.allclose(np.diff(phi), 2 * np.pi / steps, rtol=0, atol=_EVEN * 2 * np.pi / steps)
     if not even:

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.in_range import in_range
 from linkwright.analysis.taylor import Taylor
 from linkwright.errors import ShapeError
+from linkwright.public.arguments import rows
 from linkwright.units import ANGLE, TIME, Quantity
 
 Floats = NDArray[np.float64]
@@ -250,8 +251,12 @@ def as_law(law: Law | Callable[[Any], Any] | Sequence[ArrayLike]) -> Law:
         return law
     if callable(law):
         return FunctionLaw(law)
-    if isinstance(law, Sequence | np.ndarray) and len(law) == 2:
-        return TableLaw(law[0], law[1])
+    if (
+        isinstance(law, tuple | list | np.ndarray)
+        and (not isinstance(law, np.ndarray) or law.ndim)
+        and len(law) == 2
+    ):
+        return TableLaw(rows("law: times", law[0]), rows("law: angles", law[1]))
     raise ShapeError(f"a law, a function of time or a pair of times and angles is needed, found {law!r}")
 
 

@@ -7,8 +7,8 @@ where its programme begins. `crates/linkwright-core/src/cam/mod.rs` has the form
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -79,17 +79,34 @@ class CamKernel:
 
     Attributes
     ----------
-    core : _core.Cam
-        Law and kind.
+    law : ndarray
+        The law as the core reads it.
+    kind : int
+        Of the follower, as the core counts them.
+    signs : tuple of float
+        Whether it is the opposite follower, −1 or 1, and stands on the left, 1 or −1.
     size : ndarray, shape (6,)
         Dimensions in the order of `linkwright.machine.cam_follower.Sizes`.
     is_roller : bool
         Whether it is a roller or an edge; else a flat face.
+    core : _core.Cam
+        Made of law, kind and signs.
     """
 
-    core: _core.Cam
+    law: Floats
+    kind: int
+    signs: tuple[float, float]
     size: Floats
     is_roller: bool
+    core: _core.Cam = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        """Make the core's cam."""
+        object.__setattr__(self, "core", _core.Cam(self.law, self.kind, *self.signs))
+
+    def __reduce__(self) -> tuple[type[CamKernel], tuple[Any, ...]]:
+        """Pickled and copied without the core's cam, which is made anew."""
+        return CamKernel, (self.law, self.kind, self.signs, self.size, self.is_roller)
 
     def with_sizes(self, sizes: Sizes) -> CamKernel:
         """The same with other dimensions."""
@@ -153,8 +170,8 @@ def cam_kernel(
         Side of the arm of an oscillating follower.
     """
     kind = 2 * oscillating + (not roller)
-    core = _core.Cam(np.array(encoded(law)), kind, -1.0 if opposite else 1.0, 1.0 if left else -1.0)
-    return CamKernel(core, np.array(sizes, dtype=float), roller)
+    signs = (-1.0 if opposite else 1.0, 1.0 if left else -1.0)
+    return CamKernel(np.array(encoded(law)), kind, signs, np.array(sizes, dtype=float), roller)
 
 
 def crossings(points: Floats) -> Floats:

@@ -9,8 +9,8 @@ a complex number, a text or a list of lists of different length is refused with 
 | `int` | a whole number; some have limits by their name |
 | `bool`, `str` | true or false; a text |
 | `ArrayLike` | numbers, one or an array of them |
-| `Floats` | an array of finite numbers |
-| `Sequence[float]` | a list of finite numbers |
+| `Column` | a number, or a list of them |
+| `Floats`, `Sequence[float]` | a list of finite numbers |
 """
 
 from __future__ import annotations
@@ -23,12 +23,15 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from linkwright.errors import InputError, ShapeError
 
 Floats = NDArray[np.float64]
 Check = Callable[[str, Any], Any]
+
+# A number or a list of numbers, not a table.
+Column = ArrayLike
 
 
 class Range(NamedTuple):
@@ -112,8 +115,9 @@ def integer(name: str, value: Any) -> int:
         found = operator.index(value)
     except TypeError:
         raise _wrong(name, value, "a whole number") from None
-    if isinstance(value, bool | np.bool_):
-        raise _wrong(name, value, "a whole number")
+    # Beyond 2⁵³ whole numbers are no floats.
+    if isinstance(value, bool | np.bool_) or abs(found) > 2**53:
+        raise _wrong(name, value, "a whole number of usual size")
     _require_in_range(name, found, shown(found))
     return found
 
@@ -154,7 +158,8 @@ def array(name: str, value: Any, *, finite: bool = True, complex_too: bool = Fal
         raise ShapeError(f"{name}: found {shown(value)}, expected {'' if complex_too else 'real '}numbers")
     found = np.array(given, dtype=complex if complex_too else np.float64, order="C")
     if finite and not np.isfinite(found).all():
-        raise ShapeError(f"{name}: found values that are not finite, expected finite numbers")
+        first = int(np.argmin(np.isfinite(found)))
+        raise ShapeError(f"{name}: found {found.flat[first]:g} at index {first}, expected finite numbers")
     found.flags.writeable = False
     return found
 
@@ -252,15 +257,31 @@ def _one_or_more(name: str, value: Any) -> Any:
     """A number stays one; lists become arrays. How large they may be depends on what they are."""
     if isinstance(value, numbers.Number):
         return number(name, value, finite=False)
-    return array(name, value, finite=False)
-
-
-def _lists(name: str, value: Any) -> Floats:
-    """A list, or one of lists of one length."""
-    found = array(name, value)
-    if not found.size or not found.ndim:
-        raise ShapeError(f"{name}: found an array of shape {found.shape}, expected a list of numbers")
+    found = array(name, value, finite=False)
+    if not found.size:
+        raise ShapeError(f"{name}: found an empty array, expected numbers")
     return found
+
+
+def _column(name: str, value: Any) -> Any:
+    """A number, or a list of them."""
+    if isinstance(value, numbers.Number):
+        return _one_or_more(name, value)
+    return rows(name, np.atleast_1d(array(name, value)))
+
+
+def _two(name: str, value: Any) -> tuple[float, float]:
+    found = rows(name, value)
+    if len(found) != 2:
+        raise ShapeError(f"{name}: found {len(found)} numbers, expected two")
+    return float(found[0]), float(found[1])
+
+
+def _three(name: str, value: Any) -> Any:
+    """Three numbers or arrays."""
+    if not isinstance(value, tuple | list) or len(value) != 3:
+        raise _wrong(name, value, "three numbers or arrays")
+    return tuple(_one_or_more(name, each) for each in value)
 
 
 def _complexes(name: str, value: Any) -> Any:
@@ -290,7 +311,10 @@ _CHECKS: dict[str, Check] = {
     "Mapping[str, ArrayLike]": _mapping,
     "Mapping[str, Mapping[str, Any]]": _mapping,
     "ArrayLike": _one_or_more,
-    "Floats": _lists,
+    "tuple[ArrayLike, ArrayLike, ArrayLike]": _three,
+    "tuple[float, float]": _two,
+    "Column": _column,
+    "Floats": rows,
     "Complexes": _complexes,
     "Sequence[float]": rows,
     "int": integer,

@@ -255,8 +255,8 @@ def _numbers(law: ArrayLike | None, n_laws: int, n: int) -> tuple[NDArray[np.int
     """Number of the law of each cam, and how often the variants are repeated."""
     if law is None:
         return np.repeat(np.arange(n_laws), n), n_laws
-    given = np.asarray(law)
-    if given.dtype.kind not in "iu" and (given != np.floor(given)).any():
+    given = array("law", law)
+    if (given != np.floor(given)).any() or (np.abs(given) > n_laws).any():
         raise InputError("law: expected whole numbers, the place of a law among the laws")
     numbers = given.astype(np.intp)
     if numbers.ndim != 1 or (n > 1 and len(numbers) != n):

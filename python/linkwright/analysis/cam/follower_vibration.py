@@ -18,15 +18,18 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from linkwright.analysis.cam.lift_steps import Ends, steps, without_steps
 from linkwright.analysis.cam.one_mass import OneMass
 from linkwright.analysis.cam.oscillator import Indices, Oscillation, in_pieces, oscillation, pole
 from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
+from linkwright.errors import require_within
+from linkwright.limits import VIBRATIONS
 from linkwright.motion_laws.motion_law import Extreme, MotionLaw, combined
 from linkwright.public import public
+from linkwright.public.arguments import Column
 from linkwright.units import COUNT, SPEED, positive
 
 Floats = NDArray[np.float64]
@@ -238,12 +241,14 @@ def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 7
     Raises
     ------
     InputError
-        The lift jumps, or is not one turn long.
+        The lift jumps, or is not one turn long; or the follower vibrates too often in a turn.
     FindingError
         Undamped and at resonance.
     """
     in_range(speed=(speed, positive(SPEED)), n=(n, positive(COUNT)))
     without_steps(lift, "turn")
+    remedy = "lower the stiffness of its train, or turn the cam faster"
+    require_within(VIBRATIONS, model.natural_frequency / speed, "follower", remedy)
     train = Train(lift, model, speed, "turn")
     phi = np.linspace(lift.start, lift.end, n + 1)
     step = train.departure.find(phi)
@@ -319,7 +324,7 @@ class VibrationSweep(Result):
 
 
 @public
-def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: ArrayLike) -> VibrationSweep:
+def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: Column) -> VibrationSweep:
     """Largest values of the periodic motion at many speeds.
 
     Parameters

@@ -177,7 +177,8 @@ def line_contact(
 def _curvature(first: Floats, second: Floats) -> Floats:
     """1/R₁ + 1/R₂, where the bodies touch in one line."""
     for name, values in (("radius", first), ("radius_other", second)):
-        wrong = np.flatnonzero(np.isnan(values) | (values == 0))
+        # Below, what follows from a reciprocal is no number.
+        wrong = np.flatnonzero(np.isnan(values) | (np.abs(values) < 1e-100))
         if len(wrong):
             raise InputError(f"{name}: found {values[wrong[0]]:g} at index {wrong[0]}, expected a length")
     kappa: Floats = 1 / first + 1 / second

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from linkwright.analysis import roots
 from linkwright.analysis.cam.follower_vibration import Train
@@ -31,6 +31,7 @@ from linkwright.analysis.result import Result
 from linkwright.errors import InputError
 from linkwright.motion_laws.motion_law import MotionLaw
 from linkwright.public import public
+from linkwright.public.arguments import Column
 from linkwright.units import FRACTION, RATIO, SPEED, Quantity, positive
 
 Floats = NDArray[np.float64]
@@ -98,7 +99,7 @@ class ResidualSpectrum(Result):
 @public
 def residual_spectrum(
     rise: MotionLaw,
-    ratio: ArrayLike,
+    ratio: Column,
     *,
     damping_ratio: float = 0.0,
     damping_ratio_frame: float = 0.0,
@@ -147,7 +148,7 @@ def residual_spectrum(
 
 def residual_amplitude(
     rise: MotionLaw,
-    ratio: ArrayLike,
+    ratio: Column,
     *,
     damping_ratio: float = 0.0,
     damping_ratio_frame: float = 0.0,
@@ -182,7 +183,7 @@ def residual_amplitude(
 
 
 @public
-def residual_over_speed(rise: MotionLaw, model: OneMass, speed: ArrayLike) -> ResidualSpectrum:
+def residual_over_speed(rise: MotionLaw, model: OneMass, speed: Column) -> ResidualSpectrum:
     """Primary and residual vibration of a rise between dwells, for speeds of the cam.
 
     Parameters

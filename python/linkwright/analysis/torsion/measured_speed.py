@@ -12,11 +12,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError, ShapeError
 from linkwright.public import public
+from linkwright.public.arguments import Column
 from linkwright.units import COUNT, SPEED, Quantity, positive
 
 Floats = NDArray[np.float64]
@@ -50,7 +51,7 @@ class MeasuredSpeed:
 
 @public
 def measured_speed(
-    disc: str, samples: ArrayLike, turns: int, orders: ArrayLike, noise: float | None = None
+    disc: str, samples: Floats, turns: int, orders: Column, noise: float | None = None
 ) -> MeasuredSpeed:
     """Harmonics of a speed from samples.
 

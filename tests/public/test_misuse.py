@@ -1,0 +1,263 @@
+"""Wrong numbers and arrays end in errors of Linkwright that name the argument, at every public function."""
+
+from __future__ import annotations
+
+import contextlib
+import copy
+import dataclasses
+import inspect
+import pickle
+import warnings
+from collections.abc import Callable, Iterator
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.exceptions import ComplexWarning
+
+import linkwright as lw
+from linkwright.analysis.topper.verdict import PAPER
+from linkwright.errors import LinkwrightError
+from linkwright.motion_laws.motion_law import MotionLaw
+from linkwright.public.arguments import checks_of
+
+TURN = np.linspace(0.0, 6.0, 7)
+
+
+@cache
+def _machine(name: str) -> lw.Machine:
+    return lw.read(f"machines/{name}.toml")
+
+
+@cache
+def _profile() -> Any:
+    return lw.cam_profile(_machine("roller_cam"), n=90)
+
+
+def _law() -> MotionLaw:
+    found: MotionLaw = _machine("roller_cam").mechanism.cams["cart"].motion.lift
+    return found
+
+
+def _calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
+    """A right call of each function, by its name."""
+    cart, cam, engine = (_machine(name) for name in ("roller_one_cart", "roller_cam", "v8_diesel"))
+    topper, rotator = _machine("topper"), _machine("rod_rotator_continuous")
+    one_mass = lw.OneMass(1.0, 1e6, 0.05)
+    follower = lw.FollowerLoad(1.0, 1e4, 100.0)
+    rise = _law()
+    lift = tuple(rise.at(TURN, k) for k in range(3))
+    calls: dict[str, dict[str, Any]] = {
+        "addresses": {"machine": cart},
+        "kinematics": {"machine": cart, "angles": TURN, "third": False},
+        "motions": {"machine": cart, "angles": TURN, "slides": ["cart1"], "out": None},
+        "coupler_curve": {"machine": cart, "point": "A1", "straight": 0.001},
+        "pose": {"machine": cart, "crank_angle": 1.0, "speed": 2.0, "acceleration": 3.0},
+        "motion": {"machine": cart, "law": (TURN, TURN), "times": TURN},
+        "reduction": {"machine": cart, "n": 8},
+        "steady_state": {"machine": cart, "accuracy": 1e-8, "n": 8, "angles": TURN},
+        "transient": {
+            "machine": cart,
+            "angle": 0.1,
+            "speed": 1.0,
+            "duration": 0.1,
+            "turns": 0.1,
+            "accuracy": 1e-6,
+        },
+        "step_method": {"machine": cart, "step": np.radians(1)},
+        "forces": {
+            "machine": cart,
+            "speed": 1.0,
+            "acceleration": 0.0,
+            "angles": TURN,
+            "n": 8,
+            "pressure_angle": 0.3,
+        },
+        "balance": {"machine": cart, "links": ["A1"], "speed": 1.0, "radius": 0.1, "n": 16},
+        "partial_balance": {
+            "machine": cart,
+            "slider": "cart1",
+            "share": 0.5,
+            "speed": 1.0,
+            "radius": 0.1,
+            "n": 16,
+        },
+        "harmonics": {"crank_angle": np.linspace(0, 2 * np.pi, 17), "values": np.ones(17), "order": 2},
+        "cam_profile": {"machine": cam, "n": 90},
+        "loaded_cam": {"machine": cam, "profile": _profile(), "speed": 1.0},
+        "search_cams": {"machine": cam, "entries": {"base_radius": [0.3, 0.4]}, "law": None, "per_turn": 16},
+        "follower_vibration": {"lift": rise, "model": one_mass, "speed": 1.0, "n": 16},
+        "vibration_over_speed": {"lift": rise, "model": one_mass, "speeds": [1.0, 2.0]},
+        "residual_spectrum": {
+            "rise": rise,
+            "ratio": [1.0, 2.0],
+            "damping_ratio": 0.0,
+            "damping_ratio_frame": 0.0,
+            "share": 1.0,
+        },
+        "residual_over_speed": {"rise": rise, "model": one_mass, "speed": [500.0, 600.0]},
+        "cam_course": {
+            "cam_angle": TURN,
+            "lift": lift,
+            "speed": 1.0,
+            "pressure_angle": 0.0,
+            "sliding": 0.0,
+            "offset": 0.0,
+            "acceleration": 0.0,
+        },
+        "contact_force": {
+            "course": lw.cam_course(TURN, lift, 1.0),
+            "follower": follower,
+            "friction": 0.0,
+            "clearance": 0.0,
+        },
+        "least_preload": {"lift": rise, "follower": follower, "speed": 1.0, "contact": 0.0},
+        "line_contact": {"force": 1.0, "radius": 0.1, "radius_other": 0.2, "length": 0.1},
+        "pumping_unit": {"machine": rotator, "n": 16},
+        "rod_rotator": {"machine": rotator, "n": 16},
+        "length_verdict": {"claim": PAPER, "edge_angle": 0.2, "diameter": 0.1, "offset": 0.02},
+        "sweep_field": {"machine": topper, "over": {"edge_length": [0.2, 0.3]}, "level": 0.9, "fine": 4},
+        "holzer_table": {"machine": engine, "frequency": 10.0},
+        "forced_vibration": {"machine": engine, "speeds": [100.0, 150.0]},
+        "torsion_study": {"machine": engine, "holzer": [10.0]},
+        "waterfall": {
+            "time": np.linspace(0, 20, 2001),
+            "angle": np.linspace(0, 500, 2001),
+            "signal": np.ones(2001),
+            "highest": 4.0,
+            "step": 0.5,
+            "turns": 8,
+        },
+        "mesh_torques": {"machine": engine, "speeds": [100.0, 150.0]},
+        "measured_speed": {
+            "disc": "d",
+            "samples": np.ones(64),
+            "turns": 2,
+            "orders": [0.5, 1.0],
+            "noise": 0.1,
+        },
+        "engine_data": {"engine": engine.train.engine, "speed": 100.0},
+        "damped_vibration": {"machine": engine, "speed": 100.0},
+        "campbell": {"source": engine, "orders": [0.5, 1.0], "speed_range": (120.0, 150.0)},
+        "scheme": {"machine": engine, "diameter": 0.1},
+        "steady_states": {
+            "machine": cart,
+            "entries": {"bodies.cart1.mass": [500.0, 510.0]},
+            "accuracy": 1e-8,
+        },
+        "choose_flywheel": {"machine": cart, "unevenness": 0.2},
+        "crank_rocker": {"swing": 1.0, "time_ratio": 1.1, "frame": 1.0, "coupler_max": 3.0},
+        "slider_crank": {"stroke": 1.0, "time_ratio": 1.1, "rod": None},
+        "straight_line": {"kind": "hoeken", "length": 1.0, "crank_range": (-1.0, 1.0)},
+        "straight_lines": {"length": 1.0},
+    }
+    return {name: (getattr(lw, name), call) for name, call in calls.items()}
+
+
+def _unaligned() -> np.ndarray:
+    return np.frombuffer(b"\0" + np.linspace(1.0, 2.0, 4).tobytes(), dtype=np.uint8)[1:].view(np.float64)
+
+
+WRONG: dict[str, Any] = {
+    "nan": np.nan,
+    "infinite": np.inf,
+    "complex": 1 + 2j,
+    "text": "abc",
+    "none": None,
+    "truth": True,
+    "object": object(),
+    "empty": [],
+    "ragged": [[1.0, 2.0], [3.0]],
+    "texts": ["a", "b"],
+    "nothings": [None, None],
+    "complex array": np.array([1 + 2j, 3.0]),
+    "not finite": [1.0, np.nan],
+    "table": np.ones((2, 2)),
+    "three dimensions": np.ones((2, 2, 2)),
+    "array of one number": np.array(1.0),
+    "unaligned": _unaligned(),
+    "every other": np.linspace(1.0, 2.0, 8)[::2],
+    "backwards": np.linspace(1.0, 2.0, 5)[::-1],
+    "single precision": np.linspace(1.0, 2.0, 4, dtype=np.float32),
+    "big-endian": np.linspace(1.0, 2.0, 4).astype(">f8"),
+    "huge": 2**5000,
+    "huge in size": 1e308,
+    "tiny": 5e-324,
+    "negative": -1.0,
+    "zero": 0,
+    "dictionary": {"a": 1.0},
+    "bytes": b"abc",
+    "times": np.array(["2020-01-01"], dtype="datetime64[s]"),
+}
+
+
+def _cases() -> Iterator[tuple[str, str]]:
+    for name, (function, call) in _calls().items():
+        checked = checks_of(inspect.unwrap(function))
+        for argument in call:
+            if argument in checked or argument in ("entries", "over", "law", "out"):
+                yield name, argument
+
+
+def _misused(name: str, argument: str, value: Any) -> None:
+    function, call = _calls()[name]
+    given = call[argument]
+    if isinstance(given, dict):
+        value = {next(iter(given)): value}
+    with contextlib.suppress(LinkwrightError):
+        function(**{**call, argument: value})
+
+
+@pytest.mark.parametrize(("name", "argument"), list(_cases()))
+def test_misuse(name: str, argument: str) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ComplexWarning)
+        for word, value in WRONG.items():
+            try:
+                _misused(name, argument, value)
+            except Exception as error:
+                raise AssertionError(f"{name}({argument}={word}): {type(error).__name__}: {error}") from error
+
+
+def _open_parts(value: Any, place: str) -> Iterator[str]:
+    """What could be written to in a result."""
+    if isinstance(value, np.ndarray):
+        if value.flags.writeable:
+            yield place
+    elif isinstance(value, dict):
+        if type(value) is dict:
+            yield place
+        for key, each in value.items():
+            yield from _open_parts(each, f"{place}[{key}]")
+    elif isinstance(value, tuple):
+        for i, each in enumerate(value):
+            yield from _open_parts(each, f"{place}[{i}]")
+    elif dataclasses.is_dataclass(value):
+        for field in dataclasses.fields(value):
+            yield from _open_parts(getattr(value, field.name), f"{place}.{field.name}")
+
+
+@pytest.mark.parametrize("name", sorted(_calls()))
+def test_results_stay_as_they_are_and_can_be_pickled(name: str) -> None:
+    function, call = _calls()[name]
+    result = function(**call)
+    assert type(pickle.loads(pickle.dumps(result))) is type(result)
+    copy.deepcopy(result)
+    if dataclasses.is_dataclass(result):
+        assert not list(_open_parts(result, name))
+
+
+@pytest.mark.parametrize("name", ["roller_cam", "roller_two_carts", "v8_diesel", "topper_crank"])
+def test_machines_stay_as_they_are_and_can_be_pickled(name: str) -> None:
+    machine = _machine(name)
+    assert pickle.loads(pickle.dumps(machine)) == machine == copy.deepcopy(machine)
+    for table in (machine.bodies, machine.loads, machine.mechanism.cranks):
+        with pytest.raises(TypeError, match="do not change"):
+            table.clear()
+
+
+def test_a_study_of_a_cam_can_be_pickled() -> None:
+    study = lw.study(_machine("roller_cam"))
+    again = pickle.loads(pickle.dumps(study))
+    assert again.to_dict() == study.to_dict()
