@@ -132,7 +132,9 @@ fn curves_solve_the_equation_of_motion_for_any_steepness() {
             Ok(found) => {
                 let worst = violation(&built, &found);
                 assert!(worst <= 1.0, "drive {i}, steepness {steepness:.1e}: {worst:.2e} of what is allowed");
-                assert!(found.reached < AGREES, "drive {i}: {:e} reached", found.reached);
+                // A rounding of 1e-16 of u shows in the acceleration as many times as large as it is steep.
+                let reached = found.reached;
+                assert!(reached < AGREES.max(1e-11 * steepness), "drive {i}: {reached:e} reached");
             }
             Err(failure) => {
                 assert_eq!(failure.status, Status::NoSteadyMotion, "drive {i}: {failure:?}");
