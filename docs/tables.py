@@ -16,13 +16,16 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from linkwright import machine
+from linkwright.limits import ALL, grouped
 from linkwright.machine.schema_walk import mark_of, model_of, words_of
 from linkwright.units import COUNT, KINDS, Quantity, QuantityList, size_words
 
-PAGES = tuple(Path(__file__).with_name(name) for name in ("file_format.md", "units.md"))
+PAGES = tuple(Path(__file__).with_name(name) for name in ("file_format.md", "units.md", "limits.md"))
 
 _RANGES = re.compile(r"(<!-- ranges -->\n).*?(<!-- end -->)", re.DOTALL)
 _BLOCK = re.compile(r"(<!-- keys: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
+
+_LIMITS = re.compile(r"(<!-- limits -->\n).*?(<!-- end -->)", re.DOTALL)
 
 _HEAD = "| key | is | unit | if left out | meaning |\n| --- | --- | --- | --- | --- |\n"
 
@@ -30,7 +33,14 @@ _HEAD = "| key | is | unit | if left out | meaning |\n| --- | --- | --- | --- | 
 def written(text: str) -> str:
     """The page with all its tables made anew."""
     text = _RANGES.sub(lambda block: block[1] + ranges() + block[2], text)
+    text = _LIMITS.sub(lambda block: block[1] + limits() + block[2], text)
     return _BLOCK.sub(lambda block: block[1] + table(getattr(machine, block[2])) + block[3], text)
+
+
+def limits() -> str:
+    """How much of everything there may be."""
+    rows = "".join(f"| {grouped(each.most)} | {each.of} | {each.reason} |\n" for each in ALL)
+    return f"| at most | of | since |\n| ---: | --- | --- |\n{rows}"
 
 
 def ranges() -> str:

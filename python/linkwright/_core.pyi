@@ -13,9 +13,9 @@ __all__ = [
     "TopperKnife",
     "TorsionSystem",
     "cam_crossings",
-    "change_point",
     "follow_group",
     "gaps",
+    "in_line",
     "kinks",
     "law_torques",
     "motions",
@@ -74,8 +74,15 @@ def motions(
 def third(plan: Plan, q: _Floats, phi: _Floats, what: _Ints) -> _Floats:
     """Third transfer functions at the angles `phi`: two rows for a point, one for a link or slide."""
 
-def change_point(plan: Plan, q: _Floats, element: int, near: float) -> tuple[float, list[float]] | None:
-    """Angle and series of S/δ at the change point of a dyad RRR near an angle; None if there is none."""
+def in_line(
+    plan: Plan, q: _Floats, slots: _Ints, values: _Floats, element: int
+) -> list[tuple[int, float, float, list[float], list[float], tuple[bool, bool]]]:
+    """Where the links of a dyad come into line over the turn, in each row.
+
+    Row, crank angle, length to spare, numbers of the change point (none where it is undecided) and of its
+    arms (none unless the pin passes near its pivot), and whether the arm with S > 0, S < 0 after it has no
+    digits left.
+    """
 
 def follow_group(
     plan: Plan, q: _Floats, element: int, phi: float, near: _Floats

@@ -27,6 +27,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import ClassVar
 
+from linkwright.limits import MESSAGE_LINE, PROBLEMS, Limit, grouped
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:
@@ -64,8 +66,33 @@ class Problem:
     def __str__(self) -> str:
         """A block of up to four lines."""
         rows = (("found", self.found), ("expected", self.expected), ("remedy", self.remedy))
-        body = [f"  {name + ':':<10}{text}" for name, text in rows if text]
-        return "\n".join([self.place, *body] if self.place else body)
+        body = [f"  {name + ':':<10}{_cut(text)}" for name, text in rows if text]
+        return "\n".join([_cut(self.place), *body] if self.place else body)
+
+
+def plain(text: str) -> str:
+    """A text in which what would steer a terminal is written as an escape.
+
+    Parameters
+    ----------
+    text : str
+        Such as a message with words of a file in it.
+
+    Returns
+    -------
+    str
+        The same but for control characters, and those that turn the direction of writing.
+    """
+    if text.isprintable():
+        return text
+    return "".join(each if each.isprintable() or each == "\n" else ascii(each)[1:-1] for each in text)
+
+
+def _cut(text: str) -> str:
+    """A text that fits into some lines of a terminal, and does not steer it."""
+    text = plain(text)
+    most = MESSAGE_LINE.most
+    return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
 class LinkwrightError(Exception):
@@ -78,6 +105,31 @@ class InputError(LinkwrightError):
     """What was given is wrong; nothing was computed."""
 
     exit_code: ClassVar[int] = 2
+
+
+def require_within(limit: Limit, number: float, what: str, remedy: str) -> None:
+    """Refuse a count beyond its limit, before memory or time are spent on it.
+
+    Parameters
+    ----------
+    limit : Limit
+        The limit.
+    number : float
+        What there would be.
+    what : str
+        Option or key that asks for it.
+    remedy : str
+        What to change.
+
+    Raises
+    ------
+    InputError
+        It is beyond.
+    """
+    if not number <= limit.most:
+        # Beyond 1e15 the digits say nothing.
+        shown = grouped(round(number)) if number < 1e15 else f"{number:.3g}"
+        raise InputError(f"{what}: found {shown}, expected {limit.words}; {remedy}")
 
 
 class FindingError(LinkwrightError):
@@ -129,8 +181,12 @@ class MachineError(InputError):
         super().__init__(self.problems)
 
     def __str__(self) -> str:
-        """All problems, one block each."""
-        return "\n\n".join(str(problem) for problem in self.problems)
+        """A block for each problem, as many as fit on a screen; and how many more there are."""
+        blocks = [str(problem) for problem in self.problems[: PROBLEMS.most]]
+        more = len(self.problems) - len(blocks)
+        if more:
+            blocks.append(f"… and {grouped(more)} more problem{'s' if more > 1 else ''}")
+        return "\n\n".join(blocks)
 
 
 class MachineFileError(MachineError):

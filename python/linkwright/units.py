@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from linkwright.errors import Problem, UnitError
+from linkwright.errors import Problem, UnitError, plain
 
 if TYPE_CHECKING:
     import pint
@@ -303,6 +303,8 @@ _DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+\s*[^\d\s,]*")
 _UNIT = re.compile(r"[A-Za-z_%0-9^/() .-]{1,60}")
 # "N/m s": is the second inside the denominator? Readers, and programs, disagree.
 _TWO_READINGS = re.compile(r"/\s*[^\s/()]+\s+[^\s/]")
+# A power belongs to a unit and is a digit or two, once: pint would work out 9^9^9, and with it a day.
+_POWERS = re.compile(r"(?:[^^]|[A-Za-z_%)] ?\^ ?\(?-?\d{1,2}\)?(?![\d^.(]))*")
 _BARE_POWER = re.compile(r"[A-Za-z]\d")
 # Scales of temperature with a zero of their own.
 _OTHER_ZERO = re.compile(r"(deg ?)?[CF]|celsius|fahrenheit|degree_[a-z]+", re.IGNORECASE)
@@ -312,6 +314,9 @@ _ZEROS = re.compile(r"e\+?(-?)0*")
 
 # A value is shown on one line of a terminal, together with a few words.
 _SHOWN = 80
+
+# Longer whole numbers are told by their length.
+_WHOLE_BITS = 256
 
 _MULTIPLY = str.maketrans({"·": " ", "⋅": " ", "∙": " ", "*": " ", "µ": "u", "μ": "u", "°": "deg", "−": "-"})
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
@@ -513,7 +518,7 @@ def _fits(dimension: Dimension, kind: Kind) -> bool:
 @cache
 def _from_pint(text: str) -> tuple[float, Dimension] | None:
     """Factor and dimension of a less common unit; None if pint does not know it either."""
-    if not _UNIT.fullmatch(text) or _TWO_READINGS.search(text):
+    if not _UNIT.fullmatch(text) or _TWO_READINGS.search(text) or not _POWERS.fullmatch(text):
         return None
     registry = _registry()
     try:
@@ -543,12 +548,16 @@ def _registry() -> pint.UnitRegistry[Any]:
 def _unknown_unit(unit: str, text: str) -> str:
     """What to change in a unit that nobody knows."""
     if _OTHER_ZERO.fullmatch(text):
-        return f'"{unit}" does not count from absolute zero: write kelvins, 273.15 more than degrees Celsius'
+        return (
+            f"{show(unit)} does not count from absolute zero: write kelvins, 273.15 more than degrees Celsius"
+        )
     if _TWO_READINGS.search(text):
-        return f'"{unit}" can be read in two ways: put one "/" last, or use parentheses, as in N/(m s)'
+        return f'{show(unit)} can be read in two ways: put one "/" last, or use parentheses, as in N/(m s)'
+    if not _POWERS.fullmatch(text):
+        return f"{show(unit)}: a power is one whole number after a unit, as in m^2"
     if _BARE_POWER.search(text):
-        return f'"{unit}" is not a unit: write powers as m^2 or m²'
-    return f'"{unit}" is not a known unit'
+        return f"{show(unit)} is not a unit: write powers as m^2 or m²"
+    return f"{show(unit)} is not a known unit"
 
 
 def _other_quantity(unit: str, dimension: Dimension, kind: Kind) -> str:
@@ -601,8 +610,13 @@ def show(value: object) -> str:
     """Write a value as the user may have written it, shortened to fit in a line."""
     if isinstance(value, list | tuple | dict):
         return "a table" if isinstance(value, dict) else "a list"
-    text = f'"{value}"' if isinstance(value, str) else str(value)
+    if isinstance(value, int) and value.bit_length() > _WHOLE_BITS:
+        # Python refuses to write numbers of thousands of digits.
+        return f"a whole number of about {int(value.bit_length() * math.log10(2)) + 1} digits"
+    # What lies beyond the part that is shown costs nothing.
+    text = f'"{value[: 4 * _SHOWN]}"' if isinstance(value, str) else str(value)
     text = " ".join(text.lower().split() if isinstance(value, bool) else text.split())
+    text = plain(text)
     return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."
 
 

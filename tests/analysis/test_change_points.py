@@ -59,13 +59,6 @@ def test_masses_may_vary_where_lengths_do_not() -> None:
     np.testing.assert_allclose(both, [alone, alone], atol=1e-15)
 
 
-@pytest.mark.parametrize("lengths", [(0.1, 0.3, 0.3, 0.1), (0.1, 0.1, 0.1, 0.1)])
-def test_a_pin_over_its_pivot_is_told(lengths: tuple[float, ...]) -> None:
-    """The direction from pin to pivot is lost, and with it the motion."""
-    with pytest.raises(AssemblyError, match="R"):
-        lw.reduction(four_bar(*lengths))
-
-
 @pytest.mark.parametrize(
     ("law", "words"),
     [

@@ -25,8 +25,8 @@ def fault(path: Path) -> MachineFileError:
 
 
 def message(path: Path) -> str:
-    """The message of a broken file."""
-    return f"{fault(path)}\n"
+    """The message of a broken file, with all problems."""
+    return "\n\n".join(map(str, fault(path).problems)) + "\n"
 
 
 @pytest.mark.parametrize("path", BROKEN, ids=lambda path: path.stem)

@@ -32,7 +32,7 @@ def test_through_a_file(tmp_path: Path) -> None:
 def test_every_float_survives(phase: float, ratio: float, name: str) -> None:
     changes = {"mechanism.cranks.A2.phase": phase, "drive.gearbox.ratio": ratio, "name": name}
     machine = replace(read(TWO_CARTS), changes)
-    if "\x00" not in name and all(math.isfinite(each) for each in (phase, ratio)):
+    if name.isprintable() and all(math.isfinite(each) for each in (phase, ratio)):
         assert loads(dumps(machine)) == machine
 
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from rich.table import Table
 
-from linkwright.cli.console import console, plain, styled
+from linkwright.cli.console import console, styled
+from linkwright.errors import plain
 
 PACKAGE = Path(__file__).parents[2] / "python" / "linkwright"
 

@@ -9,6 +9,7 @@ use crate::cycle::{Machine, Turn};
 use crate::jet::Jet;
 use crate::lanes::{Job, in_lanes};
 use crate::linkage::Motion;
+use crate::linkage::in_line::{InLine, in_line};
 use crate::measures::{Extremes, Totals};
 use crate::plan::Plan;
 use crate::plane::Angle;
@@ -226,6 +227,19 @@ fn retry(
         }
     }
     sweeps
+}
+
+/// Where the links of a dyad come into line in each row: rows with nothing of the kind are left out.
+pub fn rows_in_line(plan: &Plan, rows: &Rows<'_>, element: usize) -> Vec<(usize, InLine)> {
+    let of_row = |row: usize| {
+        let found = in_line(&plan.mechanism, element, &rows.row(row));
+        found.into_iter().map(move |at| (row, at)).collect::<Vec<_>>()
+    };
+    if rows.n == 1 {
+        // Waking threads would take longer than doing it.
+        return of_row(0);
+    }
+    in_threads(|crew| (0..rows.n).into_par_iter().flat_map_iter(|row| crew.task(|| of_row(row))).collect())
 }
 
 /// What is asked of a motion at every angle.

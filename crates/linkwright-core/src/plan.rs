@@ -8,6 +8,7 @@ use crate::error::PlanError;
 use crate::formula::{Degree, Formula, Op, Variable};
 use crate::further::Further;
 use crate::law::{Carrier, FormulaLoad, Law};
+use crate::linkage::arm::{self, Arm};
 use crate::linkage::coupled::{self, AngleOf, Programme, Runner, Source, Sum, Turn};
 use crate::linkage::folding::{ChangePoint, Folding, FoldingRod, TERMS};
 use crate::linkage::group::{Bar, Carried, Condition, Group};
@@ -19,7 +20,7 @@ use crate::table::Table;
 
 /// Number of the language in which machines, cams and trains cross the border: kinds of rows, order of lists and of
 /// results. It goes up with every change of these, here and in `linkwright.engine.core_format`.
-pub const FORMAT: u32 = 7;
+pub const FORMAT: u32 = 8;
 
 /// What a machine consists of.
 #[derive(Clone, Debug)]
@@ -352,7 +353,7 @@ impl<'a> Row<'a> {
         })
     }
 
-    /// `cos sin half_cos half_sin reach`, then the coefficients of the series
+    /// `cos sin half_cos half_sin reach`, then the coefficients of the series, and a list of none or one pair of arms
     fn change_point(&mut self) -> Result<ChangePoint, PlanError> {
         Ok(ChangePoint {
             cos: self.slot()?,
@@ -360,8 +361,23 @@ impl<'a> Row<'a> {
             half_cos: self.slot()?,
             half_sin: self.slot()?,
             reach: self.slot()?,
-            series: (0..TERMS).map(|_| self.slot()).collect::<Result<_, _>>()?,
+            series: self.slots(TERMS)?,
+            arms: self.list(|row| Ok([row.arm()?, row.arm()?]))?,
         })
+    }
+
+    /// `1/width reach`, then the coefficients of x and of y
+    fn arm(&mut self) -> Result<Arm, PlanError> {
+        Ok(Arm {
+            inverse_width: self.slot()?,
+            reach: self.slot()?,
+            x: self.slots(arm::TERMS)?,
+            y: self.slots(arm::TERMS)?,
+        })
+    }
+
+    fn slots(&mut self, n: usize) -> Result<Vec<Slot>, PlanError> {
+        (0..n).map(|_| self.slot()).collect()
     }
 
     /// `link from to 1/length`

@@ -17,6 +17,7 @@ use guard::{filled, guarded, keep_panics, zeros};
 use linkwright_core::batch::{self, QUANTITIES, Rows};
 use linkwright_core::kinks as core_kinks;
 use linkwright_core::lanes::in_lanes;
+use linkwright_core::linkage::in_line::InLine as CoreInLine;
 use linkwright_core::linkage::trace;
 use linkwright_core::plan::{Encoded, Plan as CorePlan};
 use linkwright_core::steady::{ReadCurves, steady};
@@ -25,6 +26,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArra
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+type InLine = (usize, f64, f64, Vec<f64>, Vec<f64>, (bool, bool));
 type Ints<'py> = PyReadonlyArray1<'py, i32>;
 type Floats<'py> = PyReadonlyArray1<'py, f64>;
 
@@ -202,18 +204,21 @@ fn third<'py>(
 }
 
 #[pyfunction]
-fn change_point(
+fn in_line(
     py: Python<'_>,
     plan: &Plan,
     q: Floats<'_>,
+    slots: Ints<'_>,
+    values: PyReadonlyArray2<'_, f64>,
     element: usize,
-    near: f64,
-) -> PyResult<Option<(f64, Vec<f64>)>> {
-    let q = plan.parameters(&q)?;
+) -> PyResult<Vec<InLine>> {
+    let n = values.as_array().ncols();
+    let slots = as_indices(slots.as_slice()?, plan.0.n_parameters)?;
+    let rows = Rows { base: plan.parameters(&q)?, slots: &slots, values: values.as_slice()?, n };
     below(element, plan.0.mechanism.elements.len())?;
-    let mechanism = &plan.0.mechanism;
-    let found = guarded(py, "change points", || trace::change_point(mechanism, element, q, near))?;
-    Ok(found.map(|(phi, series)| (phi, series.to_vec())))
+    let found = guarded(py, "change points", || batch::rows_in_line(&plan.0, &rows, element))?;
+    let tuple = |(row, at): (usize, CoreInLine)| (row, at.phi, at.spare, at.series, at.arms, at.lost.into());
+    Ok(found.into_iter().map(tuple).collect())
 }
 
 #[pyfunction]
@@ -325,7 +330,7 @@ mod _core {
     use super::torsion_transient::TorsionSystem;
     #[pymodule_export]
     use super::{
-        Plan, change_point, follow_group, gaps, kinks, law_torques, motions, motor_torques, reductions,
+        Plan, follow_group, gaps, in_line, kinks, law_torques, motions, motor_torques, reductions,
         steady_rows, steady_state, third, transient,
     };
 }

@@ -17,6 +17,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.analysis.dyads import dyads_of
 from linkwright.analysis.obstacle import change_point, describe
 from linkwright.analysis.period import turns_to_repeat
 from linkwright.analysis.roots import minima, zeros
@@ -54,6 +55,9 @@ _SAME = 1e-7
 
 # Doublings of the turns looked at in a motion that never repeats: some 8000 turns either way.
 _DOUBLINGS = 13
+
+# Kind of the rows of slotted levers (`crates/linkwright-core/src/plan.rs`).
+_LEVER = 6
 
 # Number of a link among what the core can give the motion of.
 _LINK = 1
@@ -113,20 +117,19 @@ def closure(machine: Machine) -> Closure:
 def closure_of(compiled: Compiled) -> Closure:
     """`closure` of a compiled machine."""
     turns = turns_to_repeat(compiled)
-    limiting = limiting_dyads(compiled)
     if turns is None:
-        return _endless(compiled, limiting)
+        return _endless(compiled)
     full = Closure(((0.0, 2 * np.pi * turns),), "", turns=turns)
-    if not limiting:
+    if not compiled.dyads:
         return full
-    gaps = compiled.gaps(_over(turns, _FEW))[limiting]
+    gaps = compiled.gaps(_over(turns, _FEW))
     flat = np.flatnonzero((gaps == 0).all(axis=1))
     if len(flat):
         # Guides that are always parallel never meet.
-        return Closure((), compiled.dyads[limiting[int(flat[0])]], turns=turns)
+        return Closure((), compiled.dyads[int(flat[0])], turns=turns)
     if (gaps.min(axis=1) > _AMPLE * gaps.max(axis=1)).all():
         return full
-    return _Search(compiled, limiting, turns).run() or full
+    return _Search(compiled, turns).run() or full
 
 
 def _over(turns: int, per_turn: int) -> Floats:
@@ -136,24 +139,19 @@ def _over(turns: int, per_turn: int) -> Floats:
     return np.linspace(0.0, 2 * np.pi * turns, per_turn * turns + 1)
 
 
-def limiting_dyads(compiled: Compiled) -> list[int]:
-    """Indices of the dyads that may fail to close; those that pass their change points always close."""
-    return [nth for nth, name in enumerate(compiled.dyads) if name not in compiled.passing]
-
-
 def limiter_at(compiled: Compiled, angle: float) -> str:
     """Name of the dyad that limits the motion at an end of a range."""
-    return _Search(compiled, limiting_dyads(compiled), 1).limiter(angle)
+    return _Search(compiled, 1).limiter(angle)
 
 
 class _Search:
     """The angles of a fine look over the period, with those added where something happens between them."""
 
-    def __init__(self, compiled: Compiled, limiting: list[int], turns: int) -> None:
-        self.compiled, self.limiting, self.turns = compiled, limiting, turns
+    def __init__(self, compiled: Compiled, turns: int) -> None:
+        self.compiled, self.turns = compiled, turns
         self.period = 2 * np.pi * turns
         self.angles: Floats = _over(turns, _ANGLES)[:-1].copy()
-        gaps = compiled.gaps(self.angles)[limiting]
+        gaps = compiled.gaps(self.angles)
         # A dyad that closes nowhere is measured by how far it is from closing.
         known = np.abs(gaps) if not (gaps > 0).any() else gaps
         self.sizes: Floats = np.nan_to_num(known).max(axis=1, keepdims=True)
@@ -167,12 +165,12 @@ class _Search:
 
     def spare(self, angles: Floats) -> Floats:
         """Least radicand of all dyads as a share of its greatest, at crank angles."""
-        return self._least(self.compiled.gaps(angles)[self.limiting])
+        return self._least(self.compiled.gaps(angles))
 
     def limiter(self, angle: float) -> str:
         """Name of the dyad with the least radicand at an angle."""
-        gaps = self.compiled.gaps(np.array([angle]))[self.limiting] / self.sizes
-        return self.compiled.dyads[self.limiting[int(np.nanargmin(gaps[:, 0]))]]
+        gaps = self.compiled.gaps(np.array([angle])) / self.sizes
+        return self.compiled.dyads[int(np.nanargmin(gaps[:, 0]))]
 
     def run(self) -> Closure | None:
         """The closure; None if it closes all round."""
@@ -203,8 +201,19 @@ class _Search:
         order = np.argsort(angles := np.concatenate([self.angles, at[missed] % self.period]))
         room = np.concatenate([self.room, sign * least[missed]])
         self.angles, self.room = angles[order], room[order]
-        touching = [float(x) for x in at[np.abs(least) <= _ZERO] if not _passes(self.compiled, float(x))]
+        touches = at[np.abs(least) <= _ZERO]
+        touching = [
+            float(x) for x in touches if not (self._is_known(float(x)) or _passes(self.compiled, float(x)))
+        ]
         return touching[0] % self.period if touching else None
+
+    def _is_known(self, at: float) -> bool:
+        """Whether the dyad that touches zero passes a change point there."""
+        near, turn = self.limiter(at), 2 * np.pi
+        known = (
+            point for dyad in dyads_of(self.compiled) if dyad.name == near for point in dyad.change_points
+        )
+        return any(abs((at - point + np.pi) % turn - np.pi) < _BESIDE for point in known)
 
     def _touched(self, at: float) -> Closure:
         """A dyad is stretched or folded: the positions alone do not tell the rates of its links there."""
@@ -212,9 +221,9 @@ class _Search:
 
     def _element(self, closes: NDArray[np.bool_]) -> str:
         """The first dyad in build order that does not close somewhere."""
-        gaps = self.compiled.gaps(self.angles[~closes])[self.limiting]
+        gaps = self.compiled.gaps(self.angles[~closes])
         fails = (gaps < -_ZERO * self.sizes).any(axis=1)
-        return self.compiled.dyads[self.limiting[int(np.argmax(fails))]]
+        return self.compiled.dyads[int(np.argmax(fails))]
 
     def _ranges(self, closes: NDArray[np.bool_]) -> Iterator[tuple[float, float]]:
         starts = np.flatnonzero(closes & ~np.roll(closes, 1))
@@ -238,19 +247,19 @@ class _Search:
         return np.where(self.spare(inside) > 0, edges, inside)
 
 
-def _endless(compiled: Compiled, limiting: list[int]) -> Closure:
+def _endless(compiled: Compiled) -> Closure:
     """A motion that never repeats: from where it is at angle zero as far as it goes, both ways."""
     reach, found = 2 * np.pi, Closure(((0.0, 2 * np.pi),), "", turns=None)
-    for _ in range(_DOUBLINGS if limiting else 0):
+    for _ in range(_DOUBLINGS if compiled.dyads else 0):
         angles = np.linspace(-reach, reach, 2 * _ANGLES + 1)
-        gaps = compiled.gaps(angles)[limiting]
+        gaps = compiled.gaps(angles)
         closes = _closing(gaps)
         sizes = np.nan_to_num(np.abs(gaps)).max(axis=1, keepdims=True)
         worst = np.nan_to_num(gaps / np.maximum(sizes, 1e-300), nan=-1.0).min(axis=1)
-        element = compiled.dyads[limiting[int(np.argmin(worst))]]
+        element = compiled.dyads[int(np.argmin(worst))]
         if not closes[_ANGLES]:
             return Closure((), element, turns=None)
-        ends = [_first_end(compiled, limiting, angles[_ANGLES::way], closes[_ANGLES::way]) for way in (-1, 1)]
+        ends = [_first_end(compiled, angles[_ANGLES::way], closes[_ANGLES::way]) for way in (-1, 1)]
         if ends != [None, None]:
             low = -reach if ends[0] is None else ends[0]
             high = reach if ends[1] is None else ends[1]
@@ -261,13 +270,13 @@ def _endless(compiled: Compiled, limiting: list[int]) -> Closure:
     return found
 
 
-def _first_end(compiled: Compiled, limiting: list[int], angles: Floats, closes: Flags) -> float | None:
+def _first_end(compiled: Compiled, angles: Floats, closes: Flags) -> float | None:
     """Where a motion that starts at the first angle ends; None if it goes on to the last."""
     if closes.all():
         return None
 
     def least(at: Floats) -> Floats:
-        found: Floats = np.fmin.reduce(compiled.gaps(at)[limiting], axis=0)
+        found: Floats = np.fmin.reduce(compiled.gaps(at), axis=0)
         return found
 
     first = int(np.argmin(closes))
@@ -282,10 +291,10 @@ def _closing(gaps: Floats) -> Flags:
 
 
 def _passes(compiled: Compiled, at: float) -> bool:
-    """Whether the links go on through a change point: directions and rates agree before, at and after it.
+    """Whether the links go on where one touches zero: directions and rates agree before, at and after it.
 
-    Where the core does not carry a dyad on, its joint stays on its side and the rates jump; a lever whose pin
-    passes over its pivot turns about at once.
+    A group is not carried on through a change point, and its rates jump; a lever whose pin passes over its
+    pivot turns about at once.
     """
     angles = at + np.array([-_BESIDE, 0.0, _BESIDE])
     out = np.empty((1, 4 * len(compiled.links), 3))
@@ -336,27 +345,45 @@ def _feels_one_turn(compiled: Compiled) -> bool:
 
 
 def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None:
-    """Raise if the mechanism does not close at one of some crank angles.
+    """Raise if the mechanism does not close at one of some crank angles, or is not determined between them.
 
     Raises
     ------
     AssemblyError
-        Says which element does not close, where the mechanism closes, and what to change.
+        Says which element does not close, where the mechanism closes, and what to change; or which change
+        point lies at one of the angles or between them, where the motion does not go on by itself.
     """
-    limiting = limiting_dyads(compiled)
-    if not limiting:
+    if not compiled.dyads:
         return
-    gaps = compiled.gaps(angles)[limiting]
+    gaps = compiled.gaps(angles)
     closes = (gaps >= 0).all(axis=0)
-    if closes.all():
+    if closes.all() and not has_levers(compiled):
         return
     at = float(angles[int(np.argmin(closes))])
     found = closure_of(compiled)
+    if closes.all():
+        if _meets_change_point(found, angles):
+            raise closure_error(found, machine)
+        return
     if found.turns_fully:
         # Less than nothing by rounding alone.
         return
     text = f"at crank angle {_deg(at)}° {_sentence(found, machine)}"
     raise AssemblyError(text, element=found.element, crank_angle=at)
+
+
+def has_levers(compiled: Compiled) -> bool:
+    """Whether there is a dyad that is not carried on through a change point: levers turn about there."""
+    return any(row[0] == _LEVER for row in compiled.rows)
+
+
+def _meets_change_point(found: Closure, angles: Floats) -> bool:
+    """Whether a change point where the motion does not go on lies at one of the angles, or between them."""
+    if found.change_point is None or found.turns is None:
+        return False
+    turns = (angles - found.change_point) / (2 * np.pi * found.turns)
+    near = np.abs(turns - np.round(turns)) * 2 * np.pi * found.turns < _BESIDE
+    return bool(near.any() or np.ptp(np.floor(turns)) > 0)
 
 
 def closure_error(found: Closure, machine: Machine) -> AssemblyError:

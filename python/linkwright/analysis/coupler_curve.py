@@ -225,7 +225,7 @@ class _Path:
             table = self.at(angles)
             off = table[:2, 0] - table[:2, 1]
             jacobian = np.array([table[2:4, 0], -table[2:4, 1]]).T
-            if abs(np.linalg.det(jacobian)) <= 1e-14 * size**2 or not np.isfinite(table).all():
+            if not np.isfinite(table).all() or abs(np.linalg.det(jacobian)) <= 1e-14 * size**2:
                 return None
             step = np.linalg.solve(jacobian, -off)
             angles = angles + np.clip(step, -0.1, 0.1)

@@ -44,6 +44,10 @@ _DYADS: dict[int, tuple[str, int]] = {
     15: ("RRP", 4),
 }
 _ROD = 2
+
+# Place of its reach among the numbers of a change point.
+_REACH = 4
+
 _GUIDED_RODS = (5, 15)
 
 
@@ -85,7 +89,9 @@ def _change_points(compiled: Compiled, row: tuple[int, ...], at: int) -> tuple[f
     number, slots = row[at], row[at + 1 :]
     width = len(slots) // number
     q = compiled.parameters
-    angles = [np.arctan2(q[slots[k * width + 1]], q[slots[k * width]]) for k in range(number)]
+    # One that only other machines of a batch have is out of reach.
+    present = [k * width for k in range(number) if q[slots[k * width + _REACH]] > 0]
+    angles = [np.arctan2(q[slots[k + 1]], q[slots[k]]) for k in present]
     return tuple(sorted(float(angle) % (2 * np.pi) for angle in angles))
 
 
@@ -128,14 +134,17 @@ def transmission(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> tuple[F
     mu : ndarray, shape (n,)
         0 to π [rad].
     slope : ndarray, shape (n,)
-        ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot.
+        ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of the crank.
     """
     if dyad.kind == "RPR":
         offset = compiled.parameters[dyad.row[6]]
         return np.arctan2(np.abs(found[0][0]), offset), found[0][1] * float(offset != 0)
     (e, e1), (f, f1) = _directions(compiled, dyad, list(found))
     cross, dot = e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]
-    return np.arctan2(np.abs(cross), dot), np.broadcast_to(f1 - e1, cross.shape)
+    # At a limit of the crank both rates are infinite, and their difference is no number.
+    with np.errstate(invalid="ignore"):
+        slope = np.broadcast_to(f1 - e1, cross.shape)
+    return np.arctan2(np.abs(cross), dot), slope
 
 
 def _directions(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> list[tuple[Floats, Floats]]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.analysis.closure import require_closed
+from linkwright.analysis.closure import has_levers, require_closed
 from linkwright.engine import Compiled, compile_machine
 from linkwright.errors import MachineError, Problem, ShapeError
 from linkwright.machine import Machine
@@ -126,7 +126,7 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool
     Raises
     ------
     AssemblyError
-        The mechanism does not close at one of the angles.
+        The mechanism does not close at one of the angles, or its motion is not determined between them.
     ShapeError
         Third derivatives of many machines at once.
 
@@ -138,7 +138,7 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool
     phi = np.linspace(0, 2 * np.pi, 361) if angles is None else checked_angles(angles)
     what = everything(compiled)
     out = motion_arrays(compiled, phi, what)
-    if np.isnan(out).any():
+    if np.isnan(out).any() or has_levers(compiled):
         require_closed(compiled, machine, phi)
     single = compiled.n_rows == 1 and not len(compiled.slots)
     found = _collect(phi, out[0] if single else out, what)

@@ -26,7 +26,8 @@ from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.analysis.sound_loads import require_same_turns
 from linkwright.engine import compile_machine
-from linkwright.errors import InputError, StartError, SteadyStateError
+from linkwright.errors import InputError, StartError, SteadyStateError, require_within
+from linkwright.limits import STEPS
 from linkwright.machine import Machine
 from linkwright.public import public
 from linkwright.units import ANGLE, positive
@@ -142,7 +143,9 @@ def whole_steps(step: float) -> int:
         The step does not divide the turn.
     """
     in_range(step=(step, positive(ANGLE)))
-    n = round(2 * np.pi / step) if step < np.pi else 0
+    n = 2 * np.pi / step if step < np.pi else 0
+    require_within(STEPS, n, f"step of {np.degrees(step):.3g}°", "take a longer step; 1° is usual")
+    n = round(n)
     if n == 0 or abs(n * step - 2 * np.pi) > 1e-6:
         raise InputError(f"a step of {np.degrees(step):g}° does not divide the turn; 1° is usual")
     return n

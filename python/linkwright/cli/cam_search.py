@@ -9,7 +9,8 @@ import typer
 
 from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.console import console
-from linkwright.errors import InputError
+from linkwright.errors import InputError, require_within
+from linkwright.limits import CAM_VARIANTS, SHOWN
 
 if TYPE_CHECKING:
     import numpy as np
@@ -54,12 +55,6 @@ Count = Annotated[
     int, typer.Option("--count", metavar="N", help="How many of the smallest are shown.", min=1)
 ]
 
-# Cams that a search may have: a table of them still fits into the memory.
-_MOST = 50_000_000
-
-# Cams of a search that are looked at exactly, some milliseconds each, until enough of them keep their limits.
-_EXACT_MOST = 1000
-
 # Share by which a cam may pass a limit by rounding.
 _ROUNDING = 1e-12
 
@@ -86,6 +81,7 @@ def search(
     from linkwright.sweep.cams import search_cams
     from linkwright.units import ANGLE, LENGTH
 
+    require_within(SHOWN, count, "--count", "show fewer")
     machine = read(file, set or [], allow_outside=allow_outside)
     name, chosen = the_cam(machine, cam)
     steep, tight = chosen.limit, chosen.curvature_limit or 0.0
@@ -115,8 +111,7 @@ def _columns(wanted: list[str]) -> dict[str, NDArray[np.float64]]:
             "--vary: found nothing that varies, expected such as --vary base_radius=0.02:0.06:200"
         )
     total = int(np.prod([len(axis) for axis in axes.values()], dtype=float))
-    if total > _MOST:
-        raise InputError(f"--vary: found {total} combinations, expected {_MOST} at most")
+    require_within(CAM_VARIANTS, total, "--vary", "vary less, or more coarsely")
     grid = np.meshgrid(*axes.values(), indexing="ij")
     return {name: values.ravel() for name, values in zip(axes, grid, strict=True)}
 
@@ -138,7 +133,10 @@ def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
         remedy = "such as base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
         raise InputError(f'--vary {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
     low, high = (option_value(f"--vary {text}", part, kinds.get(name, LENGTH)) for part in parts[:2])
-    return name, np.linspace(low, high, int(parts[2]))
+    # A count of thousands of digits is no number for Python.
+    count = int(parts[2][:16])
+    require_within(CAM_VARIANTS, count, text, "take fewer values")
+    return name, np.linspace(low, high, count)
 
 
 def _smallest(
@@ -151,7 +149,7 @@ def _smallest(
 ) -> list[tuple[int, CamProfile]]:
     """The smallest cams that keep the limits exactly: between the angles of a search they may not."""
     best: list[tuple[int, CamProfile]] = []
-    for i in found.smallest(keeps, _EXACT_MOST):
+    for i in found.smallest(keeps, SHOWN.most):
         profile = _exact(machine, name, found, int(i))
         best += [(int(i), profile)] if is_kept(profile) else []
         if len(best) == count:
@@ -205,7 +203,7 @@ def _findings(keeps: NDArray[np.bool_], best: list[Any]) -> list[str]:
         return []
     if not keeps.any():
         return ["None keeps the limits: vary more, or allow more."]
-    looked = min(int(keeps.sum()), _EXACT_MOST)
+    looked = min(int(keeps.sum()), SHOWN.most)
     return [
         f"None of the {looked} smallest keeps the limits between the angles too: vary more, or allow more."
     ]

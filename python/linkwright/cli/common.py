@@ -18,9 +18,8 @@ from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
 
 import typer
 
-from linkwright.cli.console import plain
 from linkwright.cli.interrupt import EXIT_CODE
-from linkwright.errors import InputError, LinkwrightError, UnitError
+from linkwright.errors import InputError, LinkwrightError, UnitError, plain
 
 if TYPE_CHECKING:
     from linkwright.units import Kind

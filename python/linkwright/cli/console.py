@@ -56,22 +56,3 @@ def progress_bar(words: str, total: float) -> Progress:
     drawn.add_task(words, total=total)
     drawn.start()
     return drawn
-
-
-def plain(text: str) -> str:
-    """A text in which what would steer the terminal is written as an escape.
-
-    Parameters
-    ----------
-    text : str
-        Such as a message with words of a file in it.
-
-    Returns
-    -------
-    str
-        The same but for control characters, and those that turn the direction of writing.
-    """
-    return "".join(
-        letter if letter.isprintable() or letter == "\n" else letter.encode("unicode_escape").decode()
-        for letter in text
-    )

@@ -11,7 +11,8 @@ import typer
 from linkwright.cli.common import Json, Outside, Sets, option_value
 from linkwright.cli.crank_speed import CrankSpeed, crank_speed
 from linkwright.cli.out import Force, Out, put
-from linkwright.errors import InputError
+from linkwright.errors import InputError, require_within
+from linkwright.limits import ROWS_OUT
 
 if TYPE_CHECKING:
     from linkwright.analysis.law import Law
@@ -54,9 +55,6 @@ Steps = Annotated[int, typer.Option("--steps", metavar="N", help="Intervals of t
 Csv = Annotated[bool, typer.Option("--csv", help="CSV with all columns, in SI.")]
 File = Annotated[Path, typer.Argument(metavar="FILE", help="The machine file.", show_default=False)]
 
-# Steps beyond which a table is a mistake.
-_STEPS_MAX = 1_000_000
-
 
 def motion(
     file: File,
@@ -78,8 +76,9 @@ def motion(
     """
     from linkwright.files.read import read
 
-    if not 1 <= steps <= _STEPS_MAX:
-        raise InputError(f"--steps: found {steps}, expected a number from 1 to {_STEPS_MAX}")
+    if steps < 1:
+        raise InputError(f"--steps: found {steps}, expected 1 or more")
+    require_within(ROWS_OUT, steps, "--steps", "take fewer")
     if at is not None and law is not None:
         raise InputError("--at and --law: one pose or a motion, not both")
     if speed is not None and law is not None:
@@ -110,7 +109,9 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
     if csv:
         typer.echo(speed, err=True)
         heads = ("name", "quantity", "position", "velocity", "acceleration")
-        return csv_text(heads, ((name, what, *numbers) for name, what, numbers in rows))
+        # A transmission angle stands alone: rows are as long as the head all the same.
+        empty = (float("nan"),) * 2
+        return csv_text(heads, ((name, what, *(*numbers, *empty)[:3]) for name, what, numbers in rows))
     lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad, {speed}"]
     lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
     lines += [

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.check import summary
 from linkwright.cli.console import console, styled
+from linkwright.limits import SENTENCES, TABLE_ROWS, TABLES, grouped
 from linkwright.report.table import Table
 from linkwright.report.tables import tables
 
@@ -49,13 +50,21 @@ def print_tables(
     out = console()
     if head:
         out.print(head)
-    for nth, table in enumerate(tables):
+    for nth, table in enumerate(tables[: TABLES.most]):
         if head or nth:
             out.print()
         out.print(_drawn(table))
+        _print_more(len(table.rows) - TABLE_ROWS.most, "rows")
+    _print_more(len(tables) - TABLES.most, "tables")
     for part in _sentences(findings, warnings):
         out.print()
         out.print(part)
+
+
+def _print_more(count: int, words: str) -> None:
+    """How much is not shown."""
+    if count > 0:
+        console().print(f"… and {grouped(count)} more {words}; --json has all")
 
 
 def progress(words: str) -> AbstractContextManager[Any]:
@@ -89,12 +98,14 @@ def _drawn(table: Table) -> RenderableType:
         # A narrow terminal may break words and lists of them, never a number.
         listed = any(", " in row[n] for row in table.rows)
         drawn.add_column(fill(head, _HEAD), no_wrap=not listed)
-    for row in table.rows:
+    for row in table.rows[: TABLE_ROWS.most]:
         drawn.add_row(*row)
     return drawn
 
 
 def _sentences(findings: Sequence[str], warnings: Sequence[str]) -> Iterator[RenderableType]:
     for word, colour, texts in (("FINDING", "red", findings), ("WARNING", "yellow", warnings)):
-        for text in texts:
+        for text in texts[: SENTENCES.most]:
             yield styled((f"{word}  ", f"bold {colour}"), (text, colour))
+        if (more := len(texts) - SENTENCES.most) > 0:
+            yield styled((f"… and {grouped(more)} more of these; --json has all", colour))

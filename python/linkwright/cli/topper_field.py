@@ -9,7 +9,8 @@ import typer
 
 from linkwright.cli.common import File, Json, Outside, Sets, option_value
 from linkwright.cli.out import Force, out_option, output_folder, write_folder
-from linkwright.errors import InputError
+from linkwright.errors import InputError, require_within
+from linkwright.limits import FIELD_VARIANTS
 
 if TYPE_CHECKING:
     from linkwright.analysis.topper.field import TopperField
@@ -118,7 +119,10 @@ def _axis(text: str) -> tuple[str, Any]:
         remedy = "such as edge_length=0.1:0.3:21 for 21 values from 0.1 to 0.3 m"
         raise InputError(f'--over {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
     low, high = (option_value(f"--over {text}", part, ENTRIES[name]) for part in parts[:2])
-    return name, np.linspace(low, high, int(parts[2]))
+    # A count of thousands of digits is no number for Python.
+    count = int(parts[2][:16])
+    require_within(FIELD_VARIANTS, count, text, "take fewer values")
+    return name, np.linspace(low, high, count)
 
 
 def _object(

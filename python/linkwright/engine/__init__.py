@@ -79,8 +79,8 @@ class Compiled:
         Index of each point, link and slide by name.
     dyads : tuple of str
         Names of the elements that must close.
-    passing : frozenset of str
-        Those of them that pass change points, where their radicand touches zero and the motion goes on.
+    two_turns : ndarray of bool, shape (1,) or (n,)
+        Machines in which a dyad passes an odd number of change points, so that it repeats after two turns.
     one_turn : bool
         Whether all motions repeat after one turn of the crank by the kinds of the elements alone.
     speed_guess : float
@@ -105,7 +105,7 @@ class Compiled:
     links: dict[str, int]
     slides: dict[str, int]
     dyads: tuple[str, ...]
-    passing: frozenset[str]
+    two_turns: NDArray[np.bool_]
     one_turn: bool
     speed_guess: float
     gear_factors: tuple[float, float, float]
@@ -498,22 +498,23 @@ class _Translator(Rows):
 
     def result(self) -> Compiled:
         """Plan and parameters as arrays."""
-        parameters, slots, values = _columns(self.parameters, self.varying, _row_count(self.machine))
-        settled = Settled(self, parameters, self._plan, self.mechanism.assembled_at)
+        self.n_described = len(self.parameters)
+        columns = _columns(self.parameters, self.varying, _row_count(self.machine))
+        settled = Settled(self, columns, self._plan, self.mechanism.assembled_at)
         settled.run()
         parameters = settled.parameters
         ratio, forward, reverse, _, guess = (float(parameters[slot]) for slot in self.drive_row[5:10])
         return Compiled(
             plan=settled.plan,
             parameters=parameters,
-            slots=slots,
-            values=values,
+            slots=settled.slots,
+            values=np.ascontiguousarray(settled.values),
             points=self.points,
             links=self.links,
             slides=self.slides,
             dyads=tuple(self.dyads),
-            passing=frozenset(self.dyads[row[4]] for row in self.rows if row[0] in FOLDING),
-            one_turn=not any(_may_run_on(row) for row in self.rows),
+            two_turns=settled.odd,
+            one_turn=not (settled.odd.any() or any(row[0] in _RUNNING for row in self.rows)),
             speed_guess=guess,
             gear_factors=(ratio, forward, reverse),
             speed_tables=tuple(self.tables[row[1]] for row in self.load_rows if row[0] == 12),
@@ -540,12 +541,6 @@ class _Translator(Rows):
             _ints(self.formulas),
             np.array(self.motion_laws, dtype=np.float64),
         )
-
-
-def _may_run_on(row: list[int]) -> bool:
-    """Whether the motion of a row may need more than one turn: an odd number of change points takes two."""
-    count = FOLDING.get(row[0])
-    return row[0] in _RUNNING or (count is not None and row[count] % 2 == 1)
 
 
 def link_body(body: Body, length: Any) -> tuple[Any, Any, Any, Any]:

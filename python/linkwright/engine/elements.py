@@ -107,8 +107,9 @@ class Rows(Numbers):
         self.origin = -1
         self.fixed: dict[str, Any] = {}
         self.frame = -1
-        # How many of the numbers are the mechanism's own.
+        # How many of the numbers are the mechanism's own, and how many there are before anything is settled.
         self.n_own = 0
+        self.n_described = 0
         # Links that were placed before the group whose rows are being made.
         self.known: set[str] = set()
 

@@ -20,30 +20,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright import _core
+from linkwright.engine.change_points import InLine, encoded, folding_row, in_line, undecided
 from linkwright.engine.driver_law import require_smooth
 from linkwright.engine.elements import Continuous, Foldable, Pending, Rows, Side, Solved
 from linkwright.errors import AssemblyError
 
 Floats = NDArray[np.float64]
 
-# Angles of a look at a radicand or a link over the turn.
-_LOOK = 720
+# First row of all parameters, which of them vary, and their values over the rows.
+Columns = tuple[Floats, NDArray[np.int32], Floats]
 
-# A radicand above this share of its greatest at all those angles has no zero between them: a parabola that
-# touches zero is below a hundred-thousandth at the nearest.
-_NEAR_ZERO = 1e-3
+# Angles of a look at a link over the turn.
+_LOOK = 720
 
 # Largest swing of a link about its mean turning that leaves its angle unambiguous, in radians.
 _SWING_MAX = 1.98 * np.pi
 
-# Farthest from a change point that its series is used [rad]: there the direct root has lost some 1/δ² = 1e3
-# of its digits in its slope. Nearer, where its last terms would be more than this share of the first.
-_REACH = 0.03
-_LAST_TERM = 1e-15
-
-# Angles between two of the look, and the distance over the length of the links at which pin and pivot meet.
-_FINE = 401
-_MEETS = 1e-4
+# Crank angle at which the side of a rocker or a slider is given [rad]: just after zero, where it may have a
+# change point.
+_JUST_AFTER = 1e-7
 
 # A joint's place this near to the line of its bars, over their length, says nothing of its side.
 _IN_LINE = 1e-9
@@ -59,15 +54,17 @@ class Settled:
     """Rows, tables and numbers of a mechanism with everything pending filled in."""
 
     def __init__(
-        self, rows: Rows, parameters: Floats, plan: Callable[[], _core.Plan], assembled_at: float
+        self, rows: Rows, columns: Columns, plan: Callable[[], _core.Plan], assembled_at: float
     ) -> None:
         self.rows = rows
-        self.parameters = parameters
+        self.parameters, self.slots, self.values = columns
         self.make_plan = plan
         self.assembled_at = assembled_at
         self.plan = plan()
-        # Radicands over the turn, as long as nothing has changed since.
-        self.gaps: Floats | None = None
+        # Crank angle at which the side of a dyad is given, by the slot of its sign; others just after zero.
+        self.given_at: dict[int, float] = {}
+        # Machines in which a dyad passes an odd number of change points: their motion takes two turns.
+        self.odd = np.zeros(1, dtype=np.bool_)
 
     def run(self) -> None:
         """Settles all that is pending, in build order.
@@ -109,7 +106,7 @@ class Settled:
 
     def _changed(self, plan: _core.Plan) -> None:
         """Goes on with another plan."""
-        self.plan, self.gaps = plan, None
+        self.plan = plan
 
     def _motion(self, kind: int, index: int, angles: Floats) -> Floats:
         """Numbers of a point (6), link (4) or slide (3) at crank angles."""
@@ -147,7 +144,7 @@ class Settled:
                 crank_angle=self.assembled_at,
             )
         self.parameters[each.slot] = 1.0 if side > 0 else -1.0
-        self.gaps = None
+        self.given_at[each.slot] = self.assembled_at
 
     # -- continuous angles -------------------------------------------------------------------------------
 
@@ -175,67 +172,62 @@ class Settled:
         turns = np.round((near - psi[0]) / (2 * np.pi))
         self.parameters[each.winding] = winding
         self.parameters[each.centre] = 0.5 * (rest.min() + rest.max()) + 2 * np.pi * turns
-        self.gaps = None
 
     # -- change points -----------------------------------------------------------------------------------
 
     def _fold(self, each: Foldable) -> None:
-        """Finds the change points of a dyad, and gives its row their series."""
-        if any(slot < self.rows.n_own for slot in self.rows.varying):
-            # Rows of a batch have their change points elsewhere, and most have none.
-            return
-        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)[:-1]
-        if self.gaps is None:
-            self.gaps = _core.gaps(self.plan, self.parameters, angles)
-        gaps = self.gaps[each.gap]
-        size = np.abs(gaps).max()
-        if np.isnan(size):
-            size = np.nanmax(np.abs(gaps)) if np.isfinite(gaps).any() else 0.0
-        elif gaps.min() > _NEAR_ZERO * size:
-            return
-        lowest = (gaps <= np.roll(gaps, 1)) & (gaps <= np.roll(gaps, -1)) & (np.abs(gaps) < _NEAR_ZERO * size)
+        """Finds the change points of a dyad in every machine, and gives its row their series."""
         element = sum(row[0] != 0 for row in self.rows.rows[: each.row])
-        found: dict[float, list[float]] = {}
-        for near in angles[lowest]:
-            if self._coincide(self.rows.rows[each.row], float(near)):
-                # The direction from pin to pivot is lost there: no series carries the motion on.
-                return
-            point = _core.change_point(self.plan, self.parameters, element, float(near))
-            if point is not None and not any(_turns_apart(point[0], other) < _WHOLE for other in found):
-                found[point[0]] = point[1]
-        if found:
-            self._give_change_points(each, found)
+        found = in_line(self.plan, self.parameters, *self._mechanisms(), element)
+        if not any(found):
+            return
+        signs = np.array([self._sign(each, points) for points in found])
+        for row, points in enumerate(found):
+            at = undecided(points, signs[row])
+            if at is not None and len(found) == 1:
+                raise at.error(each.name)
+            if at is not None:
+                # A machine of a batch that has no answer, and shows it.
+                found[row], signs[row] = [], np.nan
+        self._give_change_points(each, found, signs)
 
-    def _coincide(self, row: list[int], near: float) -> bool:
-        """Whether the pin of a dyad RRR passes over its pivot about an angle of the look."""
-        if row[0] != 3:
-            return False
-        angles = near + np.linspace(-1.0, 1.0, _FINE) * 2 * np.pi / _LOOK
-        u = self._motion(0, row[5], angles)[:2] - self._motion(0, row[6], angles)[:2]
-        lengths = self.parameters[row[7]] + self.parameters[row[8]]
-        return bool(np.hypot(*u).min() < _MEETS * lengths)
+    def _mechanisms(self) -> tuple[NDArray[np.int32], Floats]:
+        """What varies from one mechanism to the next: where masses and the like vary, nothing."""
+        if any(slot < self.rows.n_own or slot >= self.rows.n_described for slot in self.slots):
+            return self.slots, self.values
+        return np.empty(0, dtype=np.int32), np.empty((0, 1))
 
-    def _give_change_points(self, each: Foldable, found: dict[float, list[float]]) -> None:
-        """Turns the row of a dyad into one with change points.
-
-        The given side is that at small positive crank angles.
-        """
-        at = np.array(sorted(found))
-        just_after = 1e-7
+    def _sign(self, each: Foldable, points: list[InLine]) -> float:
+        """The side of a dyad where the product of half-angle sines is positive."""
         # A side that varies from row to row does not exist.
         wanted = self.parameters[each.sign]
-        sign = wanted * np.sign(np.prod(np.sin((just_after - at) / 2)))
-        self.parameters[each.sign] = sign
-        row = [*_folding_row(self.rows.rows[each.row], self.rows.frame), len(at)]
-        numbers: list[float] = []
-        for phi in at:
-            angles = (np.cos(phi), np.sin(phi), np.cos(phi / 2), np.sin(phi / 2))
-            numbers += [*angles, _reach(np.array(found[phi])), *found[phi]]
-        row += list(range(len(self.parameters), len(self.parameters) + len(numbers)))
-        self.parameters = np.concatenate([self.parameters, numbers])
-        self.rows.parameters += numbers
-        self.rows.rows[each.row] = row
+        given_at = self.given_at.get(each.sign, _JUST_AFTER)
+        return float(wanted * np.sign(np.prod([np.sin((given_at - point.angle) / 2) for point in points])))
+
+    def _give_change_points(self, each: Foldable, found: list[list[InLine]], signs: Floats) -> None:
+        """Turns the row of a dyad into one with change points."""
+        entries, numbers = encoded(found, len(self.parameters))
+        self.rows.rows[each.row] = [*folding_row(self.rows.rows[each.row], self.rows.frame), *entries]
+        self._add(numbers)
+        self._change(each.sign, signs)
+        self.odd = self.odd | np.array([len(points) % 2 == 1 for points in found])
         self._changed(self.make_plan())
+
+    def _add(self, columns: Floats) -> None:
+        """Appends parameters, a row of values over the machines for each."""
+        slots = np.arange(len(self.parameters), len(self.parameters) + len(columns), dtype=np.int32)
+        self.rows.parameters += columns[:, 0].tolist()
+        self.parameters = np.concatenate([self.parameters, columns[:, 0]])
+        if columns.shape[1] > 1:
+            self.slots = np.concatenate([self.slots, slots])
+            self.values = np.concatenate([self.values, columns])
+
+    def _change(self, slot: int, column: Floats) -> None:
+        """Sets a parameter that did not vary until now."""
+        self.parameters[slot] = column[0]
+        if len(column) > 1:
+            self.slots = np.append(self.slots, np.int32(slot))
+            self.values = np.concatenate([self.values, column[None]])
 
     # -- groups ------------------------------------------------------------------------------------------
 
@@ -290,29 +282,6 @@ class Settled:
             )
 
 
-def _reach(series: Floats) -> float:
-    """How far from a change point its series is used [rad]: as far as its last terms are rounding."""
-    last = np.arange(len(series) - 3, len(series))
-    share = _LAST_TERM * abs(series[0]) / np.maximum(np.abs(series[last]), 1e-300)
-    return float(min(_REACH, (share ** (1.0 / last)).min()))
-
-
 def _first(value: Any) -> float:
     """A number; of an array over many machines, that of the first."""
     return float(np.ravel(value)[0])
-
-
-def _folding_row(row: list[int], frame: int) -> list[int]:
-    """The row of a dyad as one with change points; a rod on a fixed guide becomes one on any guide."""
-    kind, *entries = row
-    if kind == 3:
-        return [11, *entries]
-    if kind == 5:
-        return [15, *entries]
-    point, link, slide, gap, pin, through, rod, inverse, offset, cos, sin, sign = entries
-    return [15, point, link, slide, gap, pin, through, frame, cos, sin, offset, rod, inverse, sign]
-
-
-def _turns_apart(a: float, b: float) -> float:
-    """Distance of two angles on the circle [rad]."""
-    return abs((a - b + np.pi) % (2 * np.pi) - np.pi)

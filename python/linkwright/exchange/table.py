@@ -15,19 +15,17 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.errors import ExchangeError, InputError
+from linkwright.errors import ExchangeError, InputError, require_within
 from linkwright.exchange.sides import cross, dot
 from linkwright.exchange.track import Track
 from linkwright.files.csv_text import csv_text
 from linkwright.files.output import write_file
+from linkwright.limits import ROWS_OUT
 
 Floats = NDArray[np.float64]
 By = Literal["cam", "polar"]
 
 COLUMNS = ("phi_deg", "x_mm", "y_mm", "radius_mm", "polar_angle_deg", "curvature_per_mm")
-
-# Rows that a table may have: more than any machine tool reads.
-_MOST = 1_000_000
 
 # How far 360°/step may be from a whole number.
 _WHOLE = 1e-9
@@ -124,9 +122,9 @@ def curvature(track: Track, tau: Floats) -> Floats:
 def _count(step: float) -> int:
     """How many steps make a turn."""
     n = 2 * math.pi / step if step > 0 else math.nan
-    if n > _MOST:
-        least = 360 / _MOST
-        raise InputError(f"step of {math.degrees(step):.3g}°: expected {least:.3g}° or more")
+    if not math.isnan(n):
+        remedy = f"take {360 / ROWS_OUT.most:.3g}° or more"
+        require_within(ROWS_OUT, n, f"step of {math.degrees(step):.3g}°", remedy)
     if not (math.isfinite(n) and n >= 3 and abs(n - round(n)) <= _WHOLE * n):
         near = [360 / max(3, math.floor(n)), 360 / max(3, math.ceil(n))] if 0 < n < 1e9 else [1.0, 0.5]
         raise InputError(

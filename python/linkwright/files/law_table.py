@@ -7,10 +7,8 @@ from pathlib import Path
 
 from linkwright.errors import MachineFileError, Problem, UnitError
 from linkwright.files.text_file import TextError, text_of
+from linkwright.limits import POINT_BYTES
 from linkwright.units import ANGLE, NUMBER, TIME, Kind, parse, show
-
-# A million lines of a measurement.
-_LARGEST = 20_000_000
 
 
 def read_law_table(path: Path) -> tuple[list[float], list[float]]:
@@ -33,7 +31,7 @@ def read_law_table(path: Path) -> tuple[list[float], list[float]]:
         The file cannot be read, or a line is no time and angle; with file and line.
     """
     try:
-        lines = text_of(path, _LARGEST).splitlines()
+        lines = text_of(path, POINT_BYTES).splitlines()
     except TextError as error:
         expected = "a table of times and angles"
         raise MachineFileError([Problem("", error.found, expected, error.remedy, str(path))]) from None

@@ -18,6 +18,7 @@ from typing import Any
 
 from linkwright.errors import MachineFileError, Problem
 from linkwright.files.text_file import TextError, text_of
+from linkwright.limits import POINT_BYTES, ROWS
 from linkwright.machine.text import join
 from linkwright.units import NUMBER, show
 
@@ -28,8 +29,6 @@ _EXAMPLES = {
     "measured": "root_diameter [mm], cut_height [mm], offset [mm]",
 }
 
-# A million lines of a measurement.
-_LARGEST = 20_000_000
 
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 
@@ -177,18 +176,25 @@ def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, lis
 def _lines(path: Path, key: str) -> list[tuple[int, list[str]]]:
     """Number and cells of each line that is neither empty nor a comment."""
     try:
-        text = text_of(path, _LARGEST)
+        text = text_of(path, POINT_BYTES)
     except TextError as error:
-        found, expected = f"{path}, {error.found}", "a file of comma-separated values"
+        found, expected = f"{path}, {error.found}", error.expected or "a file of comma-separated values"
         raise MachineFileError([Problem(key, found, expected, error.remedy)]) from None
     lines = StringIO(text, newline="")
     reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in lines)
+    rows: list[tuple[int, list[str]]] = []
     try:
-        return [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
+        for row in reader:
+            if any(cell.strip() for cell in row):
+                rows.append((reader.line_num, row))
+            if len(rows) > ROWS.most + 1:
+                problem = Problem(key, "more rows", ROWS.words, path=str(path), line=reader.line_num)
+                raise MachineFileError([problem])
     except csv.Error:
         found, expected = "a cell that does not end", f"cells of at most {csv.field_size_limit()} characters"
         remedy = 'close the quotation mark (")'
         raise MachineFileError([Problem(key, found, expected, remedy, str(path), reader.line_num)]) from None
+    return rows
 
 
 def _row_problems(key: str, names: list[str], row: list[str]) -> Iterator[Problem]:

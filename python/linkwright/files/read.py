@@ -13,17 +13,15 @@ from typing import Any, TypeVar
 from pydantic import BaseModel
 
 from linkwright.errors import MachineError, MachineFileError, Problem
+from linkwright.files.bounds import deep_line, long_number_line, size_problems
 from linkwright.files.lines import key_lines, line_of
 from linkwright.files.overrides import Override, apply, parse_all
 from linkwright.files.points import Column, with_points
 from linkwright.files.text_file import TextError, text_of
+from linkwright.limits import DEPTH, FILE_BYTES
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.text import split
 from linkwright.units import show
-
-# A machine file has a few kB. A thousand times that is some other file.
-_LARGEST = 4_000_000
-_TOO_LARGE = f"a machine file: a few kB of text, at most {_LARGEST // 1_000_000} MB"
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -167,6 +165,8 @@ def loads_as(
     tables = _tables(text, path)
     _check_format(tables, path, text)
     places = [(apply(tables, change), change) for change in parse_all(overrides)]
+    if too_large := size_problems(tables):
+        raise MachineFileError(_located(too_large, text, path, places, ()))
     columns: list[Column] = []
     try:
         columns = with_points(tables, Path(path).parent, allow_outside=allow_outside)
@@ -178,11 +178,10 @@ def loads_as(
 def _text(path: Path) -> str:
     """The text of a file, or the problem with it."""
     try:
-        text = text_of(path, _LARGEST)
+        text = text_of(path, FILE_BYTES)
     except TextError as error:
-        expected = _TOO_LARGE if error.found.startswith("more than") else "a machine file"
         remedy = error.remedy or _similar(path)
-        raise _unreadable(path, error.found, remedy, expected) from None
+        raise _unreadable(path, error.found, remedy, error.expected or "a machine file") from None
     if not text.strip():
         remedy = 'start from a template: "linkwright new --list" names them'
         raise _unreadable(path, "an empty file", remedy)
@@ -210,16 +209,20 @@ def _similar(path: Path) -> str:
 
 def _tables(text: str, path: str) -> dict[str, Any]:
     """The tables of a TOML text, or the problem with its syntax."""
+    if (line := deep_line(text)) is not None:
+        found, remedy = "keys or brackets inside one another", "remove what is inside"
+        raise MachineFileError([Problem("", found, DEPTH.words, remedy, path, line)])
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise MachineFileError([_syntax(str(error), text, path)]) from None
-    except ValueError as error:
-        # A number of more digits than Python reads.
-        raise MachineFileError([Problem(found=str(error), expected="a machine file", path=path)]) from None
     except RecursionError:
-        found = "brackets within brackets, too deep to read"
-        raise MachineFileError([Problem(found=found, expected="a machine file", path=path)]) from None
+        problem = Problem("", "keys or brackets inside one another", DEPTH.words, path=path)
+        raise MachineFileError([problem]) from None
+    except ValueError:
+        # A number of more digits than Python reads.
+        found, line = "a number of thousands of digits", long_number_line(text)
+        raise MachineFileError([Problem("", found, "a number below 9.2e18", "", path, line)]) from None
 
 
 def _syntax(message: str, text: str, path: str) -> Problem:

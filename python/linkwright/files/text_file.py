@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from linkwright.limits import Limit
+
 
 class TextError(Exception):
     """Why a file has no text: what it is, and what to change; whoever reads it says where that stands."""
 
-    def __init__(self, found: str, remedy: str = "") -> None:
+    def __init__(self, found: str, remedy: str = "", expected: str = "") -> None:
         super().__init__(found)
         self.found = found
         self.remedy = remedy
+        self.expected = expected
 
 
-def text_of(path: Path, most: int) -> str:
+def text_of(path: Path, limit: Limit) -> str:
     """The text of a file.
 
     A device without end is read no farther than the limit. A mark that editors on Windows put in front of the
@@ -24,7 +27,7 @@ def text_of(path: Path, most: int) -> str:
     ----------
     path : Path
         The file.
-    most : int
+    limit : Limit
         Bytes that it may have.
 
     Returns
@@ -39,7 +42,7 @@ def text_of(path: Path, most: int) -> str:
     """
     try:
         with path.open("rb") as file:
-            data = file.read(most + 1)
+            data = file.read(limit.most + 1)
     except IsADirectoryError:
         raise TextError("a directory") from None
     except FileNotFoundError:
@@ -48,8 +51,8 @@ def text_of(path: Path, most: int) -> str:
         raise TextError("a file without permission to read it") from None
     except (OSError, ValueError) as error:
         raise TextError(f"a file that cannot be read ({error})") from None
-    if len(data) > most:
-        raise TextError(f"more than {most // 1_000_000} MB")
+    if len(data) > limit.most:
+        raise TextError("a larger file", expected=limit.words)
     return _decoded(data)
 
 

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Self
 from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from linkwright.limits import NAME, TITLE
 from linkwright.public.immutable import held
 from linkwright.units import show
 
@@ -121,7 +122,22 @@ def _checked_name(name: str) -> str:
     if not name.strip() or "." in name or not name.isprintable():
         remedy = "points separate the parts of an address" if "." in name else ""
         raise wrong(show(name), "a name of printable characters, without a point", remedy)
+    if '"' in name and "'" in name:
+        remedy = "a part of an address stands in quotes of one kind"
+        raise wrong(show(name), "a name without both kinds of quotes", remedy)
+    if len(name) > NAME.most:
+        raise wrong(show(name), NAME.words, "shorten it")
     return name
 
 
+def _checked_title(title: str) -> str:
+    """A text that stands on one line of a terminal and of a page, or the fault."""
+    if not title.isprintable():
+        raise wrong(show(title), "a text of printable characters, on one line")
+    if len(title) > TITLE.most:
+        raise wrong(show(title), TITLE.words, "shorten it; the rest may stand in `description`")
+    return title
+
+
 Name = Annotated[str, AfterValidator(_checked_name)]
+Title = Annotated[str, AfterValidator(_checked_title)]

@@ -20,6 +20,8 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
+from linkwright.limits import FORMULA, grouped
+
 # Function → least and greatest number of arguments; None for any number.
 FUNCTIONS: dict[str, tuple[int, int | None]] = {
     **dict.fromkeys(("sin", "cos", "tan", "asin", "acos", "atan", "tanh", "exp", "log", "sqrt"), (1, 1)),
@@ -242,6 +244,9 @@ class _Reader:
             (str(match.lastgroup), match[str(match.lastgroup)], match.start(str(match.lastgroup)) + 1)
             for match in _TOKEN.finditer(text)
         ]
+        if len(self.tokens) > FORMULA.most:
+            found = f"{FORMULA.words}, found {grouped(len(self.tokens))}"
+            raise FormulaError(found, "write a part of it as a constant or a table")
         self.tokens.append(("end", "", len(text) + 1))
         self.place = 0
         self.nested = 0

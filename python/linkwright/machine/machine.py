@@ -9,7 +9,7 @@ from pydantic import BaseModel, Field, ModelWrapValidatorHandler, ValidationErro
 from pydantic_core import InitErrorDetails
 
 from linkwright.errors import MachineError
-from linkwright.machine.base import Description, fault, faults_of, raise_faults
+from linkwright.machine.base import Description, Name, Title, fault, faults_of, raise_faults
 from linkwright.machine.body import Body, body_faults
 from linkwright.machine.drive import Drive
 from linkwright.machine.drive_train import two_trains
@@ -55,7 +55,7 @@ class Machine(Description):
     """
 
     format: Literal[1] = Field(description="Version of the file format.")
-    name: str = Field(description="What the machine is.")
+    name: Title = Field(description="What the machine is.")
     description: str = Field("", description="More about it.")
     source: str = Field("", description="Where the numbers are from.")
     drive: Drive | None = Field(None, description="What turns the crankshaft.")
@@ -70,7 +70,7 @@ class Machine(Description):
     topper: Topper | None = Field(None, description="Knife that slices the heads of roots in a row.")
     train: Train | None = Field(None, description="Torsional train: discs, shafts and gears.")
     bodies: dict[str, Body] = Field(default_factory=dict, description="Masses by name.")
-    loads: dict[str, AnyLoad] = Field(default_factory=dict, description="Forces and torques by name.")
+    loads: dict[Name, AnyLoad] = Field(default_factory=dict, description="Forces and torques by name.")
     run_up: RunUp = Field(default_factory=RunUp, description="How the run-up starts and ends.")
 
     @property

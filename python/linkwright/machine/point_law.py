@@ -9,6 +9,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.errors import LawError, Problem
+from linkwright.limits import LAW_POINTS
 from linkwright.machine.base import fault
 from linkwright.machine.curve import curve_faults, unread_file
 from linkwright.machine.motion_law import Law
@@ -48,6 +49,8 @@ class PointLaw(Law):
         elif (self.lift is None) == (self.swing is None):
             found = "both lift and swing" if self.lift else None
             yield fault("lift", found=found, expected="a list of lifts, or of swings")
+        elif len(self.angle) > LAW_POINTS.most:
+            yield fault("angle", found=f"{len(self.angle)} of them", expected=LAW_POINTS.words)
         else:
             yield from curve_faults(self, "angle", ("lift", "swing"))
 

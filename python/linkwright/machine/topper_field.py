@@ -17,13 +17,11 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.limits import ROOTS
 from linkwright.machine.base import Checked, fault
 from linkwright.machine.curve import unread_file
 from linkwright.machine.scatter import AnyScatter, ConstantScatter, Scatter, UniformScatter
 from linkwright.units import DENSITY, LENGTH, Lengths, Quantity, positive
-
-# A table of so many roots still fits into the memory.
-_MOST = 20_000_000
 
 
 class RootField(Checked):
@@ -39,8 +37,8 @@ class RandomField(RootField):
     """Roots that scatter."""
 
     kind: Literal["random"] = Field(description="By distributions.")
-    roots: Annotated[int, Field(ge=2, le=_MOST)] = Field(20_000, description="How many are looked at.")
-    rows: Annotated[int, Field(ge=2)] = Field(
+    roots: Annotated[int, Field(ge=2, le=ROOTS.most)] = Field(20_000, description="How many are looked at.")
+    rows: Annotated[int, Field(ge=2, le=ROOTS.most)] = Field(
         100, description="In how many rows they stand; each begins at a random phase of the knife."
     )
     root_diameter: AnyScatter | None = Field(
@@ -114,6 +112,9 @@ class MeasuredField(RootField):
             if len(getattr(self, key)) < 2:
                 expected = "a column with the lengths of 2 roots or more"
                 yield fault(key, found=f"{len(getattr(self, key))} of them", expected=expected)
+        if len(self.root_diameter) * self.phases > ROOTS.most:
+            found = f"{self.phases} phases of each of {len(self.root_diameter)} roots"
+            yield fault("phases", found=found, expected=ROOTS.words)
         yield from self._length_faults()
         yield from self._value_faults()
 

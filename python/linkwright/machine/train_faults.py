@@ -9,6 +9,7 @@ from itertools import pairwise
 from pydantic_core import InitErrorDetails
 
 from linkwright.errors import AssemblyError, InputError
+from linkwright.limits import DISCS
 from linkwright.machine.base import close_match, fault, suggestion
 from linkwright.machine.plain import keys, look
 from linkwright.machine.train import GROUND, Train
@@ -43,6 +44,9 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
     if not discs:
         remedy = 'describe what turns as [train.discs], NAME = { inertia = "2 kg m^2" }'
         yield fault("train", "discs", expected="at least one disc", remedy=remedy)
+        return
+    if len(discs) > DISCS.most:
+        yield fault("train", "discs", found=f"{len(discs)} of them", expected=DISCS.words)
         return
     if GROUND in discs:
         remedy = "it is the word for what is held"

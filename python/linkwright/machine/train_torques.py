@@ -21,8 +21,8 @@ from typing import Annotated
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.limits import HARMONICS, ORDER
 from linkwright.machine.base import Checked, Description, fault
-from linkwright.machine.element import PositiveNumber
 from linkwright.machine.train_base import PositiveSpeed, PositiveTorque
 from linkwright.units import COUNT, RATIO, TORQUE, Angle, Bound, Quantity, not_negative
 
@@ -41,10 +41,23 @@ Exponent = Annotated[
 ]
 
 
+Order = Annotated[
+    float,
+    Quantity(
+        COUNT,
+        Bound(
+            f" above 0 and up to {ORDER.most},",
+            {"exclusiveMinimum": 0, "maximum": ORDER.most},
+            lambda value: 0 < value <= ORDER.most,
+        ),
+    ),
+]
+
+
 class LoadHarmonic(Description):
     """A pulsation of a load."""
 
-    order: PositiveNumber = Field(description="Waves a turn of its disc; of a propeller, its blades.")
+    order: Order = Field(description="Waves a turn of its disc; of a propeller, its blades.")
     share: Annotated[float, not_negative(RATIO)] = Field(description="Amplitude over the mean torque.")
     phase: Angle = Field(0.0, description="β of the resistance cos(νφ + β), φ the angle of the disc.")
 
@@ -78,7 +91,7 @@ class TrainLoad(Checked):
 class Harmonic(Description):
     """One order of a pulsating torque."""
 
-    order: PositiveNumber = Field(description="Waves a turn of its disc.")
+    order: Order = Field(description="Waves a turn of its disc.")
     torque: Annotated[float, not_negative(TORQUE)] = Field(description="Amplitude.")
     phase: Angle = Field(0.0, description="β of cos(νφ + β), φ the angle of the disc.")
 
@@ -105,6 +118,9 @@ class Excitation(Checked):
 
 def _listed_twice(orders: Sequence[float]) -> Iterator[InitErrorDetails]:
     """Orders that a list of harmonics has already."""
+    if len(orders) > HARMONICS.most:
+        yield fault("harmonics", found=f"{len(orders)} of them", expected=HARMONICS.words)
+        return
     for n, order in enumerate(orders):
         if order in orders[:n]:
             remedy = "add the two up, each with its phase"

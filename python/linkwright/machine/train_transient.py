@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.limits import SAMPLES
 from linkwright.machine.base import Checked, Description, Name, close_match, fault, suggestion
 from linkwright.machine.motor import ConstantTorqueMotor, DcMotor, InductionMotor, TableMotor
 from linkwright.machine.train_base import PositiveSpeed
@@ -24,9 +25,6 @@ from linkwright.units import SPEED, TIME, Angle, not_negative, positive
 
 if TYPE_CHECKING:
     from linkwright.machine.train import Train
-
-# Samples that a result holds at most: a hundred megabytes for fifty discs.
-SAMPLES_MAX = 200_000
 
 TrainDrive = Annotated[
     InductionMotor | DcMotor | TableMotor | ConstantTorqueMotor, Field(discriminator="kind")
@@ -94,8 +92,8 @@ class TrainTransient(Checked):
     steps_max: int = Field(5_000_000, ge=1, description="Steps after which it is given up.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        if self.sample_time is not None and self.duration / self.sample_time > SAMPLES_MAX:
-            expected = f"at least {self.duration / SAMPLES_MAX:.6g} s, for {SAMPLES_MAX} samples at most"
+        if self.sample_time is not None and self.duration / self.sample_time > SAMPLES.most:
+            expected = f"at least {self.duration / SAMPLES.most:.6g} s, for {SAMPLES.most} samples at most"
             yield fault("sample_time", found=self.sample_time, expected=expected)
         for n, event in enumerate(self.events):
             time = getattr(event, "time", 0.0)

@@ -37,12 +37,16 @@ _COLUMNS = (
     "torque_motor_rms",
 )
 
-# Sentences for the statuses of the core.
+# Status of a row that passes an odd number of change points, where the first machine passes an even number.
+TWO_TURNS = 4
+
+# Sentences for the statuses of the core, and that one.
 STATUS = {
     0: "solved",
-    1: "the mechanism does not close all round",
+    1: "the mechanism does not close all round, or its lengths do not tell how it passes a change point",
     2: "no steady motion: the drive cannot keep the machine turning",
     3: "the accuracy was not reached",
+    TWO_TURNS: "the motion repeats only after two turns of the crank",
 }
 
 
@@ -173,6 +177,10 @@ def steady_states(
         )
     require_one_turn(compiled)
     status, table, turns = compiled.steady_rows(accuracy)
+    if not compiled.two_turns[0]:
+        # The first machine was checked above.
+        longer = np.broadcast_to(compiled.two_turns, status.shape)
+        status[longer], table[longer] = TWO_TURNS, np.nan
     columns = dict(zip(_COLUMNS, np.ascontiguousarray(table.T), strict=False))
     return SteadyStates(entries=arrays, status=status, turns_swept=turns, **columns)
 

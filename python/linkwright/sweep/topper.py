@@ -21,7 +21,8 @@ from linkwright.analysis.topper.field import TopperField, field_result
 from linkwright.analysis.topper.knife import knives
 from linkwright.analysis.topper.passes import Watch, pass_over
 from linkwright.analysis.topper.roots import Roots, draw_roots
-from linkwright.errors import FindingError, InputError
+from linkwright.errors import FindingError, InputError, require_within
+from linkwright.limits import FIELD_VARIANTS
 from linkwright.machine import ConstantKnife, Machine, MemberKnife, Topper
 from linkwright.machine.base import suggestion
 from linkwright.public import public
@@ -41,9 +42,6 @@ ENTRIES: dict[str, Kind] = {
 
 # Entries that may be zero, and that may have any sign.
 _FROM_ZERO, _SIGNED = ("knife_speed",), ("edge_angle", "cut_height")
-
-# Variants at most: each is a pass over all roots.
-_MOST = 100_000
 
 
 @dataclass(frozen=True)
@@ -255,5 +253,4 @@ def _require(shape: Sequence[int]) -> None:
     """Refuse what is no sweep."""
     if not 1 <= len(shape) <= 2:
         raise InputError(f"over: found {len(shape)} entries, expected one or two")
-    if np.prod(shape, dtype=float) > _MOST:
-        raise InputError(f"over: found {int(np.prod(shape))} variants, expected {_MOST} at most")
+    require_within(FIELD_VARIANTS, float(np.prod(shape, dtype=float)), "over", "vary less, or more coarsely")

@@ -13,6 +13,7 @@ from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_va
 from pydantic_core import InitErrorDetails
 
 from linkwright.errors import MachineError
+from linkwright.limits import PATH_POINTS, TRIALS
 from linkwright.machine.base import Description, fault, raise_faults
 from linkwright.machine.problems import problems
 from linkwright.units import (
@@ -235,6 +236,12 @@ class PathTask(Task):
         if n < 3:
             yield fault("x", found=values(n), expected="at least 3 values, one a point")
         yield from same_length(("y",), len(self.y), n, "point")
+        if n * self.population > PATH_POINTS.most:
+            found = f"{self.population} linkages at {n} points"
+            yield fault("population", found=found, expected=PATH_POINTS.words)
+        if self.population * self.generations > TRIALS.most:
+            found = f"{self.generations} generations of {self.population} linkages"
+            yield fault("generations", found=found, expected=TRIALS.words)
         if self.crank_angle is not None:
             yield from same_length(("crank_angle",), len(self.crank_angle), n, "point")
         if len(self.y) == n and n and max(self.x) == min(self.x) and max(self.y) == min(self.y):

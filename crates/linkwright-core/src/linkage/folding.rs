@@ -16,18 +16,21 @@
 //! ```
 //!
 //! Away from it S = ±√g with the sign of Π sin((φ − φ_c)/2) over all change points: it changes at each of
-//! them and nowhere else.
+//! them and nowhere else. Where the pin passes over its pivot U is zero too, and the joint comes from its own
+//! series ([`super::arm`]).
 
+use super::arm::{self, Arms};
 use super::guided::{GuidedRod, Series, bar, place_rod, rod_radicand};
 use super::{Motion, Rocker, Slot};
-use crate::plane::{Angle, Place};
+use crate::plane::{Angle, Place, Vec2};
 use crate::real::Real;
 
 /// Coefficients kept of the series of S/δ.
 pub const TERMS: usize = 12;
 
 /// A change point: cos φ_c, sin φ_c, cos ½φ_c, sin ½φ_c, the distance \[rad\] within which the
-/// series is used, and the coefficients of √h, which is positive.
+/// series is used, negative where a machine of a batch does not have it, and the coefficients of √h, which is
+/// positive.
 #[derive(Clone, Debug)]
 pub struct ChangePoint {
     pub cos: Slot,
@@ -36,6 +39,19 @@ pub struct ChangePoint {
     pub half_sin: Slot,
     pub reach: Slot,
     pub series: Vec<Slot>,
+    /// Where the pin of a dyad RRR passes near its pivot; one or none.
+    pub arms: Vec<Arms>,
+}
+
+impl ChangePoint {
+    /// Sine and cosine of the distance from it, and the size of the sine where the cosine is positive: the opposite
+    /// side of the turn has the same sine, and is put out of reach.
+    #[inline(always)]
+    fn distance<R: Real>(&self, q: &[R], angle: Angle<R>) -> [R; 3] {
+        let sine = angle.sin * q[self.cos] - angle.cos * q[self.sin];
+        let cosine = angle.cos * q[self.cos] + angle.sin * q[self.sin];
+        [sine, cosine, cosine.select_lt(R::splat(0.0), R::splat(1.0), sine.abs())]
+    }
 }
 
 /// A dyad RRR with its change points; the rocker's `sign` holds where the product of half-angle sines is
@@ -105,18 +121,21 @@ fn sign_of<R: Real>(
 ) -> R {
     let mut product = side;
     for (k, at) in change_points.iter().enumerate() {
-        product = product
-            * if passed == Some(k) {
-                half_cos * q[at.half_cos] + half_sin * q[at.half_sin]
-            } else {
-                half_sin * q[at.half_cos] - half_cos * q[at.half_sin]
-            };
+        let factor = if passed == Some(k) {
+            half_cos * q[at.half_cos] + half_sin * q[at.half_sin]
+        } else {
+            half_sin * q[at.half_cos] - half_cos * q[at.half_sin]
+        };
+        // One that a machine of a batch does not have.
+        product = product * q[at.reach].select_lt(R::splat(0.0), R::splat(1.0), factor);
     }
-    product.select_lt(R::splat(0.0), R::splat(-1.0), R::splat(1.0))
+    // A side that is not known is NaN, and so is all that hangs on it.
+    let unknown = side * 0.0;
+    product.select_lt(R::splat(0.0), R::splat(-1.0), R::splat(1.0)) + unknown
 }
 
 /// S with two derivatives at any crank angle, from g and the side where the product of half-angle sines is
-/// positive.
+/// positive; and g, which rounding does not make negative at a change point.
 #[inline(always)]
 fn root<R: Real>(
     change_points: &[ChangePoint],
@@ -124,24 +143,23 @@ fn root<R: Real>(
     q: &[R],
     angle: Angle<R>,
     g: Series<R>,
-) -> Series<R> {
+) -> (Series<R>, R) {
     let halves = (angle.phi * 0.5).sin_cos();
     let S = sign_of(change_points, side, q, halves, None) * g[0].sqrt();
     let half = (S + S).recip();
     let S1 = g[1] * half;
     let mut found = [S, S1, (g[2] - S1.squared() * 2.0) * half];
+    let mut gap = g[0];
     for (nth, at) in change_points.iter().enumerate() {
-        let sine = angle.sin * q[at.cos] - angle.cos * q[at.sin];
-        let cosine = angle.cos * q[at.cos] + angle.sin * q[at.sin];
-        // The opposite side of the turn has the same sine: it is put out of reach.
-        let distance = cosine.select_lt(R::splat(0.0), R::splat(1.0), sine.abs());
+        let [sine, _, distance] = at.distance(q, angle);
         let sign = sign_of(change_points, side, q, halves, Some(nth));
         let close = near(&at.series, q, small_angle(sine));
         for k in 0..3 {
             found[k] = distance.select_lt(q[at.reach], close[k] * sign, found[k]);
         }
+        gap = distance.select_lt(q[at.reach], close[0].squared(), gap);
     }
-    found
+    (found, gap)
 }
 
 #[inline(always)]
@@ -151,16 +169,16 @@ pub(super) fn folding_rod<R: Real, const ORDER: u8>(
     angle: Angle<R>,
     m: &mut Motion<R>,
 ) {
-    let w = root(&e.change_points, q[e.rod.sign], q, angle, rod_radicand(&e.rod, q, m));
+    let (w, gap) = root(&e.change_points, q[e.rod.sign], q, angle, rod_radicand(&e.rod, q, m));
     place_rod::<R, ORDER>(&e.rod, q, m, w);
-    m.gaps[e.rod.gap] = w[0].squared();
+    m.gaps[e.rod.gap] = gap;
 }
 
 #[inline(always)]
 pub(super) fn folding<R: Real>(e: &Folding, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
     let g = &e.rocker;
     let (pin, pivot) = (m.points[g.pin], m.points[g.pivot]);
-    let S = root(&e.change_points, q[g.sign], q, angle, radicand(g, q, m));
+    let (S, gap) = root(&e.change_points, q[g.sign], q, angle, radicand(g, q, m));
     let (a, b) = (q[g.coupler], q[g.rocker]);
     let [U, U1, U2] = square(&pin, &pivot);
     let inverse = U.recip();
@@ -176,11 +194,35 @@ pub(super) fn folding<R: Real>(e: &Folding, q: &[R], angle: Angle<R>, m: &mut Mo
     let arm1 = (u * P[1]).plus(u1, P[0]).plus(u.left(), Q1).plus(u1.left(), Q0);
     let bent = (u * P[2]).plus(u1, P[1] * 2.0).plus(u2, P[0]);
     let arm2 = bent.plus(u.left(), Q2).plus(u1.left(), Q1 * 2.0).plus(u2.left(), Q0);
-    let mut joint = Place::fixed(pin.p + arm);
-    joint.d1 = pin.d1 + arm1;
-    joint.d2 = pin.d2 + arm2;
-    m.gaps[g.gap] = S[0].squared();
+    let arm = passing_the_pivot(e, q, angle, [arm, arm1, arm2]);
+    let mut joint = Place::fixed(pin.p + arm[0]);
+    joint.d1 = pin.d1 + arm[1];
+    joint.d2 = pin.d2 + arm[2];
+    m.gaps[g.gap] = gap;
     m.points[g.joint].set(joint.p, joint.d1, joint.d2);
     bar(m, g.coupler_link, &pin, &joint, q[g.inverse_coupler]);
     bar(m, g.rocker_link, &pivot, &joint, q[g.inverse_rocker]);
+}
+
+/// The arm from pin to joint, taken from its own series where the pin passes near the pivot.
+#[inline(always)]
+fn passing_the_pivot<R: Real>(
+    e: &Folding,
+    q: &[R],
+    angle: Angle<R>,
+    mut found: [Vec2<R>; 3],
+) -> [Vec2<R>; 3] {
+    for (nth, at) in e.change_points.iter().enumerate() {
+        for arms in &at.arms {
+            let [sine, cosine, distance] = at.distance(q, angle);
+            let halves = (angle.phi * 0.5).sin_cos();
+            let after = sign_of(&e.change_points, q[e.rocker.sign], q, halves, Some(nth));
+            let (close, reach) = arm::at(arms, q, after, sine, cosine);
+            for (found, close) in found.iter_mut().zip(close) {
+                found.x = distance.select_lt(reach, close.x, found.x);
+                found.y = distance.select_lt(reach, close.y, found.y);
+            }
+        }
+    }
+    found
 }

@@ -9,18 +9,22 @@
 //! | [`guided`] | guides that may turn: RRP, RPR, PRP, RPP |
 //! | [`coupled`] | gears, belts, racks, cables, linear drivers, cam followers |
 //! | [`folding`] | the dyads RRR and RRP through their change points |
+//! | [`arm`] | where the pin of a dyad RRR passes over its pivot there |
+//! | [`in_line`] | where change points are, and what is known of the motion there beforehand |
 //! | [`group`] | groups that do not split into dyads |
-//! | [`trace`] | what the last two need to know of the motion beforehand |
+//! | [`trace`] | what groups need to know of the motion beforehand |
 //!
 //! Source of the method: Assur groups solved in closed form, e.g. Artobolevsky, *Theory of Mechanisms and
 //! Machines*, chapters 4–5; the derivatives follow by differentiating the loop equations written at each
 //! function. A group that cannot be assembled gives NaN from its square root; its [`Motion::gaps`] entry,
 //! the radicand, says by how much.
 
+pub mod arm;
 pub mod coupled;
 pub mod folding;
 pub mod group;
 pub mod guided;
+pub mod in_line;
 pub mod trace;
 
 use coupled::{AngleOf, Law, Programme, Runner, Turn};

@@ -1,113 +1,13 @@
-//! What a dyad with change points and a group need to know of the motion beforehand.
+//! What a group needs to know of the motion beforehand.
 //!
-//! [`change_points`] finds where a dyad's links come into line and expands the root of its radicand there;
-//! [`follow`] follows a group from a first position over the crank angle, so that its start is known at any
-//! angle afterwards. Both are done once for a machine.
+//! [`follow`] follows it from a first position over the crank angle, once for a machine, so that its start is known
+//! at any angle afterwards.
 
-use super::folding::{TERMS, radicand, square};
 use super::group::Group;
-use super::guided::{GuidedRod, rod_radicand};
-use super::{Element, Mechanism, Motion, Rocker};
+use super::{Element, Mechanism, Motion};
 use crate::call::poll;
-use crate::jet::Jet;
 use crate::plane::{Angle, Place, Vec2};
-use crate::real::Real;
 use std::f64::consts::TAU;
-
-/// Terms of the radicand's series: two more than of S/δ.
-const ORDERS: usize = TERMS + 2;
-
-/// Share of 4a²b², or of l², below which the radicand at its minimum counts as zero. Links then are in line to some
-/// 1e-6 of their length: rounding of lengths given to all digits is far below, rounding of printed ones
-/// far above.
-const TOUCHES: f64 = 1e-12;
-
-/// Rounding of (a + b)² − U, over [`TOUCHES`]: some 100 units of the last place.
-const ROUNDING: f64 = 0.02;
-
-/// Square of the distance of pin and pivot, over that of the links' sum, below which they coincide: there the
-/// direction from one to the other is lost, and with it the motion.
-const COINCIDE: f64 = 1e-12;
-
-/// The crank angle of a change point, and the coefficients of S/δ there up to the sign.
-pub type ChangePointSeries = (f64, [f64; TERMS]);
-
-/// A dyad that may have change points.
-enum Dyad {
-    Rocker(Rocker),
-    Rod(GuidedRod),
-}
-
-impl Dyad {
-    fn of(mechanism: &Mechanism, element: usize) -> Option<Self> {
-        match &mechanism.elements[element] {
-            Element::Rocker(e) => Some(Dyad::Rocker(*e)),
-            Element::SliderRod(e) => Some(Dyad::Rod(e.guided(mechanism.n_links))),
-            Element::GuidedRod(e) => Some(Dyad::Rod(*e)),
-            _ => None,
-        }
-    }
-
-    /// What the radicand is measured against: its greatest value, and for links of very different length the
-    /// rounding of its factors.
-    fn size(&self, q: &[f64]) -> f64 {
-        match self {
-            Dyad::Rocker(e) => {
-                let (a, b) = (q[e.coupler], q[e.rocker]);
-                4.0 * a * b * (a * b + ROUNDING * (a + b).powi(2))
-            }
-            Dyad::Rod(e) => q[e.rod].powi(2),
-        }
-    }
-}
-
-impl Mechanism {
-    /// Series of the radicand of a dyad about a crank angle.
-    /// NaN where pin and pivot coincide.
-    fn radicand_series(&self, element: usize, dyad: &Dyad, q: &[f64], phi: f64) -> [f64; ORDERS] {
-        let q: Vec<Jet<f64, ORDERS>> = q.iter().map(|&x| Jet::constant(x)).collect();
-        let mut m = Motion::new(self, &q);
-        self.place_first::<_, 1>(element, &q, Angle::new(Jet::variable(phi)), &mut m);
-        match dyad {
-            Dyad::Rocker(e) => {
-                let apart = square(&m.points[e.pin], &m.points[e.pivot])[0].c[0];
-                let sum = (q[e.coupler] + q[e.rocker]).c[0];
-                if apart <= COINCIDE * sum * sum { [f64::NAN; ORDERS] } else { radicand(e, &q, &m)[0].c }
-            }
-            Dyad::Rod(e) => rod_radicand(e, &q, &m)[0].c,
-        }
-    }
-}
-
-/// The change point of a dyad near a crank angle; `None` if the radicand does not touch zero there.
-pub fn change_point(
-    mechanism: &Mechanism,
-    element: usize,
-    q: &[f64],
-    near: f64,
-) -> Option<ChangePointSeries> {
-    let dyad = Dyad::of(mechanism, element)?;
-    let size = dyad.size(q);
-    let mut phi = near;
-    // Newton on g′ = 0 from an angle of a fine grid: quadratic.
-    for _ in 0..20 {
-        let g = mechanism.radicand_series(element, &dyad, q, phi);
-        let step = -g[1] / (2.0 * g[2]);
-        phi += step.clamp(-0.1, 0.1);
-        if step.abs() < 1e-15 {
-            break;
-        }
-    }
-    let g = mechanism.radicand_series(element, &dyad, q, phi);
-    // What is written so that NaN is refused too.
-    let touches = g[0].abs() <= TOUCHES * size && g[2] > 0.0;
-    if !touches {
-        return None;
-    }
-    let mut h = Jet { c: [0.0; TERMS] };
-    h.c.copy_from_slice(&g[2..]);
-    Some((phi.rem_euclid(TAU), h.sqrt().c))
-}
 
 /// The motion of a group as it was followed.
 #[derive(Clone, Debug, Default)]

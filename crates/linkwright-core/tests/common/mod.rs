@@ -3,11 +3,13 @@
 
 use linkwright_core::drive::{Drive, Motor, Span};
 use linkwright_core::formula::{Formula, Op, Variable};
+use linkwright_core::linkage::arm::{self, Arm};
 use linkwright_core::linkage::coupled::{AngleOf, Law, Runner, Source, Sum, Turn};
 use linkwright_core::linkage::folding::{ChangePoint, Folding};
 use linkwright_core::linkage::group::{Bar, Carried, Condition, Group};
 use linkwright_core::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
-use linkwright_core::linkage::trace::{ChangePointSeries, Path, follow};
+use linkwright_core::linkage::in_line::in_line;
+use linkwright_core::linkage::trace::{Path, follow};
 use linkwright_core::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod};
 use linkwright_core::plan::Plan;
 use linkwright_core::reduce::{Body, Load};
@@ -304,31 +306,36 @@ impl Builder {
         group.starts = path.places.iter().map(table).collect();
     }
 
-    /// Turns a rocker into one with change points; its side is that at small positive crank angles.
-    pub fn give_change_points(built: &mut Built, element: usize, found: &[ChangePointSeries]) {
+    /// Turns a rocker into one with the change points that it has; its side is that at small positive crank angles.
+    /// Gives how many there are.
+    pub fn give_change_points(built: &mut Built, element: usize) -> usize {
         let Element::Rocker(rocker) = built.plan.mechanism.elements[element] else {
             panic!("element {element} is no rocker");
         };
-        let side = |phi: f64| found.iter().map(|(at, _)| ((phi - at) / 2.0).sin()).product::<f64>().signum();
-        let sign = built.q[rocker.sign] * side(1e-7);
-        built.q[rocker.sign] = sign;
+        let found = in_line(&built.plan.mechanism, element, &built.q);
+        let side = |phi: f64| found.iter().map(|at| ((phi - at.phi) / 2.0).sin()).product::<f64>().signum();
+        built.q[rocker.sign] *= side(1e-7);
+        let first = built.q.len();
+        let mut slots = first..;
+        let mut slots = |n: usize| -> Vec<usize> { slots.by_ref().take(n).collect() };
         let mut change_points = Vec::new();
-        for (at, series) in found {
-            let mut number = |x: f64| {
-                built.q.push(x);
-                built.q.len() - 1
+        for at in &found {
+            built.q.extend(at.series.iter().chain(&at.arms));
+            let head = slots(5);
+            let series = slots(at.series.len() - 5);
+            let mut arm = || {
+                let (ends, x, y) = (slots(2), slots(arm::TERMS), slots(arm::TERMS));
+                Arm { inverse_width: ends[0], reach: ends[1], x, y }
             };
-            change_points.push(ChangePoint {
-                cos: number(at.cos()),
-                sin: number(at.sin()),
-                half_cos: number((at / 2.0).cos()),
-                half_sin: number((at / 2.0).sin()),
-                reach: number(0.03),
-                series: series.iter().map(|&c| number(c)).collect(),
-            });
+            let arms = if at.arms.is_empty() { Vec::new() } else { vec![[arm(), arm()]] };
+            let [cos, sin, half_cos, half_sin, reach] = head[..] else {
+                panic!("five numbers before the series");
+            };
+            change_points.push(ChangePoint { cos, sin, half_cos, half_sin, reach, series, arms });
         }
         built.plan.n_parameters = built.q.len();
         built.plan.mechanism.elements[element] = Element::Folding(Folding { rocker, change_points });
+        found.len()
     }
 
     pub fn mass(&mut self, point: usize, mass: f64) {

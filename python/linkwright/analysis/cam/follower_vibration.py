@@ -25,6 +25,8 @@ from linkwright.analysis.cam.one_mass import OneMass
 from linkwright.analysis.cam.oscillator import Indices, Oscillation, in_pieces, oscillation, pole
 from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
+from linkwright.errors import require_within
+from linkwright.limits import VIBRATIONS
 from linkwright.motion_laws.motion_law import Extreme, MotionLaw, combined
 from linkwright.public import public
 from linkwright.public.arguments import Column
@@ -239,12 +241,14 @@ def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 7
     Raises
     ------
     InputError
-        The lift jumps, or is not one turn long.
+        The lift jumps, or is not one turn long; or the follower vibrates too often in a turn.
     FindingError
         Undamped and at resonance.
     """
     in_range(speed=(speed, positive(SPEED)), n=(n, positive(COUNT)))
     without_steps(lift, "turn")
+    remedy = "lower the stiffness of its train, or turn the cam faster"
+    require_within(VIBRATIONS, model.natural_frequency / speed, "follower", remedy)
     train = Train(lift, model, speed, "turn")
     phi = np.linspace(lift.start, lift.end, n + 1)
     step = train.departure.find(phi)

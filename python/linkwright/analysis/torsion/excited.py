@@ -5,7 +5,7 @@ Mean torques go through the shafts as statics has it, and set couplings to the s
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -18,7 +18,8 @@ from linkwright.analysis.torsion.mechanism_torques import mechanism_sources, ste
 from linkwright.analysis.torsion.torques import Source, Torques, torques_of
 from linkwright.engine.train import ReferredTrain, refer
 from linkwright.engine.train_response import Operating, by_equilibrium, tree_of
-from linkwright.errors import InputError
+from linkwright.errors import InputError, require_within
+from linkwright.limits import RESPONSE
 from linkwright.machine import Machine, Train
 from linkwright.machine.drive_train import CRANK
 from linkwright.machine.train_run import TrainRun
@@ -156,16 +157,26 @@ def under(
         What the train is under each column of torques: loads follow the engine, and couplings have the slope
         at the mean torque.
     """
+    listed = list(sources)
+    _require_room(train, listed, len(speeds))
     torques = torques_of(
         train,
         referred.speed,
         speeds,
-        sources,
+        listed,
         damping,
         is_free=referred.is_free,
         has_engine=machine.train is not None and machine.train.engine is not None,
     )
     return loaded(machine, train, referred, torques)
+
+
+def _require_room(train: Train, sources: Sequence[Source], speeds: int) -> None:
+    """Refuse more orders, discs and speeds than there is memory for."""
+    own = [each for part in (train.excitations, train.loads) for each in part.values()]
+    orders = sum(len(each.harmonics) for each in own) + sum(len(each.orders) for each in sources)
+    remedy = "take fewer train.run.points, or fewer orders"
+    require_within(RESPONSE, orders * len(train.discs) * speeds, "train", remedy)
 
 
 def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Torques) -> Excited:

@@ -7,6 +7,7 @@ sooner or later: of them the amplitudes add up.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -16,6 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.engine.train_response import extremes
+from linkwright.errors import require_within
+from linkwright.limits import RESPONSE
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -125,7 +128,10 @@ def coefficients(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0
     -------
     ndarray of complex, shape (harmonics, ...)
     """
-    found = np.zeros((int(orders.harmonic.max(initial=0)) + 1, *amplitudes.shape[1:]), complex)
+    count = int(orders.harmonic.max(initial=0)) + 1
+    remedy = "lower the highest order, or train.run.points"
+    require_within(RESPONSE, count * math.prod(amplitudes.shape[1:]), "forced response", remedy)
+    found = np.zeros((count, *amplitudes.shape[1:]), complex)
     found[orders.harmonic[orders.together]] = amplitudes[orders.together]
     found[0] = mean
     return found

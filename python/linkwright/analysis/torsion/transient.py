@@ -29,8 +29,9 @@ from linkwright.analysis.torsion.moving_train import moving_train
 from linkwright.analysis.torsion.peak_judgement import PeakJudgement, judged
 from linkwright.engine.train_transient import Moved, MovingTrain
 from linkwright.errors import ConvergenceError, InputError
+from linkwright.limits import SAMPLES
 from linkwright.machine import Machine
-from linkwright.machine.train_transient import SAMPLES_MAX, TrainTransient
+from linkwright.machine.train_transient import TrainTransient
 from linkwright.public import public
 
 Floats = NDArray[np.float64]
@@ -276,8 +277,8 @@ def _require(duration: float, accuracy: float, sample_time: float | None, settle
         raise InputError(f"settle: found {settle:g} s, expected a finite time of 0 or more")
     if not 1e-14 <= accuracy <= 1e-2:
         raise InputError(f"accuracy: found {accuracy:g}, expected a number from 1e-14 to 1e-2")
-    if sample_time is not None and not duration / SAMPLES_MAX <= sample_time < np.inf:
-        least = duration / SAMPLES_MAX
+    if sample_time is not None and not duration / SAMPLES.most <= sample_time < np.inf:
+        least = duration / SAMPLES.most
         raise InputError(f"sample_time: found {sample_time:g} s, expected at least {least:.3g} s")
 
 
@@ -298,7 +299,7 @@ def _require_inertia(train: MovingTrain) -> None:
 def _times(duration: float, sample_time: float | None) -> Floats:
     """Even times from zero to the end."""
     step = sample_time or min(duration / _SAMPLES, _SAMPLE_TIME)
-    samples = min(max(round(duration / step), 1), SAMPLES_MAX)
+    samples = min(max(round(duration / step), 1), SAMPLES.most)
     return np.linspace(0.0, duration, samples + 1)
 
 

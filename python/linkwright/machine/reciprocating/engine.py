@@ -13,6 +13,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.limits import THROWS
 from linkwright.machine.base import Checked, fault
 from linkwright.machine.element import PositiveLength
 from linkwright.machine.reciprocating.any_gas import AnyGas
@@ -101,6 +102,8 @@ class ReciprocatingEngine(Checked):
         """Throws that do not start at zero, or no banks."""
         if not self.throws:
             yield fault("throws", found="an empty list", expected="an angle for each throw")
+        elif len(self.throws) > THROWS.most:
+            yield fault("throws", found=f"{len(self.throws)} of them", expected=THROWS.words)
         elif self.throws[0] != 0.0:
             yield fault("throws", 0, found=self.throws[0], expected="0, from which the others are counted")
         if not self.banks:
