@@ -2,6 +2,7 @@
 #
 #   make demo    virtual environment, build, run the main example, say where the report lies
 #   make test    lint and all tests
+#   make test-deep   random cases for MINUTES (60): machine files, formulas, tables, plans, machines and their laws
 #   make lint    formatting, clippy, ruff, types
 #   make bench   the product against what a user would use instead
 #   make docs    the documentation as pages in site/
@@ -18,7 +19,7 @@ RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.l
 export VIRTUAL_ENV := $(CURDIR)/$(VENV)
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: demo build test lint rust-test python-test bench docs clean
+.PHONY: demo build test test-deep lint rust-test python-test bench docs clean
 
 demo: build
 	$(BIN)/linkwright run machines/roller_two_carts.toml --out out/roller_two_carts
@@ -60,6 +61,11 @@ rust-test:
 
 python-test: $(TOOLS)
 	$(BIN)/python -m pytest
+
+MINUTES ?= 60
+
+test-deep: $(TOOLS)
+	$(BIN)/python tests/fuzz/deep.py --minutes $(MINUTES) --jobs $(shell nproc)
 
 bench: $(TOOLS)
 	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt -e '.[bench]' --no-build-isolation

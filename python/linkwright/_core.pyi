@@ -58,8 +58,12 @@ class Plan:
 
 def steady_state(
     plan: Plan, q: _Floats, accuracy: float, phi: _Floats
-) -> tuple[int, _Floats | None, _Floats | None]:
-    """Status, 18 scalars, and 7 curves (time, ω, ε, motor, drive and load torque, J) at the angles `phi`."""
+) -> tuple[int, _Floats, _Floats | None]:
+    """Status, 18 scalars, and 7 curves (time, ω, ε, motor, drive and load torque, J) at the angles `phi`.
+
+    Without an answer the scalars are the angle at which the machine comes to rest (or does not close), the
+    speed from which it slows down (or which it exceeds), and the accuracy reached; NaN where there is none.
+    """
 
 def steady_rows(
     plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float

@@ -6,11 +6,12 @@
 
 use crate::call::{in_threads, poll};
 use crate::cycle::{Machine, Turn};
+use crate::extremes::Extremes;
 use crate::jet::Jet;
 use crate::lanes::{Job, in_lanes};
 use crate::linkage::Motion;
 use crate::linkage::in_line::{InLine, in_line};
-use crate::measures::{Extremes, Totals};
+use crate::measures::Totals;
 use crate::plan::Plan;
 use crate::plane::Angle;
 use crate::real::Real;
@@ -65,15 +66,11 @@ impl Rows<'_> {
 /// Quantities of a row's steady motion, in the order of a result row.
 pub const QUANTITIES: usize = 13;
 
-/// Steps a turn in lanes; [`DOUBT`] tells where they do not suffice.
+/// Steps a turn in lanes; [`PROMISED`] tells where they do not suffice.
 const STEPS: usize = 20;
 
-/// Largest disagreement of the stages' energies ([`Extremes::doubt`]) that a row in lanes may have. Below it
-/// speeds were good to 1e-7 on machines from light to heavy; rows above it are solved one by one.
-const DOUBT: f64 = 5e-5;
-
-/// Newton's relative tolerance in lanes.
-const TOLERANCE: f64 = 1e-12;
+/// Relative error that a row in lanes may have, by its estimate; rows above it are solved one by one.
+const PROMISED: f64 = 1e-7;
 
 /// Rows that a thread takes at once: enough to amortise its buffers, few enough to share the work evenly.
 const CHUNK: usize = 256;
@@ -162,7 +159,7 @@ impl Job for Chunk<'_> {
             );
             R::outline(
                 #[inline(always)]
-                || turn.solve(&machine, TOLERANCE),
+                || turn.solve(&machine),
             );
             let extremes = R::outline(
                 #[inline(always)]
@@ -179,16 +176,19 @@ impl Job for Chunk<'_> {
                     self.out[(at + i) * QUANTITIES + k] = lane[i];
                 }
             }
-            extremes.doubt.store(&mut lane);
-            for (status, doubt) in status.iter_mut().zip(&lane) {
-                if doubt.is_nan() || *doubt > DOUBT {
+            let error = R::outline(
+                #[inline(always)]
+                || turn.estimate(&machine, &mut m),
+            );
+            // Where Newton did not converge, or to a motion that the machine departs from, there is no error
+            // to trust.
+            let is_stable = turn.multiplier.select_lt(R::splat(1.0), error, R::splat(f64::NAN));
+            let trusted = turn.correction.select_lt(R::splat(PROMISED), is_stable, R::splat(f64::NAN));
+            trusted.store(&mut lane);
+            for (status, error) in status.iter_mut().zip(&lane) {
+                if error.is_nan() || *error > PROMISED {
                     *status = Status::Inaccurate;
                 }
-            }
-            // One lane that does not converge keeps the others' correction from being known: all are tried
-            // again one by one, which is rare.
-            if turn.correction > 1e-6 {
-                status.fill(Status::Inaccurate);
             }
         }
         sweeps
@@ -220,9 +220,9 @@ fn retry(
                 *status = Status::Ok;
                 sweeps += u64::from(found.sweeps);
             }
-            Err(reason) => {
+            Err(failure) => {
                 row.fill(f64::NAN);
-                *status = reason;
+                *status = failure.status;
             }
         }
     }

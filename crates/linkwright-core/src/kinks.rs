@@ -1,8 +1,8 @@
 //! Where over the turn the reduced machine is not smooth: dead centres under dry friction, knots of tables.
 //!
 //! A dry resistance enters the energy equation as F·|s′|, which has a kink where the slide turns back
-//! (s′ = 0); a table has one at each knot; a formula where the argument of `abs`, `sign`, `step`, `min`, `max`
-//! or `where` changes sign. Between these angles everything is smooth, so a method of high
+//! (s′ = 0); a table has one at each knot; a formula where the argument of `abs`, `sign`, `step`, `min`,
+//! `max` or `where` changes sign. Between these angles everything is smooth, so a method of high
 //! order keeps its order when it goes from kink to kink.
 
 use crate::cycle::Machine;
@@ -22,6 +22,8 @@ enum Watch {
     SlideTurns(usize),
     /// The link turns back.
     LinkTurns(usize),
+    /// The point comes to rest, on whatever path.
+    PointRests(usize),
     /// The slide passes a knot of a table.
     SlideAt(usize, f64),
     /// Two points stop parting or nearing each other.
@@ -34,8 +36,12 @@ enum Watch {
     Switch(FormulaLoad, usize),
 }
 
-/// A spring that gets shorter than this share of its free length turns round so fast that it counts as a kink.
+/// A spring that gets shorter than this share of its free length turns round so fast that it counts as a
+/// kink.
 const SHORT: f64 = 0.1;
+
+/// A point rests where its path speed p′ falls below this share of p″.
+const AT_REST: f64 = 1e-6;
 
 /// Angles at which zeros are looked for. Two zeros between neighbours go unseen: that costs accuracy:
 /// the comparison of meshes may then err by some tens of times the accuracy asked for.
@@ -83,7 +89,7 @@ impl Plan {
                 Load::DrySlide { slide, .. } => watches.push(Watch::SlideTurns(slide)),
                 Load::DryLink { link, .. } => watches.push(Watch::LinkTurns(link)),
                 Load::DryPoint { point, .. } => {
-                    watches.extend(self.mechanism.arm_of(point).map(Watch::LinkTurns));
+                    watches.push(Watch::PointRests(point));
                 }
                 Load::ForcePosition { slide, forward, back } => {
                     watches.push(Watch::SlideTurns(slide));
@@ -123,6 +129,11 @@ impl<R: Real> Machine<'_, R> {
         match watch {
             Watch::SlideTurns(slide) => (m.slides[slide].d1, m.slides[slide].d2),
             Watch::LinkTurns(link) => (m.links[link].d1, m.links[link].d2),
+            Watch::PointRests(point) => {
+                let place = &m.points[point];
+                // ½ d|p′|²/dφ; where the point rests p′·p‴ is none of its slope.
+                (place.d1.dot(place.d2), place.d2.dot(place.d2))
+            }
             Watch::SlideAt(slide, knot) => (m.slides[slide].s - R::splat(knot), m.slides[slide].d1),
             Watch::StretchTurns(from, to) | Watch::Anchor(from, to, _) => stretch_turns(from, to, m),
             Watch::StretchAt(from, to, knot) => {
@@ -133,10 +144,9 @@ impl<R: Real> Machine<'_, R> {
         }
     }
 
-    /// Ends of the smooth pieces of the turn: increasing from 0 to 2π, as many in every lane (a lane with
-    /// fewer kinks repeats 2π).
+    /// Ends of the smooth pieces of the turn of each lane: increasing from 0 to 2π.
     #[inline(always)]
-    pub fn breaks(&self, m: &mut Motion<R>) -> Vec<R> {
+    pub fn breaks(&self, m: &mut Motion<R>) -> Vec<Vec<f64>> {
         let mut lanes: Vec<Vec<f64>> = vec![vec![0.0]; R::LANES];
         let watches = self.plan.watches();
         if !watches.is_empty() {
@@ -154,9 +164,11 @@ impl<R: Real> Machine<'_, R> {
             for angle in lane.iter_mut() {
                 *angle = if *angle > TAU - WRAP { 0.0 } else { *angle };
             }
+            lane.push(TAU);
             lane.sort_by(f64::total_cmp);
+            lane.dedup();
         }
-        level(lanes)
+        lanes
     }
 
     /// Adds the joints of motion laws in pieces, where a derivative jumps.
@@ -180,7 +192,7 @@ impl<R: Real> Machine<'_, R> {
         let mut values = vec![0.0; watches.len() * SCAN * R::LANES];
         for i in 0..SCAN {
             let phi = R::splat(scan_angle(i));
-            self.plan.mechanism.place::<R, 1>(self.q, Angle::new(phi), m);
+            self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
             for (w, watch) in watches.iter().enumerate() {
                 self.watched(*watch, phi, m).0.store(&mut values[(w * SCAN + i) * R::LANES..]);
             }
@@ -235,29 +247,21 @@ impl<R: Real> Machine<'_, R> {
             let length = stretch(m, from, to).0;
             phi = length.select_lt(self.q[free_length] * SHORT, phi, R::splat(f64::NAN));
         }
+        if let Watch::PointRests(point) = watch {
+            // Elsewhere the path speed has an extreme only.
+            let place = &m.points[point];
+            let (speed, bend) = (place.d1.dot(place.d1), place.d2.dot(place.d2));
+            phi = speed.select_lt(bend * (AT_REST * AT_REST), phi, R::splat(f64::NAN));
+        }
         phi
     }
 }
 
 /// Ends of the smooth pieces of one machine's turn \[rad\].
 pub fn kinks(plan: &Plan, q: &[f64]) -> Vec<f64> {
-    Machine { plan, q }.breaks(&mut Motion::new(&plan.mechanism, q))
+    Machine { plan, q }.breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0)
 }
 
 fn scan_angle(i: usize) -> f64 {
     (i as f64 + SHIFT) * TAU / SCAN as f64
-}
-
-/// Turns lists by lane into lanes by list, each filled up with 2π.
-fn level<R: Real>(lanes: Vec<Vec<f64>>) -> Vec<R> {
-    let most = lanes.iter().map(Vec::len).max().unwrap_or(1);
-    let mut row = vec![0.0; R::LANES];
-    (0..=most)
-        .map(|k| {
-            for (slot, lane) in row.iter_mut().zip(&lanes) {
-                *slot = lane.get(k).copied().unwrap_or(TAU);
-            }
-            R::load(&row)
-        })
-        .collect()
 }

@@ -13,11 +13,13 @@
 //! | [`further`] | loads that few machines have |
 //! | [`law`] | loads by formulas and tables that depend on speed or time |
 //! | [`drive`] | motor, gearbox: torque on the crank over speed |
-//! | [`gauss`] | collocation of order 8 |
+//! | [`gauss`], [`radau`] | quadrature of order 8; collocation of order 9 |
 //! | [`kinks`] | where the reduced machine is not smooth |
 //! | [`layout`] | what the lanes of a turn hold: machines or steps |
 //! | [`cycle`] | steady motion on one mesh, in any lanes |
-//! | [`measures`] | extremes, work, torque of a turn |
+//! | [`mesh`], [`check`] | steps of one machine's turn; the error in each, measured |
+//! | [`reading`], [`measures`], [`extremes`] | curves; work and torque of a turn; its extremes |
+//! | [`march`] | all motions over one turn, from the fastest down: which repeat, and whether any does |
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
 //! | [`rk`], [`transient`] | motion in time from given angle and speed, with its events |
 //! | [`batch`] | many machines: lanes and threads |
@@ -35,10 +37,12 @@
 pub mod batch;
 pub mod call;
 pub mod cam;
+pub mod check;
 pub mod cycle;
 pub mod drive;
 pub mod dual;
 pub mod error;
+pub mod extremes;
 pub mod formula;
 pub mod further;
 pub mod gauss;
@@ -48,10 +52,14 @@ pub mod lanes;
 pub mod law;
 pub mod layout;
 pub mod linkage;
+pub mod march;
 pub mod measures;
+pub mod mesh;
 pub mod motion_law;
 pub mod plan;
 pub mod plane;
+pub mod radau;
+pub mod reading;
 pub mod real;
 pub mod reduce;
 pub mod rk;

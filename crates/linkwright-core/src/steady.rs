@@ -1,49 +1,44 @@
 //! Steady motion of one machine to a wanted accuracy.
 //!
-//! The turn is solved on a mesh and on one twice as fine, until both agree. What differs by Δ on a method of
-//! order 8 is off by Δ/255 on the finer one, so agreement is asked for within 100 times the accuracy. Where
-//! the motor's or gearbox's characteristic has a kink at some speed, the angles at which the speed passes it
-//! are found on each mesh and become ends of steps on the next.
+//! The turn is solved on a mesh, the error of every step is measured ([`crate::check`]), and steps that err
+//! too much are made shorter, until none does. Where the motor's or gearbox's characteristic has a kink at
+//! some speed, the angles at which the motion passes it become ends of steps. The accuracy that is reported
+//! is what was measured.
+//!
+//! Newton over the whole turn from one constant speed finds the motion of all but a few machines. Where it
+//! fails, or finds a motion from which the machine departs, the turn is marched through instead
+//! ([`crate::march`]): that finds the fastest motion that repeats, or shows that none does.
 
 use crate::call::poll;
-use crate::cycle::{Machine, Step, Turn};
-use crate::gauss::S;
+use crate::cycle::{Machine, Turn, divide};
+use crate::extremes::{Extreme, Extremes};
 use crate::lanes::{Job, in_lanes};
-use crate::law::Moving;
 use crate::layout::unbundle;
 use crate::linkage::Motion;
-use crate::measures::{Extreme, Extremes, Totals};
+use crate::march::{NoMotion, fastest_motion};
+use crate::measures::Totals;
+use crate::mesh::{Mesh, Piece, crossings_of};
 use crate::plan::Plan;
+use crate::reading::Mark;
 use crate::real::Real;
 use crate::status::Status;
-use std::f64::consts::TAU;
 
-/// Steps of the first mesh.
-const FIRST: usize = 24;
+/// Steps of the first mesh for an accuracy of 1e-8 or more.
+const FIRST: f64 = 24.0;
 
-/// Finest mesh: a turn in 12 288 steps, about two minutes of arc each.
-const FINEST: usize = FIRST << 9;
+/// Most steps of a turn.
+const STEPS_MAX: usize = 12_288;
 
-/// Agreement of two meshes per accuracy asked for; see the head of this file.
-const MARGIN: f64 = 100.0;
+/// Most meshes. Some make steps at least half as long, and steps behind a kink shorter at once; some place a
+/// kink.
+const MESHES_MAX: usize = 120;
 
-/// Relative distance of a speed from a kink's below which it counts as the kink's. A break that is off by
-/// 1e-9 rad changes the solution by the square of that.
-const ON_KINK: f64 = 1e-10;
+/// Most meshes on which a kink of the drive is placed anew before errors are looked at: each squares the
+/// distance.
+const PLACEMENTS_MAX: u32 = 8;
 
-/// The smallest accuracy that rounding leaves reachable.
-const ROUNDING: f64 = 2e-14;
-
-/// The solution at the start of a step.
-#[derive(Clone, Copy, Debug)]
-pub struct Mark {
-    /// Crank angle \[rad\].
-    pub phi: f64,
-    /// Kinetic energy \[J\].
-    pub E: f64,
-    /// Time from φ = 0 \[s\].
-    pub t: f64,
-}
+/// An accuracy that is asked for and cannot be had is reported, as long as it is better than this.
+const USABLE: f64 = 1e-5;
 
 /// Steady motion of one machine.
 #[derive(Clone, Debug)]
@@ -52,14 +47,44 @@ pub struct Steady {
     pub marks: Vec<Mark>,
     /// Derivative of the turn-to-turn map.
     pub multiplier: f64,
-    /// Measures.
+    /// Extremes.
     pub extremes: Extremes<f64>,
     /// Integrals.
     pub totals: Totals<f64>,
-    /// Relative difference of the last two meshes.
-    pub difference: f64,
+    /// Relative error as measured.
+    pub reached: f64,
     /// Sweeps over all meshes.
     pub sweeps: u32,
+}
+
+/// Why there is no answer.
+#[derive(Clone, Copy, Debug)]
+pub struct Failure {
+    /// The kind.
+    pub status: Status,
+    /// Crank angle where the machine comes to rest or does not close \[rad\]; NaN where there is none.
+    pub phi: f64,
+    /// Speed from which it slows down, or which it still exceeds \[rad/s\]; NaN where there is none.
+    pub omega: f64,
+    /// Accuracy that was reached.
+    pub reached: f64,
+}
+
+impl Failure {
+    fn new(status: Status) -> Self {
+        Failure { status, phi: f64::NAN, omega: f64::NAN, reached: f64::NAN }
+    }
+}
+
+impl From<NoMotion> for Failure {
+    fn from(reason: NoMotion) -> Self {
+        match reason {
+            NoMotion::Rests { omega, phi } => Failure { phi, omega, ..Failure::new(Status::NoSteadyMotion) },
+            NoMotion::RunsAway { omega } => Failure { omega, ..Failure::new(Status::NoSteadyMotion) },
+            NoMotion::DoesNotClose { phi } => Failure { phi, ..Failure::new(Status::DoesNotClose) },
+            NoMotion::Unknown => Failure::new(Status::Inaccurate),
+        }
+    }
 }
 
 /// Solves for the steady motion with relative accuracy `accuracy`.
@@ -67,156 +92,128 @@ pub struct Steady {
 /// # Errors
 /// [`Status::DoesNotClose`], [`Status::NoSteadyMotion`], or [`Status::Inaccurate`] when the finest mesh
 /// does not suffice.
-pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Status> {
+pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
     let machine = Machine { plan, q };
-    let mut m = Motion::new(&plan.mechanism, q);
-    let accuracy = accuracy.max(ROUNDING);
-    let breaks = machine.breaks(&mut m);
-    let (speeds, moving) = (plan.speed_kinks(q), plan.moving_kinks());
-    let mut mesh = Mesh { plan, q, breaks: &breaks, n: FIRST, tolerance: accuracy * 1e-2, last: None };
-    let (mut crossings, mut sweeps) = (Vec::new(), 0);
-    while mesh.n <= FINEST {
-        poll();
-        let with_crossings = merged(&breaks, &crossings);
-        let found = in_lanes(Mesh { breaks: &with_crossings, ..mesh })?;
-        sweeps += found.sweeps;
-        let passed = speeds.iter().copied().filter(|&speed| found.may_pass(speed)).map(Event::Speed);
-        let events: Vec<Event> = passed.chain(moving.iter().copied().map(Event::Law)).collect();
-        let next = crossings_of(&found.marks, &machine, &events, &mut m);
-        if let Some((difference, extremes)) = found.agreed.filter(|_| next.len() == crossings.len()) {
-            let Solved { marks, multiplier, totals, .. } = found;
-            return Ok(Steady { marks, multiplier, extremes, totals, difference, sweeps });
-        }
-        mesh.last = Some((found.totals.period, found.marks[0].E, accuracy));
-        (crossings, mesh.n) = (next, mesh.n * 2);
+    let breaks = machine.breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0);
+    // With order 9 a mesh this much finer is good for the accuracy where 24 steps are for 1e-8.
+    let steps = FIRST * (1e-8 / accuracy).powf(0.125).clamp(1.0, 4.0);
+    let mesh = Mesh::new(divide(&breaks, steps as usize));
+    let search = Search { plan, q, breaks: &breaks, accuracy, mesh, start: None };
+    let first = in_lanes(search.clone());
+    match first {
+        Ok(found) if found.multiplier < 1.0 => return Ok(found),
+        Err(failure) if failure.status == Status::DoesNotClose => return Err(failure),
+        _ => {}
     }
-    Err(Status::Inaccurate)
+    let start = fastest_motion(&machine, &breaks)?;
+    let mut edges: Vec<f64> = start.iter().map(|piece| piece.phi).collect();
+    edges.push(std::f64::consts::TAU);
+    let second = in_lanes(Search { mesh: Mesh::new(edges), start: Some(start), ..search });
+    second.map_err(|failure| match failure.status {
+        // There is a motion, but Newton does not hold it.
+        Status::NoSteadyMotion => Failure { status: Status::Inaccurate, ..failure },
+        _ => failure,
+    })
 }
 
-/// Breaks of the turn with further angles, in order.
-fn merged(breaks: &[f64], more: &[f64]) -> Vec<f64> {
-    let mut all = [breaks, more].concat();
-    all.sort_by(f64::total_cmp);
-    all
-}
-
-/// The search on one mesh, with the steps of the machine in lanes.
-#[derive(Clone, Copy)]
-struct Mesh<'a> {
+/// The search from one mesh on, with the steps of the machine in lanes.
+#[derive(Clone)]
+struct Search<'a> {
     plan: &'a Plan,
     q: &'a [f64],
     breaks: &'a [f64],
-    n: usize,
-    tolerance: f64,
-    /// Period and first energy on the mesh before, and the accuracy to which they should agree.
-    last: Option<(f64, f64, f64)>,
+    accuracy: f64,
+    mesh: Mesh,
+    /// What to start from; one constant speed otherwise.
+    start: Option<Vec<Piece>>,
 }
 
-/// What a mesh gives; the measures only where it agrees with the one before.
-struct Solved {
-    marks: Vec<Mark>,
-    multiplier: f64,
-    totals: Totals<f64>,
-    sweeps: u32,
-    /// Least and greatest speed at the stages.
-    speeds: (f64, f64),
-    agreed: Option<(f64, Extremes<f64>)>,
-}
-
-impl Solved {
-    /// Whether the motion may pass a speed, with room for what lies between the stages.
-    fn may_pass(&self, speed: f64) -> bool {
-        let (low, high) = self.speeds;
-        let room = 0.1 * (high - low) + 1e-9 * high;
-        low - room < speed && speed < high + room
-    }
-}
-
-impl Job for Mesh<'_> {
-    type Output = Result<Solved, Status>;
+impl Job for Search<'_> {
+    type Output = Result<Steady, Failure>;
 
     #[inline(always)]
     fn run<R: Real>(self) -> Self::Output {
         let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
         let machine = Machine { plan: self.plan, q: &q };
+        let plain = Machine { plan: self.plan, q: self.q };
+        let mut plain_motion = Motion::new(&self.plan.mechanism, self.q);
         let mut m = Motion::new(&self.plan.mechanism, &q);
-        let mut turn = Turn::of_steps(&machine, self.breaks, self.n, &mut m);
-        if !turn.closes() {
-            return Err(Status::DoesNotClose);
+        let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
+        let mut placements = 0;
+        for _ in 0..MESHES_MAX {
+            poll();
+            let mut turn = Turn::of_steps(&machine, &mesh.edges, &mut m);
+            if !turn.closes() {
+                return Err(Failure::new(Status::DoesNotClose));
+            }
+            match &start {
+                Some(pieces) => turn.start_from(pieces),
+                None => turn.start_from_balance(&machine),
+            }
+            turn.solve(&machine);
+            sweeps += turn.sweeps;
+            let multiplier = unbundle(&[turn.multiplier])[0];
+            if !turn.is_solved() || multiplier >= 1.0 {
+                return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
+            }
+            let pieces = turn.pieces();
+            if placements < PLACEMENTS_MAX {
+                let crossings = crossings_of(&pieces, &plain, &mut plain_motion);
+                if let Some(next) = mesh.with_crossings(&crossings, self.breaks) {
+                    (mesh, start, placements) = (next, Some(pieces), placements + 1);
+                    continue;
+                }
+            }
+            let check = turn.check(&machine, self.accuracy, &mut m);
+            let is_good = check.excess.iter().all(|excess| excess.error <= 1.0);
+            reached = check.reached;
+            let next = (!is_good).then(|| mesh.refined(&check.excess));
+            let next = next.filter(|next| next.edges.len() <= STEPS_MAX);
+            let Some(next) = next else {
+                if !is_good && reached > USABLE.max(self.accuracy) {
+                    break;
+                }
+                return Ok(Steady {
+                    marks: turn.marks(),
+                    multiplier,
+                    extremes: turn.extremes(&machine, &mut m).first_lane(),
+                    totals: turn.totals(&machine).first_lane(),
+                    reached,
+                    sweeps,
+                });
+            };
+            (mesh, start, placements) = (next, Some(pieces), 0);
         }
-        turn.start_from_balance(&machine);
-        turn.solve(&machine, self.tolerance);
-        if !turn.is_solved() {
-            return Err(Status::NoSteadyMotion);
-        }
-        let totals = turn.totals(&machine).first_lane();
-        let marks = turn.marks();
-        let agreed = self.last.and_then(|(period, E, accuracy)| {
-            let difference = relative_difference((totals.period, marks[0].E), (period, E));
-            (difference <= MARGIN * accuracy)
-                .then(|| (difference, turn.extremes(&machine, &mut m).first_lane()))
-        });
-        let multiplier = first_lane(turn.multiplier);
-        Ok(Solved { marks, multiplier, totals, sweeps: turn.sweeps, speeds: turn.stage_speeds(), agreed })
+        Err(Failure { reached, ..Failure::new(Status::Inaccurate) })
     }
-}
-
-fn relative_difference(a: (f64, f64), b: (f64, f64)) -> f64 {
-    ((a.0 - b.0) / a.0).abs().max(((a.1 - b.1) / a.1).abs())
 }
 
 impl<R: Real> Turn<R> {
-    /// Whether every dyad closes at every stage.
-    #[inline(always)]
-    fn closes(&self) -> bool {
-        let mut worst = R::splat(0.0);
-        for step in &self.steps {
-            for row in &step.rows {
-                // NaN, which an open dyad leaves, is not below the limit.
-                worst = worst.max(row.root.select_lt(R::splat(f64::INFINITY), worst, R::splat(1.0)));
-            }
-        }
-        worst.max_lane() < 0.5
-    }
-
-    /// Whether Newton converged to a real motion in every lane.
+    /// Whether Newton converged to a real motion.
     #[inline(always)]
     fn is_solved(&self) -> bool {
-        let energies: Vec<R> = self.steps.iter().map(|step| step.E).collect();
+        let flat = |of: &dyn Fn(&crate::cycle::Step<R>) -> R| {
+            unbundle(&self.steps.iter().map(of).collect::<Vec<_>>())
+        };
         !self.steps.is_empty()
-            && self.correction <= 1e-6
+            && unbundle(&[self.correction]).iter().all(|&x| x <= 1e-6)
             && unbundle(&[self.multiplier]).iter().all(|x| x.is_finite())
-            && unbundle(&energies).iter().all(|&E| E > 0.0 && E.is_finite())
-    }
-
-    /// Least and greatest speed at the stages of all lanes.
-    #[inline(always)]
-    fn stage_speeds(&self) -> (f64, f64) {
-        let mut low = R::splat(f64::INFINITY);
-        let mut high = R::splat(0.0);
-        for step in &self.steps {
-            for i in 0..S {
-                let omega = step.rows[i].root * step.X[i].sqrt();
-                low = low.min(omega);
-                high = high.max(omega);
-            }
-        }
-        (-(-low).max_lane(), high.max_lane())
+            && flat(&|step| step.u)
+                .into_iter()
+                .chain(flat(&|step| step.end()))
+                .all(|u| u > 0.0 && u.is_finite())
     }
 
     /// The solution at the starts of the steps, those of no length left out.
     #[inline(always)]
     fn marks(&self) -> Vec<Mark> {
-        let columns = |of: &dyn Fn(&Step<R>) -> R| unbundle(&self.steps.iter().map(of).collect::<Vec<_>>());
-        let (phi, E) = (columns(&|step| step.phi), columns(&|step| step.E));
-        let (h, duration) = (columns(&|step| step.h), columns(&|step| step.duration()));
+        let durations = unbundle(&self.steps.iter().map(crate::cycle::Step::duration).collect::<Vec<_>>());
         let mut t = 0.0;
-        let mut marks = Vec::with_capacity(phi.len());
-        for k in 0..phi.len() {
-            if h[k] > 0.0 {
-                marks.push(Mark { phi: phi[k], E: E[k], t });
-            }
-            t += duration[k];
+        let mut marks = Vec::with_capacity(durations.len());
+        // Steps of no length come last.
+        for (piece, duration) in self.pieces().into_iter().zip(durations) {
+            marks.push(Mark { phi: piece.phi, u: piece.u, t, h: piece.h, X: piece.X });
+            t += duration;
         }
         marks
     }
@@ -252,182 +249,6 @@ impl<R: Real> Extremes<R> {
             speed_max: first(&self.speed_max),
             acceleration_min: first(&self.acceleration_min),
             acceleration_max: first(&self.acceleration_max),
-            doubt: first_lane(self.doubt),
         }
-    }
-}
-
-/// What the motion may pass where its equation has a kink.
-#[derive(Clone, Copy)]
-enum Event {
-    /// A speed of the crank.
-    Speed(f64),
-    /// A kink of a law.
-    Law(Moving),
-}
-
-impl Event {
-    /// The quantity whose zero it is.
-    fn value(self, machine: &Machine<'_, f64>, phi: f64, E: f64, m: &mut Motion<f64>) -> f64 {
-        let omega = machine.state(phi, E, m).omega;
-        match self {
-            Event::Speed(speed) => omega - speed,
-            Event::Law(kink) => {
-                let mut given = Vec::new();
-                machine.plan.give(machine.q, phi, m, &mut given);
-                machine.plan.moving_value(machine.q, kink, &given, omega)
-            }
-        }
-    }
-
-    /// The size of the quantity, against which a value counts as zero.
-    fn size(self, values: &[f64]) -> f64 {
-        match self {
-            Event::Speed(speed) => speed,
-            Event::Law(_) => values.iter().fold(0.0, |size, value| value.abs().max(size)),
-        }
-    }
-}
-
-/// Angles at which the motion passes one of the given events.
-fn crossings_of(
-    marks: &[Mark],
-    machine: &Machine<'_, f64>,
-    events: &[Event],
-    m: &mut Motion<f64>,
-) -> Vec<f64> {
-    let mut crossings = Vec::new();
-    for event in events {
-        let values: Vec<f64> = marks.iter().map(|mark| event.value(machine, mark.phi, mark.E, m)).collect();
-        let near = ON_KINK * event.size(&values);
-        for (k, mark) in marks.iter().enumerate() {
-            let h = marks.get(k + 1).map_or(TAU, |next| next.phi) - mark.phi;
-            let (left, right) = (values[k], values[(k + 1) % values.len()]);
-            if left.abs() <= near {
-                // The crossing of the mesh before: it stays an end of steps.
-                crossings.push(mark.phi);
-            } else if left * right < 0.0 && right.abs() > near {
-                let excess = |h: f64| {
-                    let E = machine.advance(mark.phi, mark.E, h, m);
-                    event.value(machine, mark.phi + h, E, m)
-                };
-                crossings.push(mark.phi + crossing(excess, h, left, right));
-            }
-        }
-    }
-    crossings.sort_by(f64::total_cmp);
-    crossings
-}
-
-/// Zero of `f` in [0, h] with given values of opposite sign at the ends: Illinois variant of regula falsi
-/// (Dowell, Jarratt, *BIT* 11, 1971), order 1.44, never leaves the bracket.
-pub fn crossing(mut f: impl FnMut(f64) -> f64, h: f64, mut left: f64, mut right: f64) -> f64 {
-    let (mut a, mut b) = (0.0, h);
-    let mut root = a;
-    for _ in 0..60 {
-        root = (a * right - b * left) / (right - left);
-        let value = f(root);
-        // Rounding of the speed limits the place to about 1e-14 of the step.
-        if value == 0.0 || (b - a).abs() <= 1e-14 * h.abs() {
-            break;
-        }
-        if value * right < 0.0 {
-            (a, left) = (b, right);
-        } else {
-            left *= 0.5;
-        }
-        if (root - b).abs() <= 1e-14 * h.abs() {
-            break;
-        }
-        (b, right) = (root, value);
-    }
-    root
-}
-
-/// Curves over the turn at given angles (from 0 to 2π): each list as long as `phi`.
-#[derive(Clone, Debug, Default)]
-pub struct Curves {
-    pub time: Vec<f64>,
-    pub omega: Vec<f64>,
-    pub epsilon: Vec<f64>,
-    pub motor_torque: Vec<f64>,
-    pub drive_torque: Vec<f64>,
-    pub load_torque: Vec<f64>,
-    pub J: Vec<f64>,
-}
-
-/// Reads the solution at many angles, as many at once as there are lanes.
-pub struct ReadCurves<'a> {
-    /// The machine's structure.
-    pub plan: &'a Plan,
-    /// Its numbers.
-    pub q: &'a [f64],
-    /// The solution.
-    pub marks: &'a [Mark],
-    /// The angles \[rad\], in [0, 2π].
-    pub phi: &'a [f64],
-}
-
-impl Job for ReadCurves<'_> {
-    type Output = Curves;
-
-    #[inline(always)]
-    fn run<R: Real>(self) -> Curves {
-        let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
-        let machine = Machine { plan: self.plan, q: &q };
-        let mut m = Motion::new(&self.plan.mechanism, &q);
-        let mut curves = Curves::default();
-        let n = R::LANES;
-        let mut from = [vec![0.0; n], vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-        let mut lanes = vec![0.0; n];
-        let mut k = 0;
-        for phis in self.phi.chunks(n) {
-            poll();
-            for lane in 0..n {
-                let phi = phis[lane.min(phis.len() - 1)];
-                k = self.mark_before(phi, k);
-                let mark = &self.marks[k];
-                let values = [mark.phi, mark.E, phi - mark.phi, mark.t];
-                for (list, value) in from.iter_mut().zip(values) {
-                    list[lane] = value;
-                }
-            }
-            let [phi, E, h, start] =
-                [R::load(&from[0]), R::load(&from[1]), R::load(&from[2]), R::load(&from[3])];
-            let (end, dt) = R::outline(
-                #[inline(always)]
-                || machine.advance_timed(phi, E, h, &mut m),
-            );
-            let state = R::outline(
-                #[inline(always)]
-                || machine.state(phi + h, end, &mut m),
-            );
-            let row = [
-                (&mut curves.time, start + dt),
-                (&mut curves.omega, state.omega),
-                (&mut curves.epsilon, state.epsilon),
-                (&mut curves.motor_torque, state.motor_torque),
-                (&mut curves.drive_torque, state.drive_torque),
-                (&mut curves.load_torque, state.load_torque),
-                (&mut curves.J, state.J),
-            ];
-            for (list, value) in row {
-                value.store(&mut lanes);
-                list.extend_from_slice(&lanes[..phis.len()]);
-            }
-        }
-        curves
-    }
-}
-
-impl ReadCurves<'_> {
-    /// Index of the last mark not after φ, looked for from a likely one on.
-    fn mark_before(&self, phi: f64, from: usize) -> usize {
-        let is_before = |k: usize| self.marks.get(k).is_some_and(|mark| mark.phi <= phi);
-        let mut k = if is_before(from) { from } else { 0 };
-        while is_before(k + 1) {
-            k += 1;
-        }
-        k
     }
 }

@@ -12,10 +12,10 @@ use crate::call::poll;
 use crate::cycle::Machine;
 use crate::law::Given;
 use crate::linkage::Motion;
+use crate::mesh::crossing;
 use crate::plan::Plan;
 use crate::plane::Angle;
 use crate::rk::{Trial, next_factor, try_step};
-use crate::steady::crossing;
 use std::f64::consts::TAU;
 
 /// What to follow.
@@ -147,7 +147,7 @@ impl Follower<'_> {
 pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
     let machine = Machine { plan, q };
     let mut motion = Motion::new(&plan.mechanism, q);
-    let kinks = machine.breaks(&mut motion);
+    let kinks = machine.breaks(&mut motion).swap_remove(0);
     let speed_scale = q[plan.drive.speed_start].max(start.omega);
     let mut follower = Follower { machine, motion, given: Vec::new(), speed_scale, evaluations: 0 };
     let mut path = Path::new(plan, q, start, kinks);

@@ -20,7 +20,8 @@ use linkwright_core::lanes::in_lanes;
 use linkwright_core::linkage::in_line::InLine as CoreInLine;
 use linkwright_core::linkage::trace;
 use linkwright_core::plan::{Encoded, Plan as CorePlan};
-use linkwright_core::steady::{ReadCurves, steady};
+use linkwright_core::reading::ReadCurves;
+use linkwright_core::steady::{Failure, steady};
 use linkwright_core::transient::{Start, follow};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1};
 use pyo3::exceptions::PyValueError;
@@ -86,7 +87,7 @@ impl Plan {
 type Curve<'py> = Bound<'py, PyArray1<f64>>;
 type Table<'py> = Bound<'py, PyArray2<f64>>;
 /// Status, scalars, curves.
-type Solved<'py> = (u8, Option<Curve<'py>>, Option<Table<'py>>);
+type Solved<'py> = (u8, Curve<'py>, Option<Table<'py>>);
 /// Status and scalars of every row, and turns swept.
 type SolvedRows<'py> = (Bound<'py, PyArray1<u8>>, Table<'py>, u64);
 /// How it ended, torques there, evaluations, and t, φ, ω, ε.
@@ -111,16 +112,17 @@ fn steady_state<'py>(
     })?;
     let (found, curves) = match solved {
         Ok(solved) => solved,
-        Err(status) => {
-            let status: linkwright_core::status::Status = status;
-            return Ok((status as u8, None, None));
+        Err(failure) => {
+            let failure: Failure = failure;
+            let places = vec![failure.phi, failure.omega, failure.reached];
+            return Ok((failure.status as u8, PyArray1::from_vec(py, places), None));
         }
     };
     let mut scalars = batch::row_of_steady(&found).to_vec();
     scalars.extend([
         found.extremes.acceleration_min.phi,
         found.extremes.acceleration_max.phi,
-        found.difference,
+        found.reached,
         f64::from(found.sweeps),
         found.marks.len() as f64,
     ]);
@@ -140,7 +142,7 @@ fn steady_state<'py>(
             to.copy_from_slice(from);
         }
     }
-    Ok((0, Some(PyArray1::from_vec(py, scalars)), Some(table)))
+    Ok((0, PyArray1::from_vec(py, scalars), Some(table)))
 }
 
 #[pyfunction]

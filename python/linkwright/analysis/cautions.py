@@ -23,6 +23,10 @@ _LOW_VOLTAGE = 0.81
 # Torques against the motion, and energies, that are a smaller share of the greatest are not worth a sentence.
 _SMALL = 0.01
 
+# Relative accuracy of the steady motion above which it is worth a sentence: results are shown with six
+# digits.
+_ACCURATE = 1e-6
+
 # Inertia that is a smaller share of the greatest is zero but for rounding.
 _ROUNDING = 1e-12
 
@@ -109,6 +113,12 @@ def _cycle(steady: SteadyState) -> Iterator[str]:
         yield (
             f"The steady motion is unstable: a small disturbance of the speed grows {steady.multiplier:.4g} "
             "times in each turn, so the machine will not stay there."
+        )
+    if steady.accuracy > _ACCURATE:
+        yield (
+            f"The steady motion is known to a relative accuracy of {steady.accuracy:.1e} only: the motor's "
+            "torque is so steep over the speed that rounding of the speed shows in it. An inertia that was "
+            "left out, of motor or crank, is the usual cause."
         )
 
 

@@ -1,6 +1,6 @@
-r"""Steady motion: the periodic solution of the machine's energy equation, and its measures.
+r"""Steady motion: the periodic solution of the machine's equation of motion, and its measures.
 
-.. math:: \frac{dE}{d\varphi} = M_d(\omega) - M_r(\varphi,\omega), \qquad \omega = \sqrt{2E/J(\varphi)}
+.. math:: J \frac{du}{d\varphi} = M_d(\omega) - M_r(\varphi,\omega) - J' u, \qquad u = \tfrac12 \omega^2
 
 The solution is found by Newton on the turn-to-turn map, not by waiting for transients; the core says how
 (`linkwright-core`, module `cycle`).
@@ -8,6 +8,7 @@ The solution is found by Newton on the turn-to-turn map, not by waiting for tran
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,9 +29,9 @@ Floats = NDArray[np.float64]
 # Statuses of the core (`linkwright-core`, module `status`).
 _DOES_NOT_CLOSE, _NO_STEADY_MOTION = 1, 2
 
-# Speeds of a turn at which the motor's torque is looked at: its extremes lie at the ends of their range, or
-# at breakdown, which is flat.
-_SPEEDS_IN_TURN = 65
+# Speeds of a turn at which the motor's torque is looked at for its extremes, and how often between the
+# neighbours of the best: an interval is a 32nd of that before.
+_SPEEDS_IN_TURN, _ZOOMS = 65, 7
 
 # Speeds at which it is looked whether the drive can balance the mean load at all.
 _SPEEDS = 400
@@ -74,8 +75,8 @@ class SteadyState(Result):
     power_motor_max : float
         Greatest power at the motor's shaft [W].
     accuracy : float
-        Estimated relative error: a hundredth of the difference between the last two meshes. The method is of
-        order 8, so the finer mesh errs by 1/255 of it.
+        Relative error as measured: of speeds, of accelerations against their peak (or against 1e-4 ω², if the
+        machine turns more evenly than that), and of the integrals. Every step was done again in halves.
     sweeps, steps : int
         Newton sweeps over the turn in all, and steps of the finest mesh.
     method : str
@@ -185,7 +186,9 @@ def steady_state(
     machine : Machine
         The machine, with a motor.
     accuracy : float
-        Relative accuracy of speed and period, down to 1e-13.
+        Relative accuracy of everything that is returned, down to 1e-13: speeds, accelerations against their
+        peak, integrals. Rounding may forbid it where the motor is very steep; `SteadyState.accuracy` says
+        what was reached.
     n : int
         Intervals of the turn for the curves; extremes and integrals do not depend on it.
     angles : ndarray, shape (m,), optional
@@ -230,27 +233,47 @@ def steady_state(
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
         return _at_constant_speed(machine, compiled, phi)
     status, scalars, curves = compiled.steady(phi, accuracy)
-    if scalars is None or curves is None:
-        raise _failure(status, compiled, machine, accuracy)
+    if curves is None:
+        raise _failure(status, scalars, compiled, accuracy)
     return _from_core(scalars, curves, phi, compiled)
 
 
 def _motor_extremes(compiled: Compiled, low: float, high: float) -> tuple[float, float, float]:
-    """Least and greatest torque and greatest power of the motor for speeds of the crank between two.
+    """Minimum and maximum torque and maximum power of the motor for speeds of the crank between two.
 
     In a turn the speed takes every value between its extremes, and the torque depends on the speed alone.
     """
-    omega = np.linspace(low, high, _SPEEDS_IN_TURN)
-    torque = compiled.motor_torques(omega)[0]
-    power = torque * omega * compiled.gear_factors[0]
-    return float(torque.min()), float(torque.max()), float(power.max())
+    ratio = compiled.gear_factors[0]
+
+    def torque(omega: Floats) -> Floats:
+        return compiled.motor_torques(omega)[0]
+
+    def power(omega: Floats) -> Floats:
+        return torque(omega) * omega * ratio
+
+    return -_peak(lambda omega: -torque(omega), low, high), _peak(torque, low, high), _peak(power, low, high)
+
+
+def _peak(of: Callable[[Floats], Floats], low: float, high: float) -> float:
+    """Maximum of a function on an interval: the best sample, and again between its neighbours.
+
+    A corner is met to the width of the last interval, 1e-9 of the first; a smooth peak to the square of that.
+    """
+    best = -np.inf
+    for _ in range(_ZOOMS):
+        x = np.linspace(low, high, _SPEEDS_IN_TURN)
+        y = of(x)
+        top = int(np.argmax(y))
+        best = max(best, float(y[top]))
+        low, high = float(x[max(top - 1, 0)]), float(x[min(top + 1, _SPEEDS_IN_TURN - 1)])
+    return best
 
 
 def _from_core(scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled) -> SteadyState:
     """The core's numbers by name; their order is that of `linkwright-core`, module `batch`."""
     time, speed, acceleration, torque_motor, torque_drive, torque_load, inertia = curves
     low, high, drop, rise, period, multiplier, motor, drive, load, mean, rms, *places = scalars.tolist()
-    low_at, high_at, drop_at, rise_at, difference, sweeps, steps = places
+    low_at, high_at, drop_at, rise_at, reached, sweeps, steps = places
     weakest, strongest, most = _motor_extremes(compiled, low, high)
     ratio = compiled.gear_factors[0]
     return SteadyState(
@@ -281,7 +304,7 @@ def _from_core(scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled)
         torque_motor_min=weakest,
         torque_motor_max=strongest,
         power_motor_max=most,
-        accuracy=0.01 * difference,
+        accuracy=reached,
         sweeps=int(sweeps),
         steps=int(steps),
     )
@@ -342,25 +365,44 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
     )
 
 
-def _failure(status: int, compiled: Compiled, machine: Machine, accuracy: float) -> Exception:
-    """The error for a status of the core, with numbers."""
+def _failure(status: int, places: Floats, compiled: Compiled, accuracy: float) -> Exception:
+    """The error for a status of the core, with its numbers: angle, speed, accuracy reached."""
+    angle, speed, reached = places.tolist()
     if status == _DOES_NOT_CLOSE:
         return SteadyStateError(NO_INERTIA)
     if status == _NO_STEADY_MOTION:
-        return SteadyStateError(_what_lacks(compiled))
+        if np.isnan(angle):
+            return SteadyStateError(_runs_away(compiled, speed))
+        return SteadyStateError(
+            f"{_what_lacks(compiled)} (started at {speed:.4g} rad/s at φ = 0, it comes to rest at "
+            f"φ = {np.degrees(angle):.4g}°, and every faster start slows down to that)"
+        )
+    text = "was not decided within 200 revolutions" if np.isnan(reached) else f"{reached:.1e} was reached"
     return ConvergenceError(
-        f"steady motion was not found to a relative accuracy of {accuracy:g} with 12288 steps a turn; "
-        "ask for less, or look for a mechanism that nearly locks",
+        f"steady motion was not found to a relative accuracy of {accuracy:g} ({text}); ask for less, "
+        "or look for a mechanism that nearly locks",
         method="collocation",
         iterations=12288,
     )
 
 
-def _what_lacks(compiled: Compiled) -> str:
-    """Why there may be no periodic motion: the drive against the mean load."""
+def _runs_away(compiled: Compiled, speed: float) -> str:
+    """That the machine gains speed without end."""
     load, viscous = mean_over_turn(compiled)
-    top = 1.5 * compiled.speed_guess
-    omega = np.linspace(0.0, top, _SPEEDS + 1)[1:]
+    omega = np.array([speed])
+    drive = float(compiled.motor_torques(omega)[1][0])
+    needed = float((load + viscous * omega + compiled.speed_load(omega) + mean_laws(compiled, omega))[0])
+    return (
+        f"no steady motion: at {speed:.4g} rad/s the drive still gives more than the mean load takes "
+        f"({drive:.4g} against {needed:.4g} N m), so the machine speeds up without end; "
+        "add a load that grows with speed or a motor whose torque falls with it"
+    )
+
+
+def _what_lacks(compiled: Compiled) -> str:
+    """Why the machine comes to rest: the drive against the mean load."""
+    load, viscous = mean_over_turn(compiled)
+    omega = np.linspace(0.0, 1.5 * compiled.speed_guess, _SPEEDS + 1)[1:]
     drive = compiled.motor_torques(omega)[1]
     resisting = load + viscous * omega + compiled.speed_load(omega) + mean_laws(compiled, omega)
     best = int(np.argmax(drive - resisting))
@@ -368,12 +410,6 @@ def _what_lacks(compiled: Compiled) -> str:
         return (
             f"no steady motion: at best, at {omega[best]:.4g} rad/s, the drive gives {drive[best]:.4g} N m "
             f"at the crank and the mean load needs {resisting[best]:.4g} N m; choose a larger motor or ratio"
-        )
-    if (drive > resisting).all():
-        return (
-            f"no steady motion: up to {top:.4g} rad/s the drive gives more than the mean load takes "
-            f"({drive[-1]:.4g} against {resisting[-1]:.4g} N m), so the machine speeds up without end; "
-            "add a load that grows with speed or a motor whose torque falls with it"
         )
     return (
         "no steady motion: the drive balances the mean load, but not the turn's peaks: the machine comes to "

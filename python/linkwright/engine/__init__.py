@@ -188,7 +188,7 @@ class Compiled:
         """Motion in time from angle [rad] and speed [rad/s]; see `_core.transient`."""
         return _core.transient(self.plan, self.one, *start, duration, turns, accuracy)
 
-    def steady(self, angles: Floats, accuracy: float) -> tuple[int, Floats | None, Floats | None]:
+    def steady(self, angles: Floats, accuracy: float) -> tuple[int, Floats, Floats | None]:
         """Steady motion with curves at crank angles in [0, 2π]; see `_core.steady_state`."""
         return _core.steady_state(self.plan, self.one, accuracy, angles)
 

@@ -164,9 +164,9 @@ def _methods(study: Study) -> Iterator[str]:
         difference = number(max(steady.accuracy, _FINEST), 1)
         yield (
             "Steady motion is the periodic solution itself, by Newton's method on the turn, with "
-            f"{steady.steps} steps from kink to kink; two meshes agree to {difference}. Curves are "
-            f"drawn through {len(steady.crank_angle)} points; extremes, work and root mean squares do not "
-            "depend on them."
+            f"{steady.steps} steps from kink to kink, each checked against two of half its length: relative "
+            f"error {difference}. Curves go through {len(steady.crank_angle)} points; extremes, work and "
+            "root mean squares do not depend on them."
         )
     if study.run_up is not None:
         yield "The run-up is integrated in time by Dormand and Prince's method of order 8, adaptive steps."

@@ -172,22 +172,6 @@ impl<R: Real> Motion<R> {
 }
 
 impl Mechanism {
-    /// The link that carries a point about a point of the ground: both turn back at the same angles.
-    pub fn arm_of(&self, carried: usize) -> Option<usize> {
-        let is_ground = |point: usize| self.ground.iter().any(|fixed| fixed.point == point);
-        self.elements.iter().find_map(|element| match *element {
-            Element::Rocker(ref e) | Element::Folding(Folding { rocker: ref e, .. })
-                if e.joint == carried && is_ground(e.pivot) =>
-            {
-                Some(e.rocker_link)
-            }
-            Element::RigidPoint { point, link, origin, .. } if point == carried && is_ground(origin) => {
-                Some(link)
-            }
-            _ => None,
-        })
-    }
-
     /// Places everything at the given crank angle. `ORDER` is 1 or 2: the highest derivative wanted
     /// (second derivatives stay zero at order 1). `q` are the machine's parameters.
     #[inline(always)]

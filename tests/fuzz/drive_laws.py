@@ -1,0 +1,203 @@
+"""Laws that the motion of a drive keeps, by plain integration that shares no solver with the product."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+
+import numpy as np
+from broken import PromiseError, watched
+from numpy.random import Generator
+from numpy.typing import NDArray
+from random_drives import random_drive
+from scipy.integrate import solve_ivp
+
+import linkwright as lw
+from linkwright.analysis.steady_state import SteadyState
+from linkwright.analysis.transient import End
+from linkwright.engine import Compiled, compile_machine
+from linkwright.errors import FindingError, InputError, SteadyStateError
+from linkwright.sweep.batch import SteadyStates
+
+Floats = NDArray[np.float64]
+Inputs = Mapping[str, str]
+
+# What every number and curve of a steady motion must keep; the solver's own promise is sharper.
+WITHIN = 1e-6
+
+# Marching errs by some of its tolerance a step, and passes kinks by ever smaller steps.
+MARCH = 1e-10
+
+# Angles at which curves are compared.
+INTERVALS = 144
+
+TURN = 2 * np.pi
+
+
+def drive(random: Generator) -> None:
+    """A random drive: its steady motion keeps all laws, or its refusal is true in time."""
+    description = random_drive(random)
+    inputs = {"machine": repr(description)}
+    with watched(inputs, 120.0):
+        try:
+            machine = lw.Machine.model_validate(description)
+            compiled = compile_machine(machine)
+            found = lw.steady_state(machine, n=INTERVALS)
+        except SteadyStateError:
+            refused_in_time(machine, compiled, inputs)
+            return
+        except (FindingError, InputError):
+            return
+        steady_laws(found, compiled, inputs)
+        forces_agree(machine, found, inputs)
+
+
+def steady_laws(found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
+    """All laws of one steady motion."""
+    for name, curve in vars(found).items():
+        if not np.isfinite(curve if isinstance(curve, np.ndarray | float) else 0.0).all():
+            raise PromiseError(f"{name} is not finite", inputs)
+    _powers(found, compiled, inputs)
+    _integral(found, compiled, inputs)
+    _extremes(found, inputs)
+    _work(found, inputs)
+
+
+def _powers(found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
+    """M_d − M_r = J ε + ½ J′ ω² at every angle."""
+    J, J_d1, load, dry, viscous = compiled.reductions(found.crank_angle)
+    inertia = J * found.acceleration + 0.5 * J_d1 * found.speed**2
+    rest = found.torque_drive - found.torque_load - inertia
+    terms = np.abs([found.torque_drive, found.torque_load, inertia, load, dry, viscous * found.speed])
+    worst = (np.abs(rest) / terms.max()).max()
+    if not worst < WITHIN:
+        raise PromiseError(f"torques are out of balance by {worst:.2g} of the largest", inputs)
+
+
+def _slope(compiled: Compiled, phi: float, state: Floats) -> list[float]:
+    """dE/dφ, and 1/ω for the time."""
+    J, _, load, dry, viscous = (float(row[0]) for row in compiled.reductions(np.array([phi])))
+    omega = np.sqrt(2.0 * max(state[0], 1e-300) / J)
+    _, torque = compiled.motor_torques(omega)
+    resisting = load + dry + viscous * omega + float(compiled.speed_load(np.array([omega]))[0])
+    if compiled.has_laws:
+        resisting += float(compiled.law_torques(np.array([phi]), np.array([omega]))[0, 0])
+    return [float(torque[0]) - resisting, 1.0 / omega]
+
+
+def _jacobian(compiled: Compiled, phi: float, state: Floats) -> list[list[float]]:
+    """Its derivative by E; nothing depends on the time."""
+    step = 1e-6 * state[0]
+    ahead, behind = (_slope(compiled, phi, np.array([state[0] + side, 0.0])) for side in (step, -step))
+    return [[(a - b) / (2 * step), 0.0] for a, b in zip(ahead, behind, strict=True)]
+
+
+def _integral(found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
+    """The curve of speed is what the energy equation gives from its first value on, and so is the time."""
+    J = compiled.reductions(found.crank_angle)[0]
+    start = [0.5 * J[0] * found.speed[0] ** 2, 0.0]
+    marched = solve_ivp(
+        partial(_slope, compiled), (0.0, TURN), start, "Radau", found.crank_angle,
+        jac=partial(_jacobian, compiled), max_step=TURN / 100,
+        rtol=MARCH, atol=[MARCH * start[0], MARCH * found.period],
+    )  # fmt: skip
+    if not marched.success:
+        return
+    omega = np.sqrt(2.0 * marched.y[0] / J)
+    off = np.abs(omega - found.speed) / found.speed_max
+    late = np.abs(marched.y[1] - found.time) / found.period
+    # A motion that grows apart by its multiplier multiplies the errors of marching.
+    room = WITHIN * max(1.0, abs(found.multiplier))
+    if not off.max() < room:
+        at = np.degrees(found.crank_angle[off.argmax()])
+        raise PromiseError(f"speed is off by {off.max():.2g} of its maximum at {at:.1f} deg", inputs)
+    if not late.max() < room:
+        raise PromiseError(f"time is off by {late.max():.2g} of the period", inputs)
+
+
+def _extremes(found: SteadyState, inputs: Inputs) -> None:
+    """No value of a curve lies outside the extremes, and these lie inside what the curve nearly reaches."""
+    # Rounding of the torques leaves an acceleration where there is none.
+    rounding = 1e-9 * found.speed_max**2
+    for name, curve in (("speed", found.speed), ("acceleration", found.acceleration)):
+        low, high = getattr(found, f"{name}_min"), getattr(found, f"{name}_max")
+        room = WITHIN * max(abs(low), abs(high)) + rounding * (name == "acceleration")
+        if not (low - room <= curve.min() and curve.max() <= high + room):
+            raise PromiseError(
+                f"{name} runs from {curve.min()} to {curve.max()}, not {low} to {high}", inputs
+            )
+    # Between two angles speed changes by what its extreme acceleration allows and no more.
+    step = np.diff(found.time).max()
+    steepest = max(abs(found.acceleration_min), abs(found.acceleration_max))
+    room = steepest * step + WITHIN * found.speed_max
+    if found.speed.min() - found.speed_min > room or found.speed_max - found.speed.max() > room:
+        raise PromiseError("an extreme of the speed lies farther from its curve than it can get", inputs)
+
+
+def _work(found: SteadyState, inputs: Inputs) -> None:
+    """Over a revolution the work of drive and loads is the same."""
+    # Against the energy that goes round where nothing takes any.
+    size = max(abs(found.energy_drive), found.inertia_reduced.max() * found.speed_max**2)
+    if not abs(found.energy_drive - found.energy_load) <= WITHIN * size:
+        raise PromiseError(
+            f"work: {found.energy_drive} J of the drive, {found.energy_load} J of the load", inputs
+        )
+
+
+def forces_agree(machine: lw.Machine, found: SteadyState, inputs: Inputs) -> None:
+    """Joint forces ask the drive for the torque that the reduction asks for."""
+    forces = lw.forces(machine, n=INTERVALS)
+    worst = np.abs(forces.torque_drive - found.torque_drive).max()
+    size = max(np.abs(found.torque_drive).max(), np.abs(found.torque_load).max())
+    if not worst <= WITHIN * size:
+        raise PromiseError(f"torques of joint forces and reduction differ by {worst / size:.2g}", inputs)
+
+
+def refused_in_time(machine: lw.Machine, compiled: Compiled, inputs: Inputs) -> None:
+    """A machine that is refused does not settle into a motion from any of some speeds."""
+    for factor in (1.0, 0.3):
+        moved = lw.transient(machine, speed=factor * compiled.speed_guess, turns=60.0, accuracy=1e-9)
+        if moved.end != End.TURNS:
+            continue
+        whole = np.arange(57, 61) * TURN
+        speeds = np.interp(whole, moved.crank_angle, moved.speed)
+        spread = np.ptp(speeds) / speeds.mean()
+        if spread < 1e-3:
+            raise PromiseError(
+                f"refused, yet it turns at {speeds[-1]:.6g} rad/s, the same every revolution", inputs
+            )
+
+
+def batch(random: Generator) -> None:
+    """Rows of a batch are what the machines are one by one, and are refused where those are."""
+    description = random_drive(random)
+    inputs = {"machine": repr(description)}
+    with watched(inputs, 120.0):
+        try:
+            machine = lw.Machine.model_validate(description)
+            entries = [(address, value) for address, value in lw.addresses(machine).items() if value]
+            address, value = entries[random.integers(len(entries))]
+            values = value * random.uniform(0.9, 1.1, 6)
+            rows = lw.steady_states(machine, {address: values})
+        except (FindingError, InputError):
+            return
+        inputs["address"] = address
+        for k, at in enumerate(values):
+            _row_agrees(machine, address, at, rows, k, inputs)
+
+
+def _row_agrees(
+    machine: lw.Machine, address: str, value: float, rows: SteadyStates, k: int, inputs: Inputs
+) -> None:
+    try:
+        alone = lw.steady_state(lw.replace(machine, {address: value}), n=12)
+    except (FindingError, InputError) as error:
+        if rows.status[k] == 0:
+            raise PromiseError(f"row {k} ({address} = {value}) answers; alone: {error}", inputs) from None
+        return
+    if rows.status[k] != 0:
+        return
+    for name in ("speed_min", "speed_max", "period"):
+        one, many = getattr(alone, name), getattr(rows, name)[k]
+        if not abs(one - many) <= WITHIN * alone.speed_max:
+            raise PromiseError(f"row {k} ({address} = {value}): {name} {many}, alone {one}", inputs)

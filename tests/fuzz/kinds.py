@@ -1,0 +1,54 @@
+"""The kinds of cases by name: a case takes a random generator and raises `PromiseError`, or ends."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable
+from typing import NamedTuple
+
+import drive_laws
+import numpy as np
+import plans
+import random_parts
+import texts
+from numpy.random import Generator
+
+
+class Kind(NamedTuple):
+    """A kind of case.
+
+    Attributes
+    ----------
+    case : callable
+        Takes a generator of random numbers.
+    few : int
+        How many the ordinary tests run.
+    weight : int
+        How often it comes among the deep ones.
+    """
+
+    case: Callable[[Generator], None]
+    few: int
+    weight: int
+
+
+KINDS: dict[str, Kind] = {
+    "file": Kind(texts.file_of_a_machine, 150, 8),
+    "override": Kind(texts.override, 100, 8),
+    "bytes": Kind(texts.bytes_of_a_file, 100, 1),
+    "table": Kind(texts.table, 60, 1),
+    "formula text": Kind(texts.formula_text, 1000, 1),
+    "formula value": Kind(texts.formula_value, 300, 1),
+    "results": Kind(texts.results, 100, 6),
+    "plan": Kind(plans.plan, 1500, 2),
+    "train": Kind(random_parts.train, 60, 2),
+    "cam": Kind(random_parts.cam, 60, 2),
+    "drive": Kind(drive_laws.drive, 30, 8),
+    "batch": Kind(drive_laws.batch, 60, 4),
+    "topper": Kind(random_parts.topper, 4, 1),
+}
+
+
+def run(kind: str, seed: int) -> None:
+    """Run a case; the same seed is the same case."""
+    KINDS[kind].case(np.random.default_rng([zlib.crc32(kind.encode()), seed]))

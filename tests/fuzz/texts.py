@@ -1,0 +1,231 @@
+"""Cases of texts: machine files, overrides, tables and formulas as somebody might write them by mistake."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from broken import PromiseError, watched
+from commands import asked, call, finite, questions
+from mutations import FORMULA, MACHINE_FILE, TABLE, VALUES, mutated
+from numpy.random import Generator
+from numpy.typing import NDArray
+
+import linkwright as lw
+from linkwright.analysis.formula_value import value
+from linkwright.engine import compile_machine
+from linkwright.errors import LinkwrightError
+from linkwright.files import template, templates
+from linkwright.machine import formula
+
+Floats = NDArray[np.float64]
+
+ROOT = Path(__file__).parents[2]
+
+
+@lru_cache(maxsize=1)
+def machine_files() -> dict[str, str]:
+    """Machine files to start from: shipped machines, examples and templates, by name."""
+    paths = [*sorted((ROOT / "machines").glob("*.toml")), *sorted((ROOT / "examples").glob("*/machine.toml"))]
+    texts = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in paths}
+    return texts | {f"template {name}": template(name) for name in templates()}
+
+
+# What lies beside machine files that refer to it.
+BESIDE = (ROOT / "machines" / "v_diesel_indicator.csv", ROOT / "examples" / "topper_field" / "roots.csv")
+
+
+@contextmanager
+def folder() -> Iterator[Path]:
+    """An empty folder with the tables that machine files refer to."""
+    with tempfile.TemporaryDirectory(prefix="linkwright_fuzz_") as name:
+        for path in BESIDE:
+            shutil.copy(path, name)
+        yield Path(name)
+
+
+def some_file(random: Generator) -> str:
+    """The text of one of the machine files."""
+    names = list(machine_files())
+    return machine_files()[names[random.integers(len(names))]]
+
+
+def file_of_a_machine(random: Generator) -> None:
+    """A machine file with mistakes: every command answers, or says what is wrong."""
+    text = mutated(some_file(random), random, MACHINE_FILE)
+    with folder() as here:
+        path = here / "machine.toml"
+        path.write_text(text, encoding="utf-8", newline="")
+        inputs = {"machine.toml": text}
+        if call(["check", str(path)], inputs) == 2:
+            return
+        possible = questions(text)
+        for k in random.permutation(len(possible))[:2]:
+            call(asked(possible[k], path), inputs)
+
+
+def override(random: Generator) -> None:
+    """An entry of a sound file is given another value on the command line."""
+    text = some_file(random)
+    entries = list(lw.addresses(_machine_of(text)))
+    values = [value.strip('"') for value in VALUES]
+    with folder() as here:
+        path = here / "machine.toml"
+        path.write_text(text, encoding="utf-8")
+        possible = questions(text)
+        arguments = asked(possible[random.integers(len(possible))], path)
+        for _ in range(random.integers(1, 3)):
+            entry, given = entries[random.integers(len(entries))], values[random.integers(len(values))]
+            arguments += ["--set", f"{entry}={given}"]
+        call(arguments, {"machine.toml": text})
+
+
+@lru_cache(maxsize=64)
+def _machine_of(text: str) -> lw.Machine:
+    with folder() as here:
+        path = here / "machine.toml"
+        path.write_text(text, encoding="utf-8")
+        return lw.read(path)
+
+
+def bytes_of_a_file(random: Generator) -> None:
+    """A machine file of which some bytes are others: no encoding is a reason to fail without a word."""
+    data = bytearray(some_file(random).encode())
+    for _ in range(random.integers(1, 8)):
+        data[random.integers(len(data))] = random.integers(256)
+    if random.random() < 0.1:
+        data = bytearray(bytes(data).decode("latin-1").encode("utf-16"))
+    with folder() as here:
+        path = here / "machine.toml"
+        path.write_bytes(bytes(data))
+        call(["check", str(path)], {"machine.toml": bytes(data)})
+
+
+def table(random: Generator) -> None:
+    """A table of measured values with mistakes, in an engine's indicator diagram or a field of roots."""
+    name, machine = (
+        ("v_diesel_indicator.csv", "machines/v_diesel.toml"),
+        ("roots.csv", "examples/topper_field/machine.toml"),
+    )[random.integers(2)]
+    with folder() as here:
+        path, place = here / "machine.toml", here / name
+        rows = place.read_text(encoding="utf-8").split("\n")
+        # Some tens of rows hold every mistake that thousands could.
+        text = mutated("\n".join(rows[:40]), random, TABLE)
+        place.write_text(text, encoding="utf-8", newline="")
+        path.write_text(machine_files()[machine], encoding="utf-8")
+        call(["check", str(path)], {"machine.toml": machine_files()[machine], name: text})
+
+
+LOAD = """
+format = 1
+name = "Crank"
+[drive]
+speed = 5.0
+[mechanism.cranks.A]
+radius = 0.3
+[bodies]
+A = {{ mass = 2.0 }}
+[loads]
+load = {{ kind = "formula", on = "A", torque = "{formula}" }}
+"""
+
+# Places and speed of the crank at which formulas are compared, away from where functions jump.
+ANGLES, SPEED = np.linspace(0.1, 6.1, 7), 5.3
+
+
+def formula_text(random: Generator) -> None:
+    """A formula with mistakes: it is read, or refused with the character at which it is wrong."""
+    text = mutated(_formula(random, 3), random, FORMULA)
+    with watched({"formula": text}):
+        try:
+            formula.parse(text)
+        except formula.FormulaError as error:
+            if not str(error):
+                raise PromiseError("refused without a word", {"formula": text}) from None
+
+
+def formula_value(random: Generator) -> None:
+    """A random formula has the value in the core that plain arithmetic gives it, and in Python's tree too."""
+    text = _formula(random, int(random.integers(1, 5)))
+    inputs = {"formula": text}
+    with watched(inputs), np.errstate(all="ignore"):
+        # Numbers of numpy divide by zero as the core does.
+        python = re.sub(r"(?<![\w.])(\d[\d.e]*)", r"number(\1)", text.replace("^", "**"))
+        by_hand = np.broadcast_to(eval(python, {"__builtins__": {}}, _names()), ANGLES.shape)
+        _same(value(formula.parse(text), _names()), by_hand, inputs)
+    with suppress(LinkwrightError), watched(inputs):
+        # Refused: too long for the stack, or nothing in it depends on the motion as the core needs it.
+        compiled = compile_machine(lw.loads(LOAD.format(formula=text)))
+        _, _, load, dry, viscous = compiled.reductions(ANGLES)
+        resisting = load + dry + viscous * SPEED
+        if compiled.has_laws:
+            resisting = resisting + compiled.law_torques(ANGLES, np.array([SPEED]))[0]
+        _same(-resisting, by_hand, inputs)
+
+
+def _names() -> dict[str, object]:
+    functions = {name: getattr(np, name) for name in ("sin", "cos", "tanh", "exp", "sqrt", "abs", "sign")}
+    choices = {"min": np.minimum, "max": np.maximum, "atan2": np.arctan2, "where": np.where}
+    return {
+        **functions,
+        **choices,
+        "number": np.float64,
+        "phi": ANGLES,
+        "omega": SPEED,
+        "pi": np.pi,
+        "g": 9.81,
+    }
+
+
+def _same(found: object, expected: Floats, inputs: dict[str, str]) -> None:
+    # Differences of large terms lose digits against the terms, none of which passes 1e3^6 here.
+    size = np.abs(expected[np.isfinite(expected)]).max(initial=1.0)
+    if not np.allclose(found, expected, rtol=1e-9, atol=1e-9 * size, equal_nan=True):
+        raise PromiseError(f"found {found}, plain arithmetic gives {expected}", inputs)
+
+
+def _formula(random: Generator, depth: int) -> str:
+    """A random formula."""
+    if depth == 0 or random.random() < 0.15:
+        leaves = ("phi", "omega", "pi", "g", "2", "0.5", "1e3", "7.25", "1")
+        return leaves[random.integers(len(leaves))]
+
+    def part() -> str:
+        return _formula(random, depth - 1)
+
+    kind = random.integers(10)
+    if kind < 5:
+        return f"({part()} {'+-*/+'[kind]} {part()})"
+    if kind == 5:
+        return f"(-{part()})"
+    if kind == 6:
+        return f"abs({part()})^{random.integers(1, 4)}"
+    if kind == 7:
+        return f"{('min', 'max', 'atan2')[random.integers(3)]}({part()}, {part()})"
+    if kind == 8:
+        return f"where({part()} < {part()}, {part()}, {part()})"
+    return f"{('sin', 'cos', 'tanh', 'abs', 'sign')[random.integers(5)]}({part()})"
+
+
+def results(random: Generator) -> None:
+    """Entries of a sound machine change up to threefold: all results are finite, or it says why."""
+    text = some_file(random)
+    machine = _machine_of(text)
+    entries = [(address, number) for address, number in lw.addresses(machine).items() if number]
+    picked = [entries[k] for k in random.permutation(len(entries))[: random.integers(1, 4)]]
+    changes = {address: float(number * 3.0 ** random.uniform(-1, 1)) for address, number in picked}
+    inputs = {"machine.toml": text, "changes": repr(changes)}
+    try:
+        with watched(inputs):
+            machine = lw.loads(text, changes)
+            found = lw.study(machine) if machine.mechanism else lw.torsion_study(machine)
+            finite(found.to_dict(), inputs)
+    except LinkwrightError:
+        return
