@@ -44,7 +44,7 @@ def _calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
     """A right call of each function, by its name."""
     cart, cam, engine = (_machine(name) for name in ("roller_one_cart", "roller_cam", "v8_diesel"))
     topper, rotator = _machine("topper"), _machine("rod_rotator_continuous")
-    one_mass = lw.OneMass(1.0, 1e6, 0.05)
+    one_mass = lw.OneMass(1.0, 100.0, 0.05)
     follower = lw.FollowerLoad(1.0, 1e4, 100.0)
     rise = _law()
     lift = tuple(rise.at(TURN, k) for k in range(3))
@@ -96,7 +96,7 @@ def _calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             "damping_ratio_frame": 0.0,
             "share": 1.0,
         },
-        "residual_over_speed": {"rise": rise, "model": one_mass, "speed": [500.0, 600.0]},
+        "residual_over_speed": {"rise": rise, "model": one_mass, "speed": [5.0, 6.0]},
         "cam_course": {
             "cam_angle": TURN,
             "lift": lift,

@@ -31,6 +31,7 @@ from linkwright.analysis.cam.hertz import LineContact, Material, line_contact
 from linkwright.analysis.cam.lift_off import speed_of_loss
 from linkwright.analysis.cam.profile import CamProfile, Flank
 from linkwright.analysis.forces import forces
+from linkwright.analysis.in_range import in_range
 from linkwright.analysis.kinetostatics.result import Forces
 from linkwright.analysis.result import Result
 from linkwright.analysis.steady_state import steady_state
@@ -38,6 +39,7 @@ from linkwright.engine.cam import Extreme
 from linkwright.errors import FindingError
 from linkwright.machine import Machine
 from linkwright.public import public
+from linkwright.units import SPEED, positive
 
 Floats = NDArray[np.float64]
 
@@ -142,10 +144,11 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
     Raises
     ------
     InputError
-        Nothing says at which speed the machine runs.
+        Nothing says at which speed the machine runs, or the speed is none.
     FindingError
         The machine has no motion.
     """
+    in_range(speed=(speed, positive(SPEED)))
     cam = profile.cam
     pressed = partial(_pressed, machine, speed)
     angles = _angles(profile)
