@@ -170,7 +170,7 @@ impl<R: Real> Turn<R> {
         }
         if is_bad {
             for (k, excess) in check.excess.iter_mut().enumerate() {
-                let is_rounding = sizes[k] <= ROUNDING * u[k] * (1.0 + steepness[k] * 0.1);
+                let is_rounding = sizes[k] <= 4.0 * ROUNDING * u[k];
                 if sizes[k] >= 0.3 * worst && !is_rounding {
                     excess.error = excess.error.max(2.0);
                 }

@@ -20,6 +20,15 @@ pub struct Extreme<R> {
     pub phi: R,
 }
 
+impl<R: Real> Extreme<R> {
+    /// Takes over the other in the lanes where it is larger.
+    #[inline(always)]
+    fn keep_larger(&mut self, other: &Self) {
+        self.phi = self.value.select_lt(other.value, other.phi, self.phi);
+        self.value = self.value.max(other.value);
+    }
+}
+
 /// Speed and acceleration extremes of a turn.
 #[derive(Clone, Copy, Debug)]
 pub struct Extremes<R> {
@@ -38,9 +47,9 @@ const ROUNDS: usize = 4;
 /// by about 1e-3 of what the quantity changes in the step, itself a fraction of the range.
 const DOUBT: f64 = 2e-3;
 
-/// Shares of a step to both sides of a place at which the curve is read for a better one: the quintic's peak
-/// is good to a few hundredths; a parabola through readings this far apart to a thousandth, then to the
-/// square of that.
+/// Shares of a step to both sides of a place at which the curve is read for a better one: the quintic's peak is
+/// good to a few hundredths; a parabola through readings this far apart to a thousandth, then to the square of
+/// that.
 const ASIDE: [f64; 2] = [0.04, 0.004];
 
 /// How much farther than that the better place may lie.
@@ -156,7 +165,7 @@ impl<R: Real> Turn<R> {
         );
         let range = self.range(samples, quantity);
         let lowest = R::splat(f64::NEG_INFINITY);
-        let mut best = Extreme { value: lowest, phi: R::splat(0.0) };
+        let mut best = self.largest_of_ends(samples, quantity);
         for round in 0..ROUNDS {
             let promise = R::outline(
                 #[inline(always)]
@@ -166,14 +175,26 @@ impl<R: Real> Turn<R> {
             if round > 0 && (promise.value - worth).max_lane() <= 0.0 {
                 break;
             }
+            // u has one derivative more than its derivative: its quintic's peak is good enough.
+            let asides = if quantity.is_speed { &ASIDE[..0] } else { &ASIDE[..1] };
             let found = R::outline(
                 #[inline(always)]
-                || promise.read(machine, promise.peak(), m),
+                || promise.read_around(machine, asides, m),
             );
             // A lane whose step was not worth it takes nothing: its bits do not depend on its neighbours.
             let value = worth.select_lt(promise.value, found.value, lowest);
-            best.phi = best.value.select_lt(value, found.phi, best.phi);
-            best.value = best.value.max(value);
+            best.keep_larger(&Extreme { value, phi: found.phi });
+        }
+        best
+    }
+
+    /// The largest at the ends of the steps, which are on the curve: extremes may be corners there.
+    #[inline(always)]
+    fn largest_of_ends(&self, samples: &[Samples<R>], quantity: Quantity) -> Extreme<R> {
+        let mut best = Extreme { value: R::splat(f64::NEG_INFINITY), phi: R::splat(0.0) };
+        for (step, sample) in self.steps.iter().zip(samples) {
+            best.keep_larger(&Extreme { value: quantity.of(sample[0]), phi: step.phi });
+            best.keep_larger(&Extreme { value: quantity.of(sample[N - 1]), phi: step.phi + step.h });
         }
         best
     }
@@ -200,16 +221,23 @@ impl<R: Real> Turn<R> {
                 chosen.push((which, promises[k / R::LANES].lane(k % R::LANES)));
             }
         }
-        let mut best = [Extreme { value: f64::NEG_INFINITY, phi: 0.0 }; 4];
+        let mut best = QUANTITIES.map(
+            #[inline(always)]
+            |quantity| {
+                let of_lanes = self.largest_of_ends(samples, quantity);
+                let mut best = Extreme { value: f64::NEG_INFINITY, phi: 0.0 };
+                for (value, phi) in unbundle(&[of_lanes.value]).into_iter().zip(unbundle(&[of_lanes.phi])) {
+                    best.keep_larger(&Extreme { value, phi });
+                }
+                best
+            },
+        );
         for chosen in chosen.chunks(R::LANES) {
             let promise = Promise::<R>::of_lanes(chosen);
-            for found in promise.read_around(machine, m) {
-                let (values, places) = (unbundle(&[found.value]), unbundle(&[found.phi]));
-                for (lane, &(which, _)) in chosen.iter().enumerate() {
-                    if values[lane] > best[which].value {
-                        best[which] = Extreme { value: values[lane], phi: places[lane] };
-                    }
-                }
+            let found = promise.read_around(machine, &ASIDE, m);
+            let (values, places) = (unbundle(&[found.value]), unbundle(&[found.phi]));
+            for (lane, &(which, _)) in chosen.iter().enumerate() {
+                best[which].keep_larger(&Extreme { value: values[lane], phi: places[lane] });
             }
         }
         best.map(|best| Extreme { value: R::splat(best.value), phi: R::splat(best.phi) })
@@ -322,17 +350,21 @@ impl<R: Real> Promise<R> {
         Extreme { value: value * self.sign, phi: at.mul_add(self.h, self.phi) }
     }
 
-    /// The quantity near the quintic's peak, at better and better places.
+    /// The quantity near the quintic's peak, read at better and better places.
     #[inline(always)]
-    fn read_around(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> [Extreme<R>; 7] {
+    fn read_around(&self, machine: &Machine<'_, R>, asides: &[f64], m: &mut Motion<R>) -> Extreme<R> {
         let mut place = self.peak();
-        let mut found = [Extreme { value: place, phi: place }; 7];
-        for (round, aside) in ASIDE.into_iter().enumerate() {
+        let mut best = Extreme { value: R::splat(f64::NEG_INFINITY), phi: place };
+        for &aside in asides {
             let middle = place.max(R::splat(aside)).min(R::splat(1.0 - aside));
-            for (i, at) in [middle - aside, middle, middle + aside].into_iter().enumerate() {
-                found[3 * round + i] = self.read(machine, at, m);
-            }
-            let [left, centre, right] = [0, 1, 2].map(|i| found[3 * round + i].value);
+            let [left, centre, right] = [middle - aside, middle, middle + aside].map(
+                #[inline(always)]
+                |at| {
+                    let found = self.read(machine, at, m);
+                    best.keep_larger(&found);
+                    found.value
+                },
+            );
             let bend = left - centre - centre + right;
             let slope = right - left;
             let ahead = R::splat(LEAP * aside);
@@ -341,8 +373,8 @@ impl<R: Real> Promise<R> {
             let better = middle + bend.select_lt(R::splat(0.0), top, uphill);
             place = better.max(R::splat(0.0)).min(R::splat(1.0));
         }
-        found[6] = self.read(machine, place, m);
-        found
+        best.keep_larger(&self.read(machine, place, m));
+        best
     }
 
     /// Place of the peak of the quintic through the samples, from the promised place by Newton.

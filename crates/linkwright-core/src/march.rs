@@ -4,8 +4,7 @@
 //! P is increasing. Two things follow.
 //!
 //! * A motion that starts too fast to repeat, P(u) < u, slows down turn by turn, and whatever repeats lies
-//! below it;
-//!   it ends in the fastest motion that repeats, which therefore draws in all that are faster.
+//!   below it; it ends in the fastest motion that repeats, which therefore draws in all that are faster.
 //! * If it comes to rest instead, so does every slower one: then no motion repeats.
 //!
 //! Turns are marched through step by step with as short steps as the motion needs. Instead of waiting turn

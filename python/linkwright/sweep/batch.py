@@ -141,7 +141,8 @@ def steady_states(
         ``{"mechanism.cranks.A2.phase": np.linspace(0, np.pi, 1000)}``. A single number counts for all.
     accuracy : float
         Relative accuracy for machines that must be solved one by one. Machines on smooth characteristics
-        are solved in lanes with a fixed mesh, whose speeds are good to about 1e-7.
+        are solved in lanes with a fixed mesh: speeds, periods and work to 1e-7, peaks of acceleration to
+        1e-6.
 
     Returns
     -------
