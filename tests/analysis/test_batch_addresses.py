@@ -117,3 +117,16 @@ def test_arrays_that_are_no_rows(shape: tuple[int, ...]) -> None:
     machine = lw.read("machines/roller_one_cart.toml")
     with pytest.raises(InputError, match=r"drive\.gearbox\.ratio"):
         lw.kinematics(lw.replace(machine, {"drive.gearbox.ratio": np.ones(shape)}))
+
+
+@pytest.mark.parametrize("rod", [0.11, 0.15])
+def test_a_row_that_fails_leaves_the_bits_of_its_neighbours(rod: float) -> None:
+    machine = lw.read("machines/roller_two_carts.toml")
+    rods = np.linspace(0.6, 0.9, 41)
+    sound = lw.steady_states(machine, {"mechanism.sliders.cart1.rod": rods})
+    rods[17] = rod
+    found = lw.steady_states(machine, {"mechanism.sliders.cart1.rod": rods})
+    assert found.status[17] == 1
+    for name in ("speed_min", "speed_max", "acceleration_max", "torque_motor_rms"):
+        others = [np.delete(getattr(each, name), 17) for each in (sound, found)]
+        np.testing.assert_array_equal(*others, err_msg=name)
