@@ -60,7 +60,7 @@ rust-test:
 	cargo test --workspace --locked
 
 python-test: $(TOOLS)
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n $(shell nproc)
 
 MINUTES ?= 60
 

@@ -285,6 +285,9 @@ def swept(machine: lw.Machine, of: str) -> Knife:
     middle, half = 0.5 * (turn.min() + turn.max()), 0.5 * np.ptp(turn)
 
     def law(phi: np.ndarray) -> np.ndarray:
+        # No angles are no question.
+        if not phi.size:
+            return np.empty_like(phi)
         return np.asarray(lw.kinematics(machine, phi).slides[of].position - middle)
 
     return Knife(law, half, machine.drive.speed, ALPHA, V)
