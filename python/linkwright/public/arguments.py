@@ -232,6 +232,8 @@ def checks_of(function: Callable[..., Any]) -> dict[str, Check]:
 def _check(annotation: str, default: Any) -> Check | None:
     """The check that an annotation asks for; None if it asks for none."""
     kinds = set(annotation.split(" | "))
+    if {"float", "Floats"} <= kinds:
+        kinds |= {"Column"}
     check = next((_CHECKS[kind] for kind in _CHECKS if kind in kinds), None)
     if {"float", "Floats"} <= kinds:
         check = _one_or_more
@@ -259,10 +261,7 @@ def _one_or_more(name: str, value: Any) -> Any:
     """A number stays one; lists become arrays. How large they may be depends on what they are."""
     if isinstance(value, numbers.Number):
         return number(name, value, finite=False)
-    found = array(name, value, finite=False)
-    if not found.size:
-        raise ShapeError(f"{name}: found an empty array, expected numbers")
-    return found
+    return array(name, value, finite=False)
 
 
 def _column(name: str, value: Any) -> Any:
