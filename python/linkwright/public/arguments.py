@@ -235,8 +235,6 @@ def _check(annotation: str, default: Any) -> Check | None:
     if {"float", "Floats"} <= kinds:
         kinds |= {"Column"}
     check = next((_CHECKS[kind] for kind in _CHECKS if kind in kinds), None)
-    if {"float", "Floats"} <= kinds:
-        check = _one_or_more
     if check is number and isinstance(default, float) and math.isinf(default):
         check = _any_number
     others = kinds - _CHECKS.keys() - {"None"}
