@@ -159,7 +159,10 @@ def forces_agree(machine: lw.Machine, found: SteadyState, inputs: Inputs) -> Non
 def refused_in_time(machine: lw.Machine, compiled: Compiled, inputs: Inputs) -> None:
     """A machine that is refused does not settle into a motion from any of some speeds."""
     for factor in (1.0, 0.3):
-        moved = lw.transient(machine, speed=factor * compiled.speed_guess, turns=60.0, accuracy=1e-9)
+        try:
+            moved = lw.transient(machine, speed=factor * compiled.speed_guess, turns=60.0, accuracy=1e-9)
+        except FindingError:
+            continue
         if moved.end != End.TURNS:
             continue
         whole = np.arange(57, 61) * TURN
