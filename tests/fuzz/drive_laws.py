@@ -151,7 +151,9 @@ def forces_agree(machine: lw.Machine, found: SteadyState, inputs: Inputs) -> Non
     """Joint forces ask the drive for the torque that the reduction asks for."""
     forces = lw.forces(machine, n=INTERVALS)
     worst = np.abs(forces.torque_drive - found.torque_drive).max()
-    size = max(np.abs(found.torque_drive).max(), np.abs(found.torque_load).max())
+    # Rounding of what goes to and fro is left where a drive idles.
+    idle = 1e-9 * (found.inertia_reduced * found.speed**2).max()
+    size = max(np.abs(found.torque_drive).max(), np.abs(found.torque_load).max(), idle)
     if not worst <= WITHIN * size:
         raise PromiseError(f"torques of joint forces and reduction differ by {worst / size:.2g}", inputs)
 
@@ -168,7 +170,8 @@ def refused_in_time(machine: lw.Machine, compiled: Compiled, inputs: Inputs) -> 
         whole = np.arange(57, 61) * TURN
         speeds = np.interp(whole, moved.crank_angle, moved.speed)
         spread = np.ptp(speeds) / speeds.mean()
-        if spread < 1e-3:
+        # A machine with a large flywheel runs down slowly, which is no steady motion.
+        if spread < 1e-7:
             raise PromiseError(
                 f"refused, yet it turns at {speeds[-1]:.6g} rad/s, the same every revolution", inputs
             )
