@@ -10,8 +10,8 @@ from common import Row, seconds
 from peers import cam as peer
 
 import linkwright as lw
-from linkwright.analysis.cam.faults import cam_faults
-from linkwright.analysis.cam.profile import cam_profile
+from linkwright.cam.profile.faults import cam_faults
+from linkwright.cam.profile.profile import cam_profile
 
 N = 3600
 H, ROLLER, OFFSET = 0.02, 0.01, 0.005

@@ -9,7 +9,7 @@ import numpy as np
 from common import Row, seconds
 from peers import cam as peer
 
-from linkwright.sweep.cams import search_cams
+from linkwright.cam.search import search_cams
 
 N_ANGLES = 360
 LAWS = ("cycloidal", "modified_sine", "polynomial_3_4_5", "harmonic")

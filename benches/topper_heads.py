@@ -8,11 +8,11 @@ import numpy as np
 from common import Row, seconds
 from peers import topper as peer
 
-from linkwright.analysis.topper.coverage import COARSE, coverage
-from linkwright.analysis.topper.edge import Edge
-from linkwright.analysis.topper.knife import knives
-from linkwright.files.library import library_path
-from linkwright.files.read import read
+from linkwright.kernel.files.library import library_path
+from linkwright.machine.files.read import read
+from linkwright.topping.coverage import COARSE, coverage
+from linkwright.topping.edge import Edge
+from linkwright.topping.knife import knives
 
 # Stations of the NumPy program: as many as the product has at its coarse setting in this field.
 STATIONS = 24

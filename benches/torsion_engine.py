@@ -6,9 +6,9 @@ import numpy as np
 from common import ROOT, Row, seconds
 
 import linkwright as lw
-from linkwright.analysis.torsion.forced import forced_vibration
-from linkwright.analysis.torsion.free import free_vibration
-from linkwright.analysis.torsion.stress import shaft_stress
+from linkwright.torsion.modes.free import free_vibration
+from linkwright.torsion.response.forced import forced_vibration
+from linkwright.torsion.response.stress import shaft_stress
 
 
 def rows(quick: bool) -> list[Row]:

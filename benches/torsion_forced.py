@@ -8,8 +8,8 @@ import numpy as np
 from common import Row, faster, is_installed, seconds
 
 import linkwright as lw
-from linkwright.analysis.torsion.excited import excited
-from linkwright.engine.train_response import respond
+from linkwright.torsion.core.response import respond
+from linkwright.torsion.response.excited import excited
 
 DISCS, ORDERS = 50, 24
 

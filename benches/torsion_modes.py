@@ -9,7 +9,7 @@ import numpy as np
 from common import Row, faster, is_installed, seconds
 from scipy.linalg import eigh, eigh_tridiagonal
 
-from linkwright.engine.train import ReferredTrain
+from linkwright.torsion.core.train import ReferredTrain
 
 # Of SciPy's solvers; the other peers inform.
 TARGET = 3.0

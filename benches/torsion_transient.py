@@ -13,9 +13,9 @@ import numpy as np
 from common import Row, faster, is_installed, seconds
 from numpy.typing import NDArray
 
-from linkwright.engine.periodic_table import waves
-from linkwright.engine.train_torque import Power, TrainTorque
-from linkwright.engine.train_transient import Moved, MovingTrain, VariableInertia
+from linkwright.kernel.core.periodic_table import waves
+from linkwright.torsion.core.torque import Power, TrainTorque
+from linkwright.torsion.core.transient import Moved, MovingTrain, VariableInertia
 
 Floats = NDArray[np.float64]
 

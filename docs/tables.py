@@ -16,9 +16,9 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from linkwright import machine
-from linkwright.limits import ALL, grouped
-from linkwright.machine.schema_walk import mark_of, model_of, words_of
-from linkwright.units import COUNT, KINDS, Quantity, QuantityList, size_words
+from linkwright.kernel.description.schema_walk import mark_of, model_of, words_of
+from linkwright.kernel.limits import ALL, grouped
+from linkwright.kernel.units import COUNT, KINDS, Quantity, QuantityList, size_words
 
 PAGES = tuple(Path(__file__).with_name(name) for name in ("file_format.md", "units.md", "limits.md"))
 

@@ -6,8 +6,8 @@ Factors after VDI 2143; the bounds 4 and 32 hold for every law between two dwell
 from pathlib import Path
 
 import linkwright as lw
-from linkwright.machine.motion_section import programme
-from linkwright.motion_laws.catalogue import LAWS
+from linkwright.cam.laws.catalogue import LAWS
+from linkwright.cam.model.motion_section import programme
 
 # Laws without a jump of the acceleration, which a quick cam needs.
 SOFT = [name for name, law in lw.cam_laws().items() if law.C_j is not None]
@@ -35,7 +35,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """The law of the file beside the three that are best in something."""
-    from linkwright.plot import motion_laws_figure
+    from linkwright.cam.figures.laws import motion_laws_figure
 
     names = [machine.mechanism.cams["slide"].sections[0].law.kind, "modified_trapezoid", "minimum_jerk"]
     return motion_laws_figure({name: LAWS[name].normalised() for name in names})

@@ -34,8 +34,8 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """What the rise leaves over τ, of the cam's law and of two others."""
-    from linkwright.motion_laws.catalogue import LAWS
-    from linkwright.plot import residual_figure
+    from linkwright.cam.figures.dynamics import residual_figure
+    from linkwright.cam.laws.catalogue import LAWS
 
     laws = {name: LAWS[name].normalised() for name in ("parabolic", "cycloidal", "polynomial_4_5_6_7")}
     ratios = np.linspace(0.5, 10.0, 160)

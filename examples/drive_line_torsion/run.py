@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.analysis.torsion.forced import forced_vibration
+from linkwright.torsion.response.forced import forced_vibration
 
 
 def unevenness(machine: lw.Machine, disc: str) -> float:
@@ -37,7 +37,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """The equivalent scheme."""
-    from linkwright.plot import scheme_figure
+    from linkwright.torsion.figures.scheme import scheme_figure
 
     return scheme_figure(lw.scheme(machine))
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.analysis.law import RampLaw
+from linkwright.linkages.law import RampLaw
 
 # One turn in two seconds by the polynomial 3-4-5.
 LAW = RampLaw(duration=2.0, angle=2 * np.pi)

@@ -26,7 +26,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """The shapes of both modes."""
-    from linkwright.plot import modes_figure
+    from linkwright.torsion.figures.modes import modes_figure
 
     return modes_figure(lw.free_vibration(machine))
 

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.synthesis import FunctionTask, chebyshev_points
+from linkwright.synthesis.function_scale import chebyshev_points
+from linkwright.synthesis.task import FunctionTask
 
 X = np.linspace(1, 2, 361)
 SCALE = np.radians(90) / np.log10(2)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.analysis.torsion.forced import forced_vibration
+from linkwright.torsion.response.forced import forced_vibration
 
 RPM = np.pi / 30
 # Newton metres of a pound-force inch.
@@ -33,7 +33,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """The vibratory torque of the shafts over the speed of the propeller."""
-    from linkwright.plot import shaft_torques_figure
+    from linkwright.torsion.figures.forced import shaft_torques_figure
 
     return shaft_torques_figure(forced_vibration(machine))
 

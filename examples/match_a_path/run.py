@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.synthesis import PathTask
+from linkwright.synthesis.task import PathTask
 
 ANGLES = np.linspace(0, 2 * np.pi, 12, endpoint=False)
 TURN = np.linspace(0, 2 * np.pi, 721)

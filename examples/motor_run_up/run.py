@@ -6,7 +6,7 @@ Source: the worked case of paper 1; the catalogue's starting torque against Klos
 from pathlib import Path
 
 import linkwright as lw
-from linkwright.errors import StartError
+from linkwright.kernel.errors import StartError
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
@@ -25,7 +25,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Speed over time and over turns."""
-    from linkwright.plot import run_up_figure
+    from linkwright.drive.figures.run_up import run_up_figure
 
     steady = lw.steady_state(machine)
     return run_up_figure(lw.run_up(machine, steady=steady), steady)

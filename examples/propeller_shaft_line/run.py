@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.analysis.torsion.study import torsion_study
-from linkwright.analysis.torsion.verdict import verdict
+from linkwright.torsion.limits.verdict import verdict
+from linkwright.torsion.study import torsion_study
 
 RPM = np.pi / 30
 
@@ -42,7 +42,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """The stress of the line over the speed, what it bears, and what has to be barred."""
-    from linkwright.plot import stress_figure
+    from linkwright.torsion.figures.forced import stress_figure
 
     found = torsion_study(machine)
     return stress_figure(found.stress, found.verdict.barred)

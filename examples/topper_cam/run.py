@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.analysis.topper.edge import edges_of
-from linkwright.machine import HarmonicKnife
+from linkwright.topping.edge import edges_of
+from linkwright.topping.model.motion import HarmonicKnife
 
 
 def by_a_sine(machine: lw.Machine) -> lw.Machine:

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.analysis.topper.field import topper_field
-from linkwright.machine import RandomField
-from linkwright.sizing.topper import best_knife
+from linkwright.topping.best.best_knife import best_knife
+from linkwright.topping.field import topper_field
+from linkwright.topping.model.field import RandomField
 
 
 def bell(values: tuple[float, ...], least: float) -> dict[str, object]:
@@ -45,7 +45,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Share of heads against the length of the edge."""
-    from linkwright.plot import field_share_figure
+    from linkwright.topping.figures.field import field_share_figure
 
     return field_share_figure(topper_field(machine))
 

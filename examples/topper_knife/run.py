@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.analysis.topper.topper import TopperStudy
+from linkwright.topping.topper import TopperStudy
 
 STROKES = np.linspace(0.01, 0.1, 10)
 

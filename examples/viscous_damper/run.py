@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.analysis.torsion.forced import forced_vibration
+from linkwright.torsion.response.forced import forced_vibration
 
 RING = 0.8
 
@@ -35,7 +35,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """The resonance without and with the damper."""
-    from linkwright.plot import damper_figure
+    from linkwright.torsion.figures.damper import damper_figure
 
     return damper_figure(lw.design_damper(machine, "engine", RING))
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.analysis.torsion.engine_diagnosis import engine_diagnosis
-from linkwright.analysis.torsion.forced import ForcedVibration, forced_vibration
-from linkwright.analysis.torsion.measured_speed import MeasuredSpeed, measured_speed
+from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis
+from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed, measured_speed
+from linkwright.torsion.response.forced import ForcedVibration, forced_vibration
 
 SPEED = 1500 * np.pi / 30
 NOISE = 0.02
@@ -45,8 +45,8 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Unevenness along the train."""
-    from linkwright.plot import torsion_unevenness_figure
-    from linkwright.plot.train_row import in_a_row
+    from linkwright.torsion.figures.forced import torsion_unevenness_figure
+    from linkwright.torsion.figures.train_row import in_a_row
 
     found = forced_vibration(machine)
     return torsion_unevenness_figure(found, in_a_row(found.discs, lw.free_vibration(machine).joined), SPEED)

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.polynomial import Chebyshev, Polynomial
 
 import linkwright as lw
-from linkwright.analysis.cam.contact import CamCurve, Contact
-from linkwright.engine.cam import cam_kernel
-from linkwright.machine.cam_follower import Sizes
-from linkwright.motion_laws.motion_law import MotionLaw, Piece
+from linkwright.cam.core import cam_kernel
+from linkwright.cam.laws.motion_law import MotionLaw, Piece
+from linkwright.cam.model.follower import Sizes
+from linkwright.cam.profile.contact import CamCurve, Contact
 
 Floats = np.ndarray
 TURN = 2 * np.pi

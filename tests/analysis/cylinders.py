@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import TypeAdapter, ValidationError
 
-from linkwright.errors import Problem
-from linkwright.machine.reciprocating.any_gas import AnyGas
-from linkwright.machine.reciprocating.combustion import Combustion
-from linkwright.machine.reciprocating.cylinder import Cylinder
-from linkwright.machine.reciprocating.indicator import Indicator
+from linkwright.kernel.errors import Problem
+from linkwright.torsion.model.engine.any_gas import AnyGas
+from linkwright.torsion.model.engine.combustion import Combustion
+from linkwright.torsion.model.engine.cylinder import Cylinder
+from linkwright.torsion.model.engine.indicator import Indicator
 
 Array = NDArray[np.float64]
 

@@ -7,13 +7,13 @@ import pytest
 from zoo import animal
 
 import linkwright as lw
-from linkwright.analysis.balancing import balance
-from linkwright.analysis.counterweight_formulas import four_bar_moments, partial_balance
-from linkwright.analysis.envelope import envelope, load_cases
-from linkwright.analysis.forces import forces
-from linkwright.analysis.harmonics import harmonics
-from linkwright.analysis.kinetostatics.motion import motion_at
-from linkwright.errors import InputError, MachineError, ShapeError
+from linkwright.kernel.errors import InputError, MachineError, ShapeError
+from linkwright.kinetostatics.balancing import balance
+from linkwright.kinetostatics.counterweight_formulas import four_bar_moments, partial_balance
+from linkwright.kinetostatics.envelope import envelope, load_cases
+from linkwright.kinetostatics.forces import forces
+from linkwright.kinetostatics.harmonics import harmonics
+from linkwright.kinetostatics.motion import motion_at
 
 FOUR_BAR = "four-bar with coupler point"
 

@@ -12,12 +12,12 @@ import pytest
 from numpy.typing import NDArray
 
 import linkwright as lw
-from linkwright.analysis.torsion.barred_range import surveyed_ranges
-from linkwright.analysis.torsion.criteria import VIBRATORY_STRESS
-from linkwright.analysis.torsion.excited import is_excited
-from linkwright.analysis.torsion.peaks import torque_peaks
-from linkwright.analysis.torsion.survey import Survey, survey
-from linkwright.machine.shaft_limit import ShaftLimit
+from linkwright.torsion.limits.barred_range import surveyed_ranges
+from linkwright.torsion.limits.criteria import VIBRATORY_STRESS
+from linkwright.torsion.model.shaft_limit import ShaftLimit
+from linkwright.torsion.response.excited import is_excited
+from linkwright.torsion.response.peaks import torque_peaks
+from linkwright.torsion.response.survey import Survey, survey
 
 ROOT = Path(__file__).parents[2]
 FILES = [

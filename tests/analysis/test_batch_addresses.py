@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.errors import InputError, LinkwrightError
-from linkwright.machine import ConstantSpeedMotor, Machine
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.kernel.errors import InputError, LinkwrightError
+from linkwright.machine.machine import Machine
 
 MACHINES = sorted(Path("machines").glob("*.toml"))
 

@@ -9,18 +9,18 @@ import pytest
 from cam_cases import TURN, contact, fitted, machine, turned
 
 import linkwright as lw
-from linkwright.analysis.cam.contact import CamCurve
-from linkwright.analysis.cam.faults import cam_cautions, cam_faults
-from linkwright.analysis.cam.least_base import (
+from linkwright.cam.core import crossings
+from linkwright.cam.model.follower import Sizes
+from linkwright.cam.profile.contact import CamCurve
+from linkwright.cam.profile.faults import cam_cautions, cam_faults
+from linkwright.cam.profile.least_base import (
     base_for_curvature,
     base_for_pressure_angle,
     largest_roller,
     least_sound_base,
 )
-from linkwright.analysis.cam.profile import CamProfile, cam_profile
-from linkwright.engine.cam import crossings
-from linkwright.errors import FindingError
-from linkwright.machine.cam_follower import Sizes
+from linkwright.cam.profile.profile import CamProfile, cam_profile
+from linkwright.kernel.errors import FindingError
 
 DENSE = np.linspace(0.0, TURN, 20001)
 

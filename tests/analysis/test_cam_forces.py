@@ -9,12 +9,12 @@ import pytest
 from cam_laws import CYCLOIDAL, PARABOLIC, POLYNOMIAL_345, POLYNOMIAL_4567, SKEW, UNIFORM, turn
 from scipy.optimize import brentq, minimize_scalar
 
-from linkwright.analysis.cam.bearing import ArmPivot, StemGuide
-from linkwright.analysis.cam.contact_force import ContactForce, contact_force
-from linkwright.analysis.cam.follower_load import CamCourse, FollowerLoad, cam_course, force_along
-from linkwright.analysis.cam.lift_off import least_preload, lift_off
-from linkwright.errors import FindingError, InputError, ShapeError
-from linkwright.motion_laws.motion_law import MotionLaw
+from linkwright.cam.dynamics.bearing import ArmPivot, StemGuide
+from linkwright.cam.dynamics.contact_force import ContactForce, contact_force
+from linkwright.cam.dynamics.follower_load import CamCourse, FollowerLoad, cam_course, force_along
+from linkwright.cam.dynamics.lift_off import least_preload, lift_off
+from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.kernel.errors import FindingError, InputError, ShapeError
 
 BASE, ROLLER = 0.04, 0.012
 LIFT = turn(POLYNOMIAL_345, 0.015)

@@ -7,11 +7,11 @@ import pytest
 from cam_cases import CIRCLES, TURN, Circle, contact, fitted, machine, profile_of, turned, unit
 
 import linkwright as lw
-from linkwright.analysis.cam.contact import CamCurve
-from linkwright.analysis.cam.profile import cam_profile
-from linkwright.engine.cam import cam_kernel
-from linkwright.machine.cam_follower import Sizes
-from linkwright.motion_laws.motion_law import Harmonic, MotionLaw, Piece
+from linkwright.cam.core import cam_kernel
+from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
+from linkwright.cam.model.follower import Sizes
+from linkwright.cam.profile.contact import CamCurve
+from linkwright.cam.profile.profile import cam_profile
 
 PHI = np.linspace(0.0, TURN, 181)
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.cam.faults import cam_faults
-from linkwright.analysis.cam.profile import cam_profile
-from linkwright.errors import InputError, ShapeError
-from linkwright.machine import Machine
-from linkwright.sweep.cams import search_cams, variant
+from linkwright.cam.profile.faults import cam_faults
+from linkwright.cam.profile.profile import cam_profile
+from linkwright.cam.search import search_cams, variant
+from linkwright.kernel.errors import InputError, ShapeError
+from linkwright.machine.machine import Machine
 
 SECTIONS = """
 sections = [

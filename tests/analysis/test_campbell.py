@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.forced import forced_vibration
-from linkwright.errors import InputError
-from linkwright.plot import campbell_figure
+from linkwright.kernel.errors import InputError
+from linkwright.torsion.figures.campbell import campbell_figure
+from linkwright.torsion.response.forced import forced_vibration
 
 J1, J2, K = 2.0, 5.0, 3e4
 OMEGA = np.sqrt(K * (J1 + J2) / (J1 * J2))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.errors import AssemblyError
+from linkwright.kernel.errors import AssemblyError
 
 
 def four_bar(crank: float, coupler: float, rocker: float, frame: float, side: str = "left") -> lw.Machine:

@@ -12,16 +12,16 @@ from cylinders import BORE, cylinder, diesel, told
 from scipy.integrate import cumulative_simpson, quad, solve_ivp
 from scipy.interpolate import CubicSpline
 
-from linkwright.errors import MachineError
-from linkwright.machine.reciprocating import cycle_mesh, speed_points
-from linkwright.machine.reciprocating.burnt_gas import GAS_CONSTANT, STOICHIOMETRIC, heat_ratio
-from linkwright.machine.reciprocating.closed_cycle import ClosedTrace
-from linkwright.machine.reciprocating.combustion import Combustion
-from linkwright.machine.reciprocating.cycle_pressure import peak
-from linkwright.machine.reciprocating.gas_torque import GasTorque, gas_torque
-from linkwright.machine.reciprocating.wall_heat import GasState, Hohenberg, Woschni
-from linkwright.machine.reciprocating.wiebe import Wiebe
-from linkwright.machine.reciprocating.working_cycle import WorkingCycle
+from linkwright.kernel.errors import MachineError
+from linkwright.torsion.model.engine import cycle_mesh, speed_points
+from linkwright.torsion.model.engine.burnt_gas import GAS_CONSTANT, STOICHIOMETRIC, heat_ratio
+from linkwright.torsion.model.engine.closed_cycle import ClosedTrace
+from linkwright.torsion.model.engine.combustion import Combustion
+from linkwright.torsion.model.engine.cycle_pressure import peak
+from linkwright.torsion.model.engine.gas_torque import GasTorque, gas_torque
+from linkwright.torsion.model.engine.wall_heat import GasState, Hohenberg, Woschni
+from linkwright.torsion.model.engine.wiebe import Wiebe
+from linkwright.torsion.model.engine.working_cycle import WorkingCycle
 
 SPEEDS = np.array([60.0, 150.0, 220.0])
 # Closed from one bottom dead centre to the next.

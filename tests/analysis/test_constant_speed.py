@@ -21,12 +21,13 @@ from knife_sweep import (
 from numpy.typing import NDArray
 from scipy.integrate import quad
 
-from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.edge import Edge
-from linkwright.analysis.topper.head import cap_volume, head_diameter
-from linkwright.analysis.topper.knife import knives
-from linkwright.analysis.topper.published import length_consistent, length_published, published_lengths
-from linkwright.machine import Machine, Topper
+from linkwright.machine.machine import Machine
+from linkwright.topping.constant_speed import constant_speed_lengths
+from linkwright.topping.edge import Edge
+from linkwright.topping.head import cap_volume, head_diameter
+from linkwright.topping.knife import knives
+from linkwright.topping.model.topper import Topper
+from linkwright.topping.published import length_consistent, length_published, published_lengths
 
 Floats = NDArray[np.float64]
 

@@ -30,12 +30,12 @@ from knife_sweep import (
 )
 
 import linkwright as lw
-from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.coverage import COARSE, Coverage, coverage
-from linkwright.analysis.topper.edge import Edge
-from linkwright.analysis.topper.knife import Knife, knives
-from linkwright.analysis.topper.worst_head import worst_head
-from linkwright.errors import InputError
+from linkwright.kernel.errors import InputError
+from linkwright.topping.constant_speed import constant_speed_lengths
+from linkwright.topping.coverage import COARSE, Coverage, coverage
+from linkwright.topping.edge import Edge
+from linkwright.topping.knife import Knife, knives
+from linkwright.topping.worst_head import worst_head
 
 LAWS: dict[str, Law] = {
     "harmonic": np.sin,

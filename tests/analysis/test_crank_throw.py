@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy.integrate import quad
 
-from linkwright.errors import InputError
-from linkwright.machine.reciprocating.polygon import area_moments, first_crossing, holds, signed_area
-from linkwright.machine.reciprocating.throw import CrankThrow
-from linkwright.machine.reciprocating.throw_inertia import published_inertia, throw_inertia
+from linkwright.kernel.errors import InputError
+from linkwright.torsion.model.engine.polygon import area_moments, first_crossing, holds, signed_area
+from linkwright.torsion.model.engine.throw import CrankThrow
+from linkwright.torsion.model.engine.throw_inertia import published_inertia, throw_inertia
 
 # Rounding of closed forms over a few operations.
 ROUNDING = 1e-13

@@ -9,7 +9,8 @@ from scipy.optimize import brentq
 from trains import Gear, Shaft, matrices, text
 
 import linkwright as lw
-from linkwright.analysis.torsion.damper_rules import (
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.torsion.damper.damper_rules import (
     DamperRule,
     hysteretic_heat,
     magnification,
@@ -18,9 +19,8 @@ from linkwright.analysis.torsion.damper_rules import (
     viscous_heat,
     viscous_rule,
 )
-from linkwright.analysis.torsion.forced import forced_vibration
-from linkwright.errors import FindingError, InputError
-from linkwright.report.damper_tables import damper_lines
+from linkwright.torsion.response.forced import forced_vibration
+from linkwright.torsion.tables.damper import damper_lines
 
 Floats = NDArray[np.float64]
 

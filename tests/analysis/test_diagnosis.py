@@ -8,14 +8,14 @@ import pytest
 from numpy.typing import NDArray
 from scipy import stats
 
-from linkwright.analysis.torsion.confidence import coverage_factor
-from linkwright.analysis.torsion.cylinder_factors import Diagnosis
-from linkwright.analysis.torsion.cylinder_response import cylinder_response
-from linkwright.analysis.torsion.diagnosis import diagnosis
-from linkwright.analysis.torsion.excited import Excited, excited
-from linkwright.analysis.torsion.forced import forced_vibration
-from linkwright.analysis.torsion.measured_speed import MeasuredSpeed, measured_speed
-from linkwright.errors import InputError, ShapeError
+from linkwright.kernel.errors import InputError, ShapeError
+from linkwright.kernel.numerics.confidence import coverage_factor
+from linkwright.torsion.diagnosis.cylinder_factors import Diagnosis
+from linkwright.torsion.diagnosis.cylinder_response import cylinder_response
+from linkwright.torsion.diagnosis.diagnosis import diagnosis
+from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed, measured_speed
+from linkwright.torsion.response.excited import Excited, excited
+from linkwright.torsion.response.forced import forced_vibration
 
 Complexes = NDArray[np.complex128]
 

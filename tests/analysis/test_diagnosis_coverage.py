@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.confidence import chance_of_ratio
-from linkwright.analysis.torsion.cylinder_factors import Diagnosis
-from linkwright.analysis.torsion.engine_diagnosis import fitted
-from linkwright.analysis.torsion.engine_speed import EngineSpeed
-from linkwright.analysis.torsion.measured_speed import MeasuredSpeed
-from linkwright.errors import ConvergenceError
+from linkwright.kernel.errors import ConvergenceError
+from linkwright.kernel.numerics.confidence import chance_of_ratio
+from linkwright.torsion.diagnosis.cylinder_factors import Diagnosis
+from linkwright.torsion.diagnosis.engine_diagnosis import fitted
+from linkwright.torsion.diagnosis.engine_speed import EngineSpeed
+from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
 
 MACHINES = Path(__file__).parents[2] / "machines"
 SPEED = 1500 * np.pi / 30
@@ -131,7 +131,7 @@ def test_what_nothing_explains_widens_the_intervals() -> None:
 
 
 def test_factors_that_do_not_settle_are_a_finding(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("linkwright.analysis.torsion.engine_diagnosis._ROUNDS", 2)
+    monkeypatch.setattr("linkwright.torsion.diagnosis.engine_diagnosis._ROUNDS", 2)
     with pytest.raises(ConvergenceError, match="factors do not settle"):
         fitted(engine("progressive"), measured("progressive", "misfire"))
 

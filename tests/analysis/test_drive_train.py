@@ -9,9 +9,9 @@ import pytest
 from scipy.linalg import eigh
 
 import linkwright as lw
-from linkwright.analysis.torsion.drive_line import drive_line, mean_inertia
-from linkwright.engine import compile_machine
-from linkwright.errors import AssemblyError, InputError, MachineError, ShapeError, SteadyStateError
+from linkwright.kernel.errors import AssemblyError, InputError, MachineError, ShapeError, SteadyStateError
+from linkwright.machine.program.compiled import compile_machine
+from linkwright.torsion.response.drive_line import drive_line, mean_inertia
 
 CART = """
 format = 1

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.engine_diagnosis import engine_diagnosis
-from linkwright.analysis.torsion.engine_speed import EngineSpeed
-from linkwright.analysis.torsion.excited import excited
-from linkwright.analysis.torsion.forced import forced_vibration
-from linkwright.analysis.torsion.measured_speed import MeasuredSpeed
-from linkwright.analysis.torsion.survey import _about, between, survey
-from linkwright.errors import InputError
-from linkwright.files import template
-from linkwright.files.read import read
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.templates import template
+from linkwright.machine.files.read import read
+from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis
+from linkwright.torsion.diagnosis.engine_speed import EngineSpeed
+from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
+from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.forced import forced_vibration
+from linkwright.torsion.response.survey import _about, between, survey
 
 SPEED = 1500 * np.pi / 30
 NOISE = 2e-3

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.engine_torques import cylinder_torques, engine_sources
-from linkwright.analysis.torsion.excited import excited
-from linkwright.analysis.torsion.forced import forced_vibration
-from linkwright.analysis.torsion.study import torsion_study
-from linkwright.analysis.torsion.survey import between
-from linkwright.errors import MachineError
-from linkwright.machine.reciprocating.engine import ReciprocatingEngine
-from linkwright.machine.reciprocating.engine_motion import mean_throw_inertia, reduced_throw
-from linkwright.machine.reciprocating.firing import firing_angles
+from linkwright.kernel.errors import MachineError
+from linkwright.torsion.model.engine.engine import ReciprocatingEngine
+from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, reduced_throw
+from linkwright.torsion.model.engine.firing import firing_angles
+from linkwright.torsion.response.engine_torques import cylinder_torques, engine_sources
+from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.forced import forced_vibration
+from linkwright.torsion.response.survey import between
+from linkwright.torsion.study import torsion_study
 
 DEG = math.pi / 180
 ROD = {"length": 0.32, "mass": 5.0, "distribution": 0.3}
@@ -158,8 +158,8 @@ def test_torque_of_one_cylinder_over_its_angle() -> None:
     (source,) = engine_sources(one, SPEEDS, highest=48.0)
     phi = np.linspace(0, 4 * math.pi, 721)
     torque = source.mean + (np.exp(1j * np.outer(phi, source.orders)) @ source.harmonics).real  # type: ignore[operator]
-    from linkwright.machine.reciprocating.cylinder import Cylinder
-    from linkwright.machine.reciprocating.engine_motion import piston_positions
+    from linkwright.torsion.model.engine.cylinder import Cylinder
+    from linkwright.torsion.model.engine.engine_motion import piston_positions
 
     cylinder = Cylinder(0.15, 4, piston_positions(one)[0])
     pressure = one.gas.cycle_pressure(cylinder, SPEEDS)

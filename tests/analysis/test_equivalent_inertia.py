@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 import linkwright as lw
-from linkwright.errors import AssemblyError, ConvergenceError
-from linkwright.machine.reciprocating import equivalent_inertia as published
-from linkwright.machine.reciprocating.mean_inertia import central_mean_inertia, mean_inertia
-from linkwright.machine.reciprocating.rod import ArticulatedRod, Rod
-from linkwright.machine.reciprocating.running_gear import RunningGear, throw_motion
-from linkwright.machine.reciprocating.throw_reduction import throw_reduction
+from linkwright.kernel.errors import AssemblyError, ConvergenceError
+from linkwright.torsion.model.engine import equivalent_inertia as published
+from linkwright.torsion.model.engine.mean_inertia import central_mean_inertia, mean_inertia
+from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
+from linkwright.torsion.model.engine.running_gear import RunningGear, throw_motion
+from linkwright.torsion.model.engine.throw_reduction import throw_reduction
 
 # Rounding of sums over a turn.
 ROUNDING = 1e-13

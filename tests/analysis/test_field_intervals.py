@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from scipy import stats
 from topper_fields import machine
 
-from linkwright.analysis.topper.field import topper_field
-from linkwright.analysis.topper.intervals import Clusters
-from linkwright.analysis.topper.share_curve import ShareCurve
+from linkwright.topping.field import topper_field
+from linkwright.topping.intervals import Clusters
+from linkwright.topping.share_curve import ShareCurve
 
 Floats = NDArray[np.float64]
 

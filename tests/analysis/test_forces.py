@@ -9,18 +9,18 @@ import pytest
 from zoo import ZOO, animal
 
 import linkwright as lw
-from linkwright.analysis.cam.contact import contacts, touch
-from linkwright.analysis.forces import forces
-from linkwright.analysis.kinetostatics.cam import follower_at
-from linkwright.analysis.kinetostatics.friction import Friction
-from linkwright.analysis.kinetostatics.inertia import masses
-from linkwright.analysis.kinetostatics.motion import motion_at
-from linkwright.analysis.kinetostatics.result import Forces
-from linkwright.analysis.kinetostatics.scene import Scene
-from linkwright.engine import compile_machine
-from linkwright.errors import FindingError, InputError, MachineError, ShapeError
-from linkwright.machine.mobility import mobility
-from linkwright.machine.structure import FRAME, structure
+from linkwright.cam.profile.contact import contacts, touch
+from linkwright.kernel.errors import FindingError, InputError, MachineError, ShapeError
+from linkwright.kinetostatics.cam_contact import follower_at
+from linkwright.kinetostatics.forces import forces
+from linkwright.kinetostatics.friction import Friction
+from linkwright.kinetostatics.inertia import masses
+from linkwright.kinetostatics.motion import motion_at
+from linkwright.kinetostatics.places import Scene
+from linkwright.kinetostatics.result import Forces
+from linkwright.linkages.model.mobility import mobility
+from linkwright.linkages.model.structure import FRAME, structure
+from linkwright.machine.program.compiled import compile_machine
 
 SPEED, ACCELERATION = 3.0, 1.5
 
@@ -121,7 +121,7 @@ def _forces(result: Forces) -> list[np.ndarray]:
 
 def _external(machine: lw.Machine, scene: Scene) -> dict[str, np.ndarray]:
     """Forces of loads and drivers on members, by the module that the loads are tested through elsewhere."""
-    from linkwright.analysis.kinetostatics.applied import applied
+    from linkwright.kinetostatics.applied import applied
 
     found = {name: np.zeros((scene.n, 2)) for name in scene.structure.members}
     for load in machine.loads.values():
@@ -154,7 +154,7 @@ def test_force_on_the_frame_is_the_change_of_momentum(found: tuple[lw.Machine, F
     """Σ m a = loads from outside − force on the frame, without any reaction in it."""
     machine, result = found
     scene = Scene(machine, motion_at(machine, None, speed=SPEED, acceleration=ACCELERATION))
-    from linkwright.analysis.kinetostatics.applied import applied
+    from linkwright.kinetostatics.applied import applied
 
     outside, moment = np.zeros((scene.n, 2)), np.zeros(scene.n)
     for load in machine.loads.values():
@@ -532,8 +532,8 @@ def test_study_has_the_forces_along_its_steady_motion() -> None:
 
 def test_every_kind_of_load_and_element_is_among_the_machines() -> None:
     """A new kind of load or element must come here, where its laws are tested."""
-    from linkwright.machine import AnyLoad
-    from linkwright.machine.outline import KINDS
+    from linkwright.kinetostatics.model.loads import AnyLoad
+    from linkwright.linkages.model.outline import KINDS
 
     kinds = {each.model_fields["kind"].annotation for each in AnyLoad.__args__[0].__args__}
     machines = [animal(name) for name in ZOO]

@@ -10,9 +10,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
-from linkwright.errors import FindingError, SteadyStateError
-from linkwright.files.write import dumps
-from linkwright.machine.formula import parse, program, terms
+from linkwright.kernel.description.formula import parse, program, terms
+from linkwright.kernel.errors import FindingError, SteadyStateError
+from linkwright.machine.files.write import dumps
 
 MACHINE = """
 format = 1

@@ -9,10 +9,10 @@ import pytest
 from cylinders import BORE, CRANK, ROD, crank_position, cylinder, diesel
 from scipy.integrate import quad
 
-from linkwright.errors import MachineError, ShapeError
-from linkwright.machine.reciprocating.cycle_pressure import CyclePressure
-from linkwright.machine.reciprocating.cylinder import Cylinder
-from linkwright.machine.reciprocating.gas_torque import gas_torque, torque_orders
+from linkwright.kernel.errors import MachineError, ShapeError
+from linkwright.torsion.model.engine.cycle_pressure import CyclePressure
+from linkwright.torsion.model.engine.cylinder import Cylinder
+from linkwright.torsion.model.engine.gas_torque import gas_torque, torque_orders
 
 AREA = math.pi / 4 * BORE**2
 SPEEDS = np.array([100.0, 150.0])

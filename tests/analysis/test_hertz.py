@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize
 
-from linkwright.analysis.cam.hertz import (
+from linkwright.cam.dynamics.hertz import (
     SHEAR_DEPTH,
     SHEAR_MAX,
     STEEL,
@@ -16,7 +16,7 @@ from linkwright.analysis.cam.hertz import (
     line_contact,
     von_mises_largest,
 )
-from linkwright.errors import FindingError, InputError, ShapeError
+from linkwright.kernel.errors import FindingError, InputError, ShapeError
 
 BRONZE = Material(110e9, 0.34)
 

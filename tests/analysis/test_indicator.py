@@ -13,14 +13,14 @@ from cylinders import cylinder, diesel, measured, told
 from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
 from scipy.interpolate import PchipInterpolator
 
-from linkwright.errors import MachineError
-from linkwright.files.read import read_as
-from linkwright.machine.base import Description
-from linkwright.machine.problems import problems
-from linkwright.machine.reciprocating.any_gas import AnyGas
-from linkwright.machine.reciprocating.gas_torque import GasTorque, gas_torque
-from linkwright.machine.reciprocating.indicator import Indicator
-from linkwright.machine.reciprocating.periodic_cubic import periodic_cubic
+from linkwright.kernel.description.base import Description
+from linkwright.kernel.description.problems import problems
+from linkwright.kernel.errors import MachineError
+from linkwright.machine.files.read import read_as
+from linkwright.torsion.model.engine.any_gas import AnyGas
+from linkwright.torsion.model.engine.gas_torque import GasTorque, gas_torque
+from linkwright.torsion.model.engine.indicator import Indicator
+from linkwright.torsion.model.engine.periodic_cubic import periodic_cubic
 
 ROOT = Path(__file__).parents[2]
 SPEEDS = np.array([100.0, 200.0])

@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from linkwright.analysis.law_factors import cam_laws, law_factors
-from linkwright.motion_laws.boundary import Boundary
-from linkwright.motion_laws.bounds import BOUNDS
-from linkwright.motion_laws.catalogue import LAWS
-from linkwright.motion_laws.modified_sine import modified_sine
-from linkwright.motion_laws.modified_trapezoid import modified_trapezoid
-from linkwright.motion_laws.motion_law import MotionLaw
-from linkwright.motion_laws.polynomial import polynomial
-from linkwright.motion_laws.spline import spline
+from linkwright.cam.law_factors import cam_laws, law_factors
+from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.bounds import BOUNDS
+from linkwright.cam.laws.catalogue import LAWS
+from linkwright.cam.laws.modified_sine import modified_sine
+from linkwright.cam.laws.modified_trapezoid import modified_trapezoid
+from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam.laws.polynomial import polynomial
+from linkwright.cam.laws.spline import spline
 
 pi, sin, cos, sqrt = math.pi, math.sin, math.cos, math.sqrt
 FACTORS = cam_laws()

@@ -7,12 +7,12 @@ import math
 import numpy as np
 import pytest
 
-from linkwright.analysis.torsion.study import torsion_study
-from linkwright.files.library import library_path
-from linkwright.files.read import read
-from linkwright.machine.reciprocating.combustion import Combustion
-from linkwright.machine.reciprocating.dead_centres import dead_centres
-from linkwright.machine.reciprocating.engine_motion import running_gears
+from linkwright.kernel.files.library import library_path
+from linkwright.machine.files.read import read
+from linkwright.torsion.model.engine.combustion import Combustion
+from linkwright.torsion.model.engine.dead_centres import dead_centres
+from linkwright.torsion.model.engine.engine_motion import running_gears
+from linkwright.torsion.study import torsion_study
 
 
 @pytest.mark.parametrize("name", ["v_diesel", "v8_diesel"])

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.closure import closure
-from linkwright.analysis.dead_points import LIMIT, PASSED, REVERSAL
-from linkwright.analysis.dyads import LINK, SLIDE
-from linkwright.analysis.grashof import FourBar, four_bars
-from linkwright.analysis.kinematics import kinematics
-from linkwright.analysis.roots import minima, zeros
-from linkwright.engine import compile_machine
-from linkwright.errors import AssemblyError, InputError, MachineError, ShapeError
+from linkwright.kernel.errors import AssemblyError, InputError, MachineError, ShapeError
+from linkwright.kernel.numerics.roots import minima, zeros
+from linkwright.linkages.closure import closure
+from linkwright.linkages.dead_points import LIMIT, PASSED, REVERSAL
+from linkwright.linkages.dyads import LINK, SLIDE
+from linkwright.linkages.grashof import FourBar, four_bars
+from linkwright.linkages.kinematics import kinematics
+from linkwright.machine.program.compiled import compile_machine
 
 # Zeros are located to some units of rounding of the crank angle; what is computed from them keeps nine digits
 # and more.

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.closure import require_one_turn
-from linkwright.engine import compile_machine
-from linkwright.errors import AssemblyError
-from linkwright.files import loads
+from linkwright.kernel.errors import AssemblyError
+from linkwright.linkages.closure import require_one_turn
+from linkwright.machine.files.read import loads
+from linkwright.machine.program.compiled import compile_machine
 
 HEAD = 'format = 1\nname = "linkage"\n'
 FOUR_BAR = """

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.cam.follower_load import FollowerLoad
-from linkwright.analysis.cam.hertz import Material, line_contact
-from linkwright.analysis.cam.lift_off import lift_off
-from linkwright.analysis.cam.loaded import LoadedCam, loaded_cam
-from linkwright.analysis.cam.profile import CamProfile, cam_profile
-from linkwright.machine import Machine
+from linkwright.cam.dynamics.follower_load import FollowerLoad
+from linkwright.cam.dynamics.hertz import Material, line_contact
+from linkwright.cam.dynamics.lift_off import lift_off
+from linkwright.cam.dynamics.loaded import LoadedCam, loaded_cam
+from linkwright.cam.profile.profile import CamProfile, cam_profile
+from linkwright.machine.machine import Machine
 
 MASS, RATE, FREE, PIN = 0.6, 4e3, 0.2, 0.25
 BASE, ROLLER, WIDTH = 0.03, 0.008, 0.012
@@ -149,7 +149,7 @@ def test_a_floating_follower_is_a_finding_whatever_drives_the_cam(drive: str, sp
 
 def test_forces_without_an_answer_are_said_of_the_cam_too(monkeypatch: pytest.MonkeyPatch) -> None:
     """What the forces say of themselves reaches whoever asks for the cam alone."""
-    from linkwright.analysis.cam import loaded as module
+    from linkwright.cam.dynamics import loaded as module
 
     def doubtful(*args: object, **options: object) -> object:
         return replace(lw.forces(*args, **options), findings=("nothing is known at 30°",))  # type: ignore[arg-type]

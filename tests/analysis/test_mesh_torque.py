@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.carried import carried
-from linkwright.analysis.torsion.excited import excited, loaded
-from linkwright.analysis.torsion.mesh_torque import MeshTorque, mesh_torques, meshed
+from linkwright.torsion.response.carried import carried
+from linkwright.torsion.response.excited import excited, loaded
+from linkwright.torsion.response.mesh_torque import MeshTorque, mesh_torques, meshed
 
 TRAIN = """
 format = 1

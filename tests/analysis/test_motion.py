@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
-from linkwright.errors import (
+from linkwright.kernel.errors import (
     AssemblyError,
     InputError,
     MachineError,

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.engine import compile_machine
-from linkwright.errors import AssemblyError
+from linkwright.kernel.errors import AssemblyError
+from linkwright.machine.program.compiled import compile_machine
 
 # Nothing here is to be computed with what is not finite.
 pytestmark = pytest.mark.filterwarnings("error::RuntimeWarning")

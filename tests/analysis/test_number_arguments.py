@@ -1,6 +1,6 @@
 """A number that is no such quantity is refused by every function, with the name of the argument.
 
-Not a number, infinite, beyond the range of its kind (`linkwright.units`), or of the wrong sign.
+Not a number, infinite, beyond the range of its kind (`linkwright.kernel.units`), or of the wrong sign.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.errors import InputError
+from linkwright.kernel.errors import InputError
 
 ROOT = Path(__file__).parents[2]
 # From -inf to inf, beyond the ranges of all kinds.
@@ -34,7 +34,7 @@ FIELD = machine("examples/topper_field/machine.toml")
 COUPLER = machine("examples/hoeken_straight_line/machine.toml")
 TAPPET = machine("examples/cam_polydyne/machine.toml").mechanism.cams["tappet"].lift
 RISE = TAPPET.stretch(0.0, np.radians(80))
-PRESS = lw.loads((ROOT / "python/linkwright/files/templates/press.toml").read_text())
+PRESS = lw.loads((ROOT / "python/linkwright/kernel/files/templates/press.toml").read_text())
 FOLLOWER = lw.OneMass(0.5, 4e5, damping_ratio_frame=0.03, spring_rate=2e4, preload=250.0)
 LOAD = lw.FollowerLoad(0.5, spring_rate=1e4, preload=100.0)
 TURN = np.linspace(0, 2 * np.pi, 73)
@@ -180,7 +180,7 @@ def _cart_masses() -> dict[str, Any]:
 
 
 def paper() -> Any:
-    from linkwright.analysis.topper.verdict import PAPER
+    from linkwright.topping.verdict import PAPER
 
     return PAPER
 

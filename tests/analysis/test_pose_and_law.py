@@ -9,17 +9,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.law import (
-    FunctionLaw,
-    PolynomialLaw,
-    RampLaw,
-    TableLaw,
-    as_law,
-    constant_speed,
-)
-from linkwright.analysis.law_formula import FormulaLaw
-from linkwright.analysis.taylor import Taylor
-from linkwright.errors import AssemblyError, InputError, ShapeError
+from linkwright.kernel.errors import AssemblyError, InputError, ShapeError
+from linkwright.kernel.numerics.taylor import Taylor
+from linkwright.linkages.law import FunctionLaw, PolynomialLaw, RampLaw, TableLaw, as_law, constant_speed
+from linkwright.linkages.law_formula import FormulaLaw
 
 # One of each dyad, gear, planet, rack, cable and a bar, all in one machine.
 ALL = """

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.pumping_unit import PumpingUnitMotion, pumping_unit
-from linkwright.errors import AssemblyError, FindingError, InputError, MachineError
-from linkwright.machine import PumpingUnit, catalogue_unit, pumping_units
+from linkwright.kernel.errors import AssemblyError, FindingError, InputError, MachineError
+from linkwright.pumping.model.unit import PumpingUnit
+from linkwright.pumping.model.unit_catalogue import catalogue_unit, pumping_units
+from linkwright.pumping.unit import PumpingUnitMotion, pumping_unit
 
 INCH = 0.0254
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.forced import forced_vibration
-from linkwright.analysis.torsion.record_diagnosis import record_diagnosis
-from linkwright.analysis.torsion.recorded_speed import recorded_speed
-from linkwright.errors import InputError, ShapeError
-from linkwright.files import template
-from linkwright.machine.reciprocating.firing import firing_angles
+from linkwright.kernel.errors import InputError, ShapeError
+from linkwright.kernel.files.templates import template
+from linkwright.torsion.diagnosis.record_diagnosis import record_diagnosis
+from linkwright.torsion.diagnosis.recorded_speed import recorded_speed
+from linkwright.torsion.model.engine.firing import firing_angles
+from linkwright.torsion.response.forced import forced_vibration
 
 SPEED = 150.0
 ORDERS = np.array([0.5, 1.0, 4.5])

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.excited import Excited, excited
-from linkwright.analysis.torsion.forced import ForcedVibration, responded
+from linkwright.torsion.response.excited import Excited, excited
+from linkwright.torsion.response.forced import ForcedVibration, responded
 
 SPEEDS = np.array([17.0, 40.0, 63.0])
 

@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
-from linkwright.errors import AssemblyError, InputError
-from linkwright.machine.reciprocating.dead_centres import dead_centres
-from linkwright.machine.reciprocating.rod import ArticulatedRod, Rod
-from linkwright.machine.reciprocating.rod_motion import slider_crank
-from linkwright.machine.reciprocating.running_gear import RunningGear, throw_motion
+from linkwright.kernel.errors import AssemblyError, InputError
+from linkwright.torsion.model.engine.dead_centres import dead_centres
+from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
+from linkwright.torsion.model.engine.rod_motion import slider_crank
+from linkwright.torsion.model.engine.running_gear import RunningGear, throw_motion
 
 # A V of 60 degrees with a master rod on the left: sizes of a large high-speed diesel, an example.
 RADIUS = 0.09

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.rod_rotator import RodRotatorMotion, rod_rotator
-from linkwright.errors import AssemblyError, InputError
-from linkwright.machine.rotator_lengths import diagonal_extremes, lengths
-from linkwright.papers.paper4_formulas import LeverFormula, Unit
+from linkwright.kernel.errors import AssemblyError, InputError
+from linkwright.papers.paper4.formulas import LeverFormula, Unit
+from linkwright.pumping.model.rotator_lengths import diagonal_extremes, lengths
+from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator
 
 CONTINUOUS = lw.read("machines/rod_rotator_continuous.toml")
 INTERMITTENT = lw.read("machines/rod_rotator_intermittent.toml")

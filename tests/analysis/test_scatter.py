@@ -9,7 +9,7 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 from scipy import stats
 
-from linkwright.machine.scatter import AnyScatter, Scatter
+from linkwright.topping.model.scatter import AnyScatter, Scatter
 
 SHARES = np.array([1e-6, 0.01, 0.3, 0.5, 0.77, 0.99, 1 - 1e-6])
 ADAPTER: TypeAdapter[Scatter] = TypeAdapter(AnyScatter)

@@ -16,11 +16,11 @@ from scipy.optimize import brentq
 from torsion_fields import flange_flexibility, keyed_constant, spline_constant, step_length
 
 import linkwright as lw
-from linkwright.errors import MachineError
-from linkwright.machine import ShaftSection
-from linkwright.machine import shaft_step as closed
-from linkwright.machine.shaft_flexibility import cone_integral
-from linkwright.machine.shaft_row import end_inertias, flexibilities, place
+from linkwright.kernel.errors import MachineError
+from linkwright.torsion.model import shaft_step as closed
+from linkwright.torsion.model.shaft_flexibility import cone_integral
+from linkwright.torsion.model.shaft_row import end_inertias, flexibilities, place
+from linkwright.torsion.model.shaft_section import ShaftSection
 
 # Rounding of closed forms over a few operations.
 ROUNDING = 1e-13

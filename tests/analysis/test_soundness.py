@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.soundness import soundness
-from linkwright.errors import FindingError, InputError
-from linkwright.machine import Machine
+from linkwright.app.soundness import soundness
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.machine.machine import Machine
 
 ROOT = Path(__file__).parents[2]
 SHIPPED = sorted([*ROOT.glob("machines/*.toml"), *ROOT.glob("examples/*/machine.toml")])

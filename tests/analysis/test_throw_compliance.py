@@ -10,15 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from throw_models import frame_stiffness, solid_compliance
 
-from linkwright.errors import InputError
-from linkwright.machine.reciprocating.throw import CrankThrow
-from linkwright.machine.reciprocating.throw_compliance import (
+from linkwright.kernel.errors import InputError
+from linkwright.torsion.model.engine.throw import CrankThrow
+from linkwright.torsion.model.engine.throw_compliance import (
     COMPLIANCE_FORMULAS,
     compliance,
     compliance_remarks,
     compliances,
 )
-from linkwright.machine.reciprocating.throw_formulas import restraint_length
+from linkwright.torsion.model.engine.throw_formulas import restraint_length
 
 # Rounding of the frame's elimination, which loses some digits to stiff bars.
 FRAME = 1e-9

@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 from topper_fields import TOPPER, machine
 
 import linkwright as lw
-from linkwright.analysis.topper import passes
-from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.edge import edges_of
-from linkwright.analysis.topper.field import TopperField, topper_field
-from linkwright.analysis.topper.field_verdict import field_cautions, field_findings
-from linkwright.analysis.topper.head import cap_volume, head_diameter
-from linkwright.analysis.topper.knife import knives
-from linkwright.analysis.topper.passes import pass_over
-from linkwright.analysis.topper.roots import draw_roots
-from linkwright.errors import InputError, MachineError
+from linkwright.kernel.errors import InputError, MachineError
+from linkwright.topping import passes
+from linkwright.topping.constant_speed import constant_speed_lengths
+from linkwright.topping.edge import edges_of
+from linkwright.topping.field import TopperField, topper_field
+from linkwright.topping.field_verdict import field_cautions, field_findings
+from linkwright.topping.head import cap_volume, head_diameter
+from linkwright.topping.knife import knives
+from linkwright.topping.passes import pass_over
+from linkwright.topping.roots import draw_roots
 
 Floats = NDArray[np.float64]
 

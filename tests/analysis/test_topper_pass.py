@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from linkwright.analysis.topper.coverage import coverage
-from linkwright.analysis.topper.edge import Edge, edges_of
-from linkwright.analysis.topper.head_pass import HeadPass, head_pass, worse_edge
-from linkwright.analysis.topper.length_chart import length_chart
-from linkwright.analysis.topper.slicing import edge_use, slicing_over_phase
-from linkwright.analysis.topper.topper import topper
-from linkwright.files import read
-from linkwright.machine import Machine
+from linkwright.machine.files.read import read
+from linkwright.machine.machine import Machine
+from linkwright.topping.coverage import coverage
+from linkwright.topping.edge import Edge, edges_of
+from linkwright.topping.head_pass import HeadPass, head_pass, worse_edge
+from linkwright.topping.length_chart import length_chart
+from linkwright.topping.slicing import edge_use, slicing_over_phase
+from linkwright.topping.topper import topper
 
 MACHINES = Path(__file__).parents[2] / "machines"
 D = 0.098

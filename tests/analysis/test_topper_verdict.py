@@ -8,21 +8,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.coverage import coverage
-from linkwright.analysis.topper.edge import Edge
-from linkwright.analysis.topper.knife import Knife, knives
-from linkwright.analysis.topper.published import length_consistent, length_published
-from linkwright.analysis.topper.verdict import (
-    PAPER,
-    WAYS,
-    Claim,
-    Stroke,
-    bands_of,
-    length_verdict,
-    lengths_over,
-)
-from linkwright.files import loads
+from linkwright.machine.files.read import loads
+from linkwright.topping.constant_speed import constant_speed_lengths
+from linkwright.topping.coverage import coverage
+from linkwright.topping.edge import Edge
+from linkwright.topping.knife import Knife, knives
+from linkwright.topping.published import length_consistent, length_published
+from linkwright.topping.verdict import PAPER, WAYS, Claim, Stroke, bands_of, length_verdict, lengths_over
 
 Floats = NDArray[np.float64]
 

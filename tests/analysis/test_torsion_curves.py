@@ -7,13 +7,13 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import linkwright as lw
-from linkwright.analysis.torsion.waterfall import waterfall
-from linkwright.engine import compile_machine
-from linkwright.engine.curve import product, straight, switched
-from linkwright.engine.periodic_table import smooth, spline, waves
-from linkwright.engine.train_motor import motor_curve
-from linkwright.errors import InputError
-from linkwright.machine import ConstantTorqueMotor, DcMotor, InductionMotor, TableMotor
+from linkwright.drive.model.motor import ConstantTorqueMotor, DcMotor, InductionMotor, TableMotor
+from linkwright.kernel.core.curve import product, straight, switched
+from linkwright.kernel.core.periodic_table import smooth, spline, waves
+from linkwright.kernel.errors import InputError
+from linkwright.machine.program.compiled import compile_machine
+from linkwright.torsion.core.motor import motor_curve
+from linkwright.torsion.in_time.waterfall import waterfall
 
 # Rounding of a Fourier transform of some hundred samples, and of its second derivative.
 ROUNDING, ROUNDING_D2 = 1e-13, 1e-9

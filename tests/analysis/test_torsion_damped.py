@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from scipy.linalg import eig
 
 import linkwright as lw
-from linkwright.analysis.result import finite
-from linkwright.analysis.torsion.damped import DampedVibration
-from linkwright.errors import InputError
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.result import finite
+from linkwright.torsion.modes.damped import DampedVibration
 
 # Rounding of closed forms over a few operations.
 ROUNDING = 1e-12

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.moving_drive import _lossy
-from linkwright.analysis.torsion.transient import torsion_transient
-from linkwright.engine.curve import straight
-from linkwright.errors import InputError, MachineError
-from linkwright.machine import TrainTransient
+from linkwright.kernel.core.curve import straight
+from linkwright.kernel.errors import InputError, MachineError
+from linkwright.torsion.in_time.moving_drive import _lossy
+from linkwright.torsion.in_time.transient import torsion_transient
+from linkwright.torsion.model.train_transient import TrainTransient
 
 CART = """
 format = 1

@@ -8,10 +8,10 @@ import pytest
 from scipy.linalg import solve
 
 import linkwright as lw
-from linkwright.analysis.torsion.excited import excited
-from linkwright.analysis.torsion.forced import angular_deflection, forced_vibration
-from linkwright.analysis.torsion.synthesis import coefficients, orders_together, span, waveform
-from linkwright.errors import InputError, MachineError
+from linkwright.kernel.errors import InputError, MachineError
+from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.forced import angular_deflection, forced_vibration
+from linkwright.torsion.response.synthesis import coefficients, orders_together, span, waveform
 
 
 def machine(**train: Any) -> lw.Machine:

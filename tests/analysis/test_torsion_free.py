@@ -10,7 +10,7 @@ from scipy.linalg import eigh
 from trains import Gear, Shaft, matrices, omega, text, train
 
 import linkwright as lw
-from linkwright.errors import FindingError, InputError, MachineError
+from linkwright.kernel.errors import FindingError, InputError, MachineError
 
 # Rounding of closed forms over a few operations.
 ROUNDING = 1e-13

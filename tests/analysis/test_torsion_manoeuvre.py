@@ -10,19 +10,20 @@ import pytest
 from typer.testing import CliRunner
 
 import linkwright as lw
-from linkwright.analysis.torsion.balanced_start import balanced_start, mean_torques
-from linkwright.analysis.torsion.excited import excited
-from linkwright.analysis.torsion.forced import responded
-from linkwright.analysis.torsion.moving_engine import combustion_weight
-from linkwright.analysis.torsion.moving_train import moving_train
-from linkwright.analysis.torsion.peak_judgement import PeakJudgement
-from linkwright.analysis.torsion.transient import follow_train, torsion_transient
-from linkwright.analysis.torsion.waterfall import waterfall
-from linkwright.cli import application
-from linkwright.errors import ConvergenceError, InputError, MachineError
-from linkwright.machine import Machine, TrainTransient
-from linkwright.plot.torsion_transient import orders_figure, transient_figure, waterfall_figure
-from linkwright.report.torsion_page import torsion_html
+from linkwright.app.application import application
+from linkwright.kernel.errors import ConvergenceError, InputError, MachineError
+from linkwright.machine.machine import Machine
+from linkwright.torsion.figures.transient import orders_figure, transient_figure, waterfall_figure
+from linkwright.torsion.in_time.balanced_start import balanced_start, mean_torques
+from linkwright.torsion.in_time.moving_engine import combustion_weight
+from linkwright.torsion.in_time.moving_train import moving_train
+from linkwright.torsion.in_time.transient import follow_train, torsion_transient
+from linkwright.torsion.in_time.waterfall import waterfall
+from linkwright.torsion.limits.peak_judgement import PeakJudgement
+from linkwright.torsion.model.train_transient import TrainTransient
+from linkwright.torsion.page import torsion_html
+from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.forced import responded
 
 V12 = Path(__file__).parents[2] / "machines" / "v_diesel.toml"
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.forced import forced_vibration
-from linkwright.analysis.torsion.stress import ShaftStress, shaft_stress
-from linkwright.errors import MachineError
+from linkwright.kernel.errors import MachineError
+from linkwright.torsion.response.forced import forced_vibration
+from linkwright.torsion.response.stress import ShaftStress, shaft_stress
 
 TRAIN = """
 format = 1

@@ -11,12 +11,12 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import eigh
 from scipy.special import ellipk
 
-from linkwright.analysis.torsion.transient import TorsionTransient, follow_train
-from linkwright.engine.curve import Curve, backlash, odd, smooth, straight
-from linkwright.engine.periodic_table import waves
-from linkwright.engine.train_torque import Decaying, Following, Power, TrainTorque, short_circuit
-from linkwright.engine.train_transient import MovingTrain, VariableInertia, variable_inertia, viscous
-from linkwright.errors import ConvergenceError, InputError, ShapeError
+from linkwright.kernel.core.curve import Curve, backlash, odd, smooth, straight
+from linkwright.kernel.core.periodic_table import waves
+from linkwright.kernel.errors import ConvergenceError, InputError, ShapeError
+from linkwright.torsion.core.torque import Decaying, Following, Power, TrainTorque, short_circuit
+from linkwright.torsion.core.transient import MovingTrain, VariableInertia, variable_inertia, viscous
+from linkwright.torsion.in_time.transient import TorsionTransient, follow_train
 
 Floats = NDArray[np.float64]
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.result import finite
-from linkwright.analysis.torsion.carried import carried
-from linkwright.analysis.torsion.criteria import Criterion, criteria
-from linkwright.analysis.torsion.excited import excited
-from linkwright.analysis.torsion.forced import forced_vibration
-from linkwright.analysis.torsion.verdict import Judgement, Verdict, verdict
+from linkwright.kernel.result import finite
+from linkwright.torsion.limits.criteria import Criterion, criteria
+from linkwright.torsion.limits.verdict import Judgement, Verdict, verdict
+from linkwright.torsion.response.carried import carried
+from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.forced import forced_vibration
 
 TRAIN = """
 format = 1

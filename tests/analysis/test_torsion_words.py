@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 import linkwright as lw
-from linkwright.errors import MachineError
+from linkwright.kernel.errors import MachineError
 
 ENGINE: dict[str, Any] = {
     "bore": 0.1,
@@ -60,7 +60,7 @@ def test_loads_that_ask_for_something_else_are_told() -> None:
 
 
 def test_loads_damp_as_much_as_they_take() -> None:
-    from linkwright.analysis.torsion.excited import excited
+    from linkwright.torsion.response.excited import excited
 
     made = engine(100.0)
     assert made.train is not None

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.excited import excited
-from linkwright.analysis.torsion.forced import responded
-from linkwright.analysis.torsion.unevenness_along import UnevennessAlong, unevenness_along
-from linkwright.errors import InputError
+from linkwright.kernel.errors import InputError
+from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.forced import responded
+from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
 
 # Shafts as good as rigid.
 STIFF = {"stiffness": 1e12, "coupling": 1e12}

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from linkwright.cli import application
+from linkwright.app.application import application
 
 ROOT = Path(__file__).parents[2]
 ROLLER_CAM = str(ROOT / "machines" / "roller_cam.toml")

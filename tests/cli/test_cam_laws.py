@@ -10,9 +10,8 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from linkwright.cli import application
-from linkwright.cli.commands import _group
-from linkwright.motion_laws.catalogue import LAWS
+from linkwright.app.application import _group, application
+from linkwright.cam.laws.catalogue import LAWS
 
 RUNNER = CliRunner()
 

@@ -11,7 +11,7 @@ import jsonschema
 import pytest
 from typer.testing import CliRunner, Result
 
-from linkwright.cli import application
+from linkwright.app.application import application
 
 ROLLER_CAM = Path(__file__).parents[2] / "machines" / "roller_cam.toml"
 

@@ -13,10 +13,11 @@ import pytest
 import typer
 from typer.testing import CliRunner, Result
 
-from linkwright.cli import application
-from linkwright.cli.common import reports_errors
-from linkwright.errors import StartError
-from linkwright.files import loads, templates
+from linkwright.app.application import application
+from linkwright.kernel.command.common import reports_errors
+from linkwright.kernel.errors import StartError
+from linkwright.kernel.files.templates import templates
+from linkwright.machine.files.read import loads
 
 ROOT = Path(__file__).parents[2]
 TWO_CARTS = ROOT / "machines" / "roller_two_carts.toml"
@@ -168,7 +169,7 @@ def test_a_finding_is_exit_code_1_and_an_interrupt_130() -> None:
 
 def program(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     """Run the command line as a program of its own."""
-    command = [sys.executable, "-m", "linkwright.cli", *map(str, arguments)]
+    command = [sys.executable, "-m", "linkwright.app", *map(str, arguments)]
     path = os.pathsep.join([str(ROOT / "python"), os.environ.get("PYTHONPATH", "")])
     environment = os.environ | {"PYTHONPATH": path}
     return subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
@@ -199,7 +200,7 @@ def test_letters_that_the_terminal_has_not(monkeypatch: pytest.MonkeyPatch, tmp_
 
 def test_help_loads_nothing_heavy() -> None:
     code = (
-        "import sys\nfrom linkwright.cli import application\napplication()\n"
+        "import sys\nfrom linkwright.app import application\napplication()\n"
         "heavy = {'numpy', 'pint', 'pydantic', 'rich', 'tomlkit', 'matplotlib'} & set(sys.modules)\n"
         "assert not heavy, heavy"
     )

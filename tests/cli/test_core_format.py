@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from linkwright import _core
-from linkwright.engine.core_format import FORMAT, check_format
-from linkwright.errors import CoreError
+from linkwright.kernel.core.core_format import FORMAT, check_format
+from linkwright.kernel.errors import CoreError
 
 ROOT = Path(__file__).parents[2]
 
@@ -20,7 +20,7 @@ import sys
 from linkwright import _core
 {change}
 sys.argv = ["linkwright", "run", "machines/roller_two_carts.toml", "--json"]
-from linkwright.cli import main
+from linkwright.app import main
 main()
 """
 

@@ -10,8 +10,8 @@ import pytest
 from typer.testing import CliRunner, Result
 
 import linkwright as lw
-from linkwright.analysis.torsion.forced import forced_vibration
-from linkwright.cli import application
+from linkwright.app.application import application
+from linkwright.torsion.response.forced import forced_vibration
 
 ENGINE = Path(__file__).parents[2] / "examples" / "weak_cylinder" / "machine.toml"
 SPEED = 50 * np.pi

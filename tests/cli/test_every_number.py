@@ -17,14 +17,13 @@ import pytest
 from typer.testing import CliRunner
 
 import linkwright as lw
-from linkwright.cli import application
-from linkwright.errors import InputError
-from linkwright.machine import addresses
-from linkwright.machine.address import kind
+from linkwright.app.application import application
+from linkwright.kernel.errors import InputError
+from linkwright.machine.address import addresses, kind
 
 ROOT = Path(__file__).parents[2]
 MACHINES = sorted(
-    [*(ROOT / "machines").glob("*.toml"), *ROOT.glob("python/linkwright/files/templates/*.toml")]
+    [*(ROOT / "machines").glob("*.toml"), *ROOT.glob("python/linkwright/kernel/files/templates/*.toml")]
 )
 # No quantity is that large, or a number at all.
 NEVER = (math.nan, math.inf, -math.inf, 1e30, 1e300, -1e308)

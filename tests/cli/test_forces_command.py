@@ -9,8 +9,8 @@ import pytest
 from typer.testing import CliRunner
 
 import linkwright as lw
-from linkwright.cli import application
-from linkwright.cli.check import summary
+from linkwright.app.application import application
+from linkwright.app.commands.check import summary
 
 RUNNER = CliRunner()
 

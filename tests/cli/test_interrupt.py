@@ -21,7 +21,7 @@ PATIENCE = 60.0
 
 def _start(*arguments: str) -> subprocess.Popen[str]:
     # Each import is told of on standard error as soon as it is done.
-    command = [sys.executable, "-X", "importtime", "-m", "linkwright.cli", *arguments]
+    command = [sys.executable, "-X", "importtime", "-m", "linkwright.app", *arguments]
     # Who started the tests may have let them ignore interrupts.
     return subprocess.Popen(
         command,
@@ -41,7 +41,7 @@ def _wait_for(program: subprocess.Popen[str], module: str) -> None:
     pytest.fail(f"{module} was never imported")
 
 
-@pytest.mark.parametrize("module", ["typer.core", "linkwright.cli.commands"])
+@pytest.mark.parametrize("module", ["typer.core", "linkwright.app.application"])
 def test_while_it_imports(module: str) -> None:
     program = _start("run", "machines/roller_two_carts.toml", "--json")
     _wait_for(program, module)
@@ -51,7 +51,7 @@ def test_while_it_imports(module: str) -> None:
     assert "Traceback" not in told
 
 
-@pytest.mark.parametrize("module", ["numpy", "linkwright.machine", "linkwright.analysis.study"])
+@pytest.mark.parametrize("module", ["numpy", "linkwright.machine", "linkwright.app.study"])
 def test_while_a_command_imports(module: str) -> None:
     program = _start("run", "machines/roller_two_carts.toml", "--json")
     _wait_for(program, module)
@@ -63,7 +63,7 @@ def test_while_a_command_imports(module: str) -> None:
 
 def test_while_it_computes() -> None:
     program = _start("topper", "field", "machines/topper.toml", "--over", "edge_length=0.1:0.3:50000")
-    _wait_for(program, "linkwright.sweep.topper")
+    _wait_for(program, "linkwright.topping.sweep")
     time.sleep(0.5)
     program.send_signal(signal.SIGINT)
     start = time.monotonic()

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from linkwright.cli import application
+from linkwright.app.application import application
 
 FOUR_BAR = Path(__file__).parents[2] / "examples" / "four_bar_coupler_curve" / "machine.toml"
 

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from linkwright.cli import application
-from linkwright.errors import MachineFileError
-from linkwright.files import loads
-from linkwright.files.csv_text import csv_text
+from linkwright.app.application import application
+from linkwright.kernel.errors import MachineFileError
+from linkwright.kernel.files.csv_text import csv_text
+from linkwright.machine.files.read import loads
 
 # What each would do where it is taken for more than a name.
 NASTY = [

@@ -11,9 +11,10 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner, Result
 
-from linkwright.analysis.steady_state import steady_state
-from linkwright.cli import application
-from linkwright.files import read, template, templates
+from linkwright.app.application import application
+from linkwright.drive.steady_state import steady_state
+from linkwright.kernel.files.templates import template, templates
+from linkwright.machine.files.read import read
 
 ROOT = Path(__file__).parents[2]
 TWO_CARTS = ROOT / "machines" / "roller_two_carts.toml"
@@ -86,7 +87,7 @@ def test_standard_output_holds_json_and_nothing_else(tmp_path: Path) -> None:
     command = [
         sys.executable,
         "-m",
-        "linkwright.cli",
+        "linkwright.app",
         "run",
         str(TWO_CARTS),
         "--json",
@@ -102,7 +103,7 @@ def test_standard_output_holds_json_and_nothing_else(tmp_path: Path) -> None:
 def test_json_needs_no_drawing() -> None:
     code = (
         "import sys\n"
-        "from linkwright.cli import application\n"
+        "from linkwright.app import application\n"
         f"application()(['run', {str(TWO_CARTS)!r}, '--json'], standalone_mode=False)\n"
         "heavy = {'matplotlib', 'jinja2', 'rich', 'pandas', 'pint', 'scipy', 'tomlkit'}\n"
         "print(sorted(heavy & set(sys.modules)), file=sys.stderr)\n"

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from linkwright.analysis.steady_state import steady_state
-from linkwright.cli import application
-from linkwright.files import read
-from linkwright.files.library import library_path
+from linkwright.app.application import application
+from linkwright.drive.steady_state import steady_state
+from linkwright.kernel.files.library import library_path
+from linkwright.machine.files.read import read
 
 TWO_CARTS = library_path("roller_two_carts")
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from linkwright.analysis.kinematics import kinematics
-from linkwright.cli import application
-from linkwright.files import read
+from linkwright.app.application import application
+from linkwright.linkages.kinematics import kinematics
+from linkwright.machine.files.read import read
 
 POSES = """
 [poses]

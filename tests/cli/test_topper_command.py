@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner, Result
 
-from linkwright.cli import application
+from linkwright.app.application import application
 
 TOPPER = """
 format = 1

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from linkwright.cli import application
+from linkwright.app.application import application
 
 MACHINES = Path(__file__).parents[2] / "machines"
 

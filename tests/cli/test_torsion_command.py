@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner, Result
 
-from linkwright.cli import application
-from linkwright.files import dumps, loads
+from linkwright.app.application import application
+from linkwright.machine.files.read import loads
+from linkwright.machine.files.write import dumps
 
 TRAIN = """
 format = 1
@@ -129,8 +130,8 @@ def test_drive_study_without_motor(tmp_path: Path, speed: str, parts: set[str]) 
 
 
 def discs_of(path: Path) -> list[dict[str, float]]:
-    from linkwright.analysis.torsion.drive_line import drive_line
-    from linkwright.files import read
+    from linkwright.machine.files.read import read
+    from linkwright.torsion.response.drive_line import drive_line
 
     return [{"inertia": disc.inertia} for disc in drive_line(read(path)).discs.values()]
 

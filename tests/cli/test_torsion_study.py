@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner, Result
 
-from linkwright.cli import application
+from linkwright.app.application import application
 
 V12 = "machines/v_diesel.toml"
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from linkwright.cli import application
-from linkwright.files import loads
-from linkwright.machine import pumping_units
+from linkwright.app.application import application
+from linkwright.machine.files.read import loads
+from linkwright.pumping.model.unit_catalogue import pumping_units
 
 MACHINES = Path(__file__).parents[2] / "machines"
 

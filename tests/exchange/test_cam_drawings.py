@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.exchange.track import Track
+from linkwright.cam.manufacture.track import Track
 
 ROOT = Path(__file__).parents[2]
 

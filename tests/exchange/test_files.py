@@ -14,12 +14,12 @@ import pytest
 from brute_force import distances, samples
 from cam_outlines import CAMS, Cam, eccentric
 
-from linkwright.errors import ExchangeError, InputError
-from linkwright.exchange.drawing import Drawing
-from linkwright.exchange.fit import FORMS, Form
-from linkwright.exchange.read_back import read_back
-from linkwright.exchange.track import Track
-from linkwright.exchange.write import write_drawing
+from linkwright.cam.manufacture.drawing import Drawing
+from linkwright.cam.manufacture.fit import FORMS, Form
+from linkwright.cam.manufacture.read_back import read_back
+from linkwright.cam.manufacture.track import Track
+from linkwright.cam.manufacture.write import write_drawing
+from linkwright.kernel.errors import ExchangeError, InputError
 
 CAM = CAMS["dwells, cycloidal, roller"]
 DRAWING = Drawing("Presser cam", {"PROFILE": CAM, "PITCH_CURVE": CAMS["flat face"]}, zero_angle=0.5)
@@ -288,7 +288,7 @@ def test_a_file_that_does_not_keep_the_tolerance_is_not_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As if the writer wrote another cam."""
-    from linkwright.exchange import write
+    from linkwright.cam.manufacture import write
 
     wrong = Track.of(CAMS["hollow flanks"])
     true_fit = write.fit

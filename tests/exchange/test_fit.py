@@ -21,14 +21,14 @@ from cam_outlines import (
     zigzag,
 )
 
-from linkwright.errors import ConvergenceError, ExchangeError, InputError
-from linkwright.exchange.deviation import Path, deviation
-from linkwright.exchange.fit import Form, fit
-from linkwright.exchange.mesh import equal_errors
-from linkwright.exchange.outline import Outline
-from linkwright.exchange.track import Track
-from linkwright.motion_laws.motion_law import MotionLaw
-from linkwright.motion_laws.piece import Piece
+from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam.laws.piece import Piece
+from linkwright.cam.manufacture.deviation import Path, deviation
+from linkwright.cam.manufacture.fit import Form, fit
+from linkwright.cam.manufacture.mesh import equal_errors
+from linkwright.cam.manufacture.outline import Outline
+from linkwright.cam.manufacture.track import Track
+from linkwright.kernel.errors import ConvergenceError, ExchangeError, InputError
 
 TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 

@@ -10,10 +10,10 @@ import pytest
 from brute_force import area
 from cam_outlines import CAMS
 
-from linkwright.errors import ExchangeError, InputError
-from linkwright.exchange.drawing import Drawing
-from linkwright.exchange.read_back import read_back
-from linkwright.exchange.write import write_drawing
+from linkwright.cam.manufacture.drawing import Drawing
+from linkwright.cam.manufacture.read_back import read_back
+from linkwright.cam.manufacture.write import write_drawing
+from linkwright.kernel.errors import ExchangeError, InputError
 
 needs_kernel = pytest.mark.skipif(importlib.util.find_spec("OCP") is None, reason="extra step not installed")
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from linkwright.errors import MachineFileError
-from linkwright.files import read
+from linkwright.kernel.errors import MachineFileError
+from linkwright.machine.files.read import read
 
 BROKEN = sorted((Path(__file__).parent / "broken").glob("*.toml"))
 

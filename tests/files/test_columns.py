@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from linkwright.errors import MachineFileError
-from linkwright.files import read
-from linkwright.files.columns import read_columns
-from linkwright.units import ANGLE, SPEED
+from linkwright.kernel.errors import MachineFileError
+from linkwright.kernel.files.columns import read_columns
+from linkwright.kernel.units import ANGLE, SPEED
+from linkwright.machine.files.read import read
 
 KINDS = {"angle": ANGLE, "speed": SPEED}
 

@@ -10,13 +10,24 @@ from typing import Any
 
 import pytest
 
-from linkwright.analysis.cam.follower_vibration import follower_vibration
-from linkwright.analysis.cam.one_mass import OneMass
-from linkwright.analysis.step_method import whole_steps
-from linkwright.errors import InputError, MachineError, MachineFileError, Problem, UnitError
-from linkwright.files import dumps, loads, read
-from linkwright.limits import DISCS, ENTRIES, FILE_BYTES, HARMONICS, LIST, NAME, PROBLEMS, RESPONSE, ROWS
-from linkwright.units import ANGLE, LENGTH, MASS, SPEED, Kind, parse
+from linkwright.cam.dynamics.follower_vibration import follower_vibration
+from linkwright.cam.dynamics.one_mass import OneMass
+from linkwright.drive.step_method import whole_steps
+from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem, UnitError
+from linkwright.kernel.limits import (
+    DISCS,
+    ENTRIES,
+    FILE_BYTES,
+    HARMONICS,
+    LIST,
+    NAME,
+    PROBLEMS,
+    RESPONSE,
+    ROWS,
+)
+from linkwright.kernel.units import ANGLE, LENGTH, MASS, SPEED, Kind, parse
+from linkwright.machine.files.read import loads, read
+from linkwright.machine.files.write import dumps
 
 SLIDER = """format = 1
 name = "S"
@@ -138,7 +149,7 @@ def test_powers_of_units_are_not_worked_out(text: str, kind: Kind) -> None:
 
 @pytest.mark.parametrize("text", ["1 m^2 kg/s^2", "1 kg m² s⁻²", "1 lbf^1 ft", "1 (N m)", "3 N/(m^-1)"])
 def test_usual_powers_are_read(text: str) -> None:
-    from linkwright.units import ENERGY
+    from linkwright.kernel.units import ENERGY
 
     assert parse(text, ENERGY) > 0
 

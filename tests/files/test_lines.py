@@ -10,7 +10,7 @@ import tomlkit
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from linkwright.files.lines import key_lines, line_of
+from linkwright.kernel.files.lines import key_lines, line_of
 
 KEYS = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc")), min_size=1, max_size=8)
 VALUES = st.recursive(

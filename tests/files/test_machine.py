@@ -11,21 +11,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from linkwright.errors import MachineError
-from linkwright.files import loads, template
-from linkwright.machine import (
-    DcMotor,
-    InductionMotor,
-    Machine,
-    Mechanism,
-    addresses,
-    get,
-    kind,
-    motor,
-    motors,
-    replace,
-)
-from linkwright.units import ANGLE, LENGTH
+from linkwright.drive.model.catalogue import motor, motors
+from linkwright.drive.model.motor import DcMotor, InductionMotor
+from linkwright.kernel.errors import MachineError
+from linkwright.kernel.files.templates import template
+from linkwright.kernel.units import ANGLE, LENGTH
+from linkwright.linkages.model.mechanism import Mechanism
+from linkwright.machine.address import addresses, get, kind, replace
+from linkwright.machine.files.read import loads
+from linkwright.machine.machine import Machine
 
 RATED: dict[str, Any] = {
     "kind": "induction",

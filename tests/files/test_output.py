@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from linkwright.errors import InputError
-from linkwright.files.output import MARKER, OutputFolder, file_name, file_names, trial, write_file
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.output import MARKER, OutputFolder, file_name, file_names, trial, write_file
 
 PACKAGE = Path(__file__).parents[2] / "python" / "linkwright"
 
@@ -138,7 +138,7 @@ def test_a_full_disk_leaves_all_as_it_was(tmp_path: Path, monkeypatch: pytest.Mo
 _KILLED = """
 import os, signal, sys
 from pathlib import Path
-from linkwright.files.output import OutputFolder
+from linkwright.kernel.files.output import OutputFolder
 nth, calls = int(sys.argv[2]), 0
 def counted(act):
     def done(*args):

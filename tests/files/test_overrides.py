@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from linkwright.errors import InputError, MachineFileError
-from linkwright.files import read
-from linkwright.machine import get
+from linkwright.kernel.errors import InputError, MachineFileError
+from linkwright.machine.address import get
+from linkwright.machine.files.read import read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

@@ -9,7 +9,8 @@ from typing import Any
 import jsonschema
 import pytest
 
-from linkwright.files import schema, template, templates
+from linkwright.kernel.files.templates import template, templates
+from linkwright.machine.files.schema import schema
 
 MACHINES = sorted((Path(__file__).parents[2] / "machines").glob("*.toml"))
 TEXTS = {path.stem: path.read_text(encoding="utf-8") for path in MACHINES} | {

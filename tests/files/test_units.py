@@ -15,8 +15,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
-from linkwright import units
-from linkwright.errors import UnitError
+from linkwright.kernel import units
+from linkwright.kernel.errors import UnitError
 
 REGISTRY: pint.UnitRegistry[Any] = pint.UnitRegistry()
 REGISTRY.define("@alias turn = rev")

@@ -9,9 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkwright.errors import InputError
-from linkwright.files import dumps, loads, read, template, templates, write
-from linkwright.machine import Machine, replace
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.templates import template, templates
+from linkwright.machine.address import replace
+from linkwright.machine.files.read import loads, read
+from linkwright.machine.files.write import dumps, write
+from linkwright.machine.machine import Machine
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from types import FrameType
 
-from linkwright.errors import LinkwrightError
+from linkwright.kernel.errors import LinkwrightError
 
 # Far more than any case needs on a busy machine, far less than anyone would wait.
 SECONDS = 60.0

@@ -17,7 +17,7 @@ import typer
 from broken import PromiseError, watched
 from typer.testing import CliRunner, Result
 
-from linkwright.cli import application
+from linkwright.app.application import application
 
 # What an error may take at most: more than this nobody reads.
 MESSAGE_MAX = 8000

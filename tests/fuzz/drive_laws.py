@@ -13,11 +13,11 @@ from random_drives import random_drive
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
-from linkwright.analysis.steady_state import SteadyState
-from linkwright.analysis.transient import End
-from linkwright.engine import Compiled, compile_machine
-from linkwright.errors import FindingError, InputError, SteadyStateError
-from linkwright.sweep.batch import SteadyStates
+from linkwright.drive.batch import SteadyStates
+from linkwright.drive.steady_state import SteadyState
+from linkwright.drive.transient import End
+from linkwright.kernel.errors import FindingError, InputError, SteadyStateError
+from linkwright.machine.program.compiled import Compiled, compile_machine
 
 Floats = NDArray[np.float64]
 Inputs = Mapping[str, str]

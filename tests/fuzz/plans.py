@@ -16,8 +16,8 @@ from numpy.random import Generator
 from texts import _machine_of, machine_files
 
 from linkwright import _core
-from linkwright.engine import compile_machine
-from linkwright.errors import LinkwrightError
+from linkwright.kernel.errors import LinkwrightError
+from linkwright.machine.program.compiled import compile_machine
 
 # Integers that are wrong in most places: just outside, far outside, kinds of rows.
 INTEGERS = (-2, -1, 0, 1, 2, 3, 4, 5, 8, 12, 21, 100, 4000, 2**31 - 1, -(2**31))

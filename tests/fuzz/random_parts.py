@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 import linkwright as lw
-from linkwright.analysis.torsion.excited import excited
-from linkwright.analysis.torsion.forced import ForcedVibration, responded
-from linkwright.errors import FindingError, LinkwrightError
+from linkwright.kernel.errors import FindingError, LinkwrightError
+from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.forced import ForcedVibration, responded
 
 Floats = NDArray[np.float64]
 

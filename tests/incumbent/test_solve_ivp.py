@@ -15,8 +15,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from linkwright.analysis.steady_state import steady_state
-from linkwright.machine import Machine
+from linkwright.drive.steady_state import steady_state
+from linkwright.machine.machine import Machine
 
 G = 9.81
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.machine import Machine
+from linkwright.machine.machine import Machine
 
 Tables = dict[str, Any]
 

@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.steady_state import SteadyState
-from linkwright.engine import Compiled, compile_machine
-from linkwright.machine import Machine
+from linkwright.drive.steady_state import SteadyState
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
 
 Floats = NDArray[np.float64]
 

@@ -14,11 +14,11 @@ from scipy.optimize import brentq
 from steady_laws import violations
 
 import linkwright as lw
-from linkwright.analysis.steady_state import SteadyState, steady_state
-from linkwright.engine import compile_machine
-from linkwright.errors import FindingError
-from linkwright.files import read
-from linkwright.machine import Machine
+from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.kernel.errors import FindingError
+from linkwright.machine.files.read import read
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
 
 Floats = NDArray[np.float64]
 

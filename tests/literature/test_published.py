@@ -6,14 +6,14 @@ from typing import Any
 
 import pytest
 
-from linkwright.analysis.constant_energy import constant_energy
-from linkwright.analysis.reduction import reduction
-from linkwright.analysis.steady_state import steady_state
-from linkwright.files import read
-from linkwright.files.library import library_path
-from linkwright.machine import Machine
-from linkwright.papers.paper1_conclusions import load_at_degrees
-from linkwright.papers.paper1_scheme import published_scheme, turns_to_steady
+from linkwright.drive.constant_energy import constant_energy
+from linkwright.drive.reduction import reduction
+from linkwright.drive.steady_state import steady_state
+from linkwright.kernel.files.library import library_path
+from linkwright.machine.files.read import read
+from linkwright.machine.machine import Machine
+from linkwright.papers.paper1.conclusions import load_at_degrees
+from linkwright.papers.paper1.scheme import published_scheme, turns_to_steady
 from linkwright.papers.published import published
 from linkwright.sizing.power import required_power
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from linkwright.machine.crankshaft_limit import crank_stress, crank_transient_stress
-from linkwright.machine.propulsion_shaft import (
+from linkwright.torsion.model.crankshaft_limit import crank_stress, crank_transient_stress
+from linkwright.torsion.model.propulsion_shaft import (
     DESIGN_FACTORS,
     barred_speeds,
     continuous_stress,
@@ -15,7 +15,7 @@ from linkwright.machine.propulsion_shaft import (
     speed_factor,
     transient_stress,
 )
-from linkwright.machine.shaft_limit import ShaftLimit
+from linkwright.torsion.model.shaft_limit import ShaftLimit
 
 MPA = 1e6
 

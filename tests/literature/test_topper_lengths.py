@@ -6,11 +6,11 @@ import math
 
 import pytest
 
-from linkwright.analysis.topper.head import head_diameter
-from linkwright.analysis.topper.published import published_lengths
-from linkwright.analysis.topper.verdict import PAPER
-from linkwright.papers.paper5_verdict import printed_claim
+from linkwright.papers.paper5.verdict import printed_claim
 from linkwright.papers.published import printed_values
+from linkwright.topping.head import head_diameter
+from linkwright.topping.published import published_lengths
+from linkwright.topping.verdict import PAPER
 
 # D, h_p, Δ [m], α [°], v, v_h [m/s], L [m].
 CASES = [

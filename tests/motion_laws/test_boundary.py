@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkwright.errors import LawError
-from linkwright.motion_laws.boundary import Boundary
-from linkwright.motion_laws.catalogue import LAWS
-from linkwright.motion_laws.half_law import half_law
-from linkwright.motion_laws.motion_law import MotionLaw
-from linkwright.motion_laws.ramps import SYMMETRIC
-from linkwright.motion_laws.shapes import by_conditions
+from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.catalogue import LAWS
+from linkwright.cam.laws.half_law import half_law
+from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam.laws.ramps import SYMMETRIC
+from linkwright.cam.laws.shapes import by_conditions
+from linkwright.kernel.errors import LawError
 
 # Velocity and acceleration of each letter.
 ENDS = {"R": (0.0, 0.0), "G": (0.7, 0.0), "U": (0.0, -1.3), "B": (-0.4, 2.1)}

@@ -8,18 +8,18 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from linkwright.errors import LawError
-from linkwright.machine.motion_law import CombinedLaw, PlainLaw
-from linkwright.machine.motion_section import AnyLaw
-from linkwright.machine.schema_walk import kinds_of
-from linkwright.motion_laws.boundary import Boundary
-from linkwright.motion_laws.catalogue import LAWS
-from linkwright.motion_laws.modified_sine import modified_sine
-from linkwright.motion_laws.modified_trapezoid import modified_trapezoid
-from linkwright.motion_laws.polynomial import polynomial, polynomial_3_4_5, polynomial_4_5_6_7
-from linkwright.motion_laws.ramps import RAMPS, ramp
-from linkwright.motion_laws.shapes import is_symmetric
-from linkwright.motion_laws.start_and_stop import s_curve, start_and_stop, trapezoidal_velocity
+from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.catalogue import LAWS
+from linkwright.cam.laws.modified_sine import modified_sine
+from linkwright.cam.laws.modified_trapezoid import modified_trapezoid
+from linkwright.cam.laws.polynomial import polynomial, polynomial_3_4_5, polynomial_4_5_6_7
+from linkwright.cam.laws.ramps import RAMPS, ramp
+from linkwright.cam.laws.shapes import is_symmetric
+from linkwright.cam.laws.start_and_stop import s_curve, start_and_stop, trapezoidal_velocity
+from linkwright.cam.model.motion_law import CombinedLaw, PlainLaw
+from linkwright.cam.model.motion_section import AnyLaw
+from linkwright.kernel.description.schema_walk import kinds_of
+from linkwright.kernel.errors import LawError
 
 Z = np.linspace(0.0, 1.0, 101)
 # Rounding of a sum of ten terms of the size of the law.

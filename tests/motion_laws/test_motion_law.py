@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkwright.motion_laws.motion_law import MotionLaw, combined, joined
-from linkwright.motion_laws.piece import Harmonic, Piece
-from linkwright.motion_laws.zeros import zeros
+from linkwright.cam.laws.motion_law import MotionLaw, combined, joined
+from linkwright.cam.laws.piece import Harmonic, Piece
+from linkwright.cam.laws.zeros import zeros
 
 LAW = MotionLaw(
     (0.5, 1.0, 3.0),

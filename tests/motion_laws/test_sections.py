@@ -12,13 +12,13 @@ import pytest
 from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
-from linkwright.errors import MachineError, MachineFileError, Problem
-from linkwright.files.read import loads_as, read_as
-from linkwright.machine.base import Checked, Description
-from linkwright.machine.motion_section import Family, MotionSection, programme
-from linkwright.machine.problems import problems
-from linkwright.machine.section_faults import section_faults
-from linkwright.motion_laws.programme import Programme
+from linkwright.cam.laws.programme import Programme
+from linkwright.cam.model.motion_section import Family, MotionSection, programme
+from linkwright.cam.model.section_faults import section_faults
+from linkwright.kernel.description.base import Checked, Description
+from linkwright.kernel.description.problems import problems
+from linkwright.kernel.errors import MachineError, MachineFileError, Problem
+from linkwright.machine.files.read import loads_as, read_as
 
 
 class SomeCam(Checked):

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-from linkwright.analysis.constant_energy import constant_energy
-from linkwright.analysis.steady_state import steady_state
-from linkwright.files import read
-from linkwright.files.library import library, library_path
-from linkwright.machine import InductionMotor, replace
+from linkwright.drive.constant_energy import constant_energy
+from linkwright.drive.model.motor import InductionMotor
+from linkwright.drive.steady_state import steady_state
+from linkwright.kernel.files.library import library, library_path
+from linkwright.machine.address import replace
+from linkwright.machine.files.read import read
 from linkwright.papers.cell import Cell
-from linkwright.papers.paper1 import Paper1, paper1, recompute
-from linkwright.papers.paper1_conclusions import conclusions
-from linkwright.papers.paper1_limit import limit_curves, scaled_to
-from linkwright.papers.paper1_scheme import motor_torque
+from linkwright.papers.paper1.conclusions import conclusions
+from linkwright.papers.paper1.limit import limit_curves, scaled_to
+from linkwright.papers.paper1.paper import Paper1, paper1, recompute
+from linkwright.papers.paper1.scheme import motor_torque
 from linkwright.papers.published import QUANTITIES, published
 
 

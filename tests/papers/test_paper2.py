@@ -10,20 +10,20 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from linkwright.analysis.cam.profile import cam_profile
-from linkwright.analysis.forces import forces
-from linkwright.engine import drive_inertia
-from linkwright.files import read
-from linkwright.files.library import library_path
-from linkwright.papers import paper2_checks as checks
-from linkwright.papers.paper2 import Paper2, paper2
-from linkwright.papers.paper2_alternatives import Alternative
-from linkwright.papers.paper2_conclusions import conclusions, named
-from linkwright.papers.paper2_figures import figures
-from linkwright.papers.paper2_formulas import Formulas
-from linkwright.papers.paper2_page import page
-from linkwright.papers.paper2_roller import centre_distance
-from linkwright.papers.paper2_rows import rows_of
+from linkwright.cam.profile.profile import cam_profile
+from linkwright.kernel.files.library import library_path
+from linkwright.kinetostatics.forces import forces
+from linkwright.machine.files.read import read
+from linkwright.machine.program.compiled import drive_inertia
+from linkwright.papers.paper2 import checks
+from linkwright.papers.paper2.alternatives import Alternative
+from linkwright.papers.paper2.conclusions import conclusions, named
+from linkwright.papers.paper2.figures import figures
+from linkwright.papers.paper2.formulas import Formulas
+from linkwright.papers.paper2.page import page
+from linkwright.papers.paper2.paper import Paper2, paper2
+from linkwright.papers.paper2.roller import centre_distance
+from linkwright.papers.paper2.rows import rows_of
 from linkwright.papers.published import printed_values
 
 STROKE, TIME = 0.4, 3.0

@@ -11,12 +11,12 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from linkwright.papers.paper3 import Paper3, paper3
-from linkwright.papers.paper3_conclusions import conclusions
-from linkwright.papers.paper3_figures import figures
-from linkwright.papers.paper3_page import page
-from linkwright.papers.paper3_rows import judged, share
-from linkwright.papers.paper3_table import COLUMNS, cells
+from linkwright.papers.paper3.conclusions import conclusions
+from linkwright.papers.paper3.figures import figures
+from linkwright.papers.paper3.page import page
+from linkwright.papers.paper3.paper import Paper3, paper3
+from linkwright.papers.paper3.rows import judged, share
+from linkwright.papers.paper3.table import COLUMNS, cells
 
 
 @pytest.fixture(scope="module")
@@ -173,7 +173,7 @@ def test_change_of_a_frequency_follows_the_energy(paper: Paper3) -> None:
 
 def test_rigid_unevenness_by_the_torques(paper: Paper3) -> None:
     """δ if nothing twisted: all torques added up and integrated over the angle."""
-    from linkwright.analysis.torsion.excited import excited
+    from linkwright.torsion.response.excited import excited
 
     speed = paper.trial.service
     at = excited(paper.trial.machine, np.array([speed]))

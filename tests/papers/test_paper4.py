@@ -7,14 +7,14 @@ import json
 import numpy as np
 import pytest
 
-from linkwright.analysis.closure import closure
-from linkwright.files import read
-from linkwright.files.library import library_path
-from linkwright.papers.paper4 import Paper4, paper4
-from linkwright.papers.paper4_conclusions import conclusions
-from linkwright.papers.paper4_figures import figures
-from linkwright.papers.paper4_formulas import LeverFormula
-from linkwright.papers.paper4_page import page
+from linkwright.kernel.files.library import library_path
+from linkwright.linkages.closure import closure
+from linkwright.machine.files.read import read
+from linkwright.papers.paper4.conclusions import conclusions
+from linkwright.papers.paper4.figures import figures
+from linkwright.papers.paper4.formulas import LeverFormula
+from linkwright.papers.paper4.page import page
+from linkwright.papers.paper4.paper import Paper4, paper4
 
 
 @pytest.fixture(scope="module")

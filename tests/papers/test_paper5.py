@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkwright.analysis.topper.published import length_consistent, length_published, published_lengths
-from linkwright.papers.paper5 import Paper5, paper5
-from linkwright.papers.paper5_conclusions import conclusions
-from linkwright.papers.paper5_figures import figures
-from linkwright.papers.paper5_page import page
-from linkwright.papers.paper5_rows import millimetres
-from linkwright.papers.paper5_short import exact_over
-from linkwright.papers.paper5_step import factors
-from linkwright.papers.paper5_table import tables
+from linkwright.papers.paper5.conclusions import conclusions
+from linkwright.papers.paper5.figures import figures
+from linkwright.papers.paper5.page import page
+from linkwright.papers.paper5.paper import Paper5, paper5
+from linkwright.papers.paper5.rows import millimetres
+from linkwright.papers.paper5.short import exact_over
+from linkwright.papers.paper5.step import factors
+from linkwright.papers.paper5.table import tables
+from linkwright.topping.published import length_consistent, length_published, published_lengths
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ import pytest
 
 import linkwright as lw
 from linkwright import _core
-from linkwright.engine import compile_machine
-from linkwright.errors import InputError, InternalError
+from linkwright.kernel.errors import InputError, InternalError
+from linkwright.machine.program.compiled import compile_machine
 
 
 @pytest.mark.parametrize("rows", [1, 2])

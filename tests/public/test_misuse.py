@@ -17,10 +17,10 @@ import pytest
 from numpy.exceptions import ComplexWarning
 
 import linkwright as lw
-from linkwright.analysis.topper.verdict import PAPER
-from linkwright.errors import LinkwrightError
-from linkwright.motion_laws.motion_law import MotionLaw
-from linkwright.public.arguments import checks_of
+from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.kernel.errors import LinkwrightError
+from linkwright.kernel.public.arguments import checks_of
+from linkwright.topping.verdict import PAPER
 
 TURN = np.linspace(0.0, 6.0, 7)
 

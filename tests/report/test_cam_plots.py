@@ -6,8 +6,13 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.motion_laws.motion_law import Harmonic, MotionLaw, Piece, joined
-from linkwright.plot import contact_force_figure, pressure_figure, residual_figure, vibration_figure
+from linkwright.cam.figures.dynamics import (
+    contact_force_figure,
+    pressure_figure,
+    residual_figure,
+    vibration_figure,
+)
+from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece, joined
 
 RISE = MotionLaw.of(0.0, (1.0, Piece((0.0, 1.0), (Harmonic(2 * np.pi, 0.0, -0.5 / np.pi),))))
 LIFT = joined([RISE.scaled(0.01).placed(0.0, np.pi), RISE.reversed().scaled(0.01).placed(np.pi, np.pi)])

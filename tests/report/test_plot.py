@@ -7,11 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from linkwright.analysis.characteristic import characteristic
-from linkwright.analysis.study import Study, study
-from linkwright.files import loads, read, template
-from linkwright.plot import compare_figure, motor_figure, reduction_figure, run_up_figure, svg
-from linkwright.report.figures import figures
+from linkwright.app.report.figures import figures
+from linkwright.app.study import Study, study
+from linkwright.drive.characteristic import characteristic
+from linkwright.drive.figures.compare import compare_figure
+from linkwright.drive.figures.motor import motor_figure
+from linkwright.drive.figures.reduction import reduction_figure
+from linkwright.drive.figures.run_up import run_up_figure
+from linkwright.kernel.figure.svg import svg
+from linkwright.kernel.files.templates import template
+from linkwright.machine.files.read import loads, read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

@@ -10,11 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from linkwright.analysis.study import Study, study
-from linkwright.errors import InputError
-from linkwright.files import loads, read, template, templates
-from linkwright.report import report_html, write_report
-from linkwright.report.quantities import number
+from linkwright.app.report.page import report_html, write_report
+from linkwright.app.study import Study, study
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.templates import template, templates
+from linkwright.kernel.page.quantities import number
+from linkwright.machine.files.read import loads, read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

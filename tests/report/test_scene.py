@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkwright.analysis.study import study
-from linkwright.files import loads, read, template, templates
-from linkwright.report.scene import scene
+from linkwright.app.report.scene import scene
+from linkwright.app.study import study
+from linkwright.kernel.files.templates import template, templates
+from linkwright.machine.files.read import loads, read
 
 # A torsional train, and a knife that follows a law, have no mechanism to be drawn.
 GALLERY = [

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkwright.analysis.study import study
-from linkwright.files import loads
-from linkwright.report.scene import scene
+from linkwright.app.report.scene import scene
+from linkwright.app.study import study
+from linkwright.machine.files.read import loads
 
 SECTIONS = """
 sections = [

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkwright.analysis.study import study
-from linkwright.analysis.topper.edge import edges_of
-from linkwright.files import loads, read, template
-from linkwright.report.scene_topper import topper_scene
+from linkwright.app.study import study
+from linkwright.kernel.files.templates import template
+from linkwright.machine.files.read import loads, read
+from linkwright.topping.edge import edges_of
+from linkwright.topping.scene import topper_scene
 
 MACHINES = Path(__file__).parents[2] / "machines"
 ONE_WAY = 'topper.motion={kind="constant"}'

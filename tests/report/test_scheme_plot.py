@@ -15,8 +15,9 @@ from matplotlib.patches import Rectangle
 from matplotlib.transforms import Bbox
 
 import linkwright as lw
-from linkwright.analysis.torsion.scheme import Scheme, scheme
-from linkwright.plot import scheme_figure, svg
+from linkwright.kernel.figure.svg import svg
+from linkwright.torsion.figures.scheme import scheme_figure
+from linkwright.torsion.modes.scheme import Scheme, scheme
 
 sys.path.append(str(Path(__file__).parents[1] / "analysis"))
 from trains import Gear, Shaft, text

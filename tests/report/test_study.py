@@ -10,12 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from linkwright.analysis.cautions import cautions
-from linkwright.analysis.characteristic import characteristic
-from linkwright.analysis.steady_state import steady_state
-from linkwright.analysis.study import Study, study
-from linkwright.errors import InputError
-from linkwright.files import loads, read, template
+from linkwright.app.study import Study, study
+from linkwright.drive.cautions import cautions
+from linkwright.drive.characteristic import characteristic
+from linkwright.drive.steady_state import steady_state
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.templates import template
+from linkwright.machine.files.read import loads, read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 ALONE = 'format = 1\nname = "alone"\n[mechanism.cranks.A]\nradius = 0.1\n[bodies]\nA = { mass = 1 }\n'

@@ -7,22 +7,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from linkwright.analysis.topper.constant_speed import constant_speed_lengths
-from linkwright.analysis.topper.edge import edges_of
-from linkwright.analysis.topper.head_pass import HeadPass, head_pass
-from linkwright.analysis.topper.length_chart import length_chart
-from linkwright.analysis.topper.topper import TopperStudy, topper
-from linkwright.analysis.topper.verdict import Stroke
-from linkwright.analysis.topper.verdict_chart import verdict_chart
-from linkwright.files import read
-from linkwright.plot import (
-    edge_use_figure,
-    length_chart_figure,
-    phase_figure,
-    slicing_figure,
-    top_view_figure,
-    verdict_figure,
-)
+from linkwright.machine.files.read import read
+from linkwright.topping.constant_speed import constant_speed_lengths
+from linkwright.topping.edge import edges_of
+from linkwright.topping.figures.lengths import length_chart_figure, verdict_figure
+from linkwright.topping.figures.phase import edge_use_figure, phase_figure, slicing_figure
+from linkwright.topping.figures.view import top_view_figure
+from linkwright.topping.head_pass import HeadPass, head_pass
+from linkwright.topping.length_chart import length_chart
+from linkwright.topping.topper import TopperStudy, topper
+from linkwright.topping.verdict import Stroke
+from linkwright.topping.verdict_chart import verdict_chart
 
 MACHINE = Path(__file__).parents[2] / "machines" / "topper.toml"
 

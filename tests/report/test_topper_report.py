@@ -13,16 +13,16 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from linkwright.analysis.study import Study, study
-from linkwright.cli import application
-from linkwright.cli.check import summary
-from linkwright.files import read
-from linkwright.report import report_html
-from linkwright.report.csv import curves_csv, edge_csv
-from linkwright.report.machine_table import machine_parts
-from linkwright.report.quantities import number
-from linkwright.report.table import Table
-from linkwright.report.tables import tables
+from linkwright.app.application import application
+from linkwright.app.commands.check import summary
+from linkwright.app.report.machine_table import machine_parts
+from linkwright.app.report.page import report_html
+from linkwright.app.report.tables import tables
+from linkwright.app.study import Study, study
+from linkwright.kernel.page.csv import curves_csv, edge_csv
+from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.table import Table
+from linkwright.machine.files.read import read
 
 MACHINES = Path(__file__).parents[2] / "machines"
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.torsion.study import torsion_study
-from linkwright.report.torsion_figures import worst_shaft
+from linkwright.torsion.figures.captions import worst_shaft
+from linkwright.torsion.study import torsion_study
 
 THREE = """
 format = 1

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from linkwright.analysis.steady_state import steady_state
-from linkwright.engine import compile_machine
-from linkwright.errors import InputError
-from linkwright.files import loads, read
-from linkwright.files.library import library_path
-from linkwright.machine import Machine, replace
+from linkwright.drive.steady_state import steady_state
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.library import library_path
+from linkwright.machine.address import replace
+from linkwright.machine.files.read import loads, read
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
 from linkwright.sizing.fit import with_flywheel
 from linkwright.sizing.flywheel import choose_flywheel, classical_flywheel, constant_inertia
 

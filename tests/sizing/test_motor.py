@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-from linkwright.analysis.run_up import run_up
-from linkwright.analysis.steady_state import steady_state
-from linkwright.errors import InputError
-from linkwright.files import dumps, loads, read, template
-from linkwright.files.library import library_path
-from linkwright.machine import InductionMotor, Machine, motors, replace
+from linkwright.drive.model.catalogue import motors
+from linkwright.drive.model.motor import InductionMotor
+from linkwright.drive.run_up import run_up
+from linkwright.drive.steady_state import steady_state
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.library import library_path
+from linkwright.kernel.files.templates import template
+from linkwright.machine.address import replace
+from linkwright.machine.files.read import loads, read
+from linkwright.machine.files.write import dumps
+from linkwright.machine.machine import Machine
 from linkwright.sizing.checks import PEAK_SHARE
 from linkwright.sizing.inertia import estimated_inertia, rotor_inertia
 from linkwright.sizing.motor import MotorChoice, choose_motor

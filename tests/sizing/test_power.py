@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from linkwright.errors import InputError
-from linkwright.files import read
-from linkwright.files.library import library_path
-from linkwright.machine import replace
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.library import library_path
+from linkwright.machine.address import replace
+from linkwright.machine.files.read import read
 from linkwright.sizing.power import required_power
 
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.analysis.topper.field import topper_field
-from linkwright.analysis.topper.head import head_diameter
-from linkwright.analysis.topper.roots import draw_roots
-from linkwright.sizing.knife_trial import Trials, thinned
-from linkwright.sizing.topper import KnifeSearch, best_knife
+from linkwright.topping.best.best_knife import KnifeSearch, best_knife
+from linkwright.topping.best.knife_trial import Trials, thinned
+from linkwright.topping.field import topper_field
+from linkwright.topping.head import head_diameter
+from linkwright.topping.roots import draw_roots
 
 TOPPER = """
 format = 1

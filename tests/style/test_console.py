@@ -8,8 +8,8 @@ from pathlib import Path
 
 from rich.table import Table
 
-from linkwright.cli.console import console, styled
-from linkwright.errors import plain
+from linkwright.kernel.command.console import console, styled
+from linkwright.kernel.errors import plain
 
 PACKAGE = Path(__file__).parents[2] / "python" / "linkwright"
 

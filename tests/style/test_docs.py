@@ -15,9 +15,10 @@ from typer.testing import CliRunner
 
 import linkwright as lw
 from linkwright import machine
-from linkwright.cli import application
-from linkwright.files import loads, template
-from linkwright.machine.base import Description
+from linkwright.app.application import application
+from linkwright.kernel.description.base import Description
+from linkwright.kernel.files.templates import template
+from linkwright.machine.files.read import loads
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -106,7 +107,7 @@ def test_commands_are_listed() -> None:
 
 
 def test_units_of_the_page_are_read() -> None:
-    from linkwright.units import COMMON
+    from linkwright.kernel.units import COMMON
 
     known = {text for row in COMMON.values() for text in row}
     page = (DOCS / "units.md").read_text(encoding="utf-8").split("## Usual spellings")[1].split("\n##")[0]

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 import linkwright as lw
-from linkwright.machine.base import Description
+from linkwright.kernel.description.base import Description
 
 # Modules whose functions and classes are documented in full: what a user calls.
 PUBLIC_PACKAGES = (

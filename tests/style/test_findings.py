@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import linkwright
-from linkwright import errors
+from linkwright.kernel import errors
 
 SOURCE = Path(linkwright.__file__).parent
 

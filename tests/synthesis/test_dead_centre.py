@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import linkwright as lw
-from linkwright.errors import InputError, SynthesisError
+from linkwright.kernel.errors import InputError, SynthesisError
 from linkwright.synthesis.dead_centre import CrankRocker
 from linkwright.synthesis.four_bar import worst_transmission
 

@@ -8,11 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import linkwright as lw
-from linkwright.errors import InputError, MachineError, SynthesisError
-from linkwright.synthesis import FunctionTask, chebyshev_points
+from linkwright.kernel.errors import InputError, MachineError, SynthesisError
 from linkwright.synthesis.expression import function_of
 from linkwright.synthesis.four_bar import FourBar
 from linkwright.synthesis.freudenstein import lengths, solve
+from linkwright.synthesis.function_scale import chebyshev_points
+from linkwright.synthesis.task import FunctionTask
 
 DEG = np.pi / 180
 LOG = {"function": "log10(x)", "range": (1, 2), "crank_range": 60 * DEG, "rocker_range": 90 * DEG}

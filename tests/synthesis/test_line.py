@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.errors import InputError, SynthesisError
-from linkwright.files import dumps, loads
+from linkwright.kernel.errors import InputError, SynthesisError
+from linkwright.machine.files.read import loads
+from linkwright.machine.files.write import dumps
 from linkwright.synthesis.line_kinds import KINDS
 from linkwright.synthesis.straight_line import narrowest_strip
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.errors import MachineError, SynthesisError
-from linkwright.synthesis import Box, PathTask
+from linkwright.kernel.errors import MachineError, SynthesisError
 from linkwright.synthesis.four_bar import FourBar, turn_spare, type_of
 from linkwright.synthesis.path_model import Linkages, PathModel, disorder
 from linkwright.synthesis.path_starts import starts
+from linkwright.synthesis.task import Box, PathTask
 from linkwright.synthesis.transmission import transmission_caution
 from linkwright.synthesis.turning_shape import SPARE, shape
 

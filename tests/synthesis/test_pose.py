@@ -8,11 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import linkwright as lw
-from linkwright.errors import MachineError, SynthesisError
-from linkwright.files import dumps, loads
-from linkwright.synthesis import MovingPoint, Poses, PoseTask
+from linkwright.kernel.errors import MachineError, SynthesisError
+from linkwright.machine.files.read import loads
+from linkwright.machine.files.write import dumps
 from linkwright.synthesis.four_bar import FourBar
 from linkwright.synthesis.slider_pose import circle_of_sliders
+from linkwright.synthesis.task import MovingPoint, Poses, PoseTask
 from linkwright.synthesis.transmission import least_transmission
 from linkwright.synthesis.travel import travel
 

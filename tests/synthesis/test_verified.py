@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.errors import AssemblyError, SynthesisError
+from linkwright.kernel.errors import AssemblyError, SynthesisError
 from linkwright.synthesis import verify
 from linkwright.synthesis.dead_centre import crank_rocker
 from linkwright.synthesis.stroke import slider_crank

@@ -19,7 +19,7 @@ use crate::reduce::{Body, Load};
 use crate::table::Table;
 
 /// Number of the language in which machines, cams and trains cross the border: kinds of rows, order of lists and of
-/// results. It goes up with every change of these, here and in `linkwright.engine.core_format`.
+/// results. It goes up with every change of these, here and in `linkwright.kernel.core.core_format`.
 pub const FORMAT: u32 = 9;
 
 /// What a machine consists of.

@@ -7,8 +7,8 @@ use pyo3::prelude::*;
 
 use crate::Table;
 
-pyo3::import_exception!(linkwright.errors, InternalError);
-pyo3::import_exception!(linkwright.errors, InputError);
+pyo3::import_exception!(linkwright.kernel.errors, InternalError);
+pyo3::import_exception!(linkwright.kernel.errors, InputError);
 
 /// Lets the core work; `analysis` names in messages what is done.
 pub(crate) fn guarded<T: Send>(

@@ -34,14 +34,47 @@
 | `schema_walk`, `problems` | what belongs where; errors in the words of the file |
 """
 
-from linkwright.machine.address import addresses, get, kind, replace
-from linkwright.machine.body import Body
-from linkwright.machine.cam import Cam, SecondFollower
-from linkwright.machine.catalogue import CatalogueMotor, motor, motors
-from linkwright.machine.coupling import Coupling as TrainCoupling
-from linkwright.machine.damper import Damper as TrainDamper
-from linkwright.machine.drive import Brake, Coupling, Drive, Flywheel, Gearbox
-from linkwright.machine.element import (
+from linkwright.cam.model.cam import Cam, SecondFollower
+from linkwright.cam.model.follower_train import FollowerTrain
+from linkwright.cam.model.motion_law import (
+    CombinedLaw,
+    LimitedLaw,
+    ModifiedSineLaw,
+    ModifiedTrapezoidLaw,
+    OptimalLaw,
+    PlainLaw,
+    PolynomialLaw,
+    SCurveLaw,
+    TrapezoidalVelocityLaw,
+)
+from linkwright.cam.model.motion_section import MotionSection
+from linkwright.cam.model.point_law import SplineLaw, TableLaw
+from linkwright.drive.model.catalogue import CatalogueMotor, motor, motors
+from linkwright.drive.model.drive import Brake, Coupling, Drive, Flywheel, Gearbox
+from linkwright.drive.model.motor import (
+    AnyMotor,
+    ConstantSpeedMotor,
+    ConstantTorqueMotor,
+    DcMotor,
+    InductionMotor,
+    Motor,
+    TableMotor,
+)
+from linkwright.kinetostatics.model.body import Body
+from linkwright.kinetostatics.model.loads import AnyLoad
+from linkwright.kinetostatics.model.loads.base import Load
+from linkwright.kinetostatics.model.loads.between import (
+    Damper,
+    GasSpring,
+    Spring,
+    TorsionalDamper,
+    TorsionalSpring,
+)
+from linkwright.kinetostatics.model.loads.force import ConstantForce, ConstantTorque, Gravity
+from linkwright.kinetostatics.model.loads.formula import FormulaLoad
+from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
+from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed
+from linkwright.linkages.model.element import (
     Bar,
     Cable,
     Crank,
@@ -58,58 +91,27 @@ from linkwright.machine.element import (
     SlottedLever,
     Yoke,
 )
-from linkwright.machine.follower_train import FollowerTrain
-from linkwright.machine.loads import (
-    AnyLoad,
-    ConstantForce,
-    ConstantTorque,
-    Damper,
-    DryFriction,
-    ForcePosition,
-    FormulaLoad,
-    GasSpring,
-    Gravity,
-    Load,
-    Spring,
-    TorqueAngle,
-    TorqueSpeed,
-    TorsionalDamper,
-    TorsionalSpring,
-    ViscousFriction,
-)
+from linkwright.linkages.model.mechanism import Link, Mechanism
+from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.machine import FORMAT, Machine, RunUp
-from linkwright.machine.mechanism import Link, Mechanism
-from linkwright.machine.motion_law import (
-    CombinedLaw,
-    LimitedLaw,
-    ModifiedSineLaw,
-    ModifiedTrapezoidLaw,
-    OptimalLaw,
-    PlainLaw,
-    PolynomialLaw,
-    SCurveLaw,
-    TrapezoidalVelocityLaw,
-)
-from linkwright.machine.motion_section import MotionSection
-from linkwright.machine.motor import (
-    AnyMotor,
-    ConstantSpeedMotor,
-    ConstantTorqueMotor,
-    DcMotor,
-    InductionMotor,
-    Motor,
-    TableMotor,
-)
-from linkwright.machine.point_law import SplineLaw, TableLaw
-from linkwright.machine.polished_rod_load import PolishedRodLoad
-from linkwright.machine.pumping_unit import PumpingUnit
-from linkwright.machine.reciprocating.combustion import Combustion
-from linkwright.machine.reciprocating.engine import ReciprocatingEngine
-from linkwright.machine.reciprocating.gas_load import ConstantGasLoad, PropellerGasLoad, TableGasLoad
-from linkwright.machine.reciprocating.indicator import Indicator
-from linkwright.machine.reciprocating.rod import ArticulatedRod, Rod
-from linkwright.machine.reciprocating.swing_test import Swing, Swings, TwoPointSwing
-from linkwright.machine.reciprocating.throw import (
+from linkwright.pumping.model.polished_rod_load import PolishedRodLoad
+from linkwright.pumping.model.rod_rotator import RodRotator
+from linkwright.pumping.model.unit import PumpingUnit
+from linkwright.pumping.model.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
+from linkwright.topping.model.field import MeasuredField, RandomField
+from linkwright.topping.model.limits import TopperLimits
+from linkwright.topping.model.motion import ConstantKnife, HarmonicKnife, MemberKnife
+from linkwright.topping.model.scatter import ConstantScatter, LognormalScatter, NormalScatter, UniformScatter
+from linkwright.topping.model.topper import Topper
+from linkwright.torsion.model.coupling import Coupling as TrainCoupling
+from linkwright.torsion.model.damper import Damper as TrainDamper
+from linkwright.torsion.model.engine.combustion import Combustion
+from linkwright.torsion.model.engine.engine import ReciprocatingEngine
+from linkwright.torsion.model.engine.gas_load import ConstantGasLoad, PropellerGasLoad, TableGasLoad
+from linkwright.torsion.model.engine.indicator import Indicator
+from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
+from linkwright.torsion.model.engine.swing_test import Swing, Swings, TwoPointSwing
+from linkwright.torsion.model.engine.throw import (
     Counterweight,
     CrankPin,
     CrankThrow,
@@ -117,24 +119,13 @@ from linkwright.machine.reciprocating.throw import (
     Drilling,
     Journal,
 )
-from linkwright.machine.reciprocating.valves import Valves
-from linkwright.machine.reciprocating.wall_heat import HeatShare, Hohenberg, Woschni
-from linkwright.machine.reciprocating.wiebe import Wiebe
-from linkwright.machine.rod_rotator import RodRotator
-from linkwright.machine.scatter import (
-    ConstantScatter,
-    LognormalScatter,
-    NormalScatter,
-    UniformScatter,
-)
-from linkwright.machine.shaft_limit import ShaftLimit
-from linkwright.machine.shaft_section import ShaftSection
-from linkwright.machine.topper import Topper
-from linkwright.machine.topper_field import MeasuredField, RandomField
-from linkwright.machine.topper_limits import TopperLimits
-from linkwright.machine.topper_motion import ConstantKnife, HarmonicKnife, MemberKnife
-from linkwright.machine.train import Disc, ElasticShaft, Shaft, Train, TrainGear
-from linkwright.machine.train_event import (
+from linkwright.torsion.model.engine.valves import Valves
+from linkwright.torsion.model.engine.wall_heat import HeatShare, Hohenberg, Woschni
+from linkwright.torsion.model.engine.wiebe import Wiebe
+from linkwright.torsion.model.shaft_limit import ShaftLimit
+from linkwright.torsion.model.shaft_section import ShaftSection
+from linkwright.torsion.model.train import Disc, ElasticShaft, Shaft, Train, TrainGear
+from linkwright.torsion.model.train_event import (
     AnyTrainEvent,
     FuelSwitch,
     LoadStep,
@@ -145,10 +136,9 @@ from linkwright.machine.train_event import (
     TorqueCourse,
     TorqueStep,
 )
-from linkwright.machine.train_run import TrainRun
-from linkwright.machine.train_torques import Excitation, Harmonic, LoadHarmonic, TrainLoad
-from linkwright.machine.train_transient import TrainMotor, TrainTransient
-from linkwright.machine.unit_catalogue import CatalogueUnit, catalogue_unit, pumping_units
+from linkwright.torsion.model.train_run import TrainRun
+from linkwright.torsion.model.train_torques import Excitation, Harmonic, LoadHarmonic, TrainLoad
+from linkwright.torsion.model.train_transient import TrainMotor, TrainTransient
 
 __all__ = [
     "FORMAT",

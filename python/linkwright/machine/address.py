@@ -9,14 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from linkwright.errors import MachineError, Problem
-from linkwright.machine.base import Description, suggestion
+from linkwright.kernel.description.base import Description, suggestion
+from linkwright.kernel.description.plain import field_names, keys, look
+from linkwright.kernel.description.schema_walk import annotation_at, mark_of
+from linkwright.kernel.description.text import join, split
+from linkwright.kernel.errors import MachineError, Problem
+from linkwright.kernel.public.immutable import held
+from linkwright.kernel.units import Kind
 from linkwright.machine.machine import Machine
-from linkwright.machine.plain import field_names, keys, look
-from linkwright.machine.schema_walk import annotation_at, mark_of
-from linkwright.machine.text import join, split
-from linkwright.public.immutable import held
-from linkwright.units import Kind
 
 
 def addresses(machine: Machine) -> dict[str, float]:

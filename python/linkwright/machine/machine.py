@@ -8,23 +8,23 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BaseModel, Field, ModelWrapValidatorHandler, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
-from linkwright.errors import MachineError
-from linkwright.machine.base import Description, Name, Title, fault, faults_of, raise_faults
-from linkwright.machine.body import Body, body_faults
-from linkwright.machine.drive import Drive
-from linkwright.machine.drive_train import two_trains
-from linkwright.machine.linkage import expansion_faults, merged, outline_of, with_followers
-from linkwright.machine.loads import AnyLoad
-from linkwright.machine.loads.references import load_faults
-from linkwright.machine.mechanism import Mechanism
-from linkwright.machine.plain import look
-from linkwright.machine.problems import problems
-from linkwright.machine.pumping_unit import PumpingUnit
-from linkwright.machine.rod_rotator import RodRotator
-from linkwright.machine.topper import Topper, topper_faults
-from linkwright.machine.train import Train
-from linkwright.machine.train_faults import train_faults
-from linkwright.units import INSIDE_ONE, RATIO, SPEED, Angle, Quantity, not_negative, positive
+from linkwright.drive.model.drive import Drive
+from linkwright.kernel.description.base import Description, Name, Title, fault, faults_of, raise_faults
+from linkwright.kernel.description.plain import look
+from linkwright.kernel.description.problems import problems
+from linkwright.kernel.errors import MachineError
+from linkwright.kernel.units import INSIDE_ONE, RATIO, SPEED, Angle, Quantity, not_negative, positive
+from linkwright.kinetostatics.model.body import Body, body_faults
+from linkwright.kinetostatics.model.loads import AnyLoad
+from linkwright.kinetostatics.model.loads.references import load_faults
+from linkwright.linkages.model.mechanism import Mechanism
+from linkwright.machine.mechanism_of import expansion_faults, merged, outline_of, with_followers
+from linkwright.pumping.model.rod_rotator import RodRotator
+from linkwright.pumping.model.unit import PumpingUnit
+from linkwright.topping.model.topper import Topper, topper_faults
+from linkwright.torsion.model.drive_train import two_trains
+from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.train_faults import train_faults
 
 # The format that this version reads and writes.
 FORMAT = 1

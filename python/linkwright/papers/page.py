@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
-from linkwright.plot.svg import svg
+from linkwright.kernel.figure.svg import svg
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,7 +8,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from linkwright.errors import InputError
+from linkwright.kernel.errors import InputError
 
 # Columns of the table of results of paper 1, in its order: name → (symbol, unit).
 QUANTITIES = {

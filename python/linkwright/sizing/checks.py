@@ -21,13 +21,15 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.analysis.closure import turn_angles
-from linkwright.analysis.reduction import reduction_of
-from linkwright.analysis.run_up import RunUp, run_up
-from linkwright.analysis.steady_state import SteadyState, steady_state
-from linkwright.engine import compile_machine
-from linkwright.errors import FindingError
-from linkwright.machine import CatalogueMotor, InductionMotor, Machine
+from linkwright.drive.model.catalogue import CatalogueMotor
+from linkwright.drive.model.motor import InductionMotor
+from linkwright.drive.reduction import reduction_of
+from linkwright.drive.run_up import RunUp, run_up
+from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.kernel.errors import FindingError
+from linkwright.linkages.closure import turn_angles
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
 from linkwright.sizing.power import RequiredPower
 
 # Share of the design speed by which the crank's speed at the rated point may differ from it: gearboxes come

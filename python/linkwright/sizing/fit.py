@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from linkwright.machine import CatalogueMotor, Machine
+from linkwright.drive.model.catalogue import CatalogueMotor
+from linkwright.machine.machine import Machine
 
 
 def with_motor(

@@ -22,18 +22,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.closure import turn_angles
-from linkwright.analysis.in_range import in_range
-from linkwright.analysis.result import Result
-from linkwright.analysis.run_up import RunUp, run_up
-from linkwright.analysis.steady_state import SteadyState, steady_state
-from linkwright.analysis.turn_fit import turn_curve
-from linkwright.engine import Compiled, compile_machine, drive_inertia
-from linkwright.errors import ConvergenceError, FindingError, InputError, SteadyStateError
-from linkwright.machine import ConstantSpeedMotor, Machine
-from linkwright.public import public
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.run_up import RunUp, run_up
+from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.kernel.errors import ConvergenceError, FindingError, InputError, SteadyStateError
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import RATIO, Bound, Quantity
+from linkwright.linkages.closure import turn_angles
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine, drive_inertia
 from linkwright.sizing.fit import with_flywheel
-from linkwright.units import RATIO, Bound, Quantity
 
 Floats = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ It is an estimate: types of one frame share their diameter and differ in length,
 
 from __future__ import annotations
 
-from linkwright.machine import CatalogueMotor, motor
+from linkwright.drive.model.catalogue import CatalogueMotor, motor
 
 # The only type of the catalogue whose inertia is printed: 0.138 kg m² at 107.7 N m (paper 1, worked case).
 KNOWN = "4A160S6U3 (method 1)"

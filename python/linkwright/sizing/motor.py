@@ -6,19 +6,21 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from linkwright.analysis.in_range import in_range
-from linkwright.analysis.run_up import RunUp
-from linkwright.analysis.steady_state import SteadyState
-from linkwright.errors import FindingError, InputError
-from linkwright.machine import CatalogueMotor, InductionMotor, Machine, motors
-from linkwright.machine import motor as catalogue_motor
-from linkwright.public import public
+from linkwright.drive.model.catalogue import CatalogueMotor, motors
+from linkwright.drive.model.catalogue import motor as catalogue_motor
+from linkwright.drive.model.motor import InductionMotor
+from linkwright.drive.run_up import RunUp
+from linkwright.drive.steady_state import SteadyState
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.units import INERTIA, RATIO, not_negative, positive
+from linkwright.machine.machine import Machine
 from linkwright.sizing.checks import DECISIVE, Check, Checked, motion_checks, rating_checks
 from linkwright.sizing.fit import with_flywheel, with_motor
 from linkwright.sizing.flywheel import UNEVENNESS, flywheel_inertia
 from linkwright.sizing.inertia import KNOWN, rotor_inertia
 from linkwright.sizing.power import RequiredPower, required_power
-from linkwright.units import INERTIA, RATIO, not_negative, positive
 
 By = Literal["all", "fixed-start", "power"]
 Track = Callable[[Sequence[CatalogueMotor]], Iterable[CatalogueMotor]]

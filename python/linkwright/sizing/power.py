@@ -11,13 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.analysis.closure import require_full_turn, require_one_turn
-from linkwright.analysis.reduction import mean_laws, mean_over_turn
-from linkwright.analysis.result import Result
-from linkwright.engine import compile_machine
-from linkwright.errors import InputError
-from linkwright.machine import Machine
-from linkwright.public import public
+from linkwright.drive.reduction import mean_laws, mean_over_turn
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.linkages.closure import require_full_turn, require_one_turn
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
 
 
 @dataclass(frozen=True)

@@ -23,14 +23,14 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.in_range import in_range
-from linkwright.errors import SynthesisError
-from linkwright.machine import Machine
-from linkwright.public import public
+from linkwright.kernel.errors import SynthesisError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
+from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
 from linkwright.synthesis.transmission import Transmits
 from linkwright.synthesis.verify import element_of, require_met, require_transmission
-from linkwright.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.errors import InputError
-from linkwright.machine.base import close_match
-from linkwright.units import show
+from linkwright.kernel.description.base import close_match
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.units import show
 
 Floats = NDArray[np.float64]
 

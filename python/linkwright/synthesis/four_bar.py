@@ -21,7 +21,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.machine import Machine
+from linkwright.machine.machine import Machine
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]

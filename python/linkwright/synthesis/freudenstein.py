@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.synthesis.damped_step import damped_step
+from linkwright.kernel.numerics.damped_step import damped_step
 
 Floats = NDArray[np.float64]
 

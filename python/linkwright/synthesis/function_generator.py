@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.kinematics import motions
-from linkwright.errors import SynthesisError
-from linkwright.machine import Machine
-from linkwright.public import public
+from linkwright.kernel.errors import SynthesisError
+from linkwright.kernel.public import public
+from linkwright.linkages.kinematics import motions
+from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, side_of
 from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, scan, solve
 from linkwright.synthesis.function_scale import Scale

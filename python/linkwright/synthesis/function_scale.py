@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.errors import InputError
+from linkwright.kernel.errors import InputError
 from linkwright.synthesis.expression import function_of
 from linkwright.synthesis.task import FunctionTask
 

@@ -19,10 +19,10 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.kinematics import motions
-from linkwright.errors import SynthesisError
-from linkwright.machine import Machine
-from linkwright.public import public
+from linkwright.kernel.errors import SynthesisError
+from linkwright.kernel.public import public
+from linkwright.linkages.kinematics import motions
+from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import worst_transmission
 from linkwright.synthesis.path_model import Linkages, PathModel
 from linkwright.synthesis.path_refine import refine

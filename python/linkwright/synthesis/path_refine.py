@@ -22,7 +22,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.synthesis.damped_step import damped_step
+from linkwright.kernel.numerics.damped_step import damped_step
 from linkwright.synthesis.path_model import MARGIN, Linkages, PathModel
 
 Floats = NDArray[np.float64]

@@ -17,10 +17,10 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.kinematics import motions
-from linkwright.errors import SynthesisError
-from linkwright.machine import Machine
-from linkwright.public import public
+from linkwright.kernel.errors import SynthesisError
+from linkwright.kernel.public import public
+from linkwright.linkages.kinematics import motions
+from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
 from linkwright.synthesis.slider_pose import guide_slider
 from linkwright.synthesis.task import MovingPoint, PoseTask

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.errors import SynthesisError
-from linkwright.machine import Machine
+from linkwright.kernel.errors import SynthesisError
+from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import Complexes, cross, machine_of, plain_place, plain_point
 from linkwright.synthesis.task import PoseTask
 

@@ -14,16 +14,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.in_range import in_range
-from linkwright.analysis.kinematics import motions
-from linkwright.analysis.result import Result
-from linkwright.errors import InputError, SynthesisError
-from linkwright.machine import Machine
-from linkwright.machine.base import suggestion
-from linkwright.public import public
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import InputError, SynthesisError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import LENGTH, positive
+from linkwright.linkages.kinematics import motions
+from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import machine_of
 from linkwright.synthesis.line_kinds import KINDS, LineKind, Tables
-from linkwright.units import LENGTH, positive
 
 Floats = NDArray[np.float64]
 
@@ -270,7 +270,7 @@ def _measured(
     factor: float,
 ) -> StraightLine:
     """The linkage with what its line is like."""
-    from linkwright.analysis.closure import closure
+    from linkwright.linkages.closure import closure
 
     x, y, speed, angles = _line(machine, kind, chosen, span)
     length, width, direction = _extent(x, y)

@@ -15,15 +15,15 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.in_range import in_range
-from linkwright.errors import InputError, SynthesisError
-from linkwright.machine import Machine
-from linkwright.public import public
+from linkwright.kernel.errors import InputError, SynthesisError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.units import LENGTH, RATIO, positive
+from linkwright.machine.machine import Machine
 from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints, slow_over_quick
 from linkwright.synthesis.four_bar import cross, machine_of
 from linkwright.synthesis.transmission import Transmits
 from linkwright.synthesis.verify import element_of, require_met, require_transmission
-from linkwright.units import LENGTH, RATIO, positive
 
 Floats = NDArray[np.float64]
 

@@ -12,11 +12,11 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
-from linkwright.errors import MachineError
-from linkwright.limits import PATH_POINTS, TRIALS
-from linkwright.machine.base import Description, fault, raise_faults
-from linkwright.machine.problems import problems
-from linkwright.units import (
+from linkwright.kernel.description.base import Description, fault, raise_faults
+from linkwright.kernel.description.problems import problems
+from linkwright.kernel.errors import MachineError
+from linkwright.kernel.limits import PATH_POINTS, TRIALS
+from linkwright.kernel.units import (
     ANGLE,
     LENGTH,
     RATIO,

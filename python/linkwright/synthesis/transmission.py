@@ -12,8 +12,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.analysis.result import Result
-from linkwright.analysis.turn_fit import turn_curve
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.result import Result
 
 Floats = NDArray[np.float64]
 

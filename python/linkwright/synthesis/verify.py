@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.analysis.linkage import ElementMotion, linkage
-from linkwright.errors import SynthesisError
-from linkwright.machine import Machine
+from linkwright.kernel.errors import SynthesisError
+from linkwright.linkages.cycle import ElementMotion, linkage
+from linkwright.machine.machine import Machine
 
 # Share by which a linkage may miss what was asked for. Lengths and places are good to some 1e-16 of the
 # longest link; a crank of a ten-thousandth of it, with dead centres among such numbers, keeps seven digits.

@@ -1,0 +1,151 @@
+"""``linkwright check FILE``: is the machine file sound, and the geometry that it describes?"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import typer
+
+from linkwright.kernel.command.common import File, Outside, Sets
+from linkwright.kernel.errors import AssemblyError
+
+if TYPE_CHECKING:
+    from linkwright.linkages.model.mechanism import Mechanism
+    from linkwright.machine.machine import Machine
+    from linkwright.topping.model.topper import Topper
+
+
+def check(file: File, set: Sets = None, allow_outside: Outside = False) -> None:
+    """Check a machine file.
+
+    Says what is in it, or all that is wrong with it; and what its geometry does not allow, as far as that can
+    be seen at once. Exit code 1 if the machine cannot do something, 2 if the file is wrong.
+    """
+    from linkwright.app.soundness import soundness
+    from linkwright.machine.files.read import read
+
+    machine = read(file, set or (), allow_outside=allow_outside)
+    found = soundness(machine)
+    count = len(found.findings)
+    verdict = f"{count} FINDING{'S' if count > 1 else ''}" if count else "OK"
+    checked = f"\n  {'':<14} ".join(found.looked_at)
+    typer.echo(f"{verdict}  {file}\n\n{summary(machine)}\n\n  {'checked':<14} {checked}")
+    for text in found.findings:
+        typer.echo(f"\nFINDING  {text}")
+    if count:
+        raise typer.Exit(1)
+
+
+def summary(machine: Machine) -> str:
+    """What a machine consists of, a line for each part.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    str
+        Text of a few lines.
+    """
+    from linkwright.linkages.model.mobility import mobility
+
+    rows = [("machine", machine.name), *_topper(machine)]
+    if not machine.is_topper_alone:
+        rows += [("motor", _motor(machine)), *_mechanism(machine)]
+    if not (machine.is_train_alone or machine.is_topper_alone):
+        rows += [("mobility", str(mobility(_whole(machine))))]
+    rows += _train(machine)
+    rows += [("bodies", ", ".join(machine.bodies)), ("loads", _loads(machine))]
+    return "\n".join(f"  {word:<14} {text}" for word, text in rows if text)
+
+
+def _topper(machine: Machine) -> list[tuple[str, str]]:
+    """The head that is cut, the edge, and how the knife moves."""
+    from math import degrees
+
+    from linkwright.topping.head import head_diameter
+
+    cut = machine.topper
+    if cut is None:
+        return []
+    d = float(head_diameter(cut.root_diameter, cut.cut_height))
+    beside = f", up to {_mm(cut.offset)} beside the row" if cut.offset else ", on the row"
+    head = f"{_mm(d)} across: root {_mm(cut.root_diameter)}, cut {_mm(cut.cut_height)} below its top{beside}"
+    edge = (
+        f"{_mm(cut.edge_length)} at {degrees(cut.edge_angle):.4g}°, {cut.forward_speed:.4g} m/s along the row"
+    )
+    return [("head", head), ("edge", edge), ("knife", _knife(cut)), ("field", _field(cut))]
+
+
+def _knife(cut: Topper) -> str:
+    """How it moves across the row."""
+    motion = cut.motion
+    if motion.kind == "member":
+        return f"moved by {motion.of}"
+    if not cut.knife_speed:
+        return "at rest"
+    stroke = f", stroke {_mm(motion.stroke)}" if motion.stroke else ", one direction over a head"
+    word = "harmonic" if motion.kind == "harmonic" else "constant speed"
+    return f"{word}{stroke}, {cut.knife_speed:.4g} m/s across the row in the mean"
+
+
+def _field(cut: Topper) -> str:
+    """How many roots are looked at."""
+    if cut.field is None:
+        return ""
+    if cut.field.kind == "random":
+        return f"{cut.field.roots} random roots in {cut.field.rows} rows"
+    return f"{len(cut.field.root_diameter)} measured roots, each in {cut.field.phases} phases"
+
+
+def _mm(value: float) -> str:
+    return f"{1e3 * value:.4g} mm"
+
+
+def _motor(machine: Machine) -> str:
+    """Kind of the motor, with its rated power and the ratio of the gearbox."""
+    if machine.drive is None or machine.drive.motor is None:
+        return "none"
+    motor, ratio = machine.drive.motor, machine.drive.gearbox.ratio
+    power = f", {motor.power_rated / 1e3:.4g} kW" if motor.power_rated else ""
+    return f"{motor.kind.replace('_', ' ')}{power}, ratio {ratio:.6g}"
+
+
+def _mechanism(machine: Machine) -> list[tuple[str, str]]:
+    """The names of the elements, kind by kind."""
+    from linkwright.linkages.model.outline import TABLES
+
+    # A cam is told as such, not as the driver that it is in the whole mechanism.
+    cams = machine.mechanism.cams
+    known = {
+        table: [name for name in getattr(_whole(machine), table) if name not in cams] for table in TABLES
+    }
+    known["cams"] = list(cams)
+    return [(table.replace("_", " "), ", ".join(names)) for table, names in known.items()]
+
+
+def _whole(machine: Machine) -> Mechanism:
+    """The whole mechanism; without a rotator that has no lengths, which is a finding."""
+    try:
+        return machine.linkage
+    except AssemblyError:
+        return machine.with_entries({"rod_rotator": None}).linkage
+
+
+def _train(machine: Machine) -> list[tuple[str, str]]:
+    """The names of discs, shafts and gear stages."""
+    train = machine.train
+    if train is None:
+        return []
+    return [
+        ("discs", ", ".join(train.discs)),
+        ("shafts", ", ".join(train.shafts)),
+        ("gears", ", ".join(train.gears)),
+    ]
+
+
+def _loads(machine: Machine) -> str:
+    """The names of the loads with their kinds."""
+    return ", ".join(f"{name} ({load.kind.replace('_', ' ')})" for name, load in machine.loads.items())

@@ -1,0 +1,77 @@
+"""``linkwright new TEMPLATE``: a machine file to start from."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from linkwright.kernel.command.out import Force, Out, put
+from linkwright.kernel.errors import InputError
+
+Template = Annotated[
+    str | None,
+    typer.Argument(metavar="TEMPLATE", help="Name of the template; --list names them.", show_default=False),
+]
+List = Annotated[
+    bool, typer.Option("--list", help="Name the templates; with pumping-unit, the units of the catalogue.")
+]
+Designation = Annotated[
+    str | None,
+    typer.Option(
+        "--designation", help="Of a pumping unit of the catalogue, such as C-114D-133-54.", show_default=False
+    ),
+]
+Hole = Annotated[
+    int | None,
+    typer.Option("--hole", help="Crank hole of the pumping unit, 1 for the outermost.", show_default=False),
+]
+
+# The template that is filled from the catalogue of pumping units.
+_UNIT = "pumping-unit"
+
+
+def new(
+    template: Template = None,
+    designation: Designation = None,
+    hole: Hole = None,
+    out: Out = None,
+    force: Force = False,
+    list: List = False,
+) -> None:
+    """Write a machine file to start from.
+
+    It goes to standard output, or to --out.
+    """
+    from linkwright.kernel.files.templates import template as text_of
+    from linkwright.kernel.files.templates import templates
+    from linkwright.pumping.template import unit_template
+
+    if list or template is None:
+        typer.echo("\n".join(_units() if template == _UNIT else _rows(templates())))
+        return
+    if template == _UNIT:
+        put(unit_template(designation, hole), out, force=force)
+        return
+    if designation is not None or hole is not None:
+        raise InputError(f"--designation and --hole belong to the template {_UNIT}, found {template}")
+    put(text_of(template), out, force=force)
+
+
+def _rows(known: dict[str, str]) -> list[str]:
+    """A line for each template."""
+    words = known | {
+        _UNIT: "Beam pumping unit of the catalogue: --designation, --hole; --list names the units"
+    }
+    return [f"  {name:<14} {text}" for name, text in sorted(words.items())]
+
+
+def _units() -> list[str]:
+    """A line for each unit of the catalogue: designation, and strokes of its holes."""
+    from linkwright.pumping.model.unit_catalogue import pumping_units
+
+    return [
+        f"  {each.designation:<14} strokes "
+        + ", ".join(f"{float(each.unit(n).stroke):.3f} m" for n in range(1, len(each.holes) + 1))
+        for each in pumping_units()
+    ]

@@ -1,0 +1,166 @@
+"""What was taken for granted, as far as it applies to a machine: sentences for its report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.app.study import Study
+from linkwright.drive.model.drive import Drive
+from linkwright.drive.model.motor import (
+    ConstantSpeedMotor,
+    ConstantTorqueMotor,
+    DcMotor,
+    InductionMotor,
+    TableMotor,
+)
+from linkwright.kernel.page.quantities import degrees, number
+from linkwright.kinetostatics.model.body import Body
+from linkwright.kinetostatics.model.loads.between import Damper, GasSpring, Spring, TorsionalSpring
+from linkwright.kinetostatics.model.loads.force import Gravity
+from linkwright.kinetostatics.model.loads.formula import FormulaLoad
+from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
+from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import drive_inertia, reverse_factor
+from linkwright.topping.tables.words import topper_assumptions
+
+# Meshes that agree better than this agree to rounding.
+_FINEST = 1e-15
+
+_LOADS = {
+    DryFriction: "Dry friction has a constant size, opposes the motion, and turns round with it; at rest it "
+    "holds up to its size in either direction.",
+    ViscousFriction: "Viscous friction is proportional to the speed.",
+    ForcePosition: "A force over position is linear between the given points; outside them the end values "
+    "hold. It is positive against the motion, forward and back.",
+    TorqueAngle: "A resisting torque over the crank angle is linear between the given angles.",
+    TorqueSpeed: "A resisting torque over the speed is linear between the given speeds; outside them the end "
+    "values hold.",
+    Spring: "Springs have no mass; a force over the length is linear between the given lengths, and outside "
+    "them the end values hold.",
+    Damper: "Dampers between points have no mass; a force over the velocity is linear between the given "
+    "velocities, and outside them the end values hold.",
+    GasSpring: "Gas springs follow p Vⁿ = constant, without friction and without the pressure outside.",
+    TorsionalSpring: "Torsional springs are linear, and turned by less than 180° from their free angle.",
+    FormulaLoad: "A load by a formula acts as the formula says, in SI units; at rest it acts as at a "
+    "vanishing speed.",
+}
+
+
+def assumptions(study: Study) -> list[str]:
+    """All that was taken for granted.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Returns
+    -------
+    list of str
+        Sentences, from the mechanism to the methods.
+    """
+    machine = study.machine
+    cut = [] if machine.topper is None else list(topper_assumptions(machine.topper))
+    if machine.is_topper_alone:
+        return cut
+    found = [*cut, *_mechanism(), *_bodies(machine), *_loads(machine)]
+    if machine.drive is not None:
+        found += [*_drive(machine.drive), *_motor(machine.drive)]
+    return [*found, *_methods(study)]
+
+
+def _mechanism() -> Iterator[str]:
+    yield (
+        "One degree of freedom, the crank angle φ, counted counter-clockwise from the x axis; the crank "
+        "turns forward, φ grows. Links and shafts are rigid, joints have no play and no friction but what is "
+        "given as a load."
+    )
+    yield "Resisting torque M_r is positive where it opposes forward rotation."
+
+
+def _bodies(machine: Machine) -> Iterator[str]:
+    if any(_is_slender(body) for body in machine.bodies.values()):
+        yield (
+            "A body on a link that has a mass, or a mass per length, and no inertia of its own is a uniform "
+            "slender rod: centre of mass in the middle, m l²/12 about it."
+        )
+    if not machine.bodies:
+        yield "No masses are given: the mechanism has no inertia, the drive alone has."
+
+
+def _is_slender(body: Body) -> bool:
+    return body.mass_per_length is not None or (body.mass is not None and body.inertia is None)
+
+
+def _loads(machine: Machine) -> Iterator[str]:
+    kinds = {type(load) for load in machine.loads.values()}
+    yield from (text for kind, text in _LOADS.items() if kind in kinds)
+    for load in machine.loads.values():
+        if isinstance(load, Gravity):
+            way = degrees(load.direction)
+            yield f"All bodies have weight, {number(load.acceleration)} m/s² in the direction of {way}."
+    if not any(isinstance(load, Gravity) for load in machine.loads.values()):
+        yield "Weight does not count: the machine has no load of kind gravity."
+
+
+def _drive(drive: Drive) -> Iterator[str]:
+    yield (
+        "Motor, coupling, brake, gearbox and flywheel together count with "
+        f"{number(float(drive_inertia(drive)))} kg m² at the crank; what turns with the motor "
+        "counts with the square of the ratio."
+    )
+    if drive.motor is None:
+        return
+    gearbox = drive.gearbox
+    back = number(float(reverse_factor(drive)))
+    usual = ", the reciprocal of the efficiency" if gearbox.reverse is None else ", as the file says"
+    yield (
+        f"Gearbox: M_d = M i η while the motor drives, with i = {number(gearbox.ratio)} and "
+        f"η = {number(gearbox.efficiency)}; while the load drives the motor, the factor in place of η is "
+        f"{back}{usual if gearbox.efficiency != 1 or gearbox.reverse is not None else ''}."
+    )
+
+
+def _motor(drive: Drive) -> Iterator[str]:
+    match drive.motor:
+        case InductionMotor() as motor:
+            yield from _induction(motor)
+        case DcMotor():
+            yield "The motor's torque falls in a straight line from standstill to its speed without load."
+        case TableMotor():
+            yield "The motor's torque is linear between the given speeds; outside them the end values hold."
+        case ConstantTorqueMotor():
+            yield "The motor gives the same torque at any speed."
+        case ConstantSpeedMotor():
+            yield "The motor keeps its speed under any load; the driving torque is what that takes."
+    if drive.motor is not None:
+        yield "The motor answers to its speed at once: currents and fields are always in their steady state."
+
+
+def _induction(motor: InductionMotor) -> Iterator[str]:
+    ratio = number(motor.resistance_ratio)
+    form = "simplified formula" if motor.resistance_ratio == 0 else f"formula with R₁/R₂′ = {ratio}"
+    yield f"The motor's torque follows Kloss's {form} from breakdown to beyond the synchronous speed."
+    if "speed_breakdown" not in motor.model_fields_set:
+        yield "The breakdown speed is the one for which Kloss's formula goes through the rated point."
+    if motor.torque_start is None:
+        yield "Below breakdown the formula holds down to standstill, where it gives less than real motors do."
+    else:
+        points = "the starting, the pull-up" if motor.torque_pull_up is not None else "the starting"
+        yield f"Below breakdown a smooth curve goes through {points} and the breakdown torque."
+
+
+def _methods(study: Study) -> Iterator[str]:
+    """How the numbers were found."""
+    steady = study.steady_state
+    if steady is not None and steady.method == "collocation":
+        difference = number(max(steady.accuracy, _FINEST), 1)
+        yield (
+            "Steady motion is the periodic solution itself, by Newton's method on the turn, with "
+            f"{steady.steps} steps from kink to kink, each checked against two of half its length: relative "
+            f"error {difference}. Curves go through {len(steady.crank_angle)} points; extremes, work and "
+            "root mean squares do not depend on them."
+        )
+    if study.run_up is not None:
+        yield "The run-up is integrated in time by Dormand and Prince's method of order 8, adaptive steps."

@@ -1,0 +1,221 @@
+"""The entries of a machine as rows of words, each number with its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from pydantic import BaseModel
+
+from linkwright.cam.model.cam import SecondFollower
+from linkwright.kernel.description.plain import field_names, keys, look
+from linkwright.kernel.description.text import join
+from linkwright.kernel.page.quantities import degrees, number, pretty_unit
+from linkwright.linkages.model.element import Guide
+from linkwright.linkages.model.outline import TABLES
+from linkwright.machine.address import kind
+from linkwright.machine.machine import Machine
+
+Place = tuple[str, ...]
+
+# Headings of tables of elements that are not the table's own name.
+_GROUPS = {"points": "Fixed points", "rigid_points": "Points on links"}
+
+# Tables of a train, in the order of the report.
+_TRAIN = ("discs", "shafts", "gears", "couplings", "dampers", "loads", "excitations")
+
+# Longer lists are cut; the machine file holds them all.
+_LONGEST_LIST = 12
+
+
+class Entry(NamedTuple):
+    """An entry: its word, its value with the unit, and whether it was given or follows from others."""
+
+    word: str
+    value: str
+    given: bool = True
+
+
+class Part(NamedTuple):
+    """A part of a machine: its group, its name, and its entries."""
+
+    group: str
+    name: str
+    entries: list[Entry]
+
+
+def machine_parts(machine: Machine) -> list[Part]:
+    """All parts of a machine.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    list of Part
+        In the order topper, drive, train, pumping unit, mechanism, bodies, loads, run-up.
+    """
+    parts = (_topper, _drive, _train, _unit, _mechanism, _tables, _run_up)
+    return [part for each in parts for part in each(machine)]
+
+
+def _topper(machine: Machine) -> Iterator[Part]:
+    """A topper, then the motion of its knife, its field, and limits of the best knife if there are some."""
+    cut = machine.topper
+    if cut is None:
+        return
+    yield _part("Topper", machine, ("topper",))
+    yield _part("Topper", machine, ("topper", "motion"))
+    if cut.field is not None:
+        for part in _nested("Topper", machine, ("topper", "field")):
+            is_whole = part.name == "field"
+            yield part if is_whole else part._replace(name=f"field: {part.name.replace('_', ' ')}")
+    if "limits" in cut.model_fields_set:
+        yield _part("Topper", machine, ("topper", "limits"))
+
+
+def _drive(machine: Machine) -> Iterator[Part]:
+    if machine.drive is None:
+        return
+    if machine.drive.speed is not None:
+        yield Part(
+            "Drive", "design", [Entry("speed", _value(machine, ("drive", "speed"), machine.drive.speed))]
+        )
+    for name in ("motor", "gearbox", "coupling", "flywheel", "brake"):
+        if getattr(machine.drive, name) is not None:
+            yield _part("Drive", machine, ("drive", name))
+
+
+def _train(machine: Machine) -> Iterator[Part]:
+    """A train: its engine, then its tables, then its run and manoeuvre."""
+    train = machine.train
+    if train is None:
+        return
+    if train.engine is not None:
+        yield from _nested("Engine", machine, ("train", "engine"))
+    for table in _TRAIN:
+        for name in getattr(train, table):
+            yield _part(table.capitalize(), machine, ("train", table, name))
+    for name in ("run", "transient"):
+        if getattr(train, name) is not None:
+            yield _part("Train", machine, ("train", name))
+
+
+def _nested(group: str, machine: Machine, place: Place) -> Iterator[Part]:
+    """A part, then those inside it, as far as they have entries."""
+    part = _part(group, machine, place)
+    if part.entries:
+        yield part
+    node: Any = machine
+    for key in place:
+        node = look(node, key)
+    for key in keys(node):
+        if isinstance(look(node, key), BaseModel):
+            yield from _nested(group, machine, (*place, key))
+
+
+def _unit(machine: Machine) -> Iterator[Part]:
+    """A pumping unit, its load, and its rotator."""
+    for name in ("pumping_unit", "rod_rotator"):
+        if getattr(machine, name) is not None:
+            yield _part("Pumping unit", machine, (name,))
+    if machine.pumping_unit is not None and machine.pumping_unit.load is not None:
+        yield _part("Pumping unit", machine, ("pumping_unit", "load"))
+
+
+def _mechanism(machine: Machine) -> Iterator[Part]:
+    for table in TABLES:
+        group = _GROUPS.get(table) or table.replace("_", " ").capitalize()
+        for name in getattr(machine.mechanism, table):
+            yield _part(group, machine, ("mechanism", table, name))
+
+
+def _tables(machine: Machine) -> Iterator[Part]:
+    for table in ("bodies", "loads"):
+        for name in getattr(machine, table):
+            yield _part(table.capitalize(), machine, (table, name))
+
+
+def _run_up(machine: Machine) -> Iterator[Part]:
+    """The options of the run-up, if the file has any."""
+    if machine.run_up.model_fields_set:
+        yield _part("Run-up", machine, ("run_up",))
+
+
+def _part(group: str, machine: Machine, place: Place) -> Part:
+    """One part with all entries that it has."""
+    node: Any = machine
+    for key in place:
+        node = look(node, key)
+    entries = list(_entries(machine, place, node))
+    return Part(group, place[-1].replace("_", " ") if len(place) < 3 else place[-1], entries)
+
+
+def _entries(machine: Machine, place: Place, node: object, before: str = "") -> Iterator[Entry]:
+    """The entries of a part, those of its guides among them."""
+    assumed = _not_given(node)
+    for key in keys(node):
+        value, word = look(node, key), f"{before}{key}".replace("_", " ")
+        if isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
+            for n, each in enumerate(value):
+                yield Entry(f"{word.removesuffix('s')} {n + 1}", _words(machine, (*place, key, str(n)), each))
+        elif isinstance(value, dict) and any(isinstance(each, BaseModel) for each in value.values()):
+            for name, each in value.items():
+                yield Entry(f"{word.removesuffix('s')} {name}", _words(machine, (*place, key, name), each))
+        elif isinstance(value, Guide | SecondFollower):
+            yield from _entries(machine, (*place, key), value, f"{word} ")
+        # A zero that nobody wrote says nothing.
+        elif (
+            value not in (None, {}, ())
+            and not isinstance(value, BaseModel)
+            and not (key in assumed and value == 0)
+        ):
+            yield Entry(word, _value(machine, (*place, key), value), key not in assumed)
+
+
+def _words(machine: Machine, place: Place, node: BaseModel) -> str:
+    """A description inside a list in one line: its kind, and what was given."""
+    parts = []
+    for key in keys(node):
+        value = look(node, key)
+        if key not in _not_given(node) and value is not None:
+            nested = isinstance(value, BaseModel)
+            text = _words(machine, (*place, key), value) if nested else _value(machine, (*place, key), value)
+            parts.append(text if key == "kind" else f"{key.replace('_', ' ')} {text}")
+    return ", ".join(parts) or "–"
+
+
+def _not_given(node: object) -> set[str]:
+    """Keys of the entries that follow from others or have their usual value."""
+    if not isinstance(node, BaseModel):
+        return set()
+    names = field_names(type(node))
+    return {key for key, name in names.items() if name not in node.model_fields_set}
+
+
+def _value(machine: Machine, place: Place, value: Any) -> str:
+    """One entry as text, with its unit."""
+    if isinstance(value, dict):
+        return ", ".join(f"{name} = {_value(machine, (*place, name), each)}" for name, each in value.items())
+    if isinstance(value, tuple):
+        if value and isinstance(value[0], str):
+            return ", ".join(value)
+        return _list(machine, place, value)
+    if isinstance(value, bool | str):
+        is_formula = place[-1] in ("force", "torque")
+        return str(value) if is_formula else str(value).replace("_", " ")
+    quantity = kind(machine, join(place))
+    unit = quantity.unit if quantity else ""
+    return degrees(value) if unit == "rad" else f"{number(value, 6)} {pretty_unit(unit)}".rstrip()
+
+
+def _list(machine: Machine, place: Place, values: tuple[float, ...]) -> str:
+    """Several values of one quantity."""
+    quantity = kind(machine, join((*place, "0")))
+    unit = quantity.unit if quantity else ""
+    shown = values[:_LONGEST_LIST]
+    texts = [degrees(each) if unit == "rad" else number(each, 6) for each in shown]
+    more = ["…"] if len(values) > len(shown) else []
+    return f"{', '.join(texts + more)} {'' if unit == 'rad' else pretty_unit(unit)}".rstrip()

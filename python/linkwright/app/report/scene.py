@@ -1,0 +1,162 @@
+"""The moving sketch: where each point and link is over the motion, and how long that takes.
+
+Positions come from `kinematics` at even crank angles. The time at each angle is that of steady motion, so the
+sketch moves as unevenly as the machine does; without steady motion it turns evenly. A mechanism that does not
+close all round swings within the range where it does; one that repeats after several turns is drawn over all
+of them. What is drawn at these places is said in `scene_parts`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.app.study import Study
+from linkwright.cam.scene import cam_headings, reach
+from linkwright.kernel.errors import AssemblyError
+from linkwright.linkages.closure import Closure, closure
+from linkwright.linkages.kinematics import Kinematics, kinematics
+from linkwright.linkages.model.outline import DRIVERS
+from linkwright.linkages.scene.parts import arc_end, parts
+from linkwright.machine.machine import Machine
+
+Floats = NDArray[np.float64]
+Scene = dict[str, Any]
+
+# Every second degree; the page draws straight between them. Of a longer motion, so many turns as finely.
+_INTERVALS = 180
+_TURNS_FINE = 8
+
+# Part of its range at each end that a swinging mechanism keeps clear of [rad].
+_MARGIN = 1e-5
+
+# Seconds for a turn, or a swing, that nothing is known of.
+_DURATION = 4.0
+
+# Share of the mechanism's size that is the last digit of a position, and last digit of an angle [rad].
+_FINENESS = 1e-5
+
+
+def scene(study: Study) -> Scene | None:
+    """All that the sketch needs, ready for JSON.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Returns
+    -------
+    dict or None
+        ``angles`` [rad], ``times`` [s], ``speeds`` [rad/s], ``points``, x and y [m] by name, ``headings``,
+        angles of links [rad] by name, all at the same instants; ``parts`` to draw; ``box``, least and
+        greatest x and y; ``swings``, whether the motion goes to and fro; ``true_speed``, whether the times
+        are those of steady motion. None if the mechanism closes nowhere, or nothing moves.
+    """
+    machine = study.machine
+    if not _closes(machine):
+        return None
+    found = closure(machine)
+    motion = kinematics(machine, _angles(found))
+    drawn = _points(machine, motion)
+    listed = list(parts(machine, motion))
+    box = _box(machine, drawn, listed, motion)
+    fineness = _FINENESS * max(box[2] - box[0], box[3] - box[1])
+    times, speeds = _times(study, motion.angles)
+    headings = {name: link.angle for name, link in motion.links.items()} | cam_headings(
+        machine, motion.angles
+    )
+    turning = {part["link"] for part in listed if part.get("link")}
+    return {
+        "angles": _rounded(motion.angles, 1e-5),
+        "times": _rounded(times, 1e-6 * float(times[-1])),
+        "speeds": _rounded(speeds, 1e-5 * float(np.max(np.abs(speeds)))),
+        "points": {
+            name: [_rounded(xy[:, 0], fineness), _rounded(xy[:, 1], fineness)] for name, xy in drawn.items()
+        },
+        "headings": {name: _rounded(headings[name], _FINENESS) for name in sorted(turning)},
+        "parts": listed,
+        "box": box,
+        "swings": not found.turns_fully,
+        "true_speed": study.steady_state is not None,
+    }
+
+
+def _closes(machine: Machine) -> bool:
+    """Whether something moves and closes at some crank angle; where not, the study says why."""
+    try:
+        moves = any(getattr(machine.linkage, table) for table in DRIVERS)
+        return moves and bool(closure(machine).ranges)
+    except AssemblyError:
+        # No lengths for a rotator.
+        return False
+
+
+def _angles(found: Closure) -> Floats:
+    """Crank angles of the motion that is drawn [rad]."""
+    if not found.turns_fully:
+        # Without its very ends, where a radicand may round to below zero.
+        low, high = found.ranges[0]
+        return np.linspace(low + _MARGIN, high - _MARGIN, _INTERVALS + 1)
+    turns = found.turns or 1
+    return np.linspace(0.0, 2 * np.pi * turns, _INTERVALS * min(turns, _TURNS_FINE) + 1)
+
+
+def _points(machine: Machine, motion: Kinematics) -> dict[str, Floats]:
+    """Position of each point at each angle, (n, 2) [m], with the origin if cranks turn about it."""
+    drawn = {name: point.position for name, point in motion.points.items()}
+    still = np.zeros((len(motion.angles), 2))
+    for name, point in machine.linkage.fixed_points().items():
+        drawn.setdefault(name, still + np.array([point.x, point.y]))
+    links = machine.linkage.links()
+    for name, cable in machine.linkage.cables.items():
+        # Where the cable leaves its arc, to the left or right of its direction.
+        side = cable.angle + (np.pi / 2 if cable.side == "left" else -np.pi / 2)
+        off = cable.radius * np.array([np.cos(side), np.sin(side)])
+        drawn[arc_end(name)] = drawn[links[cable.link].start] + off
+    return drawn
+
+
+def _box(machine: Machine, drawn: dict[str, Floats], listed: list[Scene], motion: Kinematics) -> list[float]:
+    """Least x, least y, greatest x, greatest y of all points, pitch circles, levers and cams."""
+    every = list(drawn.values())
+    for part in listed:
+        if part["kind"] == "gear":
+            every += [drawn[part["at"]] + part["radius"], drawn[part["at"]] - part["radius"]]
+        if part["kind"] == "slot":
+            angle = part["angle"] + (
+                motion.links[part["link"]].angle if part["link"] else 0.0 * motion.angles
+            )
+            along = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+            every += [drawn[part["at"]] + end * along for end in part["bar"]]
+        if part["kind"] in ("roller", "face") and part["rod"] and not part["link"]:
+            cos, sin = np.cos(part["angle"]), np.sin(part["angle"])
+            every.append(drawn[part["at"]] + np.array([[cos, -sin], [sin, cos]]) @ part["rod"])
+    for centre, radius in reach(machine):
+        every += [drawn[centre] + radius, drawn[centre] - radius]
+    together = np.concatenate(every)
+    return [float(value) for value in (*together.min(axis=0), *together.max(axis=0))]
+
+
+def _times(study: Study, angles: Floats) -> tuple[Floats, Floats]:
+    """Time and speed at each angle."""
+    steady = study.steady_state
+    if steady is not None:
+        # The last angle of a turn is not the first of the next, which would be back at its time zero.
+        turn = np.ceil(angles / (2 * np.pi) - 1e-9) - 1
+        within = angles - 2 * np.pi * turn
+        time = turn * steady.period + np.interp(within, steady.crank_angle, steady.time)
+        return time - time[0], np.interp(within, steady.crank_angle, steady.speed)
+    drive = study.machine.drive
+    even = np.linspace(0.0, 1.0, len(angles))
+    span = float(angles[-1] - angles[0])
+    speed = drive.speed if drive and drive.speed else span / _DURATION
+    return even * span / speed, np.full_like(angles, speed)
+
+
+def _rounded(values: Floats, fineness: float) -> list[float]:
+    """Values with no more digits than can be seen."""
+    digits = max(0, int(np.ceil(-np.log10(fineness)))) if fineness > 0 else 0
+    return [round(float(value), digits) for value in values]

@@ -1,0 +1,164 @@
+"""What a machine can be seen to be unable to do without solving for its motion: the cheap part of a study.
+
+| looked at | for | by |
+| --- | --- | --- |
+| mechanism | closes over the whole revolution, loads have values there | `require_turn` |
+| drive | masses and loads repeat, the motor drives, the machine starts | `require_one_turn`, `start_of` |
+| pumping unit | the crank turns all round | `PolishedRod` |
+| rotator | the lever does as its regime asks | `rod_rotator` |
+| cams | undercut, crossed, locked, hollow, no room for a second follower | `cam_profile`, `cam_faults` |
+| knife of a topper | advances, over its field too; long enough for all | `topper`, `require_advance` |
+| train, drive line that twists | has natural frequencies | `free_vibration` |
+
+Each is the function that the study itself calls, so what is a finding here is one there, and the other way
+round. What takes solving, such as steady motion, forces and vibration under torques, is left to the study.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.cam.profile.faults import cam_faults
+from linkwright.cam.profile.profile import CamProfile, cam_profile
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.run_up import start_of
+from linkwright.drive.sound_loads import require_same_turns, require_turn
+from linkwright.kernel.errors import StartError
+from linkwright.kernel.findings import Findings
+from linkwright.linkages.closure import require_one_turn
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled
+from linkwright.pumping.rod_rotator import rod_rotator
+from linkwright.pumping.unit import PolishedRod
+from linkwright.topping.cautions import topper_findings
+from linkwright.topping.edge import edges_of
+from linkwright.topping.passes import require_advance
+from linkwright.topping.roots import draw_roots
+from linkwright.topping.topper import topper
+from linkwright.torsion.modes.free import FreeVibration, free_vibration
+
+# Speeds at which a motor's characteristic is looked at, up to one and a half times its speed without load.
+_SPEEDS = 200
+
+
+@dataclass(frozen=True)
+class Soundness:
+    """What was looked at, and what was found.
+
+    Attributes
+    ----------
+    looked_at : tuple of str
+        What was looked at, in words.
+    findings : tuple of str
+        What the machine cannot do, in sentences.
+    """
+
+    looked_at: tuple[str, ...]
+    findings: tuple[str, ...]
+
+
+def soundness(machine: Machine) -> Soundness:
+    """Look at all of a machine that can be judged without solving for its motion.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    Soundness
+        What was looked at, and the findings.
+    """
+    found = Findings()
+    looked = [*_knife(machine, found), *_mechanism(machine, found), *_train(machine, found)]
+    return Soundness(tuple(looked), found.findings)
+
+
+def sound_cams(machine: Machine, found: Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:
+    """All cams, and those that can be made; what makes one impossible is a finding.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    found : Findings
+        Where it is collected.
+
+    Returns
+    -------
+    tuple
+        Cams with a profile, and those of them without faults.
+    """
+    looked = [found.of(cam_profile, machine, name) for name in machine.mechanism.cams]
+    told = [(each, cam_faults(each)) for each in looked if each is not None]
+    found.add(text for _, faults in told for text in faults)
+    return tuple(each for each, _ in told), tuple(each for each, faults in told if not faults)
+
+
+def _knife(machine: Machine, found: Findings) -> Iterator[str]:
+    described = machine.topper
+    if described is None:
+        return
+    cut = found.of(topper, machine, charts=False)
+    found.add(topper_findings(described, cut) if cut else ())
+    if cut and described.field is not None:
+        found.of(lambda: require_advance(edges_of(machine, described), draw_roots(described)))
+    yield "knife of the topper: its advance, and its length for every head"
+
+
+def _mechanism(machine: Machine, found: Findings) -> Iterator[str]:
+    if machine.is_train_alone or machine.is_topper_alone:
+        return
+    if machine.pumping_unit is not None:
+        found.of(PolishedRod.of, machine, machine.pumping_unit)
+        yield "pumping unit: its crank turns all round"
+    if machine.rod_rotator is not None:
+        found.of(rod_rotator, machine)
+        yield "rod rotator: lengths, and the motion that its regime asks for"
+    if machine.mechanism.cams:
+        sound_cams(machine, found)
+        yield "cams: undercut, crossings, pressure angle of 90°, hollows, second followers"
+    compiled = found.of(require_turn, machine)
+    yield "mechanism: closes over the whole revolution" + (", loads there" if machine.loads else "")
+    if machine.drive is not None and machine.drive.motor is not None:
+        if compiled is not None:
+            found.of(_require_drive, machine, compiled)
+        yield "drive: characteristic of the motor, start"
+
+
+def _require_drive(machine: Machine, compiled: Compiled) -> None:
+    """Raise unless the motor drives, the revolution repeats, and the machine moves from its start."""
+    drive = machine.drive
+    require_one_turn(compiled)
+    require_same_turns(machine)
+    if drive is None or isinstance(drive.motor, ConstantSpeedMotor):
+        return
+    speeds = np.linspace(0.0, 1.5 * compiled.speed_guess, _SPEEDS)
+    torque = compiled.motor_torques(speeds)[0]
+    if not torque.max() > 0:
+        raise StartError(
+            f"the motor gives no driving torque at any speed up to {speeds[-1]:.4g} rad/s of the crank; give "
+            "drive.motor a characteristic with torque in the direction of motion"
+        )
+    start_of(machine)
+
+
+def _train(machine: Machine, found: Findings) -> Iterator[str]:
+    if machine.train is None and (machine.drive is None or not machine.drive.twists):
+        return
+    free = found.of(free_vibration, machine)
+    found.add(_not_definite(free) if free else ())
+    yield "train: connected, natural frequencies"
+
+
+def _not_definite(free: FreeVibration) -> Iterator[str]:
+    """Frequencies that are no numbers: stiffnesses or inertias beyond what can be computed with."""
+    if not np.isfinite(free.natural_frequencies).all():
+        yield (
+            f"the train of {len(free.discs)} discs has no natural frequencies: its stiffnesses or inertias "
+            "are too far apart to be computed with"
+        )

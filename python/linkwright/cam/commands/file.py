@@ -1,0 +1,220 @@
+"""``linkwright cam FILE``: a machine's cams, and the files to make them by."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+
+import typer
+
+from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
+from linkwright.kernel.errors import ExchangeError, InputError
+
+if TYPE_CHECKING:
+    from linkwright.app.study import Study
+    from linkwright.cam.manufacture.drawing import Measured
+    from linkwright.kernel.files.output import OutputFolder
+
+Folder = Annotated[
+    Path | None, out_option("Write a report, results.json and the drawings of the cams there.")
+]
+Tolerance = Annotated[
+    str, typer.Option("--tolerance", metavar="LENGTH", help="Largest distance of a drawing from its profile.")
+]
+Step = Annotated[str, typer.Option("--step", metavar="ANGLE", help="Step of the tables.")]
+By = Annotated[
+    str, typer.Option("--by", metavar="cam|polar", help="Whether it is one of the cam or of the polar angle.")
+]
+Form = Annotated[
+    str,
+    typer.Option(
+        "--form",
+        metavar="arcs|spline|cubic|polyline",
+        help="Outlines in DXF: arcs without kinks, a spline of degree 5 or 3, or chords.",
+    ),
+]
+Formats = Annotated[
+    str, typer.Option("--formats", metavar="LIST", help="Which files, of dxf, csv, svg, step; with commas.")
+]
+Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not scalars alone.")]
+
+
+def cam_file(
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    json: Json = False,
+    curves: Curves = False,
+    out: Folder = None,
+    tolerance: Tolerance = "1 um",
+    step: Step = "1 deg",
+    by: By = "cam",
+    form: Form = "arcs",
+    formats: Formats = "dxf,csv,svg",
+    force: Force = False,
+) -> None:
+    """Look at the cams of a machine.
+
+    Lift, pressure angle, curvature, forces, what is wrong and what would mend it; with --out a report with
+    figures, and drawings for manufacture, each read back and compared with the profile.
+    """
+    from linkwright.app.terminal import progress
+
+    folder = output_folder(out, force=force)
+    options = _options(tolerance, step, by, form, formats)
+    with progress("computing"):
+        study = _studied(file, set or [], allow_outside=allow_outside)
+    drawn: dict[str, _Drawn] = {}
+    findings: list[str] = []
+    if folder is not None:
+        with progress("drawing"):
+            drawn, findings = _drawn(study, options)
+    findings = [*study.findings, *findings]
+    shown = _object(study, folder, drawn, findings, curves=curves)
+    if json:
+        _print_json(shown)
+    else:
+        _print(study, findings)
+    if folder is not None:
+        _write(study, shown, drawn, folder, quiet=json)
+    if findings:
+        raise typer.Exit(1)
+
+
+def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dict[str, Any]:
+    """What the drawings shall be; what makes no sense is told before anything is computed."""
+    from linkwright.cam.manufacture.fit import FORMS
+    from linkwright.cam.manufacture.write import ALL_FORMATS
+    from linkwright.kernel.units import ANGLE, LENGTH
+
+    wanted = tuple(each.strip() for each in formats.split(",") if each.strip())
+    for option, values, known in (
+        ("--form", (form,), FORMS),
+        ("--by", (by,), ("cam", "polar")),
+        ("--formats", wanted, ALL_FORMATS),
+    ):
+        if unknown := [value for value in values if value not in known]:
+            raise InputError(f'{option}: found "{unknown[0]}", expected {", ".join(known)}')
+    lengths = {"tolerance": option_value("--tolerance", tolerance, LENGTH)}
+    if lengths["tolerance"] <= 0:
+        raise InputError(f'--tolerance: found "{tolerance}", expected more than 0, such as "1 um"')
+    return {**lengths, "step": option_value("--step", step, ANGLE), "by": by, "form": form, "formats": wanted}
+
+
+def _studied(file: Path, sets: list[str], *, allow_outside: bool) -> Study:
+    """Everything about a machine that has cams."""
+    from linkwright.app.study import study
+    from linkwright.machine.files.read import read
+
+    machine = read(file, sets, allow_outside=allow_outside)
+    if not machine.mechanism.cams:
+        raise InputError(f"{file}: the machine has no cam; describe one as [mechanism.cams.NAME]")
+    return study(machine)
+
+
+class _Drawn(NamedTuple):
+    """A drawing that was written and read back: its bytes, and what was measured in them."""
+
+    data: bytes
+    outlines: tuple[Measured, ...]
+
+
+def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawn], list[str]]:
+    """Name of the file → drawing, of the cams that can be made; what cannot be drawn is a finding."""
+    from tempfile import TemporaryDirectory
+
+    from linkwright.cam.manufacture.cam import cam_drawings
+    from linkwright.cam.manufacture.write import write_drawing
+    from linkwright.cam.profile.faults import cam_faults
+    from linkwright.kernel.files.output import file_names
+
+    sound = [profile for profile in study.cams if not cam_faults(profile)]
+    drawings = [(profile, each) for profile in sound for each in cam_drawings(profile)]
+    # Names may differ in letters alone that no file can have.
+    stems = file_names({drawing.name: "" for _, drawing in drawings})
+    findings: list[str] = []
+    found: dict[str, _Drawn] = {}
+    with TemporaryDirectory() as folder:
+        for profile, drawing in drawings:
+            try:
+                written = write_drawing(folder, drawing, stem=stems[drawing.name], **options)
+            except ExchangeError as error:
+                findings.append(f"Cam {profile.name}: {error}.")
+            else:
+                found |= {each.path.name: _Drawn(each.path.read_bytes(), each.outlines) for each in written}
+    return found, findings
+
+
+def _object(
+    study: Study,
+    folder: OutputFolder | None,
+    drawn: dict[str, _Drawn],
+    findings: list[str],
+    *,
+    curves: bool,
+) -> dict[str, Any]:
+    """What is printed and written as JSON: the results of cams, and the files."""
+    from linkwright.kernel.result import finite
+
+    results = {
+        name: result.to_dict(curves=curves)
+        for name, result in study.results().items()
+        if name.startswith("cam")
+    }
+    files = [
+        {
+            "path": name if folder is None else str(folder.path / name),
+            "layer": outline.layer,
+            "form": outline.form,
+            "sides": outline.deviation.sides,
+            "deviation": outline.deviation.largest,
+            "tolerance": outline.tolerance,
+        }
+        for name, each in drawn.items()
+        for outline in each.outlines
+    ]
+    warnings = [*findings, *study.warnings]
+    told = {"findings": findings, "warnings": warnings, "files": files}
+    return {"machine": study.machine.name, "results": finite(results), **told}
+
+
+def _print_json(shown: dict[str, Any]) -> None:
+    from json import dumps
+
+    typer.echo(dumps(shown, allow_nan=False, ensure_ascii=False))
+
+
+def _print(study: Study, findings: list[str]) -> None:
+    """Tables for people."""
+    from linkwright.app.terminal import print_tables
+    from linkwright.cam.tables.cam import cam_tables
+
+    print_tables("", list(cam_tables(study)), findings, study.warnings)
+
+
+def _write(
+    study: Study, shown: dict[str, Any], drawn: dict[str, _Drawn], folder: OutputFolder, *, quiet: bool
+) -> None:
+    """Report and results; says where everything is, and what was measured in the drawings."""
+    from json import dumps
+
+    from linkwright.app.commands.run import command_line
+    from linkwright.app.report.page import report_html
+
+    contents: dict[str, str | bytes] = {
+        "results.json": dumps(shown, allow_nan=False, ensure_ascii=False) + "\n",
+        "report.html": report_html(study, command=command_line()),
+        **{name: each.data for name, each in drawn.items()},
+    }
+    remarks = {name: _measured(name, each) for name, each in drawn.items()}
+    write_folder(folder, contents, quiet=quiet, remarks=remarks)
+
+
+def _measured(name: str, drawn: _Drawn) -> str:
+    """What was measured in a drawing."""
+    most = max(each.deviation.largest for each in drawn.outlines)
+    sides = "+".join(str(each.deviation.sides) for each in drawn.outlines)
+    if name.endswith(".csv"):
+        return f"{sides} rows, chords between them within {1e3 * most:.3g} mm"
+    return f"{sides} pieces, read back within {1e3 * most:.3g} mm"

@@ -1,0 +1,240 @@
+"""``linkwright cam search``: many variants of a cam, and the smallest that keep their limits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.console import console
+from linkwright.kernel.errors import InputError, require_within
+from linkwright.kernel.limits import CAM_VARIANTS, SHOWN
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from linkwright.cam.profile.profile import CamProfile
+    from linkwright.cam.search import Cams
+    from linkwright.machine.machine import Machine
+
+Vary = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--vary",
+        metavar="NAME=LOW:HIGH:N",
+        help='What varies, such as base_radius="20 mm":"60 mm":200 or lift_factor=1:1.2:5: base_radius, '
+        "roller_radius, offset, arm_length, face_tilt, lift_factor. May be given again: all combinations.",
+        show_default=False,
+    ),
+]
+Laws = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--law",
+        metavar="NAME",
+        help="A law of `linkwright cam laws` for all moving sections. May be given again. Without it, those "
+        "of the file.",
+        show_default=False,
+    ),
+]
+CamName = Annotated[
+    str | None, typer.Option("--cam", metavar="NAME", help="Which cam, if there are several.")
+]
+Steep = Annotated[
+    str | None,
+    typer.Option("--pressure-angle", metavar="ANGLE", help="Largest one allowed. Without it, the cam's."),
+]
+Tight = Annotated[
+    str | None,
+    typer.Option("--curvature-radius", metavar="LENGTH", help="Least convex one allowed on the profile."),
+]
+Count = Annotated[
+    int, typer.Option("--count", metavar="N", help="How many of the smallest are shown.", min=1)
+]
+
+# Share by which a cam may pass a limit by rounding.
+_ROUNDING = 1e-12
+
+
+def search(
+    file: File,
+    vary: Vary = None,
+    law: Laws = None,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    cam: CamName = None,
+    pressure_angle: Steep = None,
+    curvature_radius: Tight = None,
+    count: Count = 10,
+    json: Json = False,
+) -> None:
+    """The smallest cams that keep their limits, among many.
+
+    Each is looked at at the same angles; those that are shown are looked at exactly, and keep their limits at
+    all angles. Exit code 1 if none does.
+    """
+    from linkwright.cam.profile.profile import the_cam
+    from linkwright.cam.search import search_cams
+    from linkwright.kernel.units import ANGLE, LENGTH
+    from linkwright.machine.files.read import read
+
+    require_within(SHOWN, count, "--count", "show fewer")
+    machine = read(file, set or [], allow_outside=allow_outside)
+    name, chosen = the_cam(machine, cam)
+    steep, tight = chosen.limit, chosen.curvature_limit or 0.0
+    if pressure_angle is not None:
+        steep = option_value("--pressure-angle", pressure_angle, ANGLE)
+    if curvature_radius is not None:
+        tight = option_value("--curvature-radius", curvature_radius, LENGTH)
+    columns = _columns(vary or [])
+    found = search_cams(machine, name, entries=columns, laws=law or [])
+    keeps = found.keeps(steep, tight)
+    best = _smallest(machine, name, found, keeps, count, lambda cam: _keeps(cam, steep, tight))
+    if json:
+        _print_json(machine, found, keeps, best)
+    else:
+        _print(found, keeps, best)
+    if not best:
+        raise typer.Exit(1)
+
+
+def _columns(wanted: list[str]) -> dict[str, NDArray[np.float64]]:
+    """All combinations of what varies, as columns."""
+    import numpy as np
+
+    axes = dict(_axis(each) for each in wanted)
+    if not axes:
+        raise InputError(
+            "--vary: found nothing that varies, expected such as --vary base_radius=0.02:0.06:200"
+        )
+    total = int(np.prod([len(axis) for axis in axes.values()], dtype=float))
+    require_within(CAM_VARIANTS, total, "--vary", "vary less, or more coarsely")
+    grid = np.meshgrid(*axes.values(), indexing="ij")
+    return {name: values.ravel() for name, values in zip(axes, grid, strict=True)}
+
+
+def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
+    """Name and values of one ``NAME=LOW:HIGH:N``."""
+    import numpy as np
+
+    from linkwright.cam.search import ENTRIES
+    from linkwright.kernel.description.base import suggestion
+    from linkwright.kernel.units import ANGLE, LENGTH, RATIO
+
+    name, _, values = text.partition("=")
+    kinds = {"face_tilt": ANGLE, "lift_factor": RATIO}
+    parts = [part.strip().strip('"') for part in values.split(":")]
+    if name not in ENTRIES or name == "distance":
+        raise InputError(f'--vary {text}: found "{name}", expected {suggestion(name, ENTRIES)}')
+    if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
+        remedy = "such as base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
+        raise InputError(f'--vary {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
+    low, high = (option_value(f"--vary {text}", part, kinds.get(name, LENGTH)) for part in parts[:2])
+    # A count of thousands of digits is no number for Python.
+    count = int(parts[2][:16])
+    require_within(CAM_VARIANTS, count, text, "take fewer values")
+    return name, np.linspace(low, high, count)
+
+
+def _smallest(
+    machine: Machine,
+    name: str,
+    found: Cams,
+    keeps: NDArray[np.bool_],
+    count: int,
+    is_kept: Callable[[CamProfile], bool],
+) -> list[tuple[int, CamProfile]]:
+    """The smallest cams that keep the limits exactly: between the angles of a search they may not."""
+    best: list[tuple[int, CamProfile]] = []
+    for i in found.smallest(keeps, SHOWN.most):
+        profile = _exact(machine, name, found, int(i))
+        best += [(int(i), profile)] if is_kept(profile) else []
+        if len(best) == count:
+            break
+    return best
+
+
+def _keeps(profile: CamProfile, steep: float, tight: float) -> bool:
+    """Whether a cam can be made and keeps its limits, to rounding."""
+    from linkwright.cam.profile.faults import cam_faults
+
+    convex = profile.curvature_radius_convex_min
+    gentle = profile.pressure_angle_max <= steep * (1 + _ROUNDING)
+    return gentle and (convex is None or convex >= tight * (1 - _ROUNDING)) and not cam_faults(profile)
+
+
+def _exact(machine: Machine, name: str, found: Cams, i: int) -> CamProfile:
+    """One of the cams, looked at exactly."""
+    from linkwright.cam.profile.profile import cam_profile
+    from linkwright.cam.search import variant
+
+    return cam_profile(variant(machine, name, found, i), name)
+
+
+def _row(found: Cams, i: int, profile: CamProfile) -> dict[str, Any]:
+    """What is said of one cam."""
+    law = found.laws[int(found.law[i])] if found.laws else None
+    entries = {key: float(column[i]) for key, column in found.entries.items()}
+    return {
+        "law": law,
+        **entries,
+        "pressure_angle_max": profile.pressure_angle_max,
+        "curvature_radius_convex_min": profile.curvature_radius_convex_min,
+        "acceleration_max": profile.acceleration_max,
+    }
+
+
+def _print_json(machine: Machine, found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
+    from json import dumps
+
+    rows = [_row(found, i, profile) for i, profile in best]
+    counts = {"n_cams": len(keeps), "n_sound": int(found.is_sound.sum()), "n_kept": int(keeps.sum())}
+    results = {"cam_search": {**counts, "smallest": rows}}
+    told = {"findings": _findings(keeps, best), "warnings": _findings(keeps, best)}
+    typer.echo(dumps({"machine": machine.name, "results": results, **told}))
+
+
+def _findings(keeps: NDArray[np.bool_], best: list[Any]) -> list[str]:
+    """That there is no cam to show."""
+    if best:
+        return []
+    if not keeps.any():
+        return ["None keeps the limits: vary more, or allow more."]
+    looked = min(int(keeps.sum()), SHOWN.most)
+    return [
+        f"None of the {looked} smallest keeps the limits between the angles too: vary more, or allow more."
+    ]
+
+
+def _print(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
+    """The smallest cams as a table."""
+    import numpy as np
+    from rich.table import Table
+
+    out = console()
+    out.print(
+        f"{len(keeps)} cams looked at, {int(found.is_sound.sum())} sound, {int(keeps.sum())} keep the limits"
+    )
+    if not best:
+        out.print(f"FINDING  {_findings(keeps, best)[0]}")
+        return
+    units = {"face_tilt": ("deg", 180 / np.pi), "lift_factor": ("", 1.0)}
+    table = Table(box=None, header_style="", pad_edge=False)
+    heads = [*(["law"] if found.laws else []), *found.entries, "pressure angle", "radius of curvature"]
+    for head in heads:
+        table.add_column(head, justify="left" if head == "law" else "right")
+    for i, profile in best:
+        cells = [found.laws[int(found.law[i])]] if found.laws else []
+        for key, column in found.entries.items():
+            unit, factor = units.get(key, ("mm", 1e3))
+            cells.append(f"{factor * column[i]:.5g} {unit}".strip())
+        convex = profile.curvature_radius_convex_min
+        cells += [
+            f"{np.degrees(profile.pressure_angle_max):.4g}°",
+            "–" if convex is None else f"{1e3 * convex:.5g} mm",
+        ]
+        table.add_row(*cells)
+    out.print(table)

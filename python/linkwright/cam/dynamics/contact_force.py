@@ -1,0 +1,281 @@
+r"""What follower and cam press on each other, which flank carries, and the torque of the cam shaft.
+
+Along the way of the follower the normal force N balances the force F of inertia, damper, spring and load,
+and the friction of contact and bearing (`linkwright.cam.dynamics.bearing`). A follower that is held in a
+groove, or by a second cam, is carried by the flank that lifts where F > 0, and by the other where F < 0.
+The torque follows from power:
+
+.. math:: M = s'(F + L) + \mu|N||v_\mathrm{slide}|/\omega
+
+with the friction L of the bearing along the way.
+
+Source: R. L. Norton, *Design of Machinery*, McGraw-Hill, chapter 15; H. A. Rothbart, *Cam Design
+Handbook*, chapter 7.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.dynamics.backlash import SideChange, side_changes
+from linkwright.cam.dynamics.bearing import ArmPivot, Bearing, Held, NoFriction, Push, pushes
+from linkwright.cam.dynamics.follower_load import CamCourse, FollowerLoad, force_along
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import LENGTH, RATIO, not_negative
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Closure = Literal["force", "form"]
+
+# Share of the largest s′ below which the follower rests, and friction has no direction.
+_REST = 1e-9
+
+# What is left of a normal force of one, over what is left without friction, below which the follower jams:
+# beyond a thousand times the force no part is rigid any more.
+_JAM = 1e-3
+
+# Bisections of a right angle, down to rounding.
+_HALVINGS = 50
+
+
+@dataclass(frozen=True)
+class ContactForce(Result):
+    """Forces between cam and follower over the cam angle.
+
+    Attributes
+    ----------
+    cam_angle : ndarray, shape (n,)
+        φ [rad].
+    force_along : ndarray, shape (n,)
+        F, what the follower needs along its way, friction left out [N; N m of an oscillating follower].
+    normal : ndarray, shape (n,)
+        N; negative on the other flank of a form-closed follower, and what is lacking where a force-closed one
+        leaves the cam; NaN where it jams [N].
+    side : ndarray, shape (n,)
+        1 where the flank that lifts carries, −1 where the other does [–].
+    across : ndarray, shape (n,)
+        Force of the cam across the way, to where the surface runs [N].
+    near, far : ndarray, shape (n,)
+        Reactions at the ends of the guide, to where the surface runs; of a pivot its force [N].
+    torque : ndarray, shape (n,)
+        Driving torque that the cam shaft needs for this follower [N m].
+    power, power_friction : ndarray, shape (n,)
+        Of the cam shaft; of friction, never positive [W].
+    jammed : ndarray of bool, shape (n,)
+        Where no force of the cam moves the follower.
+    lost : ndarray of bool, shape (n,)
+        Where a force-closed follower leaves the cam.
+    normal_max : float
+        Largest size of N [N].
+    normal_max_angle : float
+        Where [rad].
+    normal_min : float
+        Least N [N].
+    torque_max, torque_min, torque_mean : float
+        Over the angles given; the mean by the trapezoidal rule [N m].
+    side_changes : tuple of SideChange
+        Where the force goes from one flank to the other, form-closed.
+    findings : tuple of str
+        Jams, loss of contact, changes of the flank, in sentences.
+    """
+
+    cam_angle: Floats
+    force_along: Floats
+    normal: Floats
+    side: Floats
+    across: Floats
+    near: Floats
+    far: Floats
+    torque: Floats
+    power: Floats
+    power_friction: Floats
+    jammed: Flags
+    lost: Flags
+    normal_max: float
+    normal_max_angle: float
+    normal_min: float
+    torque_max: float
+    torque_min: float
+    torque_mean: float
+    side_changes: tuple[SideChange, ...]
+    findings: tuple[str, ...]
+
+
+@public
+def contact_force(
+    course: CamCourse,
+    follower: FollowerLoad,
+    bearing: Bearing | None = None,
+    *,
+    friction: float = 0.0,
+    closure: Closure = "force",
+    clearance: float = 0.0,
+) -> ContactForce:
+    """Forces between a cam and its follower.
+
+    Parameters
+    ----------
+    course : CamCourse
+        Geometry and motion, n angles.
+    follower : FollowerLoad
+        Inertia, spring, damper, load.
+    bearing : StemGuide, ArmPivot or NoFriction, optional
+        How it is held; without it, as a translating follower without friction.
+    friction : float
+        μ of the contact; of a roller on a journal, μ of the journal times its radius over the roller's [–].
+    closure : {"force", "form"}
+        Whether a spring or a second flank holds the follower on the cam.
+    clearance : float
+        Between the two flanks of a form-closed follower, along the way [m or rad].
+
+    Returns
+    -------
+    ContactForce
+        Over the cam angle.
+
+    Raises
+    ------
+    InputError
+        A number makes no sense; friction of the contact without sliding.
+    FindingError
+        The follower is drawn into its guide.
+    """
+    in_range(friction=(friction, not_negative(RATIO)), clearance=(clearance, not_negative(LENGTH)))
+    if friction and not course.sliding.any():
+        raise InputError(
+            "sliding: found zero everywhere, expected the sliding of the contact, since it has friction"
+        )
+    bearing = bearing or NoFriction()
+    force = force_along(course, follower)
+    side = np.where((force < 0) & (closure == "form"), -1.0, 1.0)
+    held, push = _held(course, bearing, friction, side)
+    easy = _held(course, _without_friction(bearing), 0.0, side)[0].gain
+    jammed = held.gain / easy < _JAM
+    size = np.where(jammed, np.nan, force / np.where(jammed, 1.0, held.gain))
+    lost = ~jammed & (size < 0)
+    rub = friction * np.abs(size) * np.abs(course.sliding)
+    torque = course.lift_d1 * (force + held.loss * np.abs(size)) + rub
+    loss = held.loss * np.abs(size) * course.velocity + rub * course.speed
+    changes = side_changes(course, force, follower.mass, clearance) if closure == "form" else ()
+    at = int(np.nanargmax(np.abs(size))) if not jammed.all() else 0
+    normal = size * side
+    return ContactForce(
+        cam_angle=course.cam_angle,
+        force_along=force,
+        normal=normal,
+        side=side,
+        across=push.across * size,
+        near=held.near * size,
+        far=held.far * size,
+        torque=torque,
+        power=torque * course.speed,
+        power_friction=-loss,
+        jammed=jammed,
+        lost=lost,
+        normal_max=float(abs(normal[at])),
+        normal_max_angle=float(course.cam_angle[at]),
+        normal_min=_over(np.min, normal),
+        torque_max=_over(np.max, torque),
+        torque_min=_over(np.min, torque),
+        torque_mean=_mean(course.cam_angle, torque),
+        side_changes=changes,
+        findings=(
+            *_jams(course, bearing, friction, side, jammed),
+            *_losses(course, force, lost),
+            *(str(each) for each in changes),
+        ),
+    )
+
+
+def _held(course: CamCourse, bearing: Bearing, friction: float, side: Floats) -> tuple[Held, Push]:
+    """What a normal force of one on the flank that carries does, and how the bearing answers."""
+    still = np.abs(course.lift_d1) <= _REST * np.abs(course.lift_d1).max(initial=0.0)
+    moving = np.where(still, 0.0, np.sign(course.lift_d1))
+    push = pushes(course, friction, side, moving)
+    return bearing.held(course, push), push
+
+
+def _without_friction(bearing: Bearing) -> Bearing:
+    """The same bearing with a coefficient of zero."""
+    return bearing if isinstance(bearing, NoFriction) else replace(bearing, coefficient=0.0)
+
+
+def _over(what: object, values: Floats) -> float:
+    """Extreme of the values that there are."""
+    assert callable(what)
+    there = values[np.isfinite(values)]
+    return float(what(there)) if len(there) else math.nan
+
+
+def _mean(angle: Floats, values: Floats) -> float:
+    """Mean over the angle; NaN if some are missing."""
+    span = float(angle[-1] - angle[0])
+    return float(np.trapezoid(values, angle)) / span if span > 0 else float(values[0])
+
+
+def _stretches(flags: Flags) -> Iterator[tuple[int, int]]:
+    """First and last row of each run of flags."""
+    edges = np.diff(np.concatenate([[False], flags, [False]]).astype(int))
+    yield from zip(np.flatnonzero(edges > 0), np.flatnonzero(edges < 0) - 1, strict=True)
+
+
+def _from_to(course: CamCourse, low: int, high: int) -> str:
+    """A range of angles in words."""
+    first, last = np.degrees(course.cam_angle[[low, high]])
+    return f"at {first:.4g}°" if low == high else f"from {first:.4g}° to {last:.4g}°"
+
+
+def _jams(course: CamCourse, bearing: Bearing, friction: float, side: Floats, jammed: Flags) -> Iterator[str]:
+    """Where friction locks the follower, and how much smaller the pressure angle must be."""
+    for low, high in _stretches(jammed):
+        gamma = course.pressure_angle[low : high + 1]
+        k = low + int(np.argmax(np.abs(gamma)))
+        limit = _limit(course, bearing, friction, side, k)
+        yield (
+            f"the follower jams {_from_to(course, low, high)}: the pressure angle is "
+            f"{np.degrees(course.pressure_angle[k]):.4g}° at {np.degrees(course.cam_angle[k]):.4g}°, and "
+            f"friction allows {np.degrees(limit):.4g}° there; give a larger base circle, a longer guide, "
+            "less overhang or less friction"
+        )
+
+
+def _limit(course: CamCourse, bearing: Bearing, friction: float, side: Floats, row: int) -> float:
+    """The pressure angle, of the same sign, from which on the follower jams at one row."""
+    low, high = 0.0, 0.5 * math.pi * (1 - 1e-12)
+    sign = math.copysign(1.0, course.pressure_angle[row])
+    if isinstance(bearing, ArmPivot) and np.ndim(bearing.arm):
+        bearing = replace(bearing, arm=np.asarray(bearing.arm)[row])
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        gain = _gain(course, bearing, friction, side, row, sign * middle)
+        low, high = (middle, high) if gain * side[row] > 0 else (low, middle)
+    return sign * low
+
+
+def _gain(
+    course: CamCourse, bearing: Bearing, friction: float, side: Floats, row: int, gamma: float
+) -> float:
+    """What is left along the way of a normal force of one, at one row with another pressure angle."""
+    one = slice(row, row + 1)
+    values = {name: getattr(course, name)[one] for name in CamCourse.__dataclass_fields__}
+    there = CamCourse(**(values | {"pressure_angle": np.array([gamma])}))
+    return float(_held(there, bearing, friction, side[one])[0].gain[0])
+
+
+def _losses(course: CamCourse, force: Floats, lost: Flags) -> Iterator[str]:
+    """Where the closing force does not suffice."""
+    for low, high in _stretches(lost):
+        k = low + int(np.argmin(force[low : high + 1]))
+        yield (
+            f"the follower leaves the cam {_from_to(course, low, high)}: {-force[k]:.4g} more force along "
+            f"its way would hold it at {np.degrees(course.cam_angle[k]):.4g}°"
+        )

@@ -1,0 +1,356 @@
+r"""How the mass of a follower really moves, over a turn, when its train is elastic.
+
+The departure e = x − κs from the place that a slow lift would give obeys, over the cam angle with r = Ω/ω,
+
+.. math:: e'' + 2(\zeta + \zeta_f) r\,e' + r^2 e
+    = -\kappa s'' - 2r\left(\kappa(\zeta + \zeta_f) - \zeta\right) s'
+
+which is solved exactly and closed over the turn. Where the lift's velocity jumps by Δs′, e′ jumps by −κΔs′:
+the cam strikes.
+
+Source: M. P. Koster, *Vibrations of Cam Mechanisms*, Macmillan 1974, chapters 2 and 3; H. Dresig,
+F. Holzweißig, *Maschinendynamik*, Springer, on cam mechanisms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.dynamics.one_mass import OneMass
+from linkwright.cam.dynamics.oscillator import Indices, Oscillation, in_pieces, oscillation, pole
+from linkwright.cam.laws.motion_law import Extreme, MotionLaw, combined
+from linkwright.cam.profile.lift_steps import Ends, steps, without_steps
+from linkwright.kernel.errors import require_within
+from linkwright.kernel.limits import VIBRATIONS
+from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import Column
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import COUNT, SPEED, positive
+
+Floats = NDArray[np.float64]
+
+
+class Impulse(NamedTuple):
+    """A place where the cam strikes, because the velocity of the lift jumps.
+
+    Attributes
+    ----------
+    cam_angle : float
+        Where [rad].
+    velocity_step : float
+        By how much ṡ jumps [m/s].
+    """
+
+    cam_angle: float
+    velocity_step: float
+
+
+@dataclass(frozen=True)
+class FollowerVibration(Result):
+    """Motion of the follower's mass over one turn.
+
+    Attributes
+    ----------
+    cam_angle : ndarray, shape (n + 1,)
+        One turn in even steps [rad].
+    lift : ndarray, shape (n + 1,)
+        s [m].
+    position, velocity, acceleration : ndarray, shape (n + 1,)
+        Of the mass: x, ẋ, ẍ [m, m/s, m/s²].
+    force : ndarray, shape (n + 1,)
+        Of the train on the cam, positive where it presses [N].
+    speed, natural_frequency : float
+        ω of the cam, Ω of the follower [rad/s].
+    vibrations_per_turn : float
+        Ω/ω [–].
+    force_max, force_min : float
+        Over the turn, exact [N].
+    force_max_angle, force_min_angle : float
+        Where [rad].
+    acceleration_max : float
+        Largest size of ẍ, exact [m/s²].
+    departure_max : float
+        Largest size of e = x − κs, exact [m].
+    impulses : tuple of Impulse
+        Where the cam strikes.
+    keeps_contact : bool
+        Whether the train presses all the time; otherwise the follower leaves the cam, and the motion is not
+        what is given here.
+    findings : tuple of str
+        Strikes and loss of contact, in sentences.
+    """
+
+    cam_angle: Floats
+    lift: Floats
+    position: Floats
+    velocity: Floats
+    acceleration: Floats
+    force: Floats
+    speed: float
+    natural_frequency: float
+    vibrations_per_turn: float
+    force_max: float
+    force_min: float
+    force_max_angle: float
+    force_min_angle: float
+    acceleration_max: float
+    departure_max: float
+    impulses: tuple[Impulse, ...]
+    keeps_contact: bool
+    findings: tuple[str, ...]
+
+
+class Train:
+    """A follower train driven by a lift at one speed: the departure, and what follows from it.
+
+    Parameters
+    ----------
+    lift : MotionLaw
+        s over the cam angle [m].
+    model : OneMass
+        The follower.
+    speed : float
+        ω [rad/s].
+    ends : {"turn", "dwell"}
+        Whether the motion repeats, or begins from rest.
+    """
+
+    def __init__(self, lift: MotionLaw, model: OneMass, speed: float, ends: Ends) -> None:
+        self.lift, self.model, self.speed = combined((1.0, lift)), model, speed
+        r, kappa = model.natural_frequency / speed, model.share
+        viscous = -2 * r * (kappa * model.damping_ratio_all - model.damping_ratio)
+        drive = combined((-kappa, self.lift.derivative(2)), (viscous, self.lift.derivative(1)))
+        self.steps = steps(self.lift, 1, ends)
+        mu = pole(r, model.damping_ratio_all)
+        self.departure: Oscillation = oscillation(drive, mu, -kappa * self.steps, periodic=ends == "turn")
+
+    def _lift(self, order: int, step: Indices, phi: Floats) -> Floats:
+        """The lift or a derivative in given steps."""
+        return in_pieces(self.lift.derivative(order), self.departure.pieces[step], phi)
+
+    def motion(self, step: Indices, phi: Floats) -> tuple[Floats, Floats, Floats]:
+        """Place, velocity and acceleration of the mass.
+
+        Parameters
+        ----------
+        step : ndarray of int, shape (m,)
+            Step of the answer in which each angle lies.
+        phi : ndarray, shape (m,)
+            Cam angles [rad].
+
+        Returns
+        -------
+        position, velocity, acceleration : ndarray, shape (m,)
+            x, ẋ, ẍ [m, m/s, m/s²].
+        """
+        parts = self.departure.at(step, phi)
+        x, v, a = (self.model.share * self._lift(k, step, phi) + part for k, part in enumerate(parts))
+        return x, v * self.speed, a * self.speed**2
+
+    def force(self, step: Indices, phi: Floats) -> Floats:
+        """Force of the train on the cam.
+
+        Parameters
+        ----------
+        step : ndarray of int, shape (m,)
+            Step of the answer in which each angle lies.
+        phi : ndarray, shape (m,)
+            Cam angles [rad].
+
+        Returns
+        -------
+        ndarray, shape (m,)
+            F [N].
+        """
+        return self._force(step, phi, 0) + self.model.preload
+
+    def force_slope(self, step: Indices, phi: Floats) -> Floats:
+        """Derivative of the force by the cam angle.
+
+        Parameters
+        ----------
+        step : ndarray of int, shape (m,)
+            Step of the answer in which each angle lies.
+        phi : ndarray, shape (m,)
+            Cam angles [rad].
+
+        Returns
+        -------
+        ndarray, shape (m,)
+            dF/dφ [N/rad].
+        """
+        return self._force(step, phi, 1)
+
+    def _force(self, step: Indices, phi: Floats, order: int) -> Floats:
+        """k(s − x) + cω(s′ − x′), or its derivative."""
+        model, parts = self.model, self.departure.at(step, phi)
+        gap, gap_d1 = (
+            (1 - model.share) * self._lift(order + k, step, phi) - parts[order + k] for k in range(2)
+        )
+        found: Floats = model.stiffness * gap + model.damping * self.speed * gap_d1
+        return found
+
+    def departure_extremes(self) -> tuple[Extreme, Extreme]:
+        """Least and greatest departure e [m]."""
+        return self.departure.extremes(
+            lambda *at: self.departure.at(*at)[0], lambda *at: self.departure.at(*at)[1]
+        )
+
+    def acceleration_extremes(self) -> tuple[Extreme, Extreme]:
+        """Least and greatest acceleration of the mass [m/s²]."""
+        return self.departure.extremes(lambda *at: self.motion(*at)[2], self._jerk)
+
+    def _jerk(self, step: Indices, phi: Floats) -> Floats:
+        """Derivative of ẍ by the cam angle, from the equation of motion."""
+        model, (_, v, a) = self.model, self.motion(step, phi)
+        frame = 2 * model.damping_ratio_frame * model.natural_frequency
+        pulls: Floats = self._force(step, phi, 1) / model.mass
+        return pulls - (frame * a + model.spring_rate / model.mass * v) / self.speed
+
+    def impulses(self) -> tuple[Impulse, ...]:
+        """Where the cam strikes."""
+        where = np.flatnonzero(self.steps)
+        return tuple(Impulse(self.lift.breaks[k], float(self.steps[k] * self.speed)) for k in where)
+
+
+@public
+def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 720) -> FollowerVibration:
+    """Periodic motion of the follower's mass at a constant speed of the cam.
+
+    Parameters
+    ----------
+    lift : MotionLaw
+        s over one turn [m over rad].
+    model : OneMass
+        The follower.
+    speed : float
+        ω [rad/s].
+    n : int
+        Steps of the turn in the arrays; greatest and least values do not depend on it.
+
+    Returns
+    -------
+    FollowerVibration
+        The motion.
+
+    Raises
+    ------
+    InputError
+        The lift jumps, or is not one turn long; or the follower vibrates too often in a turn.
+    FindingError
+        Undamped and at resonance.
+    """
+    in_range(speed=(speed, positive(SPEED)), n=(n, positive(COUNT)))
+    without_steps(lift, "turn")
+    remedy = "lower the stiffness of its train, or turn the cam faster"
+    require_within(VIBRATIONS, model.natural_frequency / speed, "follower", remedy)
+    train = Train(lift, model, speed, "turn")
+    phi = np.linspace(lift.start, lift.end, n + 1)
+    step = train.departure.find(phi)
+    x, v, a = train.motion(step, phi)
+    low, high = train.departure.extremes(train.force, train.force_slope)
+    impulses = train.impulses()
+    return FollowerVibration(
+        cam_angle=phi,
+        lift=train.lift.at(phi),
+        position=x,
+        velocity=v,
+        acceleration=a,
+        force=train.force(step, phi),
+        speed=speed,
+        natural_frequency=model.natural_frequency,
+        vibrations_per_turn=model.natural_frequency / speed,
+        force_max=high.value,
+        force_min=low.value,
+        force_max_angle=high.at,
+        force_min_angle=low.at,
+        acceleration_max=_size(train.acceleration_extremes()),
+        departure_max=_size(train.departure_extremes()),
+        impulses=impulses,
+        keeps_contact=low.value > 0,
+        findings=_findings(impulses, low),
+    )
+
+
+def _size(extremes: tuple[Extreme, Extreme]) -> float:
+    """The larger size of least and greatest."""
+    return max(abs(each.value) for each in extremes)
+
+
+def _findings(impulses: tuple[Impulse, ...], low: Extreme) -> tuple[str, ...]:
+    """What a designer must know."""
+    found = [
+        f"the velocity of the lift jumps by {each.velocity_step:.4g} m/s at "
+        f"{np.degrees(each.cam_angle):.4g}°: the cam strikes"
+        for each in impulses
+    ]
+    if low.value <= 0:
+        found.append(
+            f"the train would have to pull with {-low.value:.4g} N at {np.degrees(low.at):.4g}°: the "
+            f"follower leaves the cam there; {-low.value:.4g} N more preload would hold it"
+        )
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class VibrationSweep(Result):
+    """Largest values of the periodic motion over the speed.
+
+    Attributes
+    ----------
+    speed : ndarray, shape (n,)
+        ω [rad/s].
+    force_max, force_min : ndarray, shape (n,)
+        Of the train on the cam [N].
+    acceleration_max : ndarray, shape (n,)
+        Of the mass [m/s²].
+    departure_max : ndarray, shape (n,)
+        Of e = x − κs [m].
+    keeps_contact : ndarray of bool, shape (n,)
+        Whether the train presses all the time.
+    """
+
+    speed: Floats
+    force_max: Floats
+    force_min: Floats
+    acceleration_max: Floats
+    departure_max: Floats
+    keeps_contact: NDArray[np.bool_]
+
+
+@public
+def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: Column) -> VibrationSweep:
+    """Largest values of the periodic motion at many speeds.
+
+    Parameters
+    ----------
+    lift : MotionLaw
+        s over one turn [m over rad].
+    model : OneMass
+        The follower.
+    speeds : array_like, shape (n,)
+        ω [rad/s].
+
+    Returns
+    -------
+    VibrationSweep
+        Over the speed.
+
+    Raises
+    ------
+    InputError
+        The lift jumps, or is not one turn long.
+    FindingError
+        Undamped and at resonance.
+    """
+    in_range(speeds=(speeds, positive(SPEED)))
+    speed = np.atleast_1d(np.asarray(speeds, dtype=float))
+    found = [follower_vibration(lift, model, float(omega), n=1) for omega in speed]
+    names = ("force_max", "force_min", "acceleration_max", "departure_max")
+    high, low, acceleration, departure = (np.array([getattr(each, name) for each in found]) for name in names)
+    return VibrationSweep(speed, high, low, acceleration, departure, low > 0)

@@ -1,0 +1,291 @@
+r"""A cam under the loads of its machine: what presses where, how hard the surfaces are loaded, when contact
+is lost.
+
+The normal force N comes from the equilibrium of the whole machine (`linkwright.kinetostatics.forces`), with all
+bodies, loads and guides. Where it is negative the first contact would have to pull: a second follower, a
+second cam or the outer flank of a groove takes over; a follower that only a spring closes leaves the cam.
+
+With dampers that resist in proportion to the speed, and inertia that goes with its square, the follower
+leaves the cam at
+
+.. math:: \omega_\mathrm{off} = \min_\varphi\{\omega > 0 : N_0 + N_1\omega + N_2\omega^2 = 0\}, \qquad
+    N_1 = 0: \ \omega_\mathrm{off} = \min_{N_2 < 0}\sqrt{N_0/(-N_2)}
+
+Loads that depend on the speed in another way count as this parabola through their values at 1, 2 and 3 rad/s.
+
+References
+----------
+.. [1] Norton, Cam Design and Manufacturing Handbook, 2nd ed., chapters 8 and 12.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.core import Extreme
+from linkwright.cam.dynamics.hertz import LineContact, Material, line_contact
+from linkwright.cam.dynamics.lift_off import speed_of_loss
+from linkwright.cam.profile.profile import CamProfile, Flank
+from linkwright.drive.steady_state import steady_state
+from linkwright.kernel.errors import FindingError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import SPEED, positive
+from linkwright.kinetostatics.forces import forces
+from linkwright.kinetostatics.result import Forces
+from linkwright.machine.machine import Machine
+
+Floats = NDArray[np.float64]
+
+# A force below this share of the largest is none: rounding must not decide which side carries.
+_NOTHING = 1e-9
+
+# Rounding of a force that is a difference of forces of this share.
+_ROUNDING = 1e-12
+
+# Distance from a joint at which its two sides are looked at [rad].
+_BESIDE = 1e-9
+
+# Relative accuracy of the steady speed.
+_ACCURACY = 1e-10
+
+# Looks at the neighbourhood of an extreme, and places each time: the angle gets good to a millionth of a
+# radian, and the value, flat there, to rounding.
+_LOOKS, _CLOSER = 3, 41
+
+
+@dataclass(frozen=True)
+class LoadedCam(Result):
+    """A cam under load over the crank angle.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n,)
+        [rad].
+    force : ndarray, shape (n,)
+        Normal force; negative where the second contact, or the outer flank, carries [N].
+    pressure_angle : ndarray, shape (n,)
+        Of the first contact [rad].
+    name : str
+        The cam's.
+    force_max, force_max_angle : float
+        Greatest, with its sign [N], and the crank angle there [rad].
+    force_min, force_min_angle : float
+        Least, with its sign [N], and the crank angle there [rad].
+    speed : float
+        Mean speed of the motion [rad/s].
+    side_changes : int
+        How often in these angles, gone round, the force changes from one side to the other.
+    speed_lost : float
+        Crank speed at which a follower closed by a spring leaves the cam [rad/s]; None if it never does, or
+        if something else closes it.
+    speed_lost_angle : float
+        Crank angle there [rad].
+    pressure_max, pressure_max_angle : float
+        Largest pressure by Hertz [Pa], and the crank angle there [rad]; None without width, or for an edge.
+    shear_max, shear_depth : float
+        Largest shear stress below the surface [Pa], and its depth there [m].
+    pressure : ndarray, shape (n,), or None
+        Pressure over the crank angle [Pa].
+    findings : tuple of str
+        Contact that is lost, a roller that does not fit, angles at which there are no forces, in sentences.
+    """
+
+    crank_angle: Floats
+    force: Floats
+    pressure_angle: Floats
+    name: str
+    force_max: float
+    force_max_angle: float
+    force_min: float
+    force_min_angle: float
+    speed: float
+    side_changes: int
+    speed_lost: float | None
+    speed_lost_angle: float | None
+    pressure_max: float | None
+    pressure_max_angle: float | None
+    shear_max: float | None
+    shear_depth: float | None
+    pressure: Floats | None
+    findings: tuple[str, ...] = ()
+
+    @property
+    def force_size(self) -> float:
+        """Largest normal force in size [N]."""
+        return max(abs(self.force_max), abs(self.force_min))
+
+
+@public
+def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None) -> LoadedCam:
+    """A cam under the loads of its machine.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine, with bodies and loads.
+    profile : CamProfile
+        One of its cams.
+    speed : float, optional
+        Of the crankshaft, the same at all angles [rad/s]; without it, the steady motion of the motor, or the
+        design speed where there is none.
+
+    Returns
+    -------
+    LoadedCam
+        Over a turn, at the angles of the profile: each joint of the law from before and from after.
+
+    Raises
+    ------
+    InputError
+        Nothing says at which speed the machine runs, or the speed is none.
+    FindingError
+        The machine has no motion.
+    """
+    in_range(speed=(speed, positive(SPEED)))
+    cam = profile.cam
+    pressed = partial(_pressed, machine, speed)
+    angles = _angles(profile)
+    found = pressed(angles)
+    force = found.drives[profile.name]
+    rows = [flank.contact.kernel.rows(np.mod(angles - cam.phase, 2 * np.pi)) for flank in profile.flanks]
+    greatest = _largest(lambda phi: pressed(phi).drives[profile.name], angles, force)
+    least = _largest(lambda phi: -pressed(phi).drives[profile.name], angles, -force)
+    lost = _speed_lost(machine, profile, angles) if cam.closure == "spring" else None
+    hertz, misfit = _hertz(profile, rows, force)
+    hardest = int(np.argmax(hertz.pressure)) if hertz else 0
+    size = float(np.nanmax(np.abs(force)))
+    carrying = force[np.abs(force) > _NOTHING * size]
+    return LoadedCam(
+        angles,
+        force,
+        rows[0]["pressure_angle"],
+        profile.name,
+        greatest.value,
+        greatest.angle,
+        -least.value,
+        least.angle,
+        found.motion.mean(found.speed),
+        int(np.count_nonzero(np.diff(np.sign([*carrying[-1:], *carrying])))),
+        lost[0] if lost else None,
+        lost[1] if lost else None,
+        float(hertz.pressure[hardest]) if hertz else None,
+        float(angles[hardest]) if hertz else None,
+        float(hertz.shear[hardest]) if hertz else None,
+        float(hertz.shear_depth[hardest]) if hertz else None,
+        hertz.pressure if hertz else None,
+        (*misfit, *_left(profile, -least.value, least.angle, size, found), *found.findings),
+    )
+
+
+def _angles(profile: CamProfile) -> Floats:
+    """Crank angles of the profile within a turn, increasing; joints from before and from after."""
+    cam_angles = profile.angle.copy()
+    twice = np.flatnonzero(np.diff(cam_angles) == 0)
+    cam_angles[twice] -= _BESIDE
+    cam_angles[twice + 1] += _BESIDE
+    cam_angles[0] += _BESIDE
+    cam_angles[-1] -= _BESIDE
+    found: Floats = np.sort(np.mod(cam_angles + profile.cam.phase, 2 * np.pi))
+    return found
+
+
+def _pressed(machine: Machine, speed: float | None, angles: Floats) -> Forces:
+    """Forces at crank angles of one turn, in steady motion or at a speed."""
+    drive = machine.drive
+    if speed is None and drive is not None and drive.motor is not None:
+        return forces(machine, steady_state(machine, accuracy=_ACCURACY, angles=angles))
+    return forces(machine, speed=speed, angles=angles)
+
+
+def _largest(function: Callable[[Floats], Floats], angles: Floats, values: Floats) -> Extreme:
+    """The largest value of a function sampled at angles, looked at closer and closer about its place."""
+    i = int(np.nanargmax(values))
+    best = Extreme(float(angles[i]), float(values[i]))
+    low, high = (float(angles[min(max(k, 0), len(angles) - 1)]) for k in (i - 1, i + 1))
+    for _ in range(_LOOKS):
+        places = np.linspace(low, high, _CLOSER)
+        here = function(places)
+        k = int(np.nanargmax(here))
+        if here[k] > best.value:
+            best = Extreme(float(places[k]), float(here[k]))
+        low, high = (float(places[min(max(m, 0), len(places) - 1)]) for m in (k - 1, k + 1))
+    return best
+
+
+def _left(profile: CamProfile, least: float, at: float, size: float, found: Forces) -> tuple[str, ...]:
+    """A follower that nothing keeps on its cam."""
+    if profile.cam.closure != "spring" or least >= -_NOTHING * size:
+        return ()
+    return (
+        f"the follower leaves cam {profile.name}: at a crank angle of {np.degrees(at):.4g}° and "
+        f"{abs(float(np.nanmax(found.speed))):.4g} rad/s it would have to be pulled with {-least:.4g} N; "
+        "a spring that presses with so much more there, a lower speed, or a groove keeps it on the cam",
+    )
+
+
+def _speed_lost(machine: Machine, profile: CamProfile, angles: Floats) -> tuple[float, float] | None:
+    """Speed at which contact is lost, and the crank angle; None if it never is."""
+    speeds = partial(_speeds_lost, machine, profile.name)
+    sampled = speeds(angles)
+    if not np.isfinite(sampled).any():
+        return None
+    least = _largest(lambda phi: -speeds(phi), angles, -sampled)
+    return -least.value, least.angle
+
+
+def _speeds_lost(machine: Machine, name: str, angles: Floats) -> Floats:
+    """ω at which contact is lost at each angle, from forces at three speeds; else infinite."""
+    one, two, three = (forces(machine, speed=speed, angles=angles).drives[name] for speed in (1.0, 2.0, 3.0))
+    square = 0.5 * (three - 2 * two + one)
+    linear = two - one - 3 * square
+    still = one - linear - square
+    size = float(np.abs(three).max())
+    least = max(_NOTHING * float(np.abs(square).max()), _ROUNDING * size)
+    losing = (square < -least) | (linear < -_NOTHING * size)
+    speeds = np.where(still > 0, speed_of_loss(still, linear, square), 0.0)
+    return np.where(losing, speeds, np.inf)
+
+
+def _hertz(
+    profile: CamProfile, rows: list[dict[str, Floats]], force: Floats
+) -> tuple[LineContact | None, tuple[str, ...]]:
+    """Pressure at the contact that carries, and what does not fit; None without a width or for an edge."""
+    cam = profile.cam
+    if cam.width is None or cam.contact == "point":
+        return None, ()
+    material = Material(cam.elastic_modulus, cam.poisson_ratio)
+    first = profile.flanks[0]
+    pulled = _outer(first, rows[0]) if len(rows) == 1 else _inner(profile.flanks[1], rows[1])
+    pushed = _inner(first, rows[0])
+    carried = np.abs(force) if cam.closure != "spring" else np.maximum(force, 0.0)
+    # A follower that only a spring closes has no other side that could carry.
+    pushes = (force >= 0) | (cam.closure == "spring")
+    radius, roller = (np.where(pushes, a, b) for a, b in zip(pushed, pulled, strict=True))
+    try:
+        return line_contact(carried, radius, roller, cam.width, material, material), ()
+    except FindingError as error:
+        return None, (f"cam {profile.name}: {error}",)
+
+
+def _inner(flank: Flank, rows: dict[str, Floats]) -> tuple[Floats, Floats]:
+    """Radii of curvature of profile and follower."""
+    bend = rows["bend"]
+    if not flank.contact.kernel.is_roller:
+        return bend, np.full_like(bend, np.inf)
+    roller = flank.contact.sizes.roller_radius
+    with np.errstate(divide="ignore"):
+        return 1.0 / bend - roller, np.full_like(bend, roller)
+
+
+def _outer(flank: Flank, rows: dict[str, Floats]) -> tuple[Floats, Floats]:
+    """The same at the outer flank of a groove, which is hollow where the pitch curve is convex."""
+    roller = flank.contact.sizes.roller_radius
+    with np.errstate(divide="ignore"):
+        return -(1.0 / rows["bend"] + roller), np.full_like(rows["bend"], roller)

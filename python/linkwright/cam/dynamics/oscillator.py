@@ -1,0 +1,285 @@
+r"""An oscillator driven by a law in pieces, exact to rounding.
+
+.. math:: z'' + 2\zeta r z' + r^2 z = g
+
+is a single complex equation of first order, with the pole μ = r(−ζ + i√(1−ζ²)) and q = z′ − μ̄z:
+
+.. math:: q' = \mu q + g, \qquad
+    q(x + \Delta) = e^{\mu\Delta} q(x) + \int_0^\Delta e^{\mu(\Delta - t)} g(x + t)\,dt
+
+A step never passes a break of the law, and turns the pole by two radians at most: the integral is
+Gauss–Legendre's with so many nodes that nothing but rounding is left of its error.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.laws.motion_law import Extreme, MotionLaw
+from linkwright.kernel.errors import FindingError
+from linkwright.kernel.numerics import roots
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Indices = NDArray[np.intp]
+Value = Callable[[Indices, Floats], Floats]
+
+# Rotation of the pole over one step [rad].
+_TURN = 2.0
+
+# Nodes for an integrand exp(t), |t| ≤ 2 over the step: what a rule of n nodes leaves over falls like 1/(2n)!,
+# below rounding from 10 nodes on; two are spare.
+_NODES = 12
+
+# Samples a step, in which extremes are looked for: 6 a radian of the oscillation at least.
+_SAMPLES = 12
+
+# Distance of e^{μL} from 1 below which the answer over a turn is rounding.
+_RESONANCE = 1e-10
+
+
+def pole(ratio: float, damping_ratio: float) -> complex:
+    """μ = r(−ζ + i√(1−ζ²)).
+
+    Parameters
+    ----------
+    ratio : float
+        r, natural frequency over the speed of the argument.
+    damping_ratio : float
+        ζ, less than 1.
+    """
+    return ratio * complex(-damping_ratio, math.sqrt(1 - damping_ratio**2))
+
+
+def nodes_for(law: MotionLaw, turn: float) -> tuple[Floats, Floats, Floats, Indices]:
+    """Steps of a law, and nodes and weights for each of them.
+
+    Parameters
+    ----------
+    law : MotionLaw
+        What is integrated with the exponential.
+    turn : float
+        Rotation of the exponential over the whole law [rad].
+
+    Returns
+    -------
+    starts : ndarray, shape (n + 1,)
+        Ends of the steps.
+    nodes, weights : ndarray, shape (k,)
+        Over a step from 0 to 1.
+    pieces : ndarray of int, shape (n,)
+        Piece that each step is in.
+    """
+    starts: list[float] = []
+    pieces: list[int] = []
+    waves = 0.0
+    for i, (low, high, piece) in enumerate(zip(law.breaks, law.breaks[1:], law.pieces, strict=False)):
+        n = max(1, math.ceil(turn * (high - low) / law.length / _TURN), math.ceil(piece.waves / _TURN))
+        starts += np.linspace(low, high, n, endpoint=False).tolist()
+        pieces += [i] * n
+        waves = max(waves, piece.waves / n)
+    degree = max(len(piece.polynomial) for piece in law.pieces)
+    x, w = np.polynomial.legendre.leggauss(_NODES + degree // 2 + math.ceil(waves))
+    return np.array([*starts, law.end]), 0.5 * (x + 1), 0.5 * w, np.array(pieces)
+
+
+def in_pieces(law: MotionLaw, pieces: Indices, x: Floats) -> Floats:
+    """Values of a law where the piece that counts is given.
+
+    Parameters
+    ----------
+    law : MotionLaw
+        The law.
+    pieces : ndarray of int, shape (n,)
+        Piece for each row of x.
+    x : ndarray, shape (n,) or (n, k)
+        Where.
+
+    Returns
+    -------
+    ndarray, shape (n,) or (n, k)
+        The values.
+    """
+    value = np.zeros_like(x)
+    for i in np.unique(pieces):
+        here = pieces == i
+        low, high = law.breaks[i], law.breaks[i + 1]
+        value[here] = law.pieces[i].at((x[here] - low) / (high - low))
+    return value
+
+
+@dataclass(frozen=True)
+class Oscillation:
+    """The answer of an oscillator.
+
+    Attributes
+    ----------
+    drive : MotionLaw
+        g.
+    pole : complex
+        μ.
+    starts : ndarray, shape (n + 1,)
+        Ends of the steps.
+    pieces : ndarray of int, shape (n,)
+        Piece of the law that each step is in.
+    states : ndarray of complex, shape (n,)
+        q at the start of each step, after what jumps there.
+    final : complex
+        q at the end, after what jumps there.
+    nodes, weights : ndarray, shape (k,)
+        Over a step from 0 to 1.
+    """
+
+    drive: MotionLaw
+    pole: complex
+    starts: Floats
+    pieces: Indices
+    states: Complexes
+    final: complex
+    nodes: Floats
+    weights: Floats
+
+    def at(self, steps: Indices, x: Floats) -> tuple[Floats, Floats, Floats]:
+        """z, z′ and z″ inside given steps.
+
+        Parameters
+        ----------
+        steps : ndarray of int, shape (m,)
+            Number of the step for each place.
+        x : ndarray, shape (m,)
+            Places.
+
+        Returns
+        -------
+        z, z_d1, z_d2 : ndarray, shape (m,)
+            The answer and its derivatives.
+        """
+        pieces = self.pieces[steps]
+        length = x - self.starts[steps]
+        inner = _integral(self.drive, self.pole, pieces, self.starts[steps], length, self.nodes, self.weights)
+        q = np.exp(self.pole * length) * self.states[steps] + inner
+        z = q.imag / self.pole.imag
+        z_d1 = q.real + self.pole.real * z
+        return z, z_d1, in_pieces(self.drive, pieces, x) + 2 * self.pole.real * z_d1 - abs(self.pole) ** 2 * z
+
+    def find(self, x: Floats) -> Indices:
+        """The steps in which places lie; at a break the one after it.
+
+        Parameters
+        ----------
+        x : ndarray, shape (m,)
+            Places inside the law.
+
+        Returns
+        -------
+        ndarray of int, shape (m,)
+            Numbers of the steps.
+        """
+        found = np.searchsorted(self.starts, x, side="right") - 1
+        return np.asarray(np.clip(found, 0, len(self.pieces) - 1))
+
+    def extremes(self, value: Value, slope: Value) -> tuple[Extreme, Extreme]:
+        """Least and greatest of a quantity that is smooth inside the steps.
+
+        Parameters
+        ----------
+        value, slope : callable
+            The quantity and its derivative, from numbers of steps and places, both of shape (m,).
+
+        Returns
+        -------
+        tuple of Extreme
+            Least and greatest.
+        """
+        share = np.linspace(0, 1, _SAMPLES + 1)
+        x = self.starts[:-1, None] + share * np.diff(self.starts)[:, None]
+        step = np.broadcast_to(np.arange(len(x))[:, None], x.shape)
+        slopes = slope(step.ravel(), x.ravel()).reshape(x.shape)
+        row, column = roots.brackets(slopes)
+        inner = np.zeros(0)
+        if len(row):
+            inner, _ = roots.zeros(lambda places: slope(row, places), x[row, column], x[row, column + 1])
+        places = np.concatenate([x[:, 0], x[:, -1], inner])
+        steps = np.concatenate([step[:, 0], step[:, 0], row])
+        found = value(steps, places)
+        least, most = int(np.argmin(found)), int(np.argmax(found))
+        sides = ["after"] * len(x) + ["before"] * len(x) + ["after"] * len(inner)
+        low, high = (Extreme(float(places[k]), float(found[k]), sides[k]) for k in (least, most))  # type: ignore[arg-type]
+        return low, high
+
+
+def oscillation(drive: MotionLaw, pole: complex, kicks: Floats, *, periodic: bool) -> Oscillation:
+    """Answer of an oscillator that is at rest beforehand, or that moves periodically.
+
+    Parameters
+    ----------
+    drive : MotionLaw
+        g.
+    pole : complex
+        μ.
+    kicks : ndarray, shape (pieces + 1,)
+        By how much z′ jumps at each break.
+    periodic : bool
+        Whether the motion repeats after the law; a kick at its start then counts, one at its end too.
+
+    Returns
+    -------
+    Oscillation
+        The answer.
+
+    Raises
+    ------
+    FindingError
+        Periodic, undamped, and driven at resonance.
+    """
+    starts, nodes, weights, pieces = nodes_for(drive, abs(pole) * drive.length)
+    lengths = np.diff(starts)
+    inner = _integral(drive, pole, pieces, starts[:-1], lengths, nodes, weights)
+    first = np.flatnonzero(np.diff(pieces, prepend=-1))
+    kick = np.zeros(len(pieces))
+    kick[first] = kicks[:-1]
+    states, final = _run(0j, np.exp(pole * lengths), inner, kick)
+    final += kicks[-1]
+    if periodic:
+        back = 1 - np.exp(pole * drive.length)
+        if abs(back) < _RESONANCE:
+            order = round(pole.imag * drive.length / (2 * math.pi))
+            raise FindingError(
+                f"the follower train has {order} free vibrations in a turn and no damping: it is at "
+                "resonance; give a damping ratio or another speed"
+            )
+        # What is there at the end is there again at the start.
+        states = states + final / back * np.exp(pole * (starts[:-1] - starts[0]))
+        final = final / back
+    return Oscillation(drive, pole, starts, pieces, states, complex(final), nodes, weights)
+
+
+def _integral(
+    drive: MotionLaw,
+    pole: complex,
+    pieces: Indices,
+    low: Floats,
+    length: Floats,
+    nodes: Floats,
+    weights: Floats,
+) -> Complexes:
+    """∫ exp(μ(Δ − t)) g(x + t) dt over stretches inside pieces."""
+    g = in_pieces(drive, pieces, low[:, None] + length[:, None] * nodes)
+    rotation = np.exp(pole * length[:, None] * (1 - nodes))
+    found: Complexes = length * ((g * rotation) @ weights)
+    return found
+
+
+def _run(start: complex, growth: Complexes, inner: Complexes, kick: Floats) -> tuple[Complexes, complex]:
+    """States after the kicks at the starts of all steps, and the one at the end."""
+    states = np.empty(len(growth), dtype=complex)
+    q = start
+    for i, (g, f, v) in enumerate(zip(growth.tolist(), inner.tolist(), kick.tolist(), strict=True)):
+        states[i] = q + v
+        q = g * (q + v) + f
+    return states, q

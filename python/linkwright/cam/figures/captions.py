@@ -1,0 +1,111 @@
+"""The figures of cams with their captions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from linkwright.app.study import Study
+from linkwright.cam.figures.cam import (
+    cam_figure,
+    cam_force_figure,
+    curvature_figure,
+    lift_figure,
+    pressure_angle_figure,
+)
+from linkwright.cam.profile.profile import CamProfile
+from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.page.quantities import degrees, number
+
+
+def cam_figures(study: Study) -> Iterator[Captioned]:
+    """The figures of all cams.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Yields
+    ------
+    Captioned
+        Nothing without a cam.
+    """
+    loaded = {each.name: each for each in study.loaded_cams}
+    for profile in study.cams:
+        name = profile.name
+        yield Captioned(f"cam_{name}", f"Cam {name}", _cam_words(profile), cam_figure(profile))
+        yield Captioned(
+            f"cam_{name}_lift", f"Motion by cam {name}", _lift_words(profile), lift_figure(profile)
+        )
+        words = (
+            f"The pressure angle is {degrees(profile.pressure_angle_max)} at most; "
+            f"{degrees(profile.cam.limit)} are allowed. Dotted: where sections meet."
+        )
+        figure = pressure_angle_figure(profile)
+        yield Captioned(f"cam_{name}_pressure_angle", f"Pressure angle of cam {name}", words, figure)
+        figure, words = curvature_figure(profile), _curvature_words(profile)
+        yield Captioned(f"cam_{name}_curvature", f"Curvature of cam {name}", words, figure)
+        if name in loaded:
+            words = f"The contact bears up to {number(loaded[name].force_size)} N."
+            if loaded[name].side_changes:
+                words += " Where the force is negative, the other side carries."
+            figure = cam_force_figure(loaded[name])
+            yield Captioned(f"cam_{name}_force", f"Contact force of cam {name}", words, figure)
+
+
+def _cam_words(profile: CamProfile) -> str:
+    """What is drawn, and its circles."""
+    words = "As it stands where the programme begins, seen along the line to its follower's guide or pivot. "
+    words += f"Base circle {_mm(profile.base_radius)}"
+    if profile.prime_radius > profile.base_radius:
+        words += f", prime circle {_mm(profile.prime_radius)}"
+    if profile.diameter_min is not None and profile.diameter_max is not None:
+        words += f"; its diameter lies between {_mm(profile.diameter_min)} and {_mm(profile.diameter_max)}"
+    return words + "."
+
+
+def _lift_words(profile: CamProfile) -> str:
+    """How far it goes, and what jumps where."""
+    swings = profile.cam.is_oscillating
+    reach = degrees(profile.stroke) if swings else _mm(profile.stroke)
+    names = ("lift", "velocity", "acceleration", "jerk")
+    jumps = {
+        name: [
+            joint.angle
+            for joint in profile.cam.programme.joints
+            if order < len(joint.jumps) and joint.order == order - 1
+        ]
+        for order, name in enumerate(names)
+    }
+    told = [
+        f"the {name} jumps at {', '.join(degrees(angle) for angle in angles)}"
+        for name, angles in jumps.items()
+        if angles
+    ]
+    verb = "swings" if swings else "rises"
+    return f"The follower {verb} by {reach}; derivatives are by the cam angle. " + (
+        f"Where sections meet (dotted), {'; '.join(told)}." if told else "Nothing jumps up to the jerk."
+    )
+
+
+def _curvature_words(profile: CamProfile) -> str:
+    """Least radii of convex and concave parts."""
+    parts = [
+        f"{word} parts {_mm(value)}"
+        for word, value in (
+            ("convex", profile.curvature_radius_convex_min),
+            ("concave", profile.curvature_radius_concave_min),
+        )
+        if value is not None and math.isfinite(value)
+    ]
+    words = f"Least radius of curvature of the profile: {', '.join(parts)}. Positive where convex."
+    if profile.cam.curvature_limit is not None:
+        words += f" Allowed are convex radii from {_mm(profile.cam.curvature_limit)} on."
+    if profile.cam.cutter_radius is not None:
+        words += f" The cutter has a radius of {_mm(profile.cam.cutter_radius)}."
+    return words
+
+
+def _mm(value: float) -> str:
+    return f"{number(1e3 * value)} mm"

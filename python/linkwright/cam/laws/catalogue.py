@@ -1,0 +1,165 @@
+"""The catalogue of motion laws: each described once, for the machine file, the command line and the pages.
+
+A law without parameters of its own is here in full; a law with some has them as arguments of ``law``, with
+their usual values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+from linkwright.cam.laws import sine_series
+from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.harmonic import double_harmonic, harmonic
+from linkwright.cam.laws.least_peak import minimum_acceleration, minimum_jerk
+from linkwright.cam.laws.modified_sine import modified_sine
+from linkwright.cam.laws.modified_trapezoid import modified_trapezoid
+from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam.laws.optimal import optimal_section
+from linkwright.cam.laws.parabolic import constant_velocity, parabolic
+from linkwright.cam.laws.polynomial import polynomial_3_4_5, polynomial_4_5_6_7
+from linkwright.cam.laws.shapes import by_conditions, straight, suited
+from linkwright.cam.laws.start_and_stop import s_curve, start_and_stop, trapezoidal_velocity
+
+REST_TO_REST = Boundary(1.0)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A law of the catalogue.
+
+    Attributes
+    ----------
+    words : str
+        What it is, on one line.
+    source : str
+        Where it is from.
+    law : callable or None
+        Gives f(z) from 0 to 1 of the parameters; None if the law is made of its task.
+    of_task : callable or None
+        Gives x(z) of a section of the task and the parameters; None if it follows from f.
+    parameters : dict
+        Usual values of the parameters.
+    """
+
+    words: str
+    source: str
+    law: Callable[..., MotionLaw] | None = None
+    of_task: Callable[..., MotionLaw] | None = None
+    parameters: dict[str, Any] = field(default_factory=dict)
+
+    def normalised(self, **parameters: Any) -> MotionLaw:
+        """f(z) from rest to rest, z and f from 0 to 1.
+
+        Parameters
+        ----------
+        **parameters
+            Of the law; those that are missing have their usual values.
+
+        Returns
+        -------
+        MotionLaw
+            From 0 to 1.
+        """
+        if self.law is not None:
+            return self.law(**self.parameters | parameters)
+        return self.section(REST_TO_REST, **parameters)
+
+    def section(self, task: Boundary, **parameters: Any) -> MotionLaw:
+        """The law of a section with any boundary values.
+
+        Parameters
+        ----------
+        task : Boundary
+            What the section has to do.
+        **parameters
+            Of the law; those that are missing have their usual values.
+
+        Returns
+        -------
+        MotionLaw
+            x(z) from 0 to 1, beginning with 0.
+
+        Raises
+        ------
+        LawError
+            The law cannot meet these boundary values.
+        """
+        if self.of_task is not None:
+            return self.of_task(task, **self.parameters | parameters)
+        return suited(self.normalised(**parameters), task)
+
+
+_HANDBOOK = "Rothbart (ed.), Cam Design Handbook (2004)"
+_VDI = "VDI 2143 Blatt 1 (1980)"
+_SHARE = {"share": 1 / 8}
+_SIXTHS = {"start": 1 / 6, "stop": 1 / 6}
+_THIRDS = {"start": 1 / 3, "stop": 1 / 3}
+
+# In the order of the tables: from the simple ones on, then by boundary values, then with constant velocity.
+LAWS: dict[str, Entry] = {
+    "constant_velocity": Entry("straight line", _VDI, constant_velocity, straight),
+    "parabolic": Entry("constant acceleration, then as much deceleration", _VDI, parabolic),
+    "harmonic": Entry("one cosine, the motion of a Scotch yoke", _VDI, harmonic),
+    "double_harmonic": Entry("two cosines, soft at its start only", _HANDBOOK, double_harmonic),
+    "cycloidal": Entry("acceleration of one sine (Bestehorn)", _VDI, sine_series.cycloidal),
+    "modified_trapezoid": Entry(
+        "constant acceleration with ramps of quarter sines", _VDI, modified_trapezoid, parameters=_SHARE
+    ),
+    "modified_sine": Entry(
+        "slow cosine between two quick quarter sines", _VDI, modified_sine, parameters=_SHARE
+    ),
+    "gutman_1_3": Entry(
+        "harmonics 1 and 3 of the parabola", "Gutman (1961), by " + _HANDBOOK, sine_series.gutman_1_3
+    ),
+    "freudenstein_1_3": Entry(
+        "sines 1 and 3, small peak of acceleration",
+        "Freudenstein (1960), by " + _HANDBOOK,
+        sine_series.freudenstein_1_3,
+    ),
+    "freudenstein_1_3_5": Entry(
+        "sines 1, 3 and 5, small peak of acceleration",
+        "Freudenstein (1960), by " + _HANDBOOK,
+        sine_series.freudenstein_1_3_5,
+    ),
+    "polynomial_3_4_5": Entry("velocity and acceleration by task", _VDI, polynomial_3_4_5, by_conditions),
+    "polynomial_4_5_6_7": Entry(
+        "jerk zero at the ends too",
+        _HANDBOOK,
+        polynomial_4_5_6_7,
+        partial(by_conditions, continuity_start=3, continuity_end=3),
+    ),
+    "optimal": Entry(
+        "least ∫ of the square of a derivative (here: acceleration)",
+        "Gelfand and Fomin, Calculus of Variations (1963)",
+        of_task=optimal_section,
+        parameters={"order": 2},
+    ),
+    "minimum_acceleration": Entry(
+        "least peak of acceleration", "Pontryagin et al. (1962)", of_task=minimum_acceleration
+    ),
+    "minimum_jerk": Entry(
+        "least peak of jerk, no acceleration at the ends", "Pontryagin et al. (1962)", of_task=minimum_jerk
+    ),
+    "combined": Entry(
+        "start, constant velocity, braking; ramps of least ∫ jerk²",
+        "paper 2, equations (1)–(10)",
+        start_and_stop,
+        parameters=_SIXTHS | {"ramp": "optimal_jerk"},
+    ),
+    "trapezoidal_velocity": Entry(
+        "straight ramps of the velocity",
+        "Biagiotti and Melchiorri, Trajectory Planning (2008)",
+        trapezoidal_velocity,
+        parameters=_THIRDS,
+    ),
+    "s_curve": Entry(
+        "ramps with rounded corners",
+        "Biagiotti and Melchiorri, Trajectory Planning (2008)",
+        s_curve,
+        parameters=_THIRDS | {"rounding": 1 / 4},
+    ),
+}

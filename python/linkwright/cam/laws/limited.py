@@ -1,0 +1,158 @@
+r"""Trapezoidal velocity and S-curve by limits of velocity, acceleration and jerk.
+
+A section has its length; what is free is how fast to go between the ramps. Ramps use the acceleration (and
+the jerk) that is allowed, and the velocity between them is the least with which the section is done in its
+length. In the shortest possible length that is the motion of least time. A ramp to the velocity v takes
+
+.. math:: t_r(v) = \frac{v}{A}, \qquad
+          t_r(v) = \frac{v}{A} + \frac{A}{J} \ (v \ge A^2/J), \qquad t_r(v) = 2\sqrt{v/J} \ (v \le A^2/J)
+
+and the lift s takes :math:`T(v) = s/v + t_r(v)` as long as :math:`v\,t_r(v) \le s`; there T falls with v.
+
+Source: Biagiotti and Melchiorri, *Trajectory Planning for Automatic Machines and Robots* (2008), sections
+3.2, 3.4.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import copysign, degrees, inf, sqrt
+
+from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam.laws.parabolic import constant_velocity
+from linkwright.cam.laws.piece import Piece
+from linkwright.cam.laws.rest_to_rest import rest_to_rest
+from linkwright.kernel.errors import LawError, Problem
+
+# Halvings after which an interval of floats is two neighbours.
+_HALVINGS = 100
+
+# Share by which rounding may miss the shortest length.
+_ROUNDING = 1e-12
+
+# Pieces shorter than this share of the section are left out: their length would be known to a few digits
+# only. Limits are kept to about this share.
+_SHORTEST = 1e-8
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What the follower is allowed.
+
+    Attributes
+    ----------
+    velocity : float
+        Greatest velocity [m/rad or –]; infinite without a limit.
+    acceleration : float
+        Greatest acceleration [m/rad² or 1/rad].
+    jerk : float
+        Greatest jerk [m/rad³ or 1/rad²]; infinite without a limit.
+    """
+
+    velocity: float
+    acceleration: float
+    jerk: float = inf
+
+    def ramp(self, v: float) -> float:
+        """Least length in which the velocity v is reached from rest [rad]."""
+        if v * self.jerk <= self.acceleration**2:
+            return 2 * sqrt(v / self.jerk)
+        return v / self.acceleration + self.acceleration / self.jerk
+
+    def fastest(self, lift: float) -> float:
+        """Greatest velocity of the motion of least length over a lift [m/rad or –]."""
+        # Without any other limit, acceleration and deceleration meet at this velocity.
+        low, high = 0.0, min(self.velocity, sqrt(self.acceleration * lift))
+        if high * self.ramp(high) <= lift:
+            return high
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if middle * self.ramp(middle) <= lift else (low, middle)
+        return low
+
+    def shortest(self, lift: float) -> float:
+        """Least length of a section with a lift of this size [rad]."""
+        v = self.fastest(lift)
+        return lift / v + self.ramp(v)
+
+
+def limited_section(
+    task: Boundary, angle: float, velocity: float | None, acceleration: float, jerk: float | None
+) -> MotionLaw:
+    """The law of a section of rest to rest that keeps limits.
+
+    Parameters
+    ----------
+    task : Boundary
+        The boundary values.
+    angle : float
+        Of the section [rad].
+    velocity, acceleration, jerk : float or None
+        Greatest derivatives by the cam angle [m or rad, per rad, rad², rad³]; None without a limit.
+
+    Returns
+    -------
+    MotionLaw
+        x(z) from 0 to 1, beginning with 0.
+
+    Raises
+    ------
+    LawError
+        The section is too short, or does not begin and end at rest.
+    """
+    ends = (task.velocity_start, task.velocity_end, task.acceleration_start, task.acceleration_end)
+    if any(ends):
+        expected = "rest at both ends, which the law goes from and to"
+        raise LawError(Problem("", f"the task {task.letters}", expected, 'take law = "polynomial"'))
+    if task.lift == 0:
+        return constant_velocity().scaled(0.0)
+    limits = Limits(inf if velocity is None else velocity, acceleration, inf if jerk is None else jerk)
+    shortest = limits.shortest(abs(task.lift))
+    if shortest > angle * (1 + _ROUNDING):
+        found = f"limits that ask for at least {degrees(shortest):.10g} deg"
+        expected = f"limits with which the lift is done in {degrees(angle):.10g} deg"
+        remedy = "give the section that angle, or raise the limits"
+        raise LawError(Problem("", found, expected, remedy))
+    return limited(limits, abs(task.lift), max(angle, shortest)).scaled(copysign(1.0, task.lift))
+
+
+def limited(limits: Limits, lift: float, length: float) -> MotionLaw:
+    """The law of a section that keeps limits.
+
+    Parameters
+    ----------
+    limits : Limits
+        By the cam angle.
+    lift : float
+        Size of the lift [m or rad], above zero.
+    length : float
+        Of the section [rad]; at least `Limits.shortest`.
+
+    Returns
+    -------
+    MotionLaw
+        x(z) from 0 to 1, from 0 to the lift.
+    """
+    least = limits.shortest(lift)
+    low, high = lift / length, limits.fastest(lift)
+    for _ in range(_HALVINGS if length > least * (1 + _SHORTEST) else 0):
+        middle = 0.5 * (low + high)
+        slow = lift / middle + limits.ramp(middle) > length
+        low, high = (middle, high) if slow else (low, middle)
+    return _profile(limits, high, lift / high).scaled(lift)
+
+
+def _profile(limits: Limits, v: float, fast: float) -> MotionLaw:
+    """Ramps within the limits, between them constant velocity; over ``fast`` the velocity v does the lift."""
+    ramp = limits.ramp(v)
+    corner = min(limits.acceleration / limits.jerk, 0.5 * ramp)
+    up, flat, down = (
+        (corner, Piece((0.0, 1.0))),
+        (ramp - 2 * corner, Piece((1.0,))),
+        (corner, Piece((1.0, -1.0))),
+    )
+    brake = [(size, piece.scaled(-1.0)) for size, piece in (up, flat, down)]
+    stretches = [up, flat, down, (fast - ramp, Piece((0.0,))), *brake]
+    kept = [(size, piece) for size, piece in stretches if size > _SHORTEST * (fast + ramp)]
+    return rest_to_rest(*kept)

@@ -1,0 +1,287 @@
+"""A motion law: lift over angle, or over time, in pieces that are polynomials and harmonics.
+
+Every law of the textbooks has this form, and so have its derivatives, its sums with others, its stretched and
+its mirrored image: all of them are exact.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.cam.laws.piece import Harmonic, Piece
+from linkwright.cam.laws.zeros import zeros
+
+__all__ = ["Extreme", "Harmonic", "MotionLaw", "Piece", "combined", "joined"]
+
+Floats = NDArray[np.float64]
+Side = Literal["after", "before"]
+
+# Share of the whole domain below which two breaks are one.
+_SAME = 1e-12
+
+
+class Extreme(NamedTuple):
+    """A greatest or least value.
+
+    Attributes
+    ----------
+    at : float
+        Where.
+    value : float
+        How much.
+    side : str
+        Whether it is reached ``"after"`` that place or ``"before"`` it; only at a jump the two differ.
+    """
+
+    at: float
+    value: float
+    side: Side
+
+
+@dataclass(frozen=True)
+class MotionLaw:
+    """A law in pieces.
+
+    Attributes
+    ----------
+    breaks : tuple of float, length n + 1
+        Ends of the pieces, increasing [rad, s or –].
+    pieces : tuple of Piece, length n
+        The pieces.
+    """
+
+    breaks: tuple[float, ...]
+    pieces: tuple[Piece, ...]
+
+    @classmethod
+    def of(cls, start: float, *stretches: tuple[float, Piece]) -> MotionLaw:
+        """A law from lengths and pieces, one after the other.
+
+        Parameters
+        ----------
+        start : float
+            Where the first begins.
+        *stretches : tuple of float and Piece
+            Length and piece; those without length, but for rounding, are left out.
+        """
+        least = _SAME * math.fsum(length for length, _ in stretches)
+        kept = [(length, piece) for length, piece in stretches if length > least]
+        ends = [math.fsum([start, *(length for length, _ in kept[:i])]) for i in range(len(kept) + 1)]
+        return cls(tuple(ends), tuple(piece for _, piece in kept))
+
+    @property
+    def start(self) -> float:
+        """Where it begins."""
+        return self.breaks[0]
+
+    @property
+    def end(self) -> float:
+        """Where it ends."""
+        return self.breaks[-1]
+
+    @property
+    def length(self) -> float:
+        """From start to end."""
+        return self.end - self.start
+
+    def _stretches(self) -> Iterable[tuple[float, float, Piece]]:
+        """Start, length and piece of each."""
+        for low, high, piece in zip(self.breaks, self.breaks[1:], self.pieces, strict=False):
+            yield low, high - low, piece
+
+    def at(self, x: ArrayLike, order: int = 0, side: Side = "after") -> Floats:
+        """Value or derivative.
+
+        Parameters
+        ----------
+        x : array_like
+            Where; beyond the ends the outer pieces go on.
+        order : int
+            Of the derivative.
+        side : {"after", "before"}
+            Which piece counts at a break.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of ``x``.
+        """
+        x = np.asarray(x, dtype=float)
+        law = self.derivative(order)
+        inner = np.array(self.breaks[1:-1])
+        index = np.searchsorted(inner, x, side="right" if side == "after" else "left")
+        value = np.zeros_like(x)
+        for i, (low, length, piece) in enumerate(law._stretches()):
+            here = index == i
+            if here.any():
+                value[here] = piece.at((x[here] - low) / length)
+        return value
+
+    def derivative(self, order: int = 1) -> MotionLaw:
+        """The law's derivative of any order, piece by piece; jumps at breaks are left out."""
+        law = self
+        for _ in range(order):
+            law = law._derivative
+        return law
+
+    @cached_property
+    def _derivative(self) -> MotionLaw:
+        pieces = tuple(piece.derivative(length) for _, length, piece in self._stretches())
+        return MotionLaw(self.breaks, pieces)
+
+    def integral(self, start: float = 0.0) -> MotionLaw:
+        """The law whose derivative this is, continuous, beginning with a value.
+
+        Parameters
+        ----------
+        start : float
+            That value.
+        """
+        pieces: list[Piece] = []
+        for _, length, piece in self._stretches():
+            pieces.append(piece.integral(length, start))
+            start = float(pieces[-1].at(1.0))
+        return MotionLaw(self.breaks, tuple(pieces))
+
+    # -- laws from laws ----------------------------------------------------------------------------------
+
+    def scaled(self, factor: float, shift: float = 0.0) -> MotionLaw:
+        """Factor times the law, plus a constant."""
+        return MotionLaw(self.breaks, tuple(piece.scaled(factor, shift) for piece in self.pieces))
+
+    def placed(self, start: float, length: float) -> MotionLaw:
+        """The same course over another stretch: values stay, derivatives change."""
+        scale = length / self.length
+        inner = tuple(start + (x - self.start) * scale for x in self.breaks[1:-1])
+        return MotionLaw((start, *inner, start + length), self.pieces)
+
+    def reversed(self) -> MotionLaw:
+        """The law run through backwards, over the same stretch."""
+        inner = tuple(self.start + (self.end - x) for x in self.breaks[-2:0:-1])
+        pieces = tuple(piece.part(1.0, 0.0) for piece in self.pieces[::-1])
+        return MotionLaw((self.start, *inner, self.end), pieces)
+
+    def stretch(self, low: float, high: float) -> MotionLaw:
+        """The part between two places inside the law."""
+        return self._cut([low, *(x for x in self.breaks if low < x < high), high])
+
+    def shifted(self, by: float) -> MotionLaw:
+        """A periodic law over its whole stretch, starting ``by`` later and going on at its start."""
+        by = by % self.length
+        cut = self.end - by
+        if not self.start < cut < self.end:
+            return self
+        tail, head = self.stretch(cut, self.end), self.stretch(self.start, cut)
+        return joined([tail.placed(self.start, by), head.placed(self.start + by, self.length - by)])
+
+    def _cut(self, breaks: Sequence[float]) -> MotionLaw:
+        """The same law with other breaks, of which none lies inside a piece unseen."""
+        own, pieces = np.array(self.breaks), []
+        for low, high in pairwise(breaks):
+            i = int(np.clip(np.searchsorted(own, 0.5 * (low + high)) - 1, 0, len(self.pieces) - 1))
+            start, length = self.breaks[i], self.breaks[i + 1] - self.breaks[i]
+            ends = (low - start) / length, (high - start) / length
+            whole = abs(ends[0]) < _SAME and abs(ends[1] - 1) < _SAME
+            pieces.append(self.pieces[i] if whole else self.pieces[i].part(*ends))
+        return MotionLaw(tuple(breaks), tuple(pieces))
+
+    # -- what is special about it ------------------------------------------------------------------------
+
+    def jumps(self, order: int) -> Floats:
+        """By how much a derivative jumps at each inner break, (n − 1,)."""
+        inner = np.array(self.breaks[1:-1])
+        return self.at(inner, order, "after") - self.at(inner, order, "before")
+
+    def zeros(self, order: int = 0) -> list[float]:
+        """Where a derivative is zero inside the pieces, increasing; a piece that is zero has none."""
+        law = self.derivative(order)
+        scale = max((float(np.abs(p.at(np.linspace(0, 1, 9))).max()) for p in law.pieces), default=0.0)
+        found: list[float] = []
+        for low, length, piece in law._stretches():
+            if not piece.vanishes(scale):
+                degree = max(len(piece.polynomial) - 1, 0)
+                found += [low + length * u for u in zeros(piece.at, degree, piece.waves)]
+        return found
+
+    def extremes(self, order: int = 0) -> tuple[Extreme, Extreme]:
+        """The least and the greatest value of a derivative.
+
+        Parameters
+        ----------
+        order : int
+            Of the derivative.
+
+        Returns
+        -------
+        tuple of Extreme
+            Least and greatest; of equal ones the first.
+        """
+        ends = [(x, "after") for x in self.breaks[:-1]] + [(x, "before") for x in self.breaks[1:]]
+        listed: list[Extreme] = []
+        for side in ("after", "before"):
+            places = [x for x, which in ends if which == side]
+            places += self.zeros(order + 1) if side == "after" else []
+            values = self.at(np.array(places), order, side)
+            listed += [Extreme(x, float(v), side) for x, v in zip(places, values, strict=True)]
+        listed.sort(key=lambda each: each.at)
+        return min(listed, key=lambda each: each.value), max(listed, key=lambda each: each.value)
+
+    def peak(self, order: int = 0) -> Extreme:
+        """The value of a derivative that is largest in size."""
+        return max(self.extremes(order)[::-1], key=lambda each: abs(each.value))
+
+    def integral_of_square(self, order: int = 0) -> float:
+        """∫ (dⁿs/dxⁿ)² dx over the law, to rounding.
+
+        Gauss–Legendre with as many nodes a piece as integrate its polynomial exactly, and its harmonics to
+        rounding.
+        """
+        total: list[float] = []
+        for _, length, piece in self.derivative(order)._stretches():
+            nodes = len(piece.polynomial) + 24 + int(2 * piece.waves)
+            x, weight = np.polynomial.legendre.leggauss(nodes)
+            total += list(0.5 * length * weight * piece.at(0.5 * (x + 1)) ** 2)
+        return math.fsum(total)
+
+
+def joined(laws: Sequence[MotionLaw]) -> MotionLaw:
+    """Laws one after the other; each begins where the one before ends.
+
+    Parameters
+    ----------
+    laws : sequence of MotionLaw
+        In their order; their values are taken as they are.
+    """
+    breaks = [laws[0].start]
+    for law in laws:
+        breaks += law.breaks[1:]
+    return MotionLaw(tuple(breaks), tuple(piece for law in laws for piece in law.pieces))
+
+
+def combined(*terms: tuple[float, MotionLaw]) -> MotionLaw:
+    """A sum of laws over the same stretch, each times a factor.
+
+    Parameters
+    ----------
+    *terms : tuple of float and MotionLaw
+        Factor and law.
+    """
+    first = terms[0][1]
+    breaks: list[float] = []
+    for x in sorted({x for _, law in terms for x in law.breaks}):
+        if not breaks or x - breaks[-1] > _SAME * first.length:
+            breaks.append(x)
+    breaks[-1] = first.end
+    cut = [law._cut(breaks).scaled(factor) for factor, law in terms]
+    pieces = list(cut[0].pieces)
+    for law in cut[1:]:
+        pieces = [a.plus(b) for a, b in zip(pieces, law.pieces, strict=True)]
+    return MotionLaw(tuple(breaks), tuple(pieces))

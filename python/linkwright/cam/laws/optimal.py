@@ -1,0 +1,101 @@
+r"""Optimal polynomials: the least integral of the square of a derivative.
+
+.. math:: \int_0^1 \bigl(x^{(n)}\bigr)^2 dz \to \min
+
+for given values and derivatives below the n-th at both ends. Euler's equation is :math:`x^{(2n)} = 0`: the
+solution is a polynomial of degree 2n − 1. A derivative of order k that is not given at an end is free there
+and brings the natural condition :math:`x^{(2n-1-k)} = 0` at that end. The functional is convex, so what
+satisfies these conditions is the minimum.
+
+For rest to rest, n = 1 gives constant velocity, n = 2 the cubic, n = 3 the polynomial 3-4-5, n = 4 the
+4-5-6-7.
+
+Source: Gelfand and Fomin, *Calculus of Variations* (1963), sections 6 and 11 (higher derivatives, natural
+boundary conditions).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam.laws.polynomial import Conditions, polynomial
+from linkwright.kernel.errors import LawError, Problem
+
+
+def optimal(order: int, start: Conditions, end: Conditions) -> MotionLaw:
+    """The law of least ∫ (dⁿx/dzⁿ)² dz.
+
+    Parameters
+    ----------
+    order : int
+        n, from 1.
+    start, end : Mapping of int to float
+        Order of the derivative → its value there; the orders below n that are missing are free.
+
+    Returns
+    -------
+    MotionLaw
+        From 0 to 1.
+
+    Raises
+    ------
+    LawError
+        A derivative of order n or more is given, or so few are that the minimum is not one law.
+    """
+    highest = max((*start, *end), default=0)
+    if highest >= order:
+        expected = f"derivatives below the one that is minimised, up to order {order - 1}"
+        raise LawError(Problem("order", f"a derivative of order {highest} at an end", expected))
+    try:
+        return polynomial(_with_natural(order, start), _with_natural(order, end))
+    except LawError:
+        found = f"{len(start) + len(end)} values at the two ends, which leave the law open"
+        expected = f"{order} or more values at the ends, one of them the lift at an end"
+        raise LawError(Problem("order", found, expected)) from None
+
+
+def optimal_section(
+    task: Boundary, order: int = 3, free_start: Collection[int] = (), free_end: Collection[int] = ()
+) -> MotionLaw:
+    """The optimal law of a section.
+
+    Parameters
+    ----------
+    task : Boundary
+        The boundary values; derivatives above the second are zero.
+    order : int
+        n, from 1 to 5.
+    free_start, free_end : collection of int
+        Orders of derivatives that the minimum is left to choose there; the lift is always given.
+
+    Returns
+    -------
+    MotionLaw
+        From 0 to 1.
+
+    Raises
+    ------
+    LawError
+        A velocity or an acceleration is asked for that is free, or that the order cannot meet.
+    """
+    start = (0.0, task.velocity_start, task.acceleration_start or 0.0)
+    end = (task.lift, task.velocity_end, task.acceleration_end or 0.0)
+    sides = []
+    for key, values, free in (("free_start", start, free_start), ("free_end", end, free_end)):
+        wanted = [i for i, value in enumerate(values) if value and i and (i in free or i >= order)]
+        if wanted:
+            expected = (
+                f"a law that can have the derivative of order {wanted[0]} that is asked for at this end"
+            )
+            raise LawError(Problem(key, f"order {order}, free: {sorted(free)}", expected))
+        kept = [i for i in range(order) if i not in free]
+        sides.append({i: (values[i] if i < len(values) else 0.0) for i in kept})
+    return optimal(order, sides[0], sides[1])
+
+
+def _with_natural(order: int, given: Conditions) -> dict[int, float]:
+    """The conditions at one end: given ones, and natural ones for what is free."""
+    natural = {2 * order - 1 - k: 0.0 for k in range(order) if k not in given}
+    return {**given, **natural}

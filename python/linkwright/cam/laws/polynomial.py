@@ -1,0 +1,85 @@
+r"""Polynomials by their boundary conditions, of any degree.
+
+.. math:: x(z) = \sum_p c_p z^p
+
+with as many powers p as derivatives are given at the two ends. Without a choice the powers are 0, 1, 2, … .
+
+Source: VDI 2143 Blatt 1 (1980); Rothbart (ed.), *Cam Design Handbook* (2004), chapter 4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from math import perm
+
+from linkwright.cam.laws.linear_system import solve
+from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam.laws.piece import Piece
+from linkwright.kernel.errors import LawError, Problem
+
+# Order of the derivative → its value.
+Conditions = Mapping[int, float]
+
+
+def polynomial(start: Conditions, end: Conditions, powers: Sequence[int] | None = None) -> MotionLaw:
+    """The polynomial that meets given values and derivatives at z = 0 and z = 1.
+
+    Parameters
+    ----------
+    start, end : Mapping of int to float
+        Order of the derivative → its value there.
+    powers : sequence of int, optional
+        Powers to be used, as many as there are conditions.
+
+    Returns
+    -------
+    MotionLaw
+        From 0 to 1.
+
+    Raises
+    ------
+    LawError
+        The powers are not as many as the conditions, or cannot meet them.
+    """
+    n = len(start) + len(end)
+    used = sorted(set(range(n) if powers is None else powers))
+    if len(used) != n:
+        expected = f"{n} powers, as many as there are conditions at the two ends"
+        raise LawError(Problem("powers", _listed(used), expected))
+    rows = [*(_at_start(order, used) for order in start), *(_at_end(order, used) for order in end)]
+    found = solve(rows, [*start.values(), *end.values()])
+    if found is None:
+        expected = "powers that can meet every condition: each order that is given at the start is one"
+        raise LawError(Problem("powers", _listed(used), expected))
+    by_power = dict(zip(used, found, strict=True))
+    return MotionLaw((0.0, 1.0), (Piece(coefficients(by_power)),))
+
+
+def coefficients(by_power: Mapping[int, Fraction]) -> tuple[float, ...]:
+    """All coefficients from the constant on, of power → coefficient."""
+    return tuple(float(by_power.get(p, 0)) for p in range(max(by_power) + 1))
+
+
+def polynomial_3_4_5() -> MotionLaw:
+    """f = 10 z³ − 15 z⁴ + 6 z⁵: velocity and acceleration vanish at both ends."""
+    return polynomial({0: 0, 1: 0, 2: 0}, {0: 1, 1: 0, 2: 0})
+
+
+def polynomial_4_5_6_7() -> MotionLaw:
+    """f = 35 z⁴ − 84 z⁵ + 70 z⁶ − 20 z⁷: the jerk vanishes at both ends too."""
+    return polynomial({0: 0, 1: 0, 2: 0, 3: 0}, {0: 1, 1: 0, 2: 0, 3: 0})
+
+
+def _at_start(order: int, powers: Sequence[int]) -> list[int]:
+    """A derivative of each power at z = 0."""
+    return [perm(p, order) if p == order else 0 for p in powers]
+
+
+def _at_end(order: int, powers: Sequence[int]) -> list[int]:
+    """A derivative of each power at z = 1."""
+    return [perm(p, order) for p in powers]
+
+
+def _listed(powers: Sequence[int]) -> str:
+    return ", ".join(map(str, powers))

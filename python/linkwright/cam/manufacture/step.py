@@ -1,0 +1,205 @@
+"""The cam as a solid in a STEP file (AP214, millimetres): its profile extruded by its width, by Open CASCADE.
+
+The kernel is an extra, ``pip install "linkwright[step]"``. The profile is a spline there: arcs as flat as
+those beside an inflection are known to the kernel by angles of 1e-9 rad only, which is too coarse.
+
+Source: ISO 10303-214; Open CASCADE Technology, *STEP Translator*.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib import import_module
+from itertools import pairwise
+from pathlib import Path as File
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.manufacture.found import Found
+from linkwright.cam.manufacture.spline import EvaluatedSpline, Spline
+from linkwright.kernel.errors import ExchangeError, InputError
+
+Floats = NDArray[np.float64]
+
+# How far above its plane the kernel may put the lower face [mm].
+_PLANE = 1e-6
+
+
+def _kernel(module: str) -> Any:
+    """A module of Open CASCADE; the user is told how to get it if it is not there."""
+    try:
+        found = import_module(f"OCP.{module}")
+        message = import_module("OCP.Message")
+    except ImportError as error:
+        raise InputError(
+            f'STEP files need the Open CASCADE kernel ({error}): pip install "linkwright[step]"'
+        ) from None
+    # It would print what it does, into the output of whoever called.
+    printers = message.Message_PrinterOStream.get_type_descriptor_s()
+    message.Message.DefaultMessenger_s().RemovePrinters(printers)
+    return found
+
+
+def write_step(file: File, name: str, path: Spline, width: float) -> None:
+    """Write a solid as STEP.
+
+    Parameters
+    ----------
+    file : path
+        The file; replaced if it exists.
+    name : str
+        Of the part.
+    path : Spline
+        Its outline.
+    width : float
+        Its width [m].
+
+    Raises
+    ------
+    InputError
+        The kernel is not installed.
+    ExchangeError
+        It does not make a solid of the outline, or does not write the file.
+    """
+    build, static = _kernel("BRepBuilderAPI"), _kernel("Interface").Interface_Static
+    wire = build.BRepBuilderAPI_MakeWire()
+    wire.Add(_edge(path))
+    if not wire.IsDone() or not wire.Wire().Closed():
+        raise ExchangeError(f"{file}: Open CASCADE does not close the outline")
+    face = build.BRepBuilderAPI_MakeFace(wire.Wire(), True).Face()
+    along = _kernel("gp").gp_Vec(0, 0, 1e3 * width)
+    solid = _kernel("BRepPrimAPI").BRepPrimAPI_MakePrism(face, along).Shape()
+    if not _kernel("BRepCheck").BRepCheck_Analyzer(solid).IsValid():
+        raise ExchangeError(f"{file}: Open CASCADE does not make a sound solid of the outline")
+    control = _kernel("STEPControl")
+    writer = control.STEPControl_Writer()
+    static.SetCVal_s("write.step.schema", "AP214IS")
+    static.SetCVal_s("write.step.unit", "MM")
+    static.SetCVal_s("write.step.product.name", name)
+    writer.Transfer(solid, control.STEPControl_StepModelType.STEPControl_ManifoldSolidBrep)
+    if writer.Write(str(file)) != _kernel("IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise ExchangeError(f"{file}: Open CASCADE does not write the file")
+
+
+def _edge(path: Spline) -> Any:
+    """One closed edge."""
+    gp, kernel = _kernel("gp"), _kernel("collections")
+    cuts, repeated = np.unique(path.knots, return_counts=True)
+    poles = [gp.gp_Pnt(x, y, 0) for x, y in (1e3 * path.controls).tolist()]
+    curve = _kernel("Geom").Geom_BSplineCurve(
+        _filled(kernel.Array1_gp_Pnt, poles),
+        _filled(kernel.Array1_double, cuts.tolist()),
+        _filled(kernel.Array1_int, repeated.tolist()),
+        path.degree,
+    )
+    return _kernel("BRepBuilderAPI").BRepBuilderAPI_MakeEdge(curve).Edge()
+
+
+def _filled(kind: Any, values: list[Any]) -> Any:
+    """An array of the kernel, which counts from 1."""
+    array = kind(1, len(values))
+    for i, value in enumerate(values, start=1):
+        array.SetValue(i, value)
+    return array
+
+
+def read_step(file: File, sense: int) -> Found:
+    """Read the outline of a solid from a STEP file: that of its lower face.
+
+    Parameters
+    ----------
+    file : path
+        The file.
+    sense : int
+        1 to follow it counter-clockwise, −1 clockwise.
+
+    Returns
+    -------
+    Found
+        Its outline.
+
+    Raises
+    ------
+    InputError
+        The kernel is not installed.
+    ExchangeError
+        The file cannot be read, or holds no solid on the plane z = 0.
+    """
+    reader = _kernel("STEPControl").STEPControl_Reader()
+    done = _kernel("IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone
+    if reader.ReadFile(str(file)) != done or not reader.TransferRoots():
+        raise ExchangeError(f"{file}: is not a STEP file that can be read")
+    pieces = [piece for wire in _lower_wires(reader.OneShape()) for piece in _pieces(wire)]
+    if not pieces:
+        raise ExchangeError(f"{file}: holds no solid with a face on the plane z = 0")
+    corners = np.array([values(low)[0] for values, low, _ in pieces])
+    x, y = corners.T
+    if sense * float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum()) < 0:
+        pieces = [(values, high, low) for values, low, high in reversed(pieces)]
+
+    def evaluate(parameter: Floats) -> tuple[Floats, Floats]:
+        """Places and first derivatives along the pieces [m]."""
+        index = np.minimum(parameter.astype(int), len(pieces) - 1).ravel()
+        found = [_at(pieces[i], u) for i, u in zip(index, parameter.ravel() - index, strict=True)]
+        place, slope = np.array(found).transpose(1, 0, 2)
+        return place.reshape(*parameter.shape, 2), slope.reshape(*parameter.shape, 2)
+
+    return Found(EvaluatedSpline(np.arange(len(pieces) + 1.0), evaluate), "solid")
+
+
+def _at(piece: tuple[Any, float, float], u: float) -> tuple[Floats, Floats]:
+    """Place and first derivative at a share of a piece."""
+    values, low, high = piece
+    place, slope = values(low + u * (high - low))
+    return place, (high - low) * slope
+
+
+def _lower_wires(shape: Any) -> Iterator[Any]:
+    """Outer wires of the faces whose corners all lie on z = 0."""
+    top, topology = _kernel("TopAbs").TopAbs_ShapeEnum, _kernel("TopoDS").TopoDS
+    explorer = _kernel("TopExp").TopExp_Explorer
+    faces = explorer(shape, top.TopAbs_FACE)
+    while faces.More():
+        face = topology.Face(faces.Current())
+        corners = explorer(face, top.TopAbs_VERTEX)
+        heights = []
+        while corners.More():
+            heights.append(_kernel("BRep").BRep_Tool.Pnt_s(topology.Vertex(corners.Current())).Z())
+            corners.Next()
+        if max(map(abs, heights)) < _PLANE:
+            yield _kernel("BRepTools").BRepTools.OuterWire_s(face)
+        faces.Next()
+
+
+def _pieces(wire: Any) -> Iterator[tuple[Any, float, float]]:
+    """Pieces in order: what evaluates them, and the parameter at both ends; a spline's run between knots."""
+    explorer = _kernel("BRepTools").BRepTools_WireExplorer(wire)
+    reversed_ = _kernel("TopAbs").TopAbs_Orientation.TopAbs_REVERSED
+    spline = _kernel("GeomAbs").GeomAbs_CurveType.GeomAbs_BSplineCurve
+    while explorer.More():
+        edge = explorer.Current()
+        curve = _kernel("BRepAdaptor").BRepAdaptor_Curve(edge)
+        ends = [curve.FirstParameter(), curve.LastParameter()]
+        if curve.GetType() == spline:
+            found = curve.BSpline()
+            ends = [found.Knot(i) for i in range(1, found.NbKnots() + 1)]
+        if explorer.Orientation() == reversed_:
+            ends.reverse()
+        for low, high in pairwise(ends):
+            yield _evaluator(curve), low, high
+        explorer.Next()
+
+
+def _evaluator(curve: Any) -> Any:
+    """From a parameter to place and first derivative [m]."""
+    gp = _kernel("gp")
+
+    def values(x: float) -> tuple[Floats, Floats]:
+        """Place and slope at x [m]."""
+        point, vector = gp.gp_Pnt(), gp.gp_Vec()
+        curve.D1(x, point, vector)
+        return 1e-3 * np.array([point.X(), point.Y()]), 1e-3 * np.array([vector.X(), vector.Y()])
+
+    return values

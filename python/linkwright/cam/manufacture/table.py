@@ -1,0 +1,223 @@
+r"""Tables of an outline: places on the curve itself at equal steps of the cam angle, or of the polar angle.
+
+The curvature is :math:`\kappa = (x'y'' - y'x'')/\lVert\mathbf p'\rVert^3`, here counted positive where the
+outline is convex.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import dataclass
+from pathlib import Path as File
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.manufacture.sides import cross, dot
+from linkwright.cam.manufacture.track import Track
+from linkwright.kernel.errors import ExchangeError, InputError, require_within
+from linkwright.kernel.files.csv_text import csv_text
+from linkwright.kernel.files.output import write_file
+from linkwright.kernel.limits import ROWS_OUT
+
+Floats = NDArray[np.float64]
+By = Literal["cam", "polar"]
+
+COLUMNS = ("phi_deg", "x_mm", "y_mm", "radius_mm", "polar_angle_deg", "curvature_per_mm")
+
+# How far 360°/step may be from a whole number.
+_WHOLE = 1e-9
+
+# Polar angles of one place, seen from both sides of a joint, differ by rounding [rad].
+_ROUNDING = 1e-9
+
+# Rounds of Newton from samples to a polar angle; quadratic from a two-thousandth of a turn.
+_ROUNDS = 6
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of an outline; the last is the first, one turn on.
+
+    Attributes
+    ----------
+    phi : ndarray, shape (n,)
+        Cam angle [rad].
+    place : ndarray, shape (n, 2)
+        [m].
+    polar_angle : ndarray, shape (n,)
+        Of the place, continuous [rad].
+    curvature : ndarray, shape (n,)
+        Positive where convex [1/m]; at a joint that of the stretch that follows.
+    """
+
+    phi: Floats
+    place: Floats
+    polar_angle: Floats
+    curvature: Floats
+
+    @property
+    def radius(self) -> Floats:
+        """Distance from the centre, (n,) [m]."""
+        return np.asarray(np.hypot(self.place[:, 0], self.place[:, 1]))
+
+
+def table(track: Track, step: float, by: By = "cam") -> Table:
+    """Places of a curve at equal steps.
+
+    Parameters
+    ----------
+    track : Track
+        The curve.
+    step : float
+        Step of the angle; a whole number of them makes a turn [rad].
+    by : {"cam", "polar"}
+        Which angle has the steps: that of the cam from 0, or that of the place from the x axis.
+
+    Returns
+    -------
+    Table
+        One row a step and one more, which closes it.
+
+    Raises
+    ------
+    InputError
+        The step does not divide the turn.
+    ExchangeError
+        The curve is not a function of its polar angle.
+    """
+    n = _count(step)
+    angles: Floats = np.arange(n + 1, dtype=float) * (2 * math.pi / n)
+    tau = track.at_cam_angles(angles) if by == "cam" else _at_polar_angles(track, angles)
+    found = track.points(tau[:-1]), curvature(track, tau[:-1])
+    place, bend = (np.concatenate([each, each[:1]]) for each in found)
+    phi: Floats = angles if by == "cam" else track.angles(tau)
+    unwrapped = np.unwrap(np.arctan2(place[:, 1], place[:, 0]))
+    polar: Floats = angles if by == "polar" else unwrapped
+    return Table(phi, place, polar, bend)
+
+
+def curvature(track: Track, tau: Floats) -> Floats:
+    """Curvature of a curve, positive where convex.
+
+    Parameters
+    ----------
+    track : Track
+        The curve.
+    tau : ndarray, shape (n,)
+        Where; at a joint the stretch that follows counts [rad].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        [1/m].
+    """
+    t, t2 = track.tangents(tau), track.seconds(tau)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(cross(t, t2) / dot(t, t) ** 1.5 * track.sense)
+
+
+def _count(step: float) -> int:
+    """How many steps make a turn."""
+    n = 2 * math.pi / step if step > 0 else math.nan
+    if not math.isnan(n):
+        remedy = f"take {360 / ROWS_OUT.most:.3g}° or more"
+        require_within(ROWS_OUT, n, f"step of {math.degrees(step):.3g}°", remedy)
+    if not (math.isfinite(n) and n >= 3 and abs(n - round(n)) <= _WHOLE * n):
+        near = [360 / max(3, math.floor(n)), 360 / max(3, math.ceil(n))] if 0 < n < 1e9 else [1.0, 0.5]
+        raise InputError(
+            f"step of {math.degrees(step):.9g}°: expected a whole number of steps a turn, at least 3, such "
+            f"as {near[0]:.6g}° or {near[1]:.6g}°"
+        )
+    return round(n)
+
+
+def _at_polar_angles(track: Track, angles: Floats) -> Floats:
+    """τ of polar angles, by Newton from samples; rows against the run of the curve go backwards in τ."""
+    tau, place = track.sampled
+    polar = np.unwrap(np.arctan2(place[:, 1], place[:, 0]))
+    is_round = abs(abs(polar[-1] - polar[0]) - 2 * math.pi) < _ROUNDING
+    if not is_round or (np.diff(track.sense * polar) < -_ROUNDING).any():
+        raise ExchangeError(
+            "the outline is not a function of its polar angle: it overhangs, or does not go round the "
+            "centre; take a table by the cam angle"
+        )
+    # Counted in the sense of the curve from its start, both grow.
+    wanted = track.sense * (angles[:-1] - polar[0]) % (2 * math.pi)
+    x = np.interp(wanted, track.sense * (polar - polar[0]), tau)
+    for _ in range(_ROUNDS):
+        p, t = track.points(x), track.tangents(x)
+        off = (angles[:-1] - np.arctan2(p[:, 1], p[:, 0]) + math.pi) % (2 * math.pi) - math.pi
+        x = np.clip(x + off * dot(p, p) / cross(p, t), 0, track.period)
+    return np.concatenate([x, x[:1] + track.sense * track.period])
+
+
+def write_csv(file: File, rows: Table) -> None:
+    """Write a table as CSV, with numbers that read back exactly.
+
+    Parameters
+    ----------
+    file : path
+        The file; replaced if it exists.
+    rows : Table
+        The table.
+    """
+    columns = np.column_stack(
+        [
+            np.degrees(rows.phi),
+            1e3 * rows.place,
+            1e3 * rows.radius,
+            np.degrees(rows.polar_angle),
+            1e-3 * rows.curvature,
+        ]
+    )
+    write_file(file, csv_text(COLUMNS, columns.tolist()))
+
+
+def read_csv(file: File) -> Table:
+    """Read a table, and check that its columns agree with one another and that it is closed.
+
+    Parameters
+    ----------
+    file : path
+        The file.
+
+    Returns
+    -------
+    Table
+        As written.
+
+    Raises
+    ------
+    ExchangeError
+        The file has other columns or units, no numbers, is open, or its polar and Cartesian columns differ.
+    """
+    try:
+        with file.open(encoding="utf-8", newline="") as stream:
+            head, *body = list(csv.reader(stream))
+        values = np.array([[float(cell) for cell in row] for row in body])
+    except (OSError, ValueError) as error:
+        raise ExchangeError(f"{file}: is not a table that can be read ({error})") from None
+    if tuple(head) != COLUMNS or values.ndim != 2 or values.shape[0] < 4:
+        raise ExchangeError(f"{file}: columns {', '.join(head)}; expected {', '.join(COLUMNS)}")
+    phi, x, y, radius, polar, bend = values.T
+    found = Table(np.radians(phi), 1e-3 * np.column_stack([x, y]), np.radians(polar), 1e3 * bend)
+    _refuse(file, found, 1e-3 * radius)
+    return found
+
+
+def _refuse(file: File, rows: Table, radius: Floats) -> None:
+    """A table that is open, or says two things."""
+    if (rows.place[0] != rows.place[-1]).any():
+        raise ExchangeError(f"{file}: the last row is not the place of the first")
+    x, y = radius * np.cos(rows.polar_angle), radius * np.sin(rows.polar_angle)
+    off = np.hypot(x - rows.place[:, 0], y - rows.place[:, 1])
+    # Angles in degrees up to a turn, and their radians, are rounded: some units of 1e-16 of the radius.
+    wrong = np.flatnonzero(~(off <= 1e-14 * np.abs(radius).max()))
+    if wrong.size:
+        raise ExchangeError(
+            f"{file}: line {wrong[0] + 2}: radius and polar angle are {1e3 * off[wrong[0]]:.3g} mm from "
+            "x and y"
+        )

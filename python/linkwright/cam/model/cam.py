@@ -1,0 +1,297 @@
+r"""A cam on the crankshaft and the follower that it moves.
+
+| follower | moves | makes |
+| --- | --- | --- |
+| translating | along a line, to the left of the cam's centre by the offset | a point on a slide |
+| oscillating | about its own pivot | a link with a point at its end |
+
+Its sections say how it moves over a turn. Where the lift is least, the contact lies on the base circle, r_0
+from the cam's centre; a roller's centre then lies on the prime circle, r_0 + r_r. Two followers that touch
+one cam on opposite sides have their distance, the breadth, instead: b = 2 (r_0 + r_r) + lift.
+
+In the mechanism a cam stands for a driver that follows the programme (`cam_follower`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.cam.model.follower_motion import FollowerMotion, follower_motion
+from linkwright.cam.model.follower_train import FollowerTrain
+from linkwright.cam.model.motion_section import MotionSection
+from linkwright.cam.model.section_faults import section_faults
+from linkwright.kernel.description.base import Checked, Description, fault
+from linkwright.kernel.units import (
+    ACUTE,
+    ANGLE,
+    PRESSURE,
+    RATIO,
+    Angle,
+    Bound,
+    Length,
+    Quantity,
+    not_negative,
+    positive,
+)
+from linkwright.linkages.model.element import PositiveLength
+
+if TYPE_CHECKING:
+    from linkwright.cam.laws.motion_law import MotionLaw
+    from linkwright.cam.laws.programme import Programme
+
+_LIMIT = Bound(
+    " between 0 and 90 deg,",
+    {"exclusiveMinimum": 0, "exclusiveMaximum": np.pi / 2},
+    lambda value: 0 < value < np.pi / 2,
+)
+_TO_HALF = Bound(
+    " of 0 or more and below 0.5,",
+    {"minimum": 0, "exclusiveMaximum": 0.5},
+    lambda value: 0 <= value < 0.5,
+)
+
+# Largest pressure angle by rule of thumb: a translating follower jams in its guide beyond 30°, an arm bears
+# more. Norton, Cam Design and Manufacturing Handbook, 2nd ed., section 7.3.
+_USUAL_LIMIT = {"translating": np.pi / 6, "oscillating": 7 * np.pi / 36}
+
+
+class SecondFollower(Description):
+    """The second follower of a conjugate pair of cams, fixed to the first."""
+
+    roller_radius: PositiveLength | None = Field(
+        None, description="Of its roller. Without it, that of the first."
+    )
+    distance: PositiveLength | None = Field(
+        None, description="Of a translating follower: between the two rollers along its line."
+    )
+    arm_length: PositiveLength | None = Field(
+        None, description="Of an oscillating follower: length of its arm. Without it, that of the first."
+    )
+    angle: Annotated[float, Quantity(ANGLE)] | None = Field(
+        None, description="Of an oscillating follower: between the two arms, across the cam."
+    )
+
+
+class Cam(Checked):
+    """A cam on the crankshaft, and its follower."""
+
+    follower: Literal["translating", "oscillating"] = Field(
+        "translating", description="Whether the follower moves along a line or about a pivot."
+    )
+    contact: Literal["roller", "point", "flat"] = Field(
+        "roller", description="What touches the cam: a roller, a knife edge, or a flat face."
+    )
+    closure: Literal["spring", "groove", "conjugate", "constant_diameter", "constant_breadth"] = Field(
+        "spring",
+        description="What keeps the follower on the cam: a force, a groove, a second cam for a second "
+        "follower, or the same cam between two followers (points or rollers; flat faces).",
+    )
+    sections: tuple[MotionSection, ...] = Field(description="How the follower moves over a turn.")
+    phase: Angle = Field(0.0, description="Crank angle at which the first section begins.")
+    rotation: Literal["same", "opposite"] = Field(
+        "same", description="Whether the cam turns with the crankshaft, or against it as fast."
+    )
+    pivot: str | None = Field(
+        None, description="Fixed point that the cam turns about. Without it, the origin."
+    )
+    base_radius: PositiveLength | None = Field(
+        None, description="Of the cam where the lift is least. Without it, from the breadth."
+    )
+    breadth: PositiveLength | None = Field(
+        None,
+        description="Between two followers on opposite sides of one cam: edges, roller centres or faces.",
+    )
+    roller_radius: PositiveLength | None = Field(None, description="Of the roller.")
+    direction: Angle = Field(0.0, description="Of the follower's line, outwards, from x.")
+    offset: Length = Field(
+        0.0,
+        description="Of the follower's line to the left of the cam's centre; of an oscillating face, from "
+        "its pivot to the cam.",
+    )
+    face_tilt: Annotated[float, Quantity(ANGLE, ACUTE)] = Field(
+        0.0, description="Of a translating face: of its normal from the direction of travel."
+    )
+    arm_pivot: str | None = Field(None, description="Fixed point that an oscillating follower turns about.")
+    arm_length: PositiveLength | None = Field(None, description="From that pivot to the roller or edge.")
+    side: Literal["left", "right"] = Field(
+        "left", description="Side of the arm, seen from the cam's centre to its pivot."
+    )
+    second: SecondFollower | None = Field(None, description="Second follower of a conjugate pair.")
+    train: FollowerTrain | None = Field(
+        None, description="What vibrates between a translating follower and its load."
+    )
+    cutter_radius: PositiveLength | None = Field(None, description="Of the cutter or grinding wheel.")
+    pressure_angle_limit: Annotated[float, Quantity(ANGLE, _LIMIT)] | None = Field(
+        None,
+        description="Largest pressure angle allowed. Without it, 30 deg for a translating and 35 deg for an "
+        "oscillating follower.",
+    )
+    curvature_limit: PositiveLength | None = Field(
+        None, description="Least convex radius of curvature allowed on the profile."
+    )
+    friction: Annotated[float, not_negative(RATIO)] = Field(
+        0.0,
+        description="Coefficient of friction of an edge or a face on the cam, which counts in forces and "
+        "not in steady motion.",
+    )
+    width: PositiveLength | None = Field(None, description="Of the cam's face, for the contact pressure.")
+    elastic_modulus: Annotated[float, positive(PRESSURE)] = Field(
+        210e9, description="Young's modulus of cam and roller."
+    )
+    poisson_ratio: Annotated[float, Quantity(RATIO, _TO_HALF)] = Field(
+        0.3, description="Poisson's ratio of both."
+    )
+
+    @property
+    def is_roller(self) -> bool:
+        """Whether it is touched by a roller, or by a knife edge, which is one of radius zero."""
+        return self.contact != "flat"
+
+    @property
+    def is_oscillating(self) -> bool:
+        """Whether its follower turns about a pivot."""
+        return self.follower == "oscillating"
+
+    @property
+    def has_opposite(self) -> bool:
+        """Whether one cam stands between two followers."""
+        return self.closure in ("constant_diameter", "constant_breadth")
+
+    @property
+    def radius_of_roller(self) -> float:
+        """Radius of the roller, zero for a knife edge or a flat face [m]."""
+        return self.roller_radius if self.contact == "roller" and self.roller_radius is not None else 0.0
+
+    @property
+    def sliding_friction(self) -> float:
+        """Coefficient of friction at the contact: none for a roller."""
+        return 0.0 if self.contact == "roller" else self.friction
+
+    @property
+    def limit(self) -> float:
+        """Largest pressure angle allowed [rad]."""
+        given = self.pressure_angle_limit
+        return _USUAL_LIMIT[self.follower] if given is None else given
+
+    @property
+    def motion(self) -> FollowerMotion:
+        """How the follower moves over the cam angle from the start of the first section."""
+        return follower_motion(self.sections, "swing" if self.is_oscillating else "lift", self.train)
+
+    @property
+    def programme(self) -> Programme:
+        """Its programme, as the sections say."""
+        return self.motion.programme
+
+    @property
+    def lift(self) -> MotionLaw:
+        """The lift from the base circle: its least value is zero."""
+        return self.motion.lift
+
+    @property
+    def stroke(self) -> float:
+        """Greatest lift [m or rad]."""
+        return self.motion.stroke
+
+    @property
+    def base(self) -> Any:
+        """Radius of the base circle, given or from the breadth [m]."""
+        if self.base_radius is not None:
+            return self.base_radius
+        assert self.breadth is not None
+        start = 0.5 * (self.breadth - self.stroke)
+        return start * np.cos(self.face_tilt) - self.radius_of_roller
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from section_faults(self.sections, "swing" if self.is_oscillating else "lift")
+        yield from self._closure_faults()
+        if self.contact == "roller" and self.roller_radius is None:
+            remedy = 'or say contact = "point" or "flat"'
+            yield fault("roller_radius", expected="the radius of the roller", remedy=remedy)
+        if self.contact == "roller" and "friction" in self.model_fields_set and self.friction:
+            yield fault("friction", found=self.friction, expected="nothing for a roller, which rolls")
+        if self.contact != "roller" and self.roller_radius is not None:
+            expected = f'nothing for contact = "{self.contact}"'
+            yield fault("roller_radius", found=self.roller_radius, expected=expected)
+        if self.is_oscillating:
+            yield from self._arm_faults()
+        else:
+            yield from self._line_faults()
+
+    def _closure_faults(self) -> Iterator[InitErrorDetails]:
+        """What a closure needs, and what it cannot do with."""
+        wanted = {"constant_diameter": True, "constant_breadth": False, "groove": True, "conjugate": True}
+        if self.closure in wanted and wanted[self.closure] != self.is_roller:
+            kinds = "rollers or points" if wanted[self.closure] else 'contact = "flat"'
+            yield fault("contact", found=self.contact, expected=f"{kinds} for the closure {self.closure}")
+        if self.has_opposite and (self.is_oscillating or np.any(self.offset != 0)):
+            key = "follower" if self.is_oscillating else "offset"
+            expected = "followers in one line through the cam's centre, on both sides of it"
+            yield fault(key, found=getattr(self, key), expected=expected)
+        given = [self.base_radius is not None, self.breadth is not None]
+        if given[1] and not self.has_opposite:
+            remedy = "the breadth is that of one cam between two followers"
+            yield fault("breadth", found=self.breadth, expected="nothing", remedy=remedy)
+        elif sum(given) != 1:
+            found = "both" if all(given) else "neither"
+            yield fault("base_radius", found=found, expected="either base_radius or breadth")
+        yield from self._breadth_faults()
+        if (self.closure == "conjugate") != (self.second is not None):
+            yield fault(
+                "second", found=self.second and "a table", expected='a table if the closure is "conjugate"'
+            )
+        if self.second is not None:
+            yield from self._second_faults(self.second)
+
+    def _second_faults(self, second: SecondFollower) -> Iterator[InitErrorDetails]:
+        """A second follower that is of another kind than the first."""
+        swings = self.is_oscillating
+        wanted, what = ("angle", "the two arms") if swings else ("distance", "the two rollers")
+        if getattr(second, wanted) is None:
+            yield fault("second", wanted, expected=f"how far {what} are from each other")
+        for key in ("distance",) if swings else ("angle", "arm_length"):
+            if getattr(second, key) is not None:
+                expected = f"nothing for {'an oscillating' if swings else 'a translating'} follower"
+                yield fault("second", key, found=getattr(second, key), expected=expected)
+        if self.contact == "point" and second.roller_radius is not None:
+            yield fault("second", "roller_radius", found=second.roller_radius, expected="nothing for an edge")
+
+    def _breadth_faults(self) -> Iterator[InitErrorDetails]:
+        """A breadth that leaves no cam between the followers."""
+        if self.breadth is None or not self.has_opposite or np.ndim(self.breadth):
+            return
+        if any(True for _ in section_faults(self.sections, "lift")) or self.is_oscillating:
+            return
+        least = self.stroke + 2 * self.radius_of_roller
+        if self.breadth <= least:
+            remedy = "half of what is left over is the base radius"
+            yield fault("breadth", found=self.breadth, expected=f"more than {least:.6g} m", remedy=remedy)
+
+    def _arm_faults(self) -> Iterator[InitErrorDetails]:
+        """An oscillating follower needs its pivot and arm, and no line."""
+        if self.arm_pivot is None:
+            yield fault("arm_pivot", expected="the fixed point that the follower turns about")
+        if self.arm_length is None and self.is_roller:
+            yield fault("arm_length", expected="a length: from the follower's pivot to roller or edge")
+        for key in ("direction", "face_tilt", "train"):
+            if key in self.model_fields_set:
+                found = "a table" if key == "train" else getattr(self, key)
+                yield fault(key, found=found, expected="nothing for an oscillating follower")
+        if self.is_roller and "offset" in self.model_fields_set:
+            yield fault("offset", found=self.offset, expected="nothing for an arm with a roller or edge")
+
+    def _line_faults(self) -> Iterator[InitErrorDetails]:
+        """A translating follower needs no arm, and a line that meets the prime circle."""
+        for key in ("arm_pivot", "arm_length", "side"):
+            if key in self.model_fields_set and getattr(self, key) is not None:
+                yield fault(key, found=getattr(self, key), expected="nothing for a translating follower")
+        if self.face_tilt and self.is_roller:
+            yield fault("face_tilt", found=self.face_tilt, expected="nothing without a flat face")
+        if not self.is_roller and np.any(self.offset != 0):
+            remedy = "a flat face touches the cam alike wherever its stem is"
+            yield fault("offset", found=self.offset, expected="nothing for a flat face", remedy=remedy)

@@ -1,0 +1,259 @@
+"""The motion law of a section, as it is written in a machine file: a name, or a table with a `kind`.
+
+| kind | is |
+| --- | --- |
+| `cycloidal`, `polynomial_3_4_5`, … | a law of the catalogue that has no parameters |
+| `modified_trapezoid`, `modified_sine` | with a share of their ramps |
+| `polynomial` | by its boundary conditions, of any degree |
+| `optimal` | least integral of the square of a derivative |
+| `combined`, `trapezoidal_velocity`, `s_curve` | ramp, constant velocity, ramp, by shares |
+| `limited` | the same by limits of velocity, acceleration and jerk |
+
+`point_law` has those that go through points.
+
+The laws themselves are in `linkwright.cam.laws`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.errors import LawError, Problem
+from linkwright.kernel.units import (
+    LIFT_D1,
+    LIFT_D2,
+    LIFT_D3,
+    RATIO,
+    SWING_D2,
+    SWING_D3,
+    Bound,
+    Quantity,
+    not_negative,
+    positive,
+)
+
+if TYPE_CHECKING:
+    from linkwright.cam.laws.boundary import Boundary
+    from linkwright.cam.laws.motion_law import MotionLaw
+
+_TO_QUARTER = Bound(
+    " above 0 and up to 0.25,", {"exclusiveMinimum": 0, "maximum": 0.25}, lambda x: 0 < x <= 0.25
+)
+_UP_TO_HALF = Bound(" of 0 to 0.5,", {"minimum": 0, "maximum": 0.5}, lambda x: 0 <= x <= 0.5)
+_TO_HALF = Bound(
+    " between 0 and 0.5,", {"exclusiveMinimum": 0, "exclusiveMaximum": 0.5}, lambda x: 0 < x < 0.5
+)
+Share = Annotated[float, not_negative(RATIO)]
+
+# Polynomials of higher degree than these give are lost in rounding.
+Order = Literal[1, 2, 3, 4]
+Continuity = Literal[0, 1, 2, 3, 4, 5, 6, 7]
+
+
+class Law(Checked):
+    """What all laws have in common."""
+
+    def own_lift(self, angle: float, *, swing: bool) -> float | None:
+        """The lift that the law says itself [m or rad].
+
+        Parameters
+        ----------
+        angle : float
+            Of the section [rad].
+        swing : bool
+            Whether the follower swings.
+        """
+        return None
+
+    def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
+        """The law of a section.
+
+        Parameters
+        ----------
+        task : Boundary
+            What the section has to do.
+        angle : float
+            Of the section [rad].
+        swing : bool
+            Whether the follower swings.
+
+        Returns
+        -------
+        MotionLaw
+            x(z) from 0 to 1, beginning with 0.
+
+        Raises
+        ------
+        LawError
+            The law cannot meet these boundary values.
+        """
+        from linkwright.cam.laws.catalogue import LAWS
+
+        name: str = getattr(self, "kind")  # noqa: B009
+        return LAWS[name].section(task, **self._parameters())
+
+    def _parameters(self) -> dict[str, Any]:
+        """The parameters of the law by name."""
+        return {name: getattr(self, name) for name in type(self).model_fields if name != "kind"}
+
+
+class PlainLaw(Law):
+    """A law of the catalogue that has no parameters."""
+
+    kind: Literal[
+        "constant_velocity",
+        "parabolic",
+        "harmonic",
+        "double_harmonic",
+        "cycloidal",
+        "gutman_1_3",
+        "freudenstein_1_3",
+        "freudenstein_1_3_5",
+        "polynomial_3_4_5",
+        "polynomial_4_5_6_7",
+        "minimum_acceleration",
+        "minimum_jerk",
+    ]
+
+
+class ModifiedTrapezoidLaw(Law):
+    """Constant acceleration with ramps of quarter sines."""
+
+    kind: Literal["modified_trapezoid"]
+    share: Annotated[float, Quantity(RATIO, _TO_QUARTER)] = Field(
+        0.125, description="Of each of the four ramps in the section."
+    )
+
+
+class ModifiedSineLaw(Law):
+    """Slow cosine between two quick quarter sines."""
+
+    kind: Literal["modified_sine"]
+    share: Annotated[float, Quantity(RATIO, _TO_HALF)] = Field(
+        0.125, description="Of each of the two quarter sines in the section."
+    )
+
+
+class PolynomialLaw(Law):
+    """The polynomial that meets the boundary values."""
+
+    kind: Literal["polynomial"]
+    continuity_start: Continuity = Field(
+        2, description="Order of the highest derivative set at the start; those above the second are zero."
+    )
+    continuity_end: Continuity = Field(2, description="The same at the end.")
+    powers: tuple[int, ...] | None = Field(
+        None, description="Powers to be used, as many as derivatives are set. Without them, 0, 1, 2, …"
+    )
+
+    def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
+        from linkwright.cam.laws.shapes import by_conditions
+
+        return by_conditions(task, self.continuity_start, self.continuity_end, self.powers)
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        powers = self.powers or ()
+        wrong = next((i for i, p in enumerate(powers) if p < 0 or p in powers[:i]), None)
+        if wrong is not None:
+            expected = "another whole number of 0 or more, each once"
+            yield fault("powers", wrong, found=powers[wrong], expected=expected)
+
+
+class OptimalLaw(Law):
+    """The law of least integral of the square of a derivative."""
+
+    kind: Literal["optimal"]
+    order: Literal[1, 2, 3, 4, 5] = Field(
+        3, description="Order of that derivative: 2 the acceleration, 3 the jerk."
+    )
+    free_start: tuple[Order, ...] = Field(
+        (), description="Orders of the derivatives that are free at the start; the others are set."
+    )
+    free_end: tuple[Order, ...] = Field((), description="The same at the end.")
+
+
+class CombinedLaw(Law):
+    """Start, constant velocity, braking, from rest to rest."""
+
+    kind: Literal["combined"]
+    start: Share = Field(1 / 6, description="Share of the start in the section.")
+    stop: Share = Field(1 / 6, description="Share of the braking.")
+    ramp: Literal[
+        "optimal_jerk",
+        "optimal_jerk_free",
+        "parabolic",
+        "harmonic",
+        "cycloidal",
+        "modified_trapezoid",
+        "modified_sine",
+        "gutman_1_3",
+        "freudenstein_1_3",
+        "freudenstein_1_3_5",
+        "polynomial_3_4_5",
+        "polynomial_4_5_6_7",
+    ] = Field(
+        "optimal_jerk",
+        description="Course of the velocity over a ramp: of least ∫ jerk² over 3/5 of the travel at full "
+        "velocity, the same over free travel, or the first half of a law.",
+    )
+
+
+class TrapezoidalVelocityLaw(Law):
+    """Constant acceleration, constant velocity, constant deceleration."""
+
+    kind: Literal["trapezoidal_velocity"]
+    start: Share = Field(1 / 3, description="Share of the acceleration in the section.")
+    stop: Share = Field(1 / 3, description="Share of the deceleration.")
+
+
+class SCurveLaw(Law):
+    """Trapezoidal velocity with rounded corners."""
+
+    kind: Literal["s_curve"]
+    start: Share = Field(1 / 3, description="Share of the acceleration in the section.")
+    stop: Share = Field(1 / 3, description="Share of the deceleration.")
+    rounding: Annotated[float, Quantity(RATIO, _UP_TO_HALF)] = Field(
+        0.25, description="Share of each of the two corners in its ramp."
+    )
+
+
+class LimitedLaw(Law):
+    """Trapezoidal velocity, or with a limit of the jerk an S-curve, that keeps limits by the cam angle."""
+
+    kind: Literal["limited"]
+    velocity_max: Annotated[float, positive(LIFT_D1)] | None = Field(
+        None, description="Greatest lift per cam angle. Without it, no limit."
+    )
+    acceleration_max: Annotated[float, positive(LIFT_D2)] | None = Field(
+        None, description="Greatest second derivative."
+    )
+    jerk_max: Annotated[float, positive(LIFT_D3)] | None = Field(
+        None, description="Greatest third derivative. Without it, the acceleration jumps."
+    )
+    swing_velocity_max: Annotated[float, positive(RATIO)] | None = Field(
+        None, description="For an oscillating follower: greatest angle per cam angle."
+    )
+    swing_acceleration_max: Annotated[float, positive(SWING_D2)] | None = Field(
+        None, description="Greatest second derivative of its angle."
+    )
+    swing_jerk_max: Annotated[float, positive(SWING_D3)] | None = Field(
+        None, description="Greatest third derivative of its angle."
+    )
+
+    def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
+        from linkwright.cam.laws.limited import limited_section
+
+        names = [f"swing_{name}" if swing else name for name in _LIMITS]
+        velocity, acceleration, jerk = (getattr(self, name) for name in names)
+        if acceleration is None:
+            expected = "the greatest second derivative by the cam angle"
+            raise LawError(Problem(names[1], "nothing", expected))
+        return limited_section(task, angle, velocity, acceleration, jerk)
+
+
+_LIMITS = ("velocity_max", "acceleration_max", "jerk_max")

@@ -1,0 +1,98 @@
+"""Laws through points, as they are written in a machine file: splines and tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Literal
+
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.cam.model.motion_law import Law
+from linkwright.kernel.description.base import fault
+from linkwright.kernel.description.curve import curve_faults, unread_file
+from linkwright.kernel.errors import LawError, Problem
+from linkwright.kernel.limits import LAW_POINTS
+from linkwright.kernel.units import Angles, Lengths
+
+if TYPE_CHECKING:
+    from linkwright.cam.laws.boundary import Boundary
+    from linkwright.cam.laws.motion_law import MotionLaw
+
+# Two angles, or two lifts, that differ by less than this share are the same.
+_SAME = 1e-9
+
+
+class PointLaw(Law):
+    """A law through points of the section."""
+
+    file: str | None = Field(
+        None,
+        description="File of comma-separated values beside the machine file, in place of the lists: columns "
+        'angle and lift, or swing, with their units in the head: "angle [deg], lift [mm]".',
+    )
+    angle: Angles = Field((), description="Cam angles from the start of the section to its end, increasing.")
+    lift: Lengths | None = Field(None, description="Lift at each angle.")
+    swing: Angles | None = Field(None, description="Angle of an oscillating follower at each, in its place.")
+
+    def own_lift(self, angle: float, *, swing: bool) -> float | None:
+        values = self._values(swing)
+        return values[-1] - values[0] if values else None
+
+    def _values(self, swing: bool) -> tuple[float, ...] | None:
+        """The values of one kind of follower."""
+        return self.swing if swing else self.lift
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.file is not None:
+            yield unread_file(self.file)
+        elif (self.lift is None) == (self.swing is None):
+            found = "both lift and swing" if self.lift else None
+            yield fault("lift", found=found, expected="a list of lifts, or of swings")
+        elif len(self.angle) > LAW_POINTS.most:
+            yield fault("angle", found=f"{len(self.angle)} of them", expected=LAW_POINTS.words)
+        else:
+            yield from curve_faults(self, "angle", ("lift", "swing"))
+
+    def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
+        from linkwright.cam.laws.spline import spline
+
+        values = self._values(swing)
+        if values is None:
+            expected = "swings, as the follower swings" if swing else "lifts, as it moves along a guide"
+            raise LawError(Problem("swing" if swing else "lift", "nothing", expected))
+        span, goes = self.angle[-1], values[-1] - values[0]
+        if abs(self.angle[0]) > _SAME * angle or abs(span - angle) > _SAME * angle:
+            found = f"angles from {self.angle[0]:.10g} to {span:.10g} rad"
+            expected = f"angles from 0 to {angle:.10g} rad, that of the section"
+            raise LawError(Problem("angle", found, expected))
+        if abs(goes - task.lift) > _SAME * max(map(abs, values)):
+            found = f"points that go {goes:.10g} far"
+            expected = f"points that go as far as the section, {task.lift:.10g}"
+            raise LawError(Problem("swing" if swing else "lift", found, expected))
+        places = [0.0, *(each / span for each in self.angle[1:-1]), 1.0]
+        ways = [each - values[0] for each in values[:-1]]
+        return spline(places, [*ways, task.lift], task, self._degree)
+
+    @property
+    def _degree(self) -> int:
+        """Of the spline."""
+        degree: int = getattr(self, "degree")  # noqa: B009
+        return degree
+
+
+class SplineLaw(PointLaw):
+    """The spline through points that begins and ends as its neighbours ask."""
+
+    kind: Literal["spline"]
+    degree: Literal[3, 5, 7] = Field(
+        5,
+        description="Of its polynomials: 3 sets the velocity at the ends, 5 the acceleration, 7 the jerk.",
+    )
+
+
+class TableLaw(PointLaw):
+    """A table of many points, joined by straight lines or by a cubic spline."""
+
+    kind: Literal["table"]
+    degree: Literal[1, 3] = Field(3, description="1 for straight lines, 3 for a cubic spline.")

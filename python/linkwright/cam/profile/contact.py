@@ -1,0 +1,313 @@
+"""Contacts of a cam: each a follower that touches a cam, with the curves that follow from it.
+
+| closure | contacts |
+| --- | --- |
+| spring, groove | one |
+| constant diameter or breadth | two on one cam, on opposite sides |
+| conjugate | two, each on a cam of its own |
+
+The second follower is fixed to the first, so it falls as that rises: its lift is the stroke less that of the
+first. Each contact has its own frame: its follower on the x axis, the cam as it stands where the programme
+begins.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.core import CamKernel, cam_kernel
+from linkwright.cam.laws.motion_law import MotionLaw, Side
+from linkwright.cam.model.cam import Cam
+from linkwright.cam.model.follower import Sizes, sizes, start_of, to_arm_pivot
+from linkwright.kernel.errors import AssemblyError, ShapeError
+from linkwright.linkages.model.element import FixedPoint
+from linkwright.linkages.model.outline import ORIGIN
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A follower that touches a cam.
+
+    Attributes
+    ----------
+    name : str
+        ``"cam"``, or ``"second cam"`` for the second of two contacts.
+    law : MotionLaw
+        Lift over the cam angle, least value zero [m or rad].
+    sizes : Sizes
+        Dimensions.
+    kernel : CamKernel
+        The same in the core.
+    start : float
+        Place of the follower at zero lift: from the cam's centre [m], or angle of the arm [rad].
+    turned : float
+        Angle of the contact's frame against that of the first [rad].
+    """
+
+    name: str
+    law: MotionLaw
+    sizes: Sizes
+    kernel: CamKernel
+    start: float
+    turned: float = 0.0
+
+
+@dataclass(frozen=True)
+class CamCurve:
+    """A closed curve beside the pitch curve, in its contact's frame.
+
+    Attributes
+    ----------
+    contact : Contact
+        The contact.
+    away : float
+        Distance from the pitch curve, outwards [m].
+    """
+
+    contact: Contact
+    away: float
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Cam angles between which it is smooth [rad]."""
+        return self.contact.law.breaks
+
+    def points(self, phi: Floats, side: Side = "after") -> Floats:
+        """Places.
+
+        Parameters
+        ----------
+        phi : ndarray, shape (n,)
+            Cam angles from the start of the programme [rad].
+        side : {"after", "before"}
+            What counts at a joint.
+
+        Returns
+        -------
+        ndarray, shape (n, 2)
+            [m].
+        """
+        return self._of(0, phi, side)
+
+    def tangents(self, phi: Floats, side: Side = "after") -> Floats:
+        """First derivatives by the cam angle.
+
+        Parameters
+        ----------
+        phi : ndarray, shape (n,)
+            Cam angles [rad].
+        side : {"after", "before"}
+            What counts at a joint.
+
+        Returns
+        -------
+        ndarray, shape (n, 2)
+            [m/rad].
+        """
+        return self._of(1, phi, side)
+
+    def seconds(self, phi: Floats, side: Side = "after") -> Floats:
+        """Second derivatives by the cam angle.
+
+        Parameters
+        ----------
+        phi : ndarray, shape (n,)
+            Cam angles [rad].
+        side : {"after", "before"}
+            What counts at a joint.
+
+        Returns
+        -------
+        ndarray, shape (n, 2)
+            [m/rad²].
+        """
+        return self._of(2, phi, side)
+
+    def _of(self, order: int, phi: Floats, side: Side) -> Floats:
+        found: Floats = self.contact.kernel.curve(phi, self.away, before=side == "before")[order].T
+        return found
+
+
+class Touch(NamedTuple):
+    """Where a follower touches its cam, in the ground's frame.
+
+    Attributes
+    ----------
+    pitch : ndarray, shape (n, 2)
+        Centre of the roller, the edge, or the point of contact under a flat face [m].
+    normal : ndarray, shape (n, 2)
+        Unit normal away from the cam: the way the cam pushes.
+    """
+
+    pitch: Floats
+    normal: Floats
+
+
+def touch(cam: Cam, contact: Contact, points: dict[str, FixedPoint], crank_angle: Floats) -> Touch:
+    """Where a follower touches its cam.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    contact : Contact
+        One of its contacts.
+    points : dict of str to FixedPoint
+        The fixed points of its mechanism.
+    crank_angle : ndarray, shape (n,)
+        Crank angles [rad].
+
+    Returns
+    -------
+    Touch
+        Places and normals.
+    """
+    angle = np.asarray(crank_angle, dtype=float) - cam.phase
+    rows = contact.kernel.rows(np.mod(angle, 2 * np.pi))
+    turned = frame_angle(cam, points) + contact.turned + turned_by(cam, angle)
+    pitch = np.array(centre_of(cam, points)) + _turned(rows["pitch_x"], rows["pitch_y"], turned)
+    return Touch(pitch, _turned(rows["normal_x"], rows["normal_y"], turned))
+
+
+def centre_of(cam: Cam, points: dict[str, FixedPoint]) -> tuple[float, float]:
+    """Place of the cam's centre.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    points : dict of str to FixedPoint
+        The fixed points of its mechanism.
+
+    Returns
+    -------
+    x, y : float
+        [m].
+    """
+    centre = points.get(cam.pivot or ORIGIN)
+    return (0.0, 0.0) if centre is None else (float(centre.x), float(centre.y))
+
+
+def frame_angle(cam: Cam, points: dict[str, FixedPoint]) -> float:
+    """Direction of the first contact's x axis on the ground.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    points : dict of str to FixedPoint
+        The fixed points of its mechanism.
+
+    Returns
+    -------
+    float
+        Of a translating follower's line, or of the line from the cam's centre to the follower's pivot [rad].
+    """
+    if not cam.is_oscillating:
+        return float(cam.direction)
+    return float(np.arctan2(*to_arm_pivot(cam, points)[::-1]))
+
+
+def turned_by(cam: Cam, angle: Floats) -> Floats:
+    """Angle by which a cam has turned when the crankshaft has, (n,) [rad]."""
+    return -angle if cam.rotation == "opposite" else angle
+
+
+def _turned(x: Floats, y: Floats, angle: Floats) -> Floats:
+    """Vectors turned by angles, (n, 2)."""
+    sin, cos = np.sin(angle), np.cos(angle)
+    return np.stack((cos * x - sin * y, sin * x + cos * y), axis=-1)
+
+
+def contacts(cam: Cam, points: dict[str, FixedPoint], name: str = "cam") -> tuple[Contact, ...]:
+    """The contacts of a cam.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    points : dict of str to FixedPoint
+        The fixed points of its mechanism.
+    name : str
+        The cam's name, for errors.
+
+    Returns
+    -------
+    tuple of Contact
+        One or two.
+
+    Raises
+    ------
+    AssemblyError
+        The second follower does not reach its cam.
+    ShapeError
+        Dimensions vary from machine to machine.
+    """
+    size = sizes(cam, points)
+    if any(np.ndim(each) for each in (*size, *(value for _, value in cam if not isinstance(value, tuple)))):
+        raise ShapeError(
+            f"the profile of cam {name} is that of one machine, and the entries describe several"
+        )
+    first = _contact("cam", cam, cam.lift, size, left=cam.side == "left")
+    if cam.has_opposite:
+        return first, _contact("second follower", cam, falling(cam), size, turned=np.pi)
+    if cam.closure == "conjugate":
+        return first, _conjugate(cam, first, name)
+    return (first,)
+
+
+def falling(cam: Cam) -> MotionLaw:
+    """Lift of a follower on the other side: the stroke less that of the first."""
+    return cam.lift.scaled(-1.0, cam.stroke)
+
+
+def _contact(
+    name: str, cam: Cam, law: MotionLaw, size: Sizes, *, left: bool = True, turned: float = 0.0
+) -> Contact:
+    kernel = cam_kernel(
+        law,
+        size,
+        oscillating=cam.is_oscillating,
+        roller=cam.is_roller,
+        opposite=cam.rotation == "opposite",
+        left=left,
+    )
+    return Contact(name, law, size, kernel, float(start_of(cam, size)), turned)
+
+
+def _conjugate(cam: Cam, first: Contact, name: str) -> Contact:
+    """The second cam of a conjugate pair, whose base circle follows from the distance of the followers."""
+    second = cam.second
+    assert second is not None
+    roller = second.roller_radius or first.sizes.roller_radius
+    roller = roller if cam.contact == "roller" else 0.0
+    if cam.is_oscillating:
+        arm = second.arm_length or first.sizes.arm
+        start = (second.angle or 0.0) - first.start - cam.stroke
+        a = first.sizes.distance
+        prime = np.sqrt(a**2 + arm**2 - 2 * a * arm * np.cos(start)) if start > 0 else -1.0
+        size = first.sizes._replace(base_radius=prime - roller, roller_radius=roller, arm=arm)
+        turned = 0.0
+    else:
+        start = (second.distance or 0.0) - first.start - cam.stroke
+        prime = np.hypot(start, first.sizes.offset) if start > 0 else -1.0
+        size = first.sizes._replace(
+            base_radius=prime - roller, roller_radius=roller, offset=-first.sizes.offset
+        )
+        turned = np.pi
+    if size.base_radius <= 0:
+        least = first.start + cam.stroke + (0.0 if cam.is_oscillating else roller)
+        key, unit = ("angle", "rad") if cam.is_oscillating else ("distance", "m")
+        raise AssemblyError(
+            f"the second follower of {name} leaves no room for its cam: "
+            f"mechanism.cams.{name}.second.{key} must be more than {least:.6g} {unit}",
+            element=name,
+            crank_angle=cam.phase,
+        )
+    return _contact("second cam", cam, falling(cam), size, left=cam.side != "left", turned=turned)

@@ -1,0 +1,322 @@
+r"""What is known of a cam: lift, pressure angle and curvature over a turn, and their extremes.
+
+The pressure angle γ is that between the force on the follower, along the normal of the contact, and the way
+that the follower moves; positive to the left. The radius of curvature ρ of the profile is positive where the
+cam is convex; of a roller's pitch curve it is larger by the roller's radius.
+
+The extremes are zeros of exact derivatives, not values at samples, and count both sides of each joint.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.core import Extreme, Shape
+from linkwright.cam.model.cam import Cam
+from linkwright.cam.profile.contact import CamCurve, Contact, contacts
+from linkwright.cam.profile.opposite import Opposite, opposite
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import show
+from linkwright.machine.machine import Machine
+
+Floats = NDArray[np.float64]
+
+# Angles a turn at which a cam is looked at; between them extremes are found exactly.
+ANGLES = 720
+
+
+@dataclass(frozen=True)
+class Flank:
+    """One contact over a turn.
+
+    Attributes
+    ----------
+    contact : Contact
+        The follower and its cam.
+    shape : Shape
+        What the core knows of it.
+    pressure_angle_max, pressure_angle_min : Extreme
+        Greatest and least pressure angle, with sign [rad].
+    convex, concave : Extreme or None
+        Least radius of curvature of the convex and of the concave parts of the profile, both positive [m];
+        the first is negative where it is undercut. None if there is no such part.
+    """
+
+    contact: Contact
+    shape: Shape
+    pressure_angle_max: Extreme
+    pressure_angle_min: Extreme
+    convex: Extreme | None
+    concave: Extreme | None
+
+    @property
+    def steepest(self) -> Extreme:
+        """The pressure angle that is largest in size."""
+        both = (self.pressure_angle_max, self.pressure_angle_min)
+        return max(both, key=lambda each: abs(each.value))
+
+    @property
+    def curvature_radius(self) -> Floats:
+        """Radius of curvature of the profile at the angles of the shape [m]; infinite at inflections."""
+        bend = self.shape.rows["bend"]
+        if not self.contact.kernel.is_roller:
+            return bend
+        with np.errstate(divide="ignore"):
+            radius: Floats = 1.0 / bend - self.contact.sizes.roller_radius
+        return radius
+
+    @property
+    def profile(self) -> Floats:
+        """The profile at the angles of the shape, in the contact's frame, (n, 2) [m]."""
+        rows, roller = self.shape.rows, self.contact.sizes.roller_radius
+        x, y = (rows[f"pitch_{axis}"] - roller * rows[f"normal_{axis}"] for axis in "xy")
+        return np.column_stack((x, y))
+
+    def curve(self, away: float | None = None) -> CamCurve:
+        """A curve beside the pitch curve, by its distance outwards; without it, the profile."""
+        return CamCurve(self.contact, -self.contact.sizes.roller_radius if away is None else away)
+
+
+# Attributes of a profile that are no results to be written out.
+_PARTS = ("cam", "flanks", "opposite")
+
+
+@dataclass(frozen=True)
+class CamProfile(Result):
+    """A cam and its followers over a turn.
+
+    Attributes
+    ----------
+    angle : ndarray, shape (n,)
+        Cam angle from the start of the programme [rad], increasing; joints of the law stand twice.
+    lift, lift_d1, lift_d2, lift_d3 : ndarray, shape (n,)
+        Lift from the base circle and its derivatives by the cam angle [m or rad, per radⁿ].
+    pressure_angle, curvature_radius : ndarray, shape (n,)
+        Of the first contact [rad, m].
+    name : str
+        The cam's.
+    stroke : float
+        Greatest lift [m or rad].
+    velocity_max, acceleration_max, jerk_max : float
+        Largest in size at the design speed [m/s …, or rad/s …]; None without one.
+    speed_constant : float
+        Largest velocity that is kept over a section [m/s or rad/s]; None without such a section or speed.
+    base_radius, prime_radius : float
+        Of the first cam [m].
+    pressure_angle_max, pressure_angle_max_angle : float
+        Largest in size over all contacts, and the cam angle there [rad].
+    curvature_radius_min, curvature_radius_min_angle : float
+        Least radius of curvature in size, convex or concave, negative where undercut [m], and where [rad].
+    curvature_radius_convex_min, curvature_radius_concave_min : float
+        Of each kind by itself [m]; None where there is no such part.
+    diameter_min, diameter_max : float
+        Distance of two followers that touch one cam on opposite sides [m]; None for other closures.
+    face_min, face_max : float
+        Place of the contact on a flat face, to the left of its stem or along the arm [m]; None for rollers.
+    speed : float
+        Design speed of the cam [rad/s], or None.
+    cam : Cam
+        The description.
+    flanks : tuple of Flank
+        The contacts.
+    opposite : Opposite or None
+        Whether two followers touch one cam at every angle.
+    """
+
+    angle: Floats
+    lift: Floats
+    lift_d1: Floats
+    lift_d2: Floats
+    lift_d3: Floats
+    pressure_angle: Floats
+    curvature_radius: Floats
+    name: str
+    stroke: float
+    velocity_max: float | None
+    acceleration_max: float | None
+    jerk_max: float | None
+    speed_constant: float | None
+    base_radius: float
+    prime_radius: float
+    pressure_angle_max: float
+    pressure_angle_max_angle: float
+    curvature_radius_min: float | None
+    curvature_radius_min_angle: float | None
+    curvature_radius_convex_min: float | None
+    curvature_radius_concave_min: float | None
+    diameter_min: float | None
+    diameter_max: float | None
+    face_min: float | None
+    face_max: float | None
+    speed: float | None
+    cam: Cam
+    flanks: tuple[Flank, ...]
+    opposite: Opposite | None
+
+    @property
+    def joints(self) -> tuple[dict[str, Any], ...]:
+        """Where sections meet: cam angle [rad], highest continuous derivative, jumps of the derivatives."""
+        found = self.cam.motion.joints
+        return tuple({"angle": j.angle, "order": j.order, "jumps": list(j.jumps)} for j in found)
+
+    def _entries(self) -> dict[str, Any]:
+        """What is written out: numbers and curves, not the parts that they are from."""
+        return {key: value for key, value in super()._entries().items() if key not in _PARTS}
+
+
+def the_cam(machine: Machine, name: str | None = None) -> tuple[str, Cam]:
+    """A cam of a machine by name.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    name : str, optional
+        The cam's name; may be left out if there is one.
+
+    Returns
+    -------
+    name : str
+        Its name.
+    cam : Cam
+        The cam.
+
+    Raises
+    ------
+    InputError
+        There is no cam, none of this name, or several to choose from.
+    """
+    cams = machine.mechanism.cams
+    if not cams:
+        raise InputError("the machine has no cam: give it one as [mechanism.cams.NAME]")
+    if name is None and len(cams) > 1:
+        raise InputError(f"the machine has several cams: name one of {', '.join(cams)}")
+    chosen = next(iter(cams)) if name is None else name
+    if chosen not in cams:
+        raise InputError(f"{show(chosen)}: the machine has no such cam; {suggestion(chosen, cams)}")
+    return chosen, cams[chosen]
+
+
+@public
+def cam_profile(machine: Machine, name: str | None = None, *, n: int = ANGLES) -> CamProfile:
+    """Look at a cam over a turn.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    name : str, optional
+        The cam's name; may be left out if there is one.
+    n : int
+        Cam angles a turn, at least 16; extremes do not depend on it.
+
+    Returns
+    -------
+    CamProfile
+        Curves and extremes. Whether the cam can be made is asked by `cam_faults`.
+
+    Raises
+    ------
+    InputError
+        No such cam, or too few angles.
+    AssemblyError
+        A second follower leaves no room for its cam.
+    """
+    if not 16 <= n <= 1_000_000:
+        raise InputError(f"n = {n}: expected 16 to 1 000 000 cam angles")
+    name, cam = the_cam(machine, name)
+    speed = None if machine.drive is None else machine.drive.speed
+    return profile_of(name, cam, contacts(cam, machine.mechanism.fixed_points(), name), speed, n)
+
+
+def profile_of(name: str, cam: Cam, touching: tuple[Contact, ...], speed: float | None, n: int) -> CamProfile:
+    """The same from contacts.
+
+    Parameters
+    ----------
+    name : str
+        The cam's name.
+    cam : Cam
+        The cam.
+    touching : tuple of Contact
+        Its contacts.
+    speed : float or None
+        Design speed [rad/s].
+    n : int
+        Cam angles a turn.
+    """
+    flanks = tuple(_flank(contact, n) for contact in touching)
+    first = flanks[0]
+    rows, size = first.shape.rows, first.contact.sizes
+    steepest = max((flank.steepest for flank in flanks), key=lambda each: abs(each.value))
+    convex = _least([flank.convex for flank in flanks])
+    concave = _least([flank.concave for flank in flanks])
+    tightest = _least([convex, concave])
+    both = opposite(cam, first.contact) if cam.has_opposite else None
+    face = None if cam.is_roller else (first.shape.least["along"], first.shape.greatest["along"])
+    return CamProfile(
+        first.shape.angle,
+        rows["lift"],
+        rows["lift_d1"],
+        rows["lift_d2"],
+        rows["lift_d3"],
+        rows["pressure_angle"],
+        first.curvature_radius,
+        name,
+        cam.stroke,
+        _in_time(cam.motion.peaks[0], 1, speed),
+        _in_time(cam.motion.peaks[1], 2, speed),
+        _in_time(cam.motion.peaks[2], 3, speed),
+        _in_time(cam.motion.steady_velocity, 1, speed),
+        float(size.base_radius),
+        float(size.base_radius + size.roller_radius),
+        abs(steepest.value),
+        steepest.angle,
+        tightest.value if tightest else None,
+        tightest.angle if tightest else None,
+        convex.value if convex else None,
+        concave.value if concave else None,
+        both.least.value if both else None,
+        both.greatest.value if both else None,
+        face[0].value if face else None,
+        face[1].value if face else None,
+        speed,
+        cam,
+        flanks,
+        both,
+    )
+
+
+def _least(found: list[Extreme | None]) -> Extreme | None:
+    """The least of those that there are."""
+    return min((each for each in found if each is not None), key=lambda each: each.value, default=None)
+
+
+def _in_time(peak: float | None, order: int, speed: float | None) -> float | None:
+    """A derivative by the cam angle as one by time; None without either."""
+    if peak is None or speed is None:
+        return None
+    with np.errstate(over="ignore"):
+        value = float(peak * np.abs(np.float64(speed)) ** order)
+    return value if np.isfinite(value) else None
+
+
+def _flank(contact: Contact, n: int) -> Flank:
+    """One contact with its extremes."""
+    shape = contact.kernel.shape(n, (("soundness", 0.0), ("bend", 0.0)))
+    high, low = shape.greatest, shape.least
+    steep = high["pressure_angle"], low["pressure_angle"]
+    if not contact.kernel.is_roller:
+        # Under a flat face the cam must be convex everywhere.
+        return Flank(contact, shape, *steep, low["bend"], None)
+    roller, bends = contact.sizes.roller_radius, (high["bend"], low["bend"])
+    convex = Extreme(bends[0].angle, 1.0 / bends[0].value - roller) if bends[0].value > 0 else None
+    concave = Extreme(bends[1].angle, -1.0 / bends[1].value + roller) if bends[1].value < 0 else None
+    return Flank(contact, shape, *steep, convex, concave)

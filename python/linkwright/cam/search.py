@@ -1,0 +1,311 @@
+"""Thousands to millions of cams that differ in law, radii, offset or lift: which keep their limits.
+
+Of two contacts the first counts. Each cam is looked at at the same angles, in SIMD lanes; what is chosen in
+the end is looked at exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.cam.model.cam import Cam
+from linkwright.cam.model.follower import Sizes
+from linkwright.cam.model.motion_law import PlainLaw
+from linkwright.cam.model.motion_section import ENDS, MotionSection
+from linkwright.cam.profile.contact import contacts
+from linkwright.cam.profile.profile import the_cam
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import InputError, ShapeError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import array
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+
+Floats = NDArray[np.float64]
+
+# Entries of a cam that may vary, and the place of each among the dimensions; the factor on the lift comes
+# last.
+ENTRIES = ("base_radius", "roller_radius", "offset", "distance", "arm_length", "face_tilt", "lift_factor")
+
+_POSITIVE = ("base_radius", "roller_radius", "distance", "arm_length")
+
+# Angles a turn at which cams are looked at. An extreme between them is missed by up to (step)²/8 of its
+# second derivative: some 1e-4 of pressure angles, up to 1e-3 of the size of the cam in radii of curvature.
+PER_TURN = 360
+
+
+@dataclass(frozen=True)
+class Cams(Result):
+    """Many cams; arrays (n,), NaN where the dimensions do not go together.
+
+    Attributes
+    ----------
+    entries : dict of str to ndarray
+        What was varied, by name.
+    laws : tuple of str
+        Names of the laws.
+    law : ndarray of int
+        Number of the law of each cam.
+    pressure_angle_max : ndarray
+        Largest in size [rad].
+    curvature_radius_min : ndarray
+        Least radius of curvature of the convex parts of the profile, negative where undercut [m].
+    concave_radius_min : ndarray
+        Least of the concave parts [m], infinite without such parts; under a flat face the profile cannot have
+        any.
+    is_sound : ndarray of bool
+        Whether it is neither undercut nor locked.
+    """
+
+    entries: dict[str, Floats]
+    laws: tuple[str, ...]
+    law: NDArray[np.intp]
+    pressure_angle_max: Floats
+    curvature_radius_min: Floats
+    concave_radius_min: Floats
+    is_sound: NDArray[np.bool_]
+
+    def keeps(self, pressure_angle: float, curvature_radius: float = 0.0) -> NDArray[np.bool_]:
+        """Which cams are sound and keep limits.
+
+        Parameters
+        ----------
+        pressure_angle : float
+            Largest pressure angle allowed [rad].
+        curvature_radius : float
+            Least convex radius of curvature allowed [m].
+
+        Returns
+        -------
+        ndarray of bool, shape (n,)
+            One for each cam.
+        """
+        steep = self.pressure_angle_max <= pressure_angle
+        found: NDArray[np.bool_] = self.is_sound & steep & (self.curvature_radius_min >= curvature_radius)
+        return found
+
+    def smallest(self, keeps: NDArray[np.bool_], count: int = 1) -> NDArray[np.intp]:
+        """The cams of least base radius among some, then of least pressure angle.
+
+        Parameters
+        ----------
+        keeps : ndarray of bool, shape (n,)
+            Which may be chosen.
+        count : int
+            How many, at most.
+
+        Returns
+        -------
+        ndarray of int
+            Their numbers.
+        """
+        numbers = np.flatnonzero(keeps)
+        base = self.entries.get("base_radius", np.zeros(len(keeps)))
+        order = np.lexsort((self.pressure_angle_max[numbers], base[numbers]))
+        return numbers[order[:count]]
+
+
+@public
+def search_cams(
+    machine: Machine,
+    name: str | None = None,
+    *,
+    entries: Mapping[str, ArrayLike],
+    laws: Sequence[str] = (),
+    law: ArrayLike | None = None,
+    per_turn: int = PER_TURN,
+) -> Cams:
+    """Look at many variants of a cam.
+
+    Parameters
+    ----------
+    machine : Machine
+        A machine with the cam.
+    name : str, optional
+        The cam's name; may be left out if there is one.
+    entries : mapping of str to array_like, shape (n,)
+        What varies, by the names of `ENTRIES`; ``lift_factor`` multiplies the lift. All else is as in the
+        file.
+    laws : sequence of str
+        Names of laws, one of which all moving sections of a cam follow; without them, the sections as they
+        are.
+    law : array_like of int, shape (n,), optional
+        Number of the law of each cam; without it each variant is looked at with every law, law after law.
+    per_turn : int
+        Cam angles a turn, at least 16.
+
+    Returns
+    -------
+    Cams
+        One row for each cam.
+
+    Raises
+    ------
+    InputError
+        No such cam, entry or law; too few angles.
+    ShapeError
+        Arrays of different length.
+    """
+    name, cam = the_cam(machine, name)
+    if per_turn < 16:
+        raise InputError(f"per_turn = {per_turn}: expected 16 cam angles or more")
+    columns, n = _columns(entries, _useful(cam))
+    numbers, repeats = _numbers(law, len(laws) or 1, n)
+    columns = {
+        key: np.tile(column, repeats) if len(column) > 1 else column for key, column in columns.items()
+    }
+    found = np.full((len(numbers), 4), np.nan)
+    points = machine.mechanism.fixed_points()
+    for i, each in enumerate(_variants(cam, laws)):
+        rows = np.flatnonzero(numbers == i)
+        if len(rows):
+            contact = contacts(each, points, name)[0]
+            listed = _dimensions(contact.sizes, {k: c[rows] if len(c) > 1 else c for k, c in columns.items()})
+            found[rows] = contact.kernel.search(listed, per_turn)
+    return _cams(cam, columns, tuple(laws), numbers, found)
+
+
+def variant(machine: Machine, name: str, found: Cams, i: int) -> Machine:
+    """The machine with one of the cams.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine that was searched with.
+    name : str
+        The cam's name.
+    found : Cams
+        The search.
+    i : int
+        Number of the cam.
+
+    Returns
+    -------
+    Machine
+        A copy; a cam that was given by its breadth has the base radius instead, if that was varied.
+
+    Raises
+    ------
+    InputError
+        The distance of the pivots was varied, which is no entry of the cam but a place of its pivot.
+    """
+    if "distance" in found.entries:
+        raise InputError(
+            f"the distance of the pivots is no entry of cam {name}: move the point of its arm_pivot instead"
+        )
+    cam = machine.mechanism.cams[name]
+    if found.laws:
+        law = found.laws[int(found.law[i])]
+        cam = cam.with_entries({"sections": tuple(_with(each, law) for each in cam.sections)})
+    entries: dict[str, Any] = {
+        key: float(column[i]) for key, column in found.entries.items() if key != "lift_factor"
+    }
+    if "base_radius" in entries:
+        entries["breadth"] = None
+    factor = found.entries.get("lift_factor")
+    if factor is not None:
+        entries["sections"] = tuple(_times(each, float(factor[i])) for each in cam.sections)
+    cams = {**machine.mechanism.cams, name: cam.with_entries(entries)}
+    return machine.with_entries({"mechanism": machine.mechanism.with_entries({"cams": cams})})
+
+
+def _times(section: MotionSection, factor: float) -> MotionSection:
+    """A section with all of its motion times a factor."""
+    keys = [f"{kind}{name}" for kind in ("", "swing_") for name in ENDS]
+    values = {key: getattr(section, key) for key in ("lift", "swing", *keys)}
+    return section.with_entries({key: factor * x for key, x in values.items() if x is not None})
+
+
+def _useful(cam: Cam) -> tuple[str, ...]:
+    """Entries that a cam of this kind depends on."""
+    own: tuple[str, ...]
+    if cam.is_oscillating:
+        own = ("distance", "arm_length") if cam.is_roller else ("distance", "offset")
+    else:
+        own = ("offset",) if cam.is_roller else ("face_tilt",)
+    roller = ("roller_radius",) if cam.contact == "roller" else ()
+    return ("base_radius", *roller, *own, "lift_factor")
+
+
+def _columns(entries: Mapping[str, ArrayLike], useful: Sequence[str]) -> tuple[dict[str, Floats], int]:
+    """Columns by name, and how many variants."""
+    columns = {}
+    for key, values in entries.items():
+        if key not in useful:
+            remedy = suggestion(key, useful)
+            raise InputError(f'entries: found "{key}", expected what such a cam depends on; {remedy}')
+        columns[key] = np.atleast_1d(array(f"entries: {key}", values))
+        if columns[key].ndim != 1 or not np.isfinite(columns[key]).all():
+            raise InputError(f'entries: found no list of finite numbers for "{key}"')
+        least = columns[key].min(initial=np.inf)
+        if key in _POSITIVE and least <= 0:
+            raise InputError(f"entries: found {key} {least:.6g}, expected more than 0")
+    lengths = {len(column) for column in columns.values()} - {1}
+    if len(lengths) > 1:
+        found = ", ".join(f"{key} {len(column)}" for key, column in columns.items())
+        raise ShapeError(f"entries: found lists of {found} numbers, expected the same length for all")
+    return columns, lengths.pop() if lengths else 1
+
+
+def _numbers(law: ArrayLike | None, n_laws: int, n: int) -> tuple[NDArray[np.intp], int]:
+    """Number of the law of each cam, and how often the variants are repeated."""
+    if law is None:
+        return np.repeat(np.arange(n_laws), n), n_laws
+    given = array("law", law)
+    if (given != np.floor(given)).any() or (np.abs(given) > n_laws).any():
+        raise InputError("law: expected whole numbers, the place of a law among the laws")
+    numbers = given.astype(np.intp)
+    if numbers.ndim != 1 or (n > 1 and len(numbers) != n):
+        raise ShapeError(f"law: found shape {numbers.shape}, expected one number for each of {n} cams")
+    if ((numbers < 0) | (numbers >= n_laws)).any():
+        raise InputError(f"law: expected numbers from 0 to {n_laws - 1}, the place of a law among the laws")
+    return numbers, 1
+
+
+def _variants(cam: Cam, laws: Sequence[str]) -> list[Cam]:
+    """The cam with each law in its moving sections."""
+    if not laws:
+        return [cam]
+    return [cam.with_entries({"sections": tuple(_with(each, law) for each in cam.sections)}) for law in laws]
+
+
+def _with(section: MotionSection, law: str) -> MotionSection:
+    """A section with another law; dwells and constant velocity stay."""
+    from linkwright.cam.laws.catalogue import LAWS
+
+    if law not in LAWS:
+        remedy = suggestion(law, LAWS) or "there is " + ", ".join(LAWS)
+        raise InputError(f'laws: found "{law}", expected the name of a law; {remedy}')
+    if section.is_dwell or section.is_steady:
+        return section
+    entry: dict[str, Any] = {"kind": law}
+    return section.with_entries({"law": PlainLaw.model_construct(**entry)})
+
+
+def _dimensions(size: Sizes, columns: Mapping[str, Floats]) -> list[Floats]:
+    """The six dimensions and the factor on the lift, as columns."""
+    fixed = dict(zip(ENTRIES, (*size, 1.0), strict=True))
+    return [columns.get(key, np.array([float(fixed[key])])) for key in ENTRIES]
+
+
+def _cams(
+    cam: Cam, columns: dict[str, Floats], laws: tuple[str, ...], numbers: NDArray[np.intp], found: Floats
+) -> Cams:
+    """The results in the field's terms."""
+    lead, sound, most, least = found.T
+    n = len(numbers)
+    roller = np.broadcast_to(columns.get("roller_radius", np.array([cam.radius_of_roller])), n)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if cam.is_roller:
+            convex = np.where(most > 0, 1.0 / most - roller, np.inf)
+            concave = np.where(least < 0, -1.0 / least + roller, np.inf)
+        else:
+            convex, concave = least, np.full(n, np.inf)
+        is_sound = (sound > 0) & np.isfinite(lead)
+    full = {key: np.broadcast_to(column, n).copy() for key, column in columns.items()}
+    return Cams(full, laws, numbers, np.arctan(lead), convex, concave, is_sound)

@@ -1,0 +1,259 @@
+"""A cam as tables of text: sizes and extremes, joints of its sections, forces, its laws beside others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+from linkwright.app.study import Study
+from linkwright.cam.dynamics.loaded import LoadedCam
+from linkwright.cam.law_factors import LawFactors, law_factors
+from linkwright.cam.laws.catalogue import LAWS
+from linkwright.cam.profile.least_sizes import LeastSizes
+from linkwright.cam.profile.profile import CamProfile
+from linkwright.kernel.page.quantities import degrees, number
+from linkwright.kernel.page.table import Row, Table, with_unit
+
+# Laws that sections are compared with: the usual ones, from the gentlest velocity on.
+_COMPARED = (
+    "harmonic",
+    "cycloidal",
+    "modified_trapezoid",
+    "modified_sine",
+    "polynomial_3_4_5",
+    "polynomial_4_5_6_7",
+)
+
+# A section counts as one of rest to rest if its ends are slower than this share of its mean velocity.
+_REST = 1e-9
+
+
+def cam_tables(study: Study) -> Iterator[Table]:
+    """The tables of all cams of a study.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Yields
+    ------
+    Table
+        Of each cam: what it is, its joints, its forces; then the laws.
+    """
+    loaded = {each.name: each for each in study.loaded_cams}
+    sizes = {each.name: each for each in study.cam_sizes}
+    for profile in study.cams:
+        yield profile_table(profile)
+        if profile.name in sizes:
+            yield size_table(sizes[profile.name])
+        yield joint_table(profile)
+        if profile.name in loaded:
+            yield force_table(loaded[profile.name])
+        table = comparison_table(profile)
+        if table.rows:
+            yield table
+
+
+def profile_table(profile: CamProfile) -> Table:
+    """Sizes and extremes of a cam.
+
+    Parameters
+    ----------
+    profile : CamProfile
+        The cam.
+
+    Returns
+    -------
+    Table
+        Quantity, symbol, value, where.
+    """
+    rows = [*_motion_rows(profile), *_size_rows(profile)]
+    return Table(f"cam_{profile.name}", f"Cam {profile.name}", ("quantity", "", "value", "where"), rows)
+
+
+def _motion_rows(profile: CamProfile) -> Iterator[Row]:
+    """Lift, and its derivatives in time at the design speed."""
+    unit = "rad" if profile.cam.is_oscillating else "m"
+    yield "lift", "h", _lift(profile, profile.stroke), ""
+    at = "" if profile.speed is None else f"at {number(profile.speed)} rad/s"
+    for word, symbol, value, per in (
+        ("constant velocity", "v", profile.speed_constant, "/s"),
+        ("greatest velocity", "v_max", profile.velocity_max, "/s"),
+        ("greatest acceleration", "a_max", profile.acceleration_max, "/s²"),
+        ("greatest jerk", "j_max", profile.jerk_max, "/s³"),
+    ):
+        if value is not None:
+            yield word, symbol, with_unit(value, unit + per), at
+
+
+def _lift(profile: CamProfile, value: float) -> str:
+    return degrees(value) if profile.cam.is_oscillating else _mm(value)
+
+
+def _mm(value: float | None) -> str:
+    return "–" if value is None else f"{number(1e3 * value)} mm"
+
+
+def _size_rows(profile: CamProfile) -> Iterator[Row]:
+    """Circles, pressure angle, curvature, diameter, width of a face."""
+    yield "base circle", "r_0", _mm(profile.base_radius), ""
+    if profile.prime_radius > profile.base_radius:
+        yield "prime circle", "r_p", _mm(profile.prime_radius), ""
+    limit = f"limit {degrees(profile.cam.limit)}"
+    steep = f"at {degrees(profile.pressure_angle_max_angle % (2 * math.pi))}, {limit}"
+    yield "greatest pressure angle", "γ_max", degrees(profile.pressure_angle_max), steep
+    flanks = profile.flanks if profile.cam.closure == "conjugate" else profile.flanks[:1]
+    for flank in flanks:
+        which = f" of the {flank.contact.name}" if len(flanks) > 1 else ""
+        for word, extreme in (("convex", flank.convex), ("concave", flank.concave)):
+            if extreme is not None:
+                where = f"at {degrees(extreme.angle % (2 * math.pi))}"
+                yield f"least {word} radius{which}", "ρ_min", _mm(extreme.value), where
+    if profile.diameter_min is not None:
+        yield "least diameter", "d_min", _mm(profile.diameter_min), ""
+        yield "greatest diameter", "d_max", _mm(profile.diameter_max), ""
+    if profile.face_min is not None:
+        yield "contact on the face, from", "", _mm(profile.face_min), ""
+        yield "to", "", _mm(profile.face_max), ""
+
+
+def size_table(sizes: LeastSizes) -> Table:
+    """How small a cam might be.
+
+    Parameters
+    ----------
+    sizes : LeastSizes
+        Its least sizes.
+
+    Returns
+    -------
+    Table
+        Quantity, symbol, value, what it is for.
+    """
+    wanted = [
+        (sizes.base_radius_sound, "without undercut"),
+        (sizes.base_radius_pressure_angle, f"for {degrees(sizes.pressure_angle_limit)} pressure angle"),
+    ]
+    if sizes.curvature_limit is not None:
+        limit = f"for {_mm(sizes.curvature_limit)} radius of curvature"
+        wanted.append((sizes.base_radius_curvature, limit))
+    rows: list[Row] = [
+        ("least base circle", "r_0", "any" if value == 0 else _mm(value), what) for value, what in wanted
+    ]
+    if sizes.roller_radius_max is not None:
+        rows.append(("largest roller", "r_r", _mm(sizes.roller_radius_max), "on this pitch curve"))
+    title = f"How small cam {sizes.name} might be, all else as it is"
+    return Table(f"cam_{sizes.name}_sizes", title, ("quantity", "", "value", "where"), rows)
+
+
+def joint_table(profile: CamProfile) -> Table:
+    """How smoothly the sections of a cam meet.
+
+    Parameters
+    ----------
+    profile : CamProfile
+        The cam.
+
+    Returns
+    -------
+    Table
+        A joint a row.
+    """
+    unit = "rad" if profile.cam.is_oscillating else "m"
+    rows: list[Row] = [
+        (joint.words(unit).replace("-", "−"), "", degrees(joint.angle))
+        for joint in profile.cam.programme.joints
+    ]
+    heads = ("where sections meet, the motion is", "", "cam angle")
+    return Table(f"cam_{profile.name}_joints", f"Joints of cam {profile.name}", heads, rows)
+
+
+def force_table(loaded: LoadedCam) -> Table:
+    """Forces on a cam.
+
+    Parameters
+    ----------
+    loaded : LoadedCam
+        The cam under load.
+
+    Returns
+    -------
+    Table
+        Quantity, symbol, value, where.
+    """
+    rows: list[Row] = [
+        (f"{word} contact force", symbol, with_unit(force, "N"), f"at φ = {degrees(angle)}")
+        for word, symbol, force, angle in (
+            ("greatest", "N_max", loaded.force_max, loaded.force_max_angle),
+            ("least", "N_min", loaded.force_min, loaded.force_min_angle),
+        )
+    ]
+    if loaded.side_changes:
+        rows.append(("changes of the side that carries, a turn", "", str(loaded.side_changes), ""))
+    if loaded.speed_lost is not None and loaded.speed_lost_angle is not None:
+        at = f"at φ = {degrees(loaded.speed_lost_angle)}"
+        rows.append(("speed at which contact is lost", "ω_off", with_unit(loaded.speed_lost, "rad/s"), at))
+    if loaded.pressure_max is not None and loaded.pressure_max_angle is not None:
+        at = f"at φ = {degrees(loaded.pressure_max_angle)}"
+        rows.append(("greatest contact pressure", "p_max", f"{number(1e-6 * loaded.pressure_max)} MPa", at))
+    if loaded.shear_max is not None:
+        deep = f"{_mm(loaded.shear_depth)} below the surface"
+        rows.append(("greatest shear stress", "τ_max", f"{number(1e-6 * loaded.shear_max)} MPa", deep))
+    heads = ("quantity", "", "value", "where")
+    return Table(
+        f"cam_{loaded.name}_force",
+        f"Forces on cam {loaded.name} at {number(loaded.speed)} rad/s",
+        heads,
+        rows,
+    )
+
+
+_FACTORS = {"C_v": "C_v", "C_a": "C_a", "C_j": "C_j", "C_M": "C_M", "jerk_squared": "∫j²"}
+
+
+def comparison_table(profile: CamProfile) -> Table:
+    """The sections from rest to rest beside what other laws would make of them.
+
+    Parameters
+    ----------
+    profile : CamProfile
+        The cam.
+
+    Returns
+    -------
+    Table
+        Factors for a lift and a length of one; without rows if no section goes from rest to rest.
+    """
+    own = list(_own(profile))
+    rows = [_factor_row(name, factors) for name, factors in own]
+    if rows:
+        rows += [
+            _factor_row(name.replace("_", " "), law_factors(LAWS[name].normalised())) for name in _COMPARED
+        ]
+    title = f"Laws of cam {profile.name} beside others, for a lift and a length of one"
+    return Table(f"cam_{profile.name}_laws", title, ("law", "jumps", *_FACTORS.values()), rows)
+
+
+def _factor_row(name: str, factors: LawFactors) -> Row:
+    jumps = factors.remarks[0].split(" ", 1)[0] if factors.remarks else ""
+    values = (getattr(factors, each) for each in _FACTORS)
+    return name, jumps, *("∞" if value is None else number(value) for value in values)
+
+
+def _own(profile: CamProfile) -> Iterator[tuple[str, LawFactors]]:
+    """Name and factors of each section from rest to rest; sections alike are told once."""
+    law, seen = profile.cam.lift, []
+    ends = [joint.angle for joint in profile.cam.programme.joints] + [law.end]
+    for n, (low, high) in enumerate(pairwise(ends), start=1):
+        stretch = law.stretch(low, high)
+        rise = float(stretch.at(high, side="before") - stretch.at(low))
+        slopes = abs(float(stretch.at(low, 1))), abs(float(stretch.at(high, 1, "before")))
+        if abs(rise) <= _REST * profile.stroke or max(slopes) > _REST * abs(rise) / (high - low):
+            continue
+        factors = law_factors(stretch)
+        key = tuple(number(getattr(factors, each)) for each in _FACTORS)
+        if key not in seen:
+            seen.append(key)
+            yield f"section {n} of this cam", factors

@@ -1,0 +1,227 @@
+"""Steady motion of thousands to millions of machines that differ in some entries."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.sound_loads import require_same_turns
+from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import array
+from linkwright.linkages.closure import require_one_turn
+from linkwright.machine.address import get, replace
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Floats = NDArray[np.float64]
+
+# The first columns of the core's table (`linkwright-core`, module `batch`).
+_COLUMNS = (
+    "speed_min",
+    "speed_max",
+    "acceleration_min",
+    "acceleration_max",
+    "period",
+    "multiplier",
+    "energy_motor",
+    "energy_drive",
+    "energy_load",
+    "torque_motor_mean",
+    "torque_motor_rms",
+)
+
+# Status of a row that passes an odd number of change points, where the first machine passes an even number.
+TWO_TURNS = 4
+
+# Sentences for the statuses of the core, and that one.
+STATUS = {
+    0: "solved",
+    1: "the mechanism does not close all round, or its lengths do not tell how it passes a change point",
+    2: "no steady motion: the drive cannot keep the machine turning",
+    3: "the accuracy was not reached",
+    TWO_TURNS: "the motion repeats only after two turns of the crank",
+}
+
+
+@dataclass(frozen=True)
+class SteadyStates:
+    """Steady motion of ``n`` machines; every array has shape (n,), NaN where there is no answer.
+
+    Attributes
+    ----------
+    entries : dict of str to ndarray
+        What was varied, by address.
+    status : ndarray of uint8
+        0 where solved; else a key of `linkwright.drive.batch.STATUS`.
+    speed_min, speed_max : ndarray
+        [rad/s].
+    acceleration_min, acceleration_max : ndarray
+        [rad/s²].
+    period : ndarray
+        [s].
+    multiplier : ndarray
+        What is left of a disturbance after a turn [–].
+    energy_motor, energy_drive, energy_load : ndarray
+        Work in a turn [J].
+    torque_motor_mean, torque_motor_rms : ndarray
+        At the motor's shaft, over time [N m].
+    turns_swept : int
+        Turns that the solver went through in all.
+    """
+
+    entries: dict[str, Floats]
+    status: NDArray[np.uint8]
+    speed_min: Floats
+    speed_max: Floats
+    acceleration_min: Floats
+    acceleration_max: Floats
+    period: Floats
+    multiplier: Floats
+    energy_motor: Floats
+    energy_drive: Floats
+    energy_load: Floats
+    torque_motor_mean: Floats
+    torque_motor_rms: Floats
+    turns_swept: int
+
+    @property
+    def speed_mean_extremes(self) -> Floats:
+        """(ω_max + ω_min)/2 [rad/s]."""
+        return 0.5 * (self.speed_max + self.speed_min)
+
+    @property
+    def speed_mean_time(self) -> Floats:
+        """2π/period [rad/s]."""
+        return 2 * np.pi / self.period
+
+    @property
+    def unevenness(self) -> Floats:
+        """δ with the mean of the extremes [–]."""
+        return (self.speed_max - self.speed_min) / self.speed_mean_extremes
+
+    @property
+    def dynamism(self) -> Floats:
+        """H with the mean of the extremes [–]."""
+        steepest = np.maximum(np.abs(self.acceleration_min), np.abs(self.acceleration_max))
+        return steepest / self.speed_mean_extremes**2
+
+    @property
+    def motion_coefficient(self) -> Floats:
+        """k_p = δ² + H [–]."""
+        return self.unevenness**2 + self.dynamism
+
+    def to_frame(self) -> pd.DataFrame:
+        """Entries and results as a table, a row for each machine (needs pandas)."""
+        import pandas as pd
+
+        names = [*_COLUMNS, "unevenness", "dynamism", "motion_coefficient"]
+        columns = {name: getattr(self, name) for name in names}
+        return pd.DataFrame({**self.entries, **columns, "status": self.status})
+
+
+@public
+def steady_states(
+    machine: Machine, entries: Mapping[str, ArrayLike], *, accuracy: float = 1e-8
+) -> SteadyStates:
+    """Steady motion of many machines that differ from one in some entries.
+
+    Parameters
+    ----------
+    machine : Machine
+        What all have in common.
+    entries : mapping
+        Address of an entry → its values, all of one length [SI], such as
+        ``{"mechanism.cranks.A2.phase": np.linspace(0, np.pi, 1000)}``. A single number counts for all.
+    accuracy : float
+        Relative accuracy for machines that must be solved one by one. Machines on smooth characteristics
+        are solved in lanes with a fixed mesh: speeds, periods and work to 1e-7, peaks of acceleration to
+        1e-6.
+
+    Returns
+    -------
+    SteadyStates
+        One row a machine, in the order of the arrays.
+
+    Raises
+    ------
+    MachineError
+        An address does not exist, or a value is not possible there.
+    ShapeError
+        Arrays of different lengths.
+    InputError
+        The machine has no motor, or one of constant speed.
+    FindingError
+        The first machine does not repeat after one turn of the crank.
+    SteadyStateError
+        A load changes with time itself.
+    """
+    if machine.drive is None or machine.drive.motor is None:
+        raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
+    if not 1e-13 <= accuracy <= 1e-2:
+        raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
+    if isinstance(machine.drive.motor, ConstantSpeedMotor):
+        raise InputError("a motor of constant speed has the same speed in every machine")
+    require_same_turns(machine)
+    arrays = _columns(machine, entries)
+    compiled = compile_machine(replace(machine, arrays))
+    if not len(compiled.slots):
+        raise InputError(
+            f"{', '.join(arrays)}: no effect on the steady motion of {machine.name}; vary an entry of the "
+            "motor's characteristic, the mechanism, its bodies or its loads"
+        )
+    require_one_turn(compiled)
+    status, table, turns = compiled.steady_rows(accuracy)
+    if not compiled.two_turns[0]:
+        # The first machine was checked above.
+        longer = np.broadcast_to(compiled.two_turns, status.shape)
+        status[longer], table[longer] = TWO_TURNS, np.nan
+    columns = dict(zip(_COLUMNS, np.ascontiguousarray(table.T), strict=False))
+    return SteadyStates(entries=arrays, status=status, turns_swept=turns, **columns)
+
+
+def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:
+    """The values as arrays of one length, each possible at its address."""
+    arrays = {
+        address: np.atleast_1d(array(address, value, finite=False)) for address, value in entries.items()
+    }
+    if any(column.size == 0 for column in arrays.values()):
+        raise ShapeError("arrays of at least one number are needed, found an empty one")
+    lengths = {column.shape for column in arrays.values()} - {(1,)}
+    if not arrays or len(lengths) > 1 or any(len(shape) != 1 for shape in lengths):
+        raise ShapeError(f"arrays of one length are needed, found shapes {sorted(lengths)}")
+    shape = lengths.pop() if lengths else (1,)
+    columns = {
+        address: np.ascontiguousarray(np.broadcast_to(column, shape)) for address, column in arrays.items()
+    }
+    _check(machine, columns)
+    return columns
+
+
+def _check(machine: Machine, columns: Mapping[str, Floats]) -> None:
+    """Raise unless all values are finite, and the rows with the extremes of each entry are possible machines.
+
+    Bounds of entries are intervals, so an impossible value is an extreme or lies beyond a possible one; of
+    entries that depend on each other only these rows are looked at.
+    """
+    for address, column in columns.items():
+        get(machine, address)
+        if not np.isfinite(column).all():
+            raise MachineError([Problem(address, "NaN or infinite values", "finite numbers")])
+    rows = {int(pick(column)) for column in columns.values() for pick in (np.argmin, np.argmax)}
+    for row in sorted(rows):
+        entries = {address: float(column[row]) for address, column in columns.items()}
+        Machine.model_validate(_plain(replace(machine, entries)))
+
+
+def _plain(machine: Machine) -> dict[str, object]:
+    """The machine as the tables of a file."""
+    return machine.model_dump(by_alias=True, exclude_unset=True)

@@ -1,0 +1,218 @@
+"""What the designer of a machine should know although it runs: sentences with numbers.
+
+Each function below looks at one thing and yields a sentence if there is something to say about it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.drive.model.drive import Drive
+from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
+from linkwright.drive.reduction import Reduction
+from linkwright.drive.steady_state import SteadyState
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine, reverse_factor
+
+# Share of the design speed by which the steady speed may differ before it is mentioned.
+_SPEED_AGREES = 0.05
+
+# Mains voltage may be 10 % low (EN 50160), and the torque of an induction motor falls with its square.
+_LOW_VOLTAGE = 0.81
+
+# Torques against the motion, and energies, that are a smaller share of the greatest are not worth a sentence.
+_SMALL = 0.01
+
+# Relative accuracy of the steady motion above which it is worth a sentence: results are shown with six
+# digits.
+_ACCURATE = 1e-6
+
+# Inertia that is a smaller share of the greatest is zero but for rounding.
+_ROUNDING = 1e-12
+
+
+def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -> tuple[str, ...]:
+    """All that should be known.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    reduced : Reduction
+        Its reduced inertia and load.
+    steady : SteadyState or None
+        Its steady motion, if there is one.
+
+    Returns
+    -------
+    tuple of str
+        Sentences, empty if there is nothing to say.
+    """
+    drive = machine.drive
+    found = [*_unloaded(machine), *_reduced(reduced)]
+    if drive is None or drive.motor is None:
+        return (*found, "The machine has no motor: steady motion and run-up are not computed.")
+    found += _without_run_up(drive)
+    found += _start_by_kloss(machine, drive)
+    if steady is not None:
+        found += [*_cycle(steady), *_design_speed(drive, steady), *_overload(drive, steady)]
+        found += [*_breakdown(drive, steady), *_generator(drive, steady), *_gear_gain(drive, steady)]
+    return tuple(found)
+
+
+def _unloaded(machine: Machine) -> Iterator[str]:
+    if not machine.loads:
+        yield "The machine has no loads: nothing but its inertia is moved."
+
+
+def has_inertia(reduced: Reduction) -> bool:
+    """Whether the reduced inertia is above zero all round, beyond rounding.
+
+    Parameters
+    ----------
+    reduced : Reduction
+        The reduced machine.
+    """
+    return reduced.inertia_min > _ROUNDING * reduced.inertia_max
+
+
+def _reduced(reduced: Reduction) -> Iterator[str]:
+    if not has_inertia(reduced):
+        yield (
+            "The reduced inertia falls to zero at a crank angle of "
+            f"{np.degrees(reduced.inertia_min_angle):.1f}°: give the drive "
+            "its inertias; until then there is no constant-energy limit."
+        )
+    if reduced.torque_load_mean < -_SMALL * float(np.abs(reduced.torque_load).max()):
+        yield (
+            f"The loads drive the machine: their mean torque at the crank is {-reduced.torque_load_mean:.4g} "
+            "N m in the direction of motion."
+        )
+
+
+def _without_run_up(drive: Drive) -> Iterator[str]:
+    if isinstance(drive.motor, ConstantSpeedMotor):
+        yield "A motor of constant speed has no run-up: it turns at its speed under any load."
+
+
+def _start_by_kloss(machine: Machine, drive: Drive) -> Iterator[str]:
+    """The simplified formula is low at standstill, where a real cage rotor has more torque."""
+    motor = drive.motor
+    if not isinstance(motor, InductionMotor) or motor.torque_start is not None:
+        return
+    torque = compile_machine(machine).motor_torques(0.0)[0][0]
+    yield (
+        f"The motor has no torque_start: by Kloss's formula it gives only {torque:.4g} N m at standstill, "
+        f"{100 * torque / motor.torque_breakdown:.0f} % of its breakdown torque, which is less than real "
+        "motors give; the run-up is computed on the safe side."
+    )
+
+
+def _cycle(steady: SteadyState) -> Iterator[str]:
+    if not steady.is_stable:
+        yield (
+            f"The steady motion is unstable: a small disturbance of the speed grows {steady.multiplier:.4g} "
+            "times in each turn, so the machine will not stay there."
+        )
+    if steady.accuracy > _ACCURATE:
+        yield (
+            f"The steady motion is known to a relative accuracy of {steady.accuracy:.1e} only: the motor's "
+            "torque is so steep over the speed that rounding of the speed shows in it. An inertia that was "
+            "left out, of motor or crank, is the usual cause."
+        )
+
+
+def _design_speed(drive: Drive, steady: SteadyState) -> Iterator[str]:
+    if drive.speed is None:
+        return
+    off = steady.speed_mean_time / drive.speed - 1
+    if abs(off) > _SPEED_AGREES:
+        yield (
+            f"The machine runs at {steady.speed_mean_time:.4g} rad/s on average, {100 * abs(off):.1f} % "
+            f"{'above' if off > 0 else 'below'} the design speed of {drive.speed:.4g} rad/s (drive.speed)."
+        )
+
+
+def _overload(drive: Drive, steady: SteadyState) -> Iterator[str]:
+    """Heating goes with the root mean square of the torque, the bill with the mean power."""
+    motor = drive.motor
+    assert motor is not None
+    if motor.torque_rated is not None and steady.torque_motor_rms > motor.torque_rated:
+        yield (
+            f"The motor is overloaded: its torque has a root mean square of {steady.torque_motor_rms:.4g} "
+            f"N m, {_percent_above(steady.torque_motor_rms, motor.torque_rated)} above the rated "
+            f"{motor.torque_rated:.4g} N m; in continuous duty it overheats."
+        )
+    if motor.power_rated is not None and steady.power_motor_mean > motor.power_rated:
+        yield (
+            f"The motor is overloaded: it gives {steady.power_motor_mean:.4g} W on average, "
+            f"{_percent_above(steady.power_motor_mean, motor.power_rated)} above the rated "
+            f"{motor.power_rated:.4g} W."
+        )
+
+
+def _percent_above(value: float, limit: float) -> str:
+    return f"{100 * (value / limit - 1):.3g} %"
+
+
+def _breakdown(drive: Drive, steady: SteadyState) -> Iterator[str]:
+    """How near the motion comes to the top of the motor's characteristic."""
+    motor = drive.motor
+    if not isinstance(motor, InductionMotor):
+        return
+    assert motor.speed_breakdown is not None
+    assert motor.torque_breakdown is not None
+    slowest = steady.speed_min * drive.gearbox.ratio
+    share = steady.torque_motor_max / motor.torque_breakdown
+    if slowest < motor.speed_breakdown:
+        yield (
+            f"The motor falls to {slowest:.4g} rad/s in each turn, below its breakdown speed of "
+            f"{motor.speed_breakdown:.4g} rad/s: only the inertia carries the machine over."
+        )
+    elif share > _LOW_VOLTAGE:
+        yield (
+            f"The greatest motor torque, {steady.torque_motor_max:.4g} N m, is {100 * share:.0f} % of the "
+            f"breakdown torque of {motor.torque_breakdown:.4g} N m: 10 % less mains voltage leaves "
+            f"{_LOW_VOLTAGE * motor.torque_breakdown:.4g} N m."
+        )
+
+
+def _generator(drive: Drive, steady: SteadyState) -> Iterator[str]:
+    """The part of the turn in which the load drives the motor."""
+    least, most = steady.torque_motor_min, steady.torque_motor_max
+    if least >= -_SMALL * max(abs(most), abs(least)):
+        return
+    time = np.interp(np.linspace(0, steady.period, 1000), steady.time, steady.torque_motor)
+    share = 100 * float(np.mean(time < 0))
+    yield (
+        f"The load drives the motor during {share:.3g} % of the time{_beyond(drive, steady)}: it works as a "
+        f"generator, with up to {-least:.4g} N m."
+    )
+
+
+def _beyond(drive: Drive, steady: SteadyState) -> str:
+    """The speed that the motor is driven beyond, in words."""
+    fastest = steady.speed_max * drive.gearbox.ratio
+    match drive.motor:
+        case InductionMotor(speed_synchronous=float(limit)):
+            word = "synchronous"
+        case DcMotor(speed_no_load=limit):
+            word = "no-load"
+        case _:
+            return ""
+    return f", up to {fastest:.4g} rad/s, beyond its {word} speed of {limit:.4g} rad/s"
+
+
+def _gear_gain(drive: Drive, steady: SteadyState) -> Iterator[str]:
+    """A factor below 1 in reverse hands the motor more power than the crank gives."""
+    factor = float(reverse_factor(drive))
+    driven = np.minimum(steady.torque_drive, 0.0)
+    gained = -float(np.trapezoid(driven, steady.crank_angle)) * (1 / factor - 1)
+    if gained > 0.1 * _SMALL * abs(steady.energy_drive):
+        yield (
+            f"While the load drives the motor, the gearbox factor {factor:.4g} (drive.gearbox.reverse) gives "
+            f"the motor {gained:.4g} J a turn more than the crank returns; a gearbox with losses has a "
+            "factor above 1."
+        )

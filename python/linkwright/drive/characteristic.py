@@ -1,0 +1,122 @@
+r"""The motor's characteristic and the mean load that it works against, both at the motor's shaft.
+
+.. math:: M_\mathrm{load}(\omega_m) = \frac{\bar M_r + \bar c\,\omega + M_r(\omega)}{i\,\eta}, \qquad
+    \omega = \omega_m/i
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor, Motor
+from linkwright.drive.reduction import Reduction, mean_laws, reduction
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+
+Floats = NDArray[np.float64]
+
+# How far beyond the speed without torque the curve goes, as a share of that speed.
+_BEYOND = 0.04
+
+
+@dataclass(frozen=True)
+class Characteristic(Result):
+    """Torque of a motor over its speed.
+
+    Attributes
+    ----------
+    speed : ndarray, shape (n,)
+        Of the motor's shaft, from standstill [rad/s].
+    torque : ndarray
+        Of the motor [N m].
+    torque_load : ndarray
+        Mean load over a turn, referred to the motor's shaft [N m].
+    ratio : float
+        Motor speed over crank speed [–].
+    speed_no_load : float or None
+        Synchronous speed, or speed without load [rad/s].
+    speed_rated, torque_rated : float or None
+        Rated point [rad/s, N m].
+    speed_breakdown, torque_breakdown : float or None
+        Point of greatest torque [rad/s, N m].
+    """
+
+    speed: Floats
+    torque: Floats
+    torque_load: Floats
+    ratio: float
+    speed_no_load: float | None
+    speed_rated: float | None
+    torque_rated: float | None
+    speed_breakdown: float | None
+    torque_breakdown: float | None
+
+
+def characteristic(
+    machine: Machine, *, reduced: Reduction | None = None, speed_max: float = 0.0, n: int = 800
+) -> Characteristic:
+    """Torque of the motor, and of the mean load, over the motor's speed.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine, with a motor.
+    reduced : Reduction, optional
+        Its reduction, if known already.
+    speed_max : float
+        Speed of the motor's shaft that the curve must reach [rad/s].
+    n : int
+        Intervals of the curve.
+
+    Returns
+    -------
+    Characteristic
+        From standstill to a little beyond the speed without load.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close all round.
+    InputError
+        The machine has no motor, or one that keeps its speed under any load.
+    """
+    drive = machine.drive
+    if drive is None or drive.motor is None or isinstance(drive.motor, ConstantSpeedMotor):
+        raise InputError(f"{machine.name}: a characteristic needs a motor whose speed answers to the load")
+    reduced = reduced or reduction(machine)
+    compiled = compile_machine(machine)
+    ratio = drive.gearbox.ratio
+    top = max((1 + _BEYOND) * compiled.speed_guess * ratio, speed_max)
+    speed = np.linspace(0.0, top, n + 1)
+    crank = speed / ratio
+    load = reduced.torque_load_mean + reduced.viscous_mean * crank
+    load = load + compiled.speed_load(crank) + mean_laws(compiled, crank)
+    return Characteristic(
+        speed=speed,
+        torque=compiled.motor_torques(crank)[0],
+        torque_load=compiled.motor_torque_for(load),
+        ratio=ratio,
+        **_points(drive.motor),
+    )
+
+
+def _points(motor: Motor) -> dict[str, float | None]:
+    """The points of a characteristic that have a name."""
+    named: dict[str, float | None] = {
+        "speed_no_load": None,
+        "speed_breakdown": None,
+        "torque_breakdown": None,
+    }
+    match motor:
+        case InductionMotor():
+            named["speed_no_load"] = motor.speed_synchronous
+            named["speed_breakdown"] = motor.speed_breakdown
+            named["torque_breakdown"] = motor.torque_breakdown
+        case DcMotor():
+            named["speed_no_load"] = motor.speed_no_load
+    return {**named, "speed_rated": motor.speed_rated, "torque_rated": motor.torque_rated}

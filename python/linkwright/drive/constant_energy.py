@@ -1,0 +1,82 @@
+r"""The constant-energy limit: how unevenly a machine turns with motor and loads switched off.
+
+With constant kinetic energy :math:`\omega\propto 1/\sqrt J`, so the measures depend on J(φ) alone. It is the
+limit of a machine whose motor's characteristic is flat against its inertia.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.drive.reduction import NO_INERTIA, Reduction, reduction
+from linkwright.kernel.errors import SteadyStateError
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+
+
+@dataclass(frozen=True)
+class ConstantEnergy(Result):
+    """Evenness of motion at constant kinetic energy.
+
+    Attributes
+    ----------
+    unevenness : float
+        δ [–].
+    dynamism : float
+        H [–].
+    motion_coefficient : float
+        k_p = δ² + H [–].
+    """
+
+    unevenness: float
+    dynamism: float
+
+    @property
+    def motion_coefficient(self) -> float:
+        """k_p = δ² + H [–], paper 1 (15)."""
+        return self.unevenness**2 + self.dynamism
+
+
+@public
+def constant_energy(machine: Machine) -> ConstantEnergy:
+    """Measures of evenness at constant kinetic energy.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its motor and its loads do not count, the motor's inertia does.
+
+    Returns
+    -------
+    ConstantEnergy
+        δ and H, with the mean of the extremes for the mean speed.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close all round.
+    """
+    return constant_energy_of(reduction(machine, n=1440))
+
+
+def constant_energy_of(reduced: Reduction) -> ConstantEnergy:
+    r"""`constant_energy` of a reduced machine.
+
+    Notes
+    -----
+    With E = 1: :math:`\omega = \sqrt{2/J}`, :math:`\varepsilon = -\tfrac12 J'\omega^2/J = -J'/J^2`.
+    The peak of ε is found by a parabola through the best sample and its neighbours.
+    """
+    if not reduced.inertia_min > 0:
+        raise SteadyStateError(NO_INERTIA)
+    slow, fast = np.sqrt(2 / reduced.inertia_max), np.sqrt(2 / reduced.inertia_min)
+    mean = 0.5 * (slow + fast)
+    epsilon = np.abs(reduced.inertia_reduced_d1 / reduced.inertia_reduced**2)[:-1]
+    best = int(np.argmax(epsilon))
+    left, top, right = epsilon[best - 1], epsilon[best], epsilon[(best + 1) % len(epsilon)]
+    bend = left - 2 * top + right
+    peak = top if bend == 0 else top - (right - left) ** 2 / (8 * bend)
+    return ConstantEnergy(unevenness=float((fast - slow) / mean), dynamism=float(peak / mean**2))

@@ -1,0 +1,196 @@
+"""Catalogue of motors: facts as published, read from `motors.json` and given in SI.
+
+The file keeps the figures and the units of its sources: ratios to the rated torque, speeds in rpm. The rated
+torque is the printed one, or rated power over rated speed where none is printed.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from functools import cache
+from typing import Any
+
+from linkwright.kernel.description.base import suggestion, wrong
+from linkwright.kernel.errors import MachineError, Problem
+from linkwright.kernel.units import show
+
+_RPM = 2 * math.pi / 60
+
+
+@dataclass(frozen=True, slots=True)
+class CatalogueMotor:
+    """One type of motor; entries that the source does not give are None.
+
+    Attributes
+    ----------
+    type, series, frame : str
+        Name of the type; series; size of the frame.
+    poles : int
+        Number of poles.
+    speed_synchronous, speed_rated, speed_breakdown : float
+        Speeds of the shaft [rad/s].
+    power_rated : float
+        Rated power [W].
+    torque_rated, torque_breakdown, torque_start : float
+        Torques [N·m].
+    inertia : float
+        Moment of inertia of the rotor [kg·m²].
+    efficiency : float
+        At the rated point [–].
+    mass : float
+        Of the whole motor [kg].
+    current_rated : float
+        Rated current [A].
+    """
+
+    type: str
+    series: str
+    poles: int
+    speed_synchronous: float
+    power_rated: float
+    speed_rated: float
+    torque_rated: float
+    frame: str | None = None
+    speed_breakdown: float | None = None
+    torque_breakdown: float | None = None
+    torque_start: float | None = None
+    inertia: float | None = None
+    efficiency: float | None = None
+    mass: float | None = None
+    current_rated: float | None = None
+
+
+def motors() -> tuple[CatalogueMotor, ...]:
+    """All types of the catalogue, in its order.
+
+    Returns
+    -------
+    tuple of CatalogueMotor
+        In SI.
+    """
+    return tuple(_by_type().values())
+
+
+def motor(type: str) -> CatalogueMotor:
+    """One type of the catalogue.
+
+    Parameters
+    ----------
+    type : str
+        Its name, such as ``"4A160S6U3"``.
+
+    Returns
+    -------
+    CatalogueMotor
+        In SI.
+
+    Raises
+    ------
+    MachineError
+        There is no such type; the remedy names close ones.
+
+    Examples
+    --------
+    >>> round(motor("4A160S6U3").torque_rated, 1)
+    107.7
+    """
+    found = _by_type().get(type)
+    if found is None:
+        expected, remedy = "a type of the catalogue of motors", suggestion(type, _by_type())
+        raise MachineError([Problem(found=show(type), expected=expected, remedy=remedy)])
+    return found
+
+
+def checked_name(type: str) -> str:
+    """The name of a type, or the fault if there is no such type."""
+    try:
+        return motor(type).type
+    except MachineError as error:
+        problem = error.problems[0]
+        raise wrong(problem.found, problem.expected, problem.remedy) from None
+
+
+def entries(type: str) -> dict[str, Any]:
+    """What the catalogue gives for the entries of a motor in a machine file.
+
+    Parameters
+    ----------
+    type : str
+        A name of the catalogue.
+
+    Returns
+    -------
+    dict
+        Entry → value in SI. The rated torque is left out where it is only power over speed.
+    """
+    known = _given(_row(type))
+    names = (
+        "speed_synchronous",
+        "power_rated",
+        "speed_rated",
+        "torque_rated",
+        "speed_breakdown",
+        "torque_breakdown",
+        "torque_start",
+        "inertia",
+    )
+    return {name: known[name] for name in names if name in known}
+
+
+@cache
+def _rows() -> dict[str, dict[str, Any]]:
+    """The rows of the file by type."""
+    import json
+    import pkgutil
+
+    data = pkgutil.get_data("linkwright.machine", "motors.json")
+    assert data is not None, "motors.json is part of the package"
+    return {row["type"]: row for row in json.loads(data)["motors"]}
+
+
+def _row(type: str) -> dict[str, Any]:
+    return _rows()[motor(type).type]
+
+
+@cache
+def _by_type() -> dict[str, CatalogueMotor]:
+    """The catalogue by type."""
+    return {type: _motor(row) for type, row in _rows().items()}
+
+
+def _motor(row: dict[str, Any]) -> CatalogueMotor:
+    """One row in SI, with the rated point completed."""
+    known = _given(row)
+    known.setdefault("torque_rated", known.get("power_rated", 0.0) / known["speed_rated"])
+    known.setdefault("power_rated", known["torque_rated"] * known["speed_rated"])
+    return CatalogueMotor(
+        **{each.name: known[each.name] for each in fields(CatalogueMotor) if each.name in known}
+    )
+
+
+# Unit at the end of a key of the file → factor to SI. A ratio is one to the rated torque.
+_FACTORS = {
+    "_rpm": _RPM,
+    "_rad_s": 1.0,
+    "_kw": 1e3,
+    "_nm": 1.0,
+    "_kg_m2": 1.0,
+    "_kg": 1.0,
+    "_percent": 1e-2,
+    "_a": 1.0,
+}
+
+
+def _given(row: dict[str, Any]) -> dict[str, Any]:
+    """The entries of a row in SI, under the names of `CatalogueMotor`."""
+    known: dict[str, Any] = {}
+    for key, value in row.items():
+        suffix = next((each for each in _FACTORS if key.endswith(each)), None)
+        if suffix is not None:
+            known[key.removesuffix(suffix)] = value * _FACTORS[suffix]
+        elif not key.endswith("_ratio"):
+            known[key] = value
+    torque = known.get("torque_rated") or known["power_rated"] / known["speed_rated"]
+    ratios = {key.removesuffix("_ratio"): value for key, value in row.items() if key.endswith("_ratio")}
+    return known | {name: value * torque for name, value in ratios.items()}

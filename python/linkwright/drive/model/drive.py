@@ -1,0 +1,139 @@
+"""The drive line: motor, coupling, brake and gearbox, and the flywheel, on the way to the crankshaft.
+
+Inertias of the motor, of the coupling and of the gearbox are given at the motor shaft; that is how catalogues
+give them. At the crankshaft they count with the square of the ratio.
+
+Shafts and gears are rigid unless their stiffness is given. What steady motion and motion in time do not ask
+for, torsional vibration does: `drive_train` makes a train of a drive line that twists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from numbers import Real
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic_core import InitErrorDetails
+
+from linkwright.drive.model.motor import AnyMotor
+from linkwright.kernel.description.base import Checked, Description, fault, wrong
+from linkwright.kernel.units import (
+    FRACTION,
+    INERTIA,
+    RATIO,
+    SPEED,
+    TORQUE,
+    Quantity,
+    not_negative,
+    positive,
+    show,
+)
+from linkwright.torsion.model.train import ElasticShaft
+from linkwright.torsion.model.train_base import PositiveStiffness
+
+Shaft = Literal["motor", "crank"]
+End = Literal["motor", "gearbox", "crank"]
+
+_REVERSE = '"same", or a number greater than 0'
+
+
+def _reverse(value: object) -> object:
+    """The torque factor of the gearbox when the load drives the motor."""
+    number = isinstance(value, Real) and not isinstance(value, bool)
+    if value is None or value == "same" or (number and 0 < float(value) < float("inf")):  # type: ignore[arg-type]
+        return value
+    raise wrong(show(value), _REVERSE)
+
+
+_REVERSE_SCHEMA: dict[str, Any] = {"anyOf": [{"const": "same"}, {"type": "number", "exclusiveMinimum": 0}]}
+
+
+class Gearbox(Description):
+    """Gears between the motor and the crankshaft; a ratio of 1 stands for a direct drive."""
+
+    ratio: Annotated[float, positive(RATIO)] = Field(1.0, description="Motor speed over crankshaft speed.")
+    efficiency: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
+        1.0, description="Torque at the crankshaft over motor torque times ratio, while the motor drives."
+    )
+    reverse: Annotated[
+        float | Literal["same"] | None, BeforeValidator(_reverse), WithJsonSchema(_REVERSE_SCHEMA)
+    ] = Field(
+        None,
+        description="The same factor while the load drives the motor: a number, or "
+        '"same" for the efficiency in both directions. Without it, 1/efficiency.',
+    )
+    inertia: Annotated[float, not_negative(INERTIA)] = Field(0.0, description="At the motor shaft.")
+    wheel_inertia: Annotated[float, not_negative(INERTIA)] = Field(
+        0.0, description="Of its last wheel or pulley about the crankshaft, where `inertia` does not hold it."
+    )
+    stiffness: PositiveStiffness | None = Field(
+        None,
+        description="Of its teeth or belt, as torque at the motor shaft per angle there. Without it, rigid.",
+    )
+
+
+class Coupling(Description):
+    """Coupling between the motor and the gearbox."""
+
+    inertia: Annotated[float, not_negative(INERTIA)] = Field(description="At the motor shaft.")
+    beside: Literal["motor", "gearbox"] | None = Field(
+        None, description="End of a motor shaft that twists where it sits. Without it, half at each end."
+    )
+
+
+class _OnShaft(Checked):
+    """A part on one of the two shafts, which may twist."""
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        beside, on = getattr(self, "beside", None), getattr(self, "on", "")
+        if beside not in (None, on, "gearbox"):
+            remedy = f'it sits on the {on} shaft; change "on" as well to put it on the other'
+            yield fault("beside", found=beside, expected=f'"{on}" or "gearbox"', remedy=remedy)
+
+
+class Flywheel(_OnShaft):
+    """Disc that evens out the motion."""
+
+    inertia: Annotated[float, not_negative(INERTIA)] = Field(description="About its own shaft.")
+    on: Shaft = Field("crank", description="The shaft that it sits on.")
+    beside: End | None = Field(
+        None,
+        description="End of its shaft, if that twists. Without it, the end away from the gearbox.",
+    )
+
+
+class Brake(_OnShaft):
+    """Brake of constant torque, which opposes the motion."""
+
+    torque: Annotated[float, not_negative(TORQUE)] = Field(description="At its own shaft.")
+    inertia: Annotated[float, not_negative(INERTIA)] = Field(0.0, description="About its own shaft.")
+    on: Shaft = Field("motor", description="The shaft that it sits on.")
+    beside: End | None = Field(
+        None,
+        description="End of its shaft, if that twists. Without it, the end away from the gearbox.",
+    )
+
+
+class Drive(Description):
+    """What turns the crankshaft."""
+
+    speed: Annotated[float, positive(SPEED)] | None = Field(
+        None, description="Speed of the crankshaft that the machine is designed for."
+    )
+    motor: AnyMotor | None = Field(None, description="The motor.")
+    gearbox: Gearbox = Field(default_factory=Gearbox, description="Gears between motor and crankshaft.")
+    coupling: Coupling | None = Field(None, description="Coupling at the motor shaft.")
+    flywheel: Flywheel | None = Field(None, description="Flywheel.")
+    brake: Brake | None = Field(None, description="Brake.")
+    motor_shaft: ElasticShaft | None = Field(
+        None, description="Shaft and coupling between motor and gearbox, where they twist."
+    )
+    crankshaft: ElasticShaft | None = Field(
+        None, description="Shaft between gearbox and mechanism, where it twists."
+    )
+
+    @property
+    def twists(self) -> bool:
+        """Whether a shaft, or the gears, are elastic."""
+        return not (self.motor_shaft is None and self.crankshaft is None and self.gearbox.stiffness is None)

@@ -1,0 +1,343 @@
+r"""Motors: torque against speed of the motor shaft.
+
+| kind | characteristic |
+| --- | --- |
+| `induction` | Kloss's formula, through the breakdown point |
+| `dc` | straight line from stall to no load |
+| `table` | linear between given points, end values held |
+| `constant_torque` | the same torque at any speed |
+| `constant_speed` | the same speed under any load |
+
+Catalogues seldom print the breakdown speed of an induction motor. It follows from the rated point. With the
+slip :math:`s = (\omega_0 - \omega)/\omega_0` and :math:`a = R_1/R_2'`, Kloss's formula
+
+.. math:: M = \frac{2 M_k (1 + a s_k)}{s/s_k + s_k/s + 2 a s_k}
+
+goes through :math:`(s_n, M_n)`, with :math:`\lambda = M_k/M_n`, for the larger root of
+
+.. math:: s_k^2 (1/s_n + 2a - 2\lambda a) - 2\lambda s_k + s_n = 0
+
+Entries that follow from others are completed when a motor is made; what was given is never changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+from pydantic import AfterValidator, Field, model_validator
+from pydantic_core import InitErrorDetails
+
+from linkwright.drive.model import catalogue
+from linkwright.kernel.description.base import Description, fault, raise_faults
+from linkwright.kernel.description.curve import curve_faults
+from linkwright.kernel.units import (
+    INERTIA,
+    POWER,
+    RATIO,
+    SPEED,
+    TORQUE,
+    Speeds,
+    Torque,
+    Torques,
+    not_negative,
+    positive,
+)
+
+Values = dict[str, Any]
+PositiveSpeed = Annotated[float, positive(SPEED)]
+PositiveTorque = Annotated[float, positive(TORQUE)]
+PositivePower = Annotated[float, positive(POWER)]
+
+# Catalogues round: rated power, torque and speed of the types shipped here agree to 0.5 %. Ten times that is
+# a slip of the pen.
+_RATED_AGREE = 0.05
+
+
+class Motor(Description):
+    """What all motors have: an inertia, and a rated point that sizing compares with."""
+
+    inertia: Annotated[float, not_negative(INERTIA)] = Field(0.0, description="Of the rotor, at its shaft.")
+    power_rated: PositivePower | None = Field(None, description="Rated power at the shaft.")
+    speed_rated: PositiveSpeed | None = Field(None, description="Speed at the rated point.")
+    torque_rated: PositiveTorque | None = Field(None, description="Torque at the rated point.")
+
+    @model_validator(mode="after")
+    def _complete_and_check(self) -> Self:
+        """Fill in what follows from the given entries; report what contradicts itself."""
+        self._fill()
+        raise_faults(type(self).__name__, self._faults())
+        return self
+
+    def with_entries(self, entries: Mapping[str, Any]) -> Self:
+        """Copy with some entries exchanged, unchecked; what follows from them is computed anew."""
+        copy = super().with_entries(entries)
+        copy._fill()
+        return copy
+
+    def _fill(self) -> None:
+        """Set the entries that follow from the given ones."""
+        given = {name: getattr(self, name) for name in self.model_fields_set}
+        for name, value in self._completed({k: v for k, v in given.items() if v is not None}).items():
+            # The model is frozen for its users; these entries are part of making it.
+            object.__setattr__(self, name, value)
+
+    @classmethod
+    def _completed(cls, given: Values) -> Values:
+        """The given entries with all that follows from them; plain arithmetic, so arrays will do."""
+        return with_rated_point(given)
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        """What contradicts itself."""
+        if self.power_rated is None or self.torque_rated is None or self.speed_rated is None:
+            return
+        power = self.torque_rated * self.speed_rated
+        if abs(power - self.power_rated) > _RATED_AGREE * self.power_rated:
+            yield fault(
+                "power_rated",
+                found=f"{self.power_rated:.6g} W",
+                expected=f"the rated torque times the rated speed, {power:.6g} W",
+                remedy="leave one of the three out",
+            )
+
+
+def with_rated_point(given: Values) -> Values:
+    """Add the rated torque or the rated power, whichever is missing, by P = M ω."""
+    power, torque, speed = (given.get(f"{name}_rated") for name in ("power", "torque", "speed"))
+    if torque is None and power is not None and speed is not None:
+        return given | {"torque_rated": power / speed}
+    if power is None and torque is not None and speed is not None:
+        return given | {"power_rated": torque * speed}
+    return given
+
+
+def breakdown_slip(slip_rated: Any, overload: Any, resistance_ratio: Any) -> Any:
+    """Slip at which Kloss's formula through the rated point has its greatest torque.
+
+    Parameters
+    ----------
+    slip_rated : float or array
+        s_n, slip at the rated point.
+    overload : float or array
+        λ = M_k/M_n, breakdown over rated torque; greater than 1.
+    resistance_ratio : float or array
+        a = R_1/R_2'; 0 is Kloss's simplified formula.
+
+    Returns
+    -------
+    float or array
+        s_k; NaN if no formula of this kind goes through the point.
+    """
+    s_n, lam, a = slip_rated, overload, resistance_ratio
+    # Where no formula goes through the point, and beyond the range of floats, there is no slip.
+    with np.errstate(all="ignore"):
+        square = 1 / np.asarray(s_n) + 2 * a - 2 * lam * a
+        slip = np.where(square > 0, (lam + np.sqrt(lam * lam - square * s_n)) / square, np.nan)
+    return slip if slip.ndim else float(slip)
+
+
+def _coincide(first: Any, second: Any) -> bool:
+    """Whether two entries are one number; rows of many machines have no answer of their own there."""
+    return not np.ndim(first) and not np.ndim(second) and bool(first == second)
+
+
+CatalogueName = Annotated[str, AfterValidator(catalogue.checked_name)]
+
+
+class InductionMotor(Motor):
+    """Three-phase induction motor with a cage rotor, by Kloss's formula."""
+
+    kind: Literal["induction"]
+    catalogue: CatalogueName | None = Field(
+        None, description="Type in the catalogue of motors; gives what is not given here."
+    )
+    speed_synchronous: PositiveSpeed | None = Field(None, description="Speed without any torque.")
+    torque_breakdown: PositiveTorque | None = Field(None, description="Greatest torque.")
+    speed_breakdown: PositiveSpeed | None = Field(
+        None, description="Speed of greatest torque. Without it, from the rated point."
+    )
+    torque_start: PositiveTorque | None = Field(
+        None, description="Torque at standstill. Without it, Kloss's formula holds down to standstill."
+    )
+    torque_pull_up: PositiveTorque | None = Field(
+        None, description="Least torque between standstill and breakdown."
+    )
+    speed_pull_up: PositiveSpeed | None = Field(None, description="Speed of the pull-up torque.")
+    resistance_ratio: Annotated[float, not_negative(RATIO)] = Field(
+        0.0, description="Stator over referred rotor resistance; 0 is Kloss's simplified formula."
+    )
+
+    @classmethod
+    def _completed(cls, given: Values) -> Values:
+        values = with_rated_point(given)
+        if "catalogue" in given:
+            values = with_rated_point(catalogue.entries(given["catalogue"]) | values)
+        return with_breakdown_speed(values)
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from super()._faults()
+        missing = list(self._missing())
+        yield from missing or self._out_of_order()
+        yield from self._start_faults()
+
+    def _missing(self) -> Iterator[InitErrorDetails]:
+        """Entries without which there is no characteristic."""
+        by_catalogue = f', which the catalogue does not give for "{self.catalogue}"' if self.catalogue else ""
+        if self.speed_synchronous is None:
+            yield fault("speed_synchronous", expected=f"the synchronous speed{by_catalogue}")
+        if self.torque_breakdown is None:
+            yield fault("torque_breakdown", expected=f"the breakdown torque{by_catalogue}")
+        if self.speed_breakdown is None and (self.speed_rated is None or self.torque_rated is None):
+            yield fault(
+                "speed_breakdown",
+                expected="the breakdown speed, or the rated speed and the rated torque or power",
+            )
+
+    def _out_of_order(self) -> Iterator[InitErrorDetails]:
+        """Points of the characteristic that are not in their order, 0 < breakdown < rated < synchronous."""
+        top, knee, rated = self.speed_synchronous, self.speed_breakdown, self.speed_rated
+        if top is None or self.torque_breakdown is None:
+            return
+        if self.torque_rated is not None and self.torque_rated >= self.torque_breakdown:
+            yield _less("torque_rated", self.torque_rated, "the breakdown torque", self.torque_breakdown)
+        if rated is not None and rated >= top:
+            yield _less("speed_rated", rated, "the synchronous speed", top)
+        if knee is not None and "speed_breakdown" in self.model_fields_set:
+            yield from _knee_faults(knee, rated, top)
+        elif (rated is None or rated < top) and (knee is None or not 0 < knee < top):
+            yield self._no_formula()
+        elif knee is not None and self.resistance_ratio * (top - knee) >= top:
+            # R1/√(R1² + X²) is less than 1; beyond, the formula has a pole where the motor brakes.
+            limit = f"less than {top / (top - knee):.4g}, one over the breakdown slip"
+            yield fault("resistance_ratio", found=f"{self.resistance_ratio:.6g}", expected=limit)
+
+    def _no_formula(self) -> InitErrorDetails:
+        """The fault of a rated point that no breakdown speed goes with."""
+        return fault(
+            "speed_breakdown",
+            expected="a rated point with less torque than the breakdown torque, and a small slip",
+            remedy="no breakdown speed between 0 and the synchronous speed fits the rated point",
+        )
+
+    def _start_faults(self) -> Iterator[InitErrorDetails]:
+        """Torques between standstill and breakdown that make no characteristic."""
+        start, pull, peak = self.torque_start, self.torque_pull_up, self.torque_breakdown
+        if start is not None and peak is not None and start > peak:
+            yield fault(
+                "torque_start",
+                found=f"{start:.6g} N m",
+                expected=f"at most the breakdown torque, {peak:.6g} N m",
+                remedy="the breakdown torque is the greatest torque of the characteristic",
+            )
+        if pull is None and self.speed_pull_up is None:
+            return
+        yield from self._pull_up_faults()
+
+    def _pull_up_faults(self) -> Iterator[InitErrorDetails]:
+        """A pull-up point that is incomplete, or not the lowest between standstill and breakdown."""
+        for name in ("torque_pull_up", "speed_pull_up", "torque_start"):
+            if getattr(self, name) is None:
+                remedy = "the pull-up point needs its torque, its speed and the starting torque"
+                yield fault(name, expected=f"{name}, because a pull-up point is given", remedy=remedy)
+        pull, speed = self.torque_pull_up, self.speed_pull_up
+        limits = (("starting", self.torque_start), ("breakdown", self.torque_breakdown))
+        for word, limit in limits:
+            if pull is not None and limit is not None and pull > limit:
+                yield fault(
+                    "torque_pull_up",
+                    found=f"{pull:.6g} N m",
+                    expected=f"at most the {word} torque, {limit:.6g} N m",
+                )
+        if speed is not None and self.speed_breakdown is not None and speed >= self.speed_breakdown:
+            yield _less("speed_pull_up", speed, "the breakdown speed", self.speed_breakdown)
+
+
+def with_breakdown_speed(given: Values) -> Values:
+    """Add the breakdown speed, if it is missing and the rated point is there."""
+    needs = ("speed_synchronous", "speed_rated", "torque_rated", "torque_breakdown")
+    if "speed_breakdown" in given or any(name not in given for name in needs):
+        return given
+    omega_0, omega_n, M_n, M_k = (given[name] for name in needs)
+    # A torque of zero is what is left of a power below the smallest numbers.
+    if _coincide(omega_n, omega_0) or _coincide(M_n, 0.0):
+        return given
+    s_k = breakdown_slip((omega_0 - omega_n) / omega_0, M_k / M_n, given.get("resistance_ratio", 0.0))
+    return given | {"speed_breakdown": omega_0 * (1 - s_k)}
+
+
+def _knee_faults(knee: float, rated: float | None, top: float) -> Iterator[InitErrorDetails]:
+    """A given breakdown speed that is not below the rated and the synchronous speed."""
+    if knee >= top:
+        yield _less("speed_breakdown", knee, "the synchronous speed", top)
+    elif rated is not None and knee >= rated:
+        yield _less("speed_breakdown", knee, "the rated speed", rated)
+
+
+def _less(key: str, found: float, word: str, limit: float) -> InitErrorDetails:
+    """The fault of a value that is not below its limit."""
+    unit = "N m" if key.startswith("torque") else "rad/s"
+    return fault(key, found=f"{found:.6g} {unit}", expected=f"less than {word}, {limit:.6g} {unit}")
+
+
+class DcMotor(Motor):
+    """Direct-current motor with constant excitation: M = M_stall (1 − ω/ω_0)."""
+
+    kind: Literal["dc"]
+    speed_no_load: PositiveSpeed = Field(description="Speed without any torque.")
+    torque_stall: PositiveTorque | None = Field(
+        None, description="Torque at standstill. Without it, from the rated point."
+    )
+
+    @classmethod
+    def _completed(cls, given: Values) -> Values:
+        values = with_rated_point(given)
+        needs = ("speed_no_load", "speed_rated", "torque_rated")
+        if "torque_stall" in values or any(name not in values for name in needs):
+            return values
+        omega_0, omega_n, M_n = (values[name] for name in needs)
+        if _coincide(omega_n, omega_0):
+            return values
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            return values | {"torque_stall": M_n / (1 - omega_n / omega_0)}
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from super()._faults()
+        if self.speed_rated is not None and self.speed_rated >= self.speed_no_load:
+            yield _less("speed_rated", self.speed_rated, "the no-load speed", self.speed_no_load)
+        elif self.torque_stall is None:
+            yield fault(
+                "torque_stall", expected="the stall torque, or the rated speed and the rated torque or power"
+            )
+
+
+class TableMotor(Motor):
+    """Motor whose torque is given at some speeds; linear between them, the end values held outside."""
+
+    kind: Literal["table"]
+    speed: Speeds = Field(description="Speeds of the motor shaft, increasing.")
+    torque: Torques = Field(description="Torque at each speed.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from super()._faults()
+        yield from curve_faults(self, "speed", ("torque",))
+
+
+class ConstantTorqueMotor(Motor):
+    """Motor that gives the same torque at any speed."""
+
+    kind: Literal["constant_torque"]
+    torque: Torque = Field(description="At the motor shaft.")
+
+
+class ConstantSpeedMotor(Motor):
+    """Motor that keeps its speed under any load."""
+
+    kind: Literal["constant_speed"]
+    speed: PositiveSpeed = Field(description="Of the motor shaft.")
+
+
+AnyMotor = Annotated[
+    InductionMotor | DcMotor | TableMotor | ConstantTorqueMotor | ConstantSpeedMotor,
+    Field(discriminator="kind"),
+]

@@ -1,0 +1,185 @@
+r"""The machine reduced to the crank: reduced inertia and resisting torque over a turn.
+
+.. math::
+
+    J(\varphi) = J_0 + \sum m\,\lVert\mathbf p'\rVert^2 + J_S\,\psi'^2, \qquad
+    M_r(\varphi) = -\sum \mathbf F\cdot\mathbf p' - \sum M\,\psi'
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.drive.sound_loads import require_turn
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.linkages.closure import turn_angles
+from linkwright.linkages.period import turns_to_repeat
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled
+
+Floats = NDArray[np.float64]
+
+# What is said of a machine that nothing keeps from infinite acceleration.
+NO_INERTIA = (
+    "the reduced inertia is zero at some crank angle, so its motion is not determined: "
+    "give motor, flywheel or bodies their inertia"
+)
+
+# Speeds at which laws are integrated together; more only take memory.
+_SPEEDS = 64
+
+
+@dataclass(frozen=True)
+class Reduction(Result):
+    """Reduced inertia and torque over a turn.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n + 1,)
+        0 to 2π [rad].
+    inertia_reduced : ndarray
+        J [kg m²], motor and gearbox included.
+    inertia_reduced_d1 : ndarray
+        dJ/dφ [kg m²/rad].
+    torque_load : ndarray
+        Resisting torque of all loads that do not depend on the size of the speed, crank turning forward
+        [N m].
+    torque_dry : ndarray
+        Share of it that always opposes the motion [N m].
+    viscous : ndarray
+        Resisting torque per speed [N m s/rad].
+    inertia_min, inertia_max : float
+        Extremes of J [kg m²].
+    inertia_min_angle, inertia_max_angle : float
+        Crank angles where they are [rad].
+    torque_load_mean, torque_load_max : float
+        Mean over the angle, and greatest value, of the resisting torque [N m].
+    viscous_mean : float
+        Mean over the angle of the resisting torque per speed [N m s/rad].
+    """
+
+    crank_angle: Floats
+    inertia_reduced: Floats
+    inertia_reduced_d1: Floats
+    torque_load: Floats
+    torque_dry: Floats
+    viscous: Floats
+    inertia_min: float
+    inertia_max: float
+    inertia_min_angle: float
+    inertia_max_angle: float
+    torque_load_mean: float
+    torque_load_max: float
+    viscous_mean: float
+
+
+@public
+def reduction(machine: Machine, *, n: int = 360) -> Reduction:
+    """Reduce masses and loads to the crank.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    n : int
+        Intervals of the turn for the curves.
+
+    Returns
+    -------
+    Reduction
+        Curves over the turn, extremes and means; these do not depend on ``n``.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close all round.
+        A load has no value at some angle.
+
+    Notes
+    -----
+    The derivative of J is exact. The resisting torque is positive where it opposes forward rotation.
+
+    References
+    ----------
+    .. [1] Artobolevsky, Theory of Mechanisms and Machines, reduction of masses and forces.
+    .. [2] Paper 1, equations (5) and (10), for the in-line slider-crank with rod.
+    """
+    return reduction_of(require_turn(machine), n)
+
+
+def reduction_of(compiled: Compiled, n: int = 360) -> Reduction:
+    """`reduction` of a compiled machine that closes."""
+    phi = turn_angles(n)
+    J, J_d1, load, dry, viscous = compiled.reductions(phi)
+    turn = turn_curve(lambda at: _inertia_and_load(compiled, at), compiled.kinks(), "inertia and load")
+    low, low_at = turn.extreme(-1, 0)
+    high, high_at = turn.extreme(+1, 0)
+    means = mean_over_turn(compiled)
+    return Reduction(
+        crank_angle=phi,
+        inertia_reduced=J,
+        inertia_reduced_d1=J_d1,
+        torque_load=load + dry,
+        torque_dry=dry,
+        viscous=viscous,
+        inertia_min=low,
+        inertia_max=high,
+        inertia_min_angle=low_at,
+        inertia_max_angle=high_at,
+        torque_load_mean=means[0],
+        torque_load_max=turn.extreme(+1, 1)[0],
+        viscous_mean=means[1],
+    )
+
+
+def mean_over_turn(compiled: Compiled) -> tuple[float, float]:
+    """Means of the resisting torque and of the viscous coefficient over the crank angle.
+
+    Loads that have a potential do no work over a closed cycle, whatever their size: they are left out of the
+    integral where the mechanism is after one revolution where it was.
+    """
+    if turns_to_repeat(compiled) == 1:
+        compiled = compiled.without_conservative()
+    turn = turn_curve(lambda at: _resistance(compiled, at), compiled.kinks(), "resistance")
+    load, viscous = turn.mean()
+    return float(load), float(viscous)
+
+
+def mean_laws(compiled: Compiled, speeds: ArrayLike) -> Floats:
+    """Mean over the crank angle of the torque of laws at constant speeds of the crank, shape (n,) [N m]."""
+    mean: Floats = law_harmonics(compiled, speeds, np.zeros(1)).real[:, 0]
+    return mean
+
+
+def law_harmonics(compiled: Compiled, speeds: ArrayLike, orders: Floats) -> NDArray[np.complex128]:
+    """Means of the torque of laws times e^{−iνφ} at constant speeds of the crank, (speeds, orders) [N m]."""
+    omega = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
+    if not compiled.has_laws:
+        return np.zeros((len(omega), len(orders)), dtype=np.complex128)
+    kinks = compiled.kinks()
+    parts = [omega[i : i + _SPEEDS] for i in range(0, len(omega), _SPEEDS)]
+    turns = (turn_curve(partial(_laws, compiled, part), kinks, "load") for part in parts)
+    return np.concatenate([turn.harmonics(orders) for turn in turns])
+
+
+def _inertia_and_load(compiled: Compiled, phi: Floats) -> Floats:
+    """Reduced inertia and resisting torque, (2, n)."""
+    J, _, load, dry, _ = compiled.reductions(phi)
+    return np.stack([J, load + dry])
+
+
+def _resistance(compiled: Compiled, phi: Floats) -> Floats:
+    """Resisting torque and viscous coefficient, (2, n)."""
+    _, _, load, dry, viscous = compiled.reductions(phi)
+    return np.stack([load + dry, viscous])
+
+
+def _laws(compiled: Compiled, omega: Floats, phi: Floats) -> Floats:
+    """Torque of the laws at constant speeds, (speeds, n)."""
+    return compiled.law_torques(phi, omega)

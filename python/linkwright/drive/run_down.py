@@ -1,0 +1,67 @@
+"""Run-down: motor off, brake on, until the machine stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.drive.transient import Transient, transient
+from linkwright.kernel.errors import SteadyStateError
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+
+# Turns after which a run-down is given up: nothing brakes.
+_TURNS_MAX = 1000.0
+
+
+@dataclass(frozen=True)
+class RunDown(Result):
+    """The run-down from the steady speed at φ = 0.
+
+    Attributes
+    ----------
+    turns, time : float
+        Turns of the crank and time [s] until rest.
+    angle_end : float
+        Crank angle at rest [rad].
+    motion : Transient
+        The whole motion.
+    """
+
+    turns: float
+    time: float
+    angle_end: float
+    motion: Transient
+
+
+@public
+def run_down(machine: Machine, *, steady: SteadyState | None = None) -> RunDown:
+    """Let the machine run down from steady motion, motor off, brake applied if there is one.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    steady : SteadyState, optional
+        Its steady motion, if known already.
+
+    Returns
+    -------
+    RunDown
+        Until it stands; where gravity or a spring would swing it back, until it first comes to rest.
+
+    Raises
+    ------
+    SteadyStateError
+        It does not come to rest within 1000 turns: nothing brakes it.
+    """
+    steady = steady or steady_state(machine, n=8)
+    speed = float(steady.speed[0])
+    motion = transient(machine, speed=speed, turns=_TURNS_MAX, motor=False, brake=True)
+    if not motion.came_to_rest:
+        raise SteadyStateError(f"does not come to rest within {_TURNS_MAX:.0f} turns: add [drive.brake]")
+    end = float(motion.crank_angle[-1] % (2 * np.pi))
+    return RunDown(turns=motion.turns, time=float(motion.time[-1]), angle_end=end, motion=motion)

@@ -1,0 +1,225 @@
+"""Run-up from rest: whether the machine starts, how long it takes, and where it stalls if it does."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.drive.transient import End, Transient, transient
+from linkwright.kernel.errors import InputError, StartError, SteadyStateError
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+
+Floats = NDArray[np.float64]
+
+# Relative accuracy of a step.
+_ACCURACY = 1e-9
+
+# Turns after which it is looked again whether the motion has settled; most drives settle in the first ten.
+_FIRST_TURNS = 10.0
+
+
+@dataclass(frozen=True)
+class RunUp(Result):
+    """The run-up.
+
+    Attributes
+    ----------
+    crank_time, crank_angle, speed, acceleration : ndarray, shape (n,)
+        The motion at the ends of the solver's steps [s, rad, rad/s, rad/s²].
+    turns, time : float
+        Turns of the crank and time [s] from the start until the speed last differed from that of steady
+        motion at the same angle by more than ``settled`` times the mean speed.
+    settled : float
+        That share [–].
+    speed_peak : float
+        Greatest speed until then [rad/s].
+    motion : Transient
+        The whole motion.
+    """
+
+    crank_time: Floats
+    crank_angle: Floats
+    speed: Floats
+    acceleration: Floats
+    turns: float
+    time: float
+    settled: float
+    speed_peak: float
+    motion: Transient
+
+
+@public
+def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
+    """Run the machine up from its start angle and speed (``[run_up]`` of the file).
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine, with a motor.
+    steady : SteadyState, optional
+        Its steady motion, if known already.
+
+    Returns
+    -------
+    RunUp
+        The motion, and when it has settled.
+
+    Raises
+    ------
+    StartError
+        It does not start, stalls, is driven backwards, or has not settled within ``run_up.turns_max``; says
+        at which angle, with the torques.
+    SteadyStateError, AssemblyError
+        See `steady_state`.
+
+    Notes
+    -----
+    At rest a dry resistance holds up to its size in either direction.
+    """
+    start_of(machine)
+    steady = steady or _steady_or_stall(machine)
+    options = machine.run_up
+    turns = min(_FIRST_TURNS, options.turns_max)
+    while True:
+        motion = transient(
+            machine,
+            angle=options.angle_start,
+            speed=options.speed_start,
+            turns=turns,
+            accuracy=_ACCURACY,
+        )
+        if motion.came_to_rest:
+            raise StartError(_why_not(motion))
+        settled = _settled(motion, steady, options.settled)
+        # Settled well before the end: otherwise the speed may yet leave the band again.
+        if settled is not None and (settled[0] <= 0.8 * turns or turns >= options.turns_max):
+            break
+        if turns >= options.turns_max:
+            raise StartError(_too_slow(motion, steady, options.settled))
+        turns = min(3 * turns, options.turns_max)
+    return RunUp(
+        crank_time=motion.time,
+        crank_angle=motion.crank_angle,
+        speed=motion.speed,
+        acceleration=motion.acceleration,
+        turns=settled[0],
+        time=settled[1],
+        settled=options.settled,
+        speed_peak=_peak(motion, settled[1]),
+        motion=motion,
+    )
+
+
+def _steady_or_stall(machine: Machine) -> SteadyState:
+    """The steady motion; where there is none because the machine comes to rest, a `StartError` says where."""
+    try:
+        return steady_state(machine, n=1440)
+    except SteadyStateError:
+        options = machine.run_up
+        motion = transient(
+            machine, angle=options.angle_start, speed=options.speed_start, turns=options.turns_max
+        )
+        if motion.came_to_rest:
+            raise StartError(_why_not(motion)) from None
+        raise
+
+
+def start_of(machine: Machine) -> None:
+    """Raise if the machine cannot move from its start angle and speed.
+
+    Raises
+    ------
+    InputError
+        There is no motor.
+    StartError
+        The drive does not overcome the load at the start.
+    """
+    if machine.drive is None or machine.drive.motor is None:
+        raise InputError(f"{machine.name}: a run-up needs a motor; add [drive.motor]")
+    options = machine.run_up
+    # Any short motion will do: what counts is whether there is one.
+    first = transient(
+        machine, angle=options.angle_start, speed=options.speed_start, turns=0.01, accuracy=1e-6
+    )
+    if first.came_to_rest:
+        raise StartError(_why_not(first))
+
+
+def _why_not(motion: Transient) -> str:
+    """One sentence: where the machine comes to rest, with both torques."""
+    angle = f"{np.degrees(motion.crank_angle[-1] % (2 * np.pi)):.1f}°"
+    drive, load = motion.torque_drive_end, motion.torque_load_end
+    balance = f"at {angle} the motor gives {drive:.0f} N m at the crank, the load needs {load:.0f} N m"
+    remedy = "choose a motor with more starting torque, a larger ratio, or another start angle"
+    if motion.end == End.DOES_NOT_START:
+        return f"does not start: {balance}; {remedy}"
+    if motion.end == End.STARTS_BACKWARDS:
+        return f"does not start: the load drives the crank backwards; {balance}; {remedy}"
+    after = f"after {motion.turns:.2f} turns and {motion.time[-1]:.2f} s"
+    if motion.end == End.REVERSAL:
+        return f"runs backwards {after}: {balance}, and the load turns the crank back; {remedy}"
+    return f"stalls {after}: {balance}; {remedy}"
+
+
+def _too_slow(motion: Transient, steady: SteadyState, band: float) -> str:
+    off = abs(motion.speed[-1] / _steady_speed(steady, motion.crank_angle[-1:])[0] - 1)
+    return (
+        f"has not settled after {motion.turns:.0f} turns ({motion.time[-1]:.1f} s): the speed still differs "
+        f"from steady motion by {100 * off:.2g} %, more than {100 * band:.2g} %; raise run_up.turns_max"
+    )
+
+
+def _steady_speed(steady: SteadyState, angle: Floats) -> Floats:
+    """Speed of steady motion at crank angles, by the cubic through speeds and slopes of its curve."""
+    grid, omega = steady.crank_angle, steady.speed
+    slope = steady.acceleration / omega
+    phi = angle % (2 * np.pi)
+    k = np.clip(np.searchsorted(grid, phi, side="right") - 1, 0, len(grid) - 2)
+    h = grid[k + 1] - grid[k]
+    z = (phi - grid[k]) / h
+    value: Floats = (
+        (1 + 2 * z) * (1 - z) ** 2 * omega[k]
+        + z * (1 - z) ** 2 * h * slope[k]
+        + z**2 * (3 - 2 * z) * omega[k + 1]
+        + z**2 * (z - 1) * h * slope[k + 1]
+    )
+    return value
+
+
+def _settled(motion: Transient, steady: SteadyState, band: float) -> tuple[float, float] | None:
+    """Turns and time at which the motion last enters the band about steady motion; None if never."""
+    limit = band * steady.speed_mean_time
+
+    def excess(time: Floats) -> Floats:
+        angle, speed = motion.at(time)
+        return np.abs(speed - _steady_speed(steady, angle)) - limit
+
+    # Eight looks a step of the solver, which itself takes some twenty a turn.
+    looks = np.unique(np.concatenate([np.linspace(a, b, 9) for a, b in _spans(motion.time)]))
+    outside = np.flatnonzero(excess(looks) > 0)
+    if not len(outside):
+        return 0.0, 0.0
+    if outside[-1] == len(looks) - 1:
+        return None
+    low, high = looks[outside[-1]], looks[outside[-1] + 1]
+    # Fifty halvings of a few milliseconds reach rounding.
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(np.array([middle]))[0] > 0 else (low, middle)
+    angle = motion.at(np.array([high]))[0][0]
+    return float(angle - motion.crank_angle[0]) / (2 * np.pi), float(high)
+
+
+def _peak(motion: Transient, until: float) -> float:
+    """Greatest speed up to a time, from five hundred looks."""
+    return float(motion.at(np.linspace(0.0, until, 501))[1].max())
+
+
+def _spans(time: Floats) -> list[tuple[float, float]]:
+    return [(float(a), float(b)) for a, b in pairwise(time)]

@@ -1,0 +1,131 @@
+"""Whether the loads of a machine can be computed all round, and repeat every turn."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import FindingError, SteadyStateError
+from linkwright.kinetostatics.model.loads.base import Load
+from linkwright.kinetostatics.model.loads.between import GasSpring, TorsionalSpring
+from linkwright.kinetostatics.model.loads.formula import FormulaLoad
+from linkwright.linkages.closure import require_full_turn, turn_angles
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+
+Floats = NDArray[np.float64]
+
+# Angles at which loads are looked at; a hole narrower than half a degree is met by the solver, which says so.
+_ANGLES = 720
+
+# Loads that may have no value at some place, or jump.
+_DOUBTFUL = (FormulaLoad, GasSpring, TorsionalSpring)
+
+
+def require_turn(machine: Machine) -> Compiled:
+    """The machine compiled, if its crank turns all round, with loads that have a value everywhere.
+
+    Raises
+    ------
+    FindingError
+        What does not close, or the load, and where.
+    """
+    compiled = compile_machine(machine)
+    require_full_turn(compiled, machine)
+    require_sound_loads(compiled, machine)
+    return compiled
+
+
+def require_same_turns(machine: Machine) -> None:
+    """Raise if a load changes with time itself.
+
+    Raises
+    ------
+    SteadyStateError
+        Names the load.
+    """
+    for name, load in machine.loads.items():
+        if isinstance(load, FormulaLoad) and load.knows_time:
+            raise SteadyStateError(
+                f'no steady motion: the formula of {name}, "{load.text}", depends on time t, so that no turn '
+                "repeats another; write it with the crank angle phi, or follow the motion in time (transient)"
+            )
+
+
+def require_sound_loads(compiled: Compiled, machine: Machine) -> None:
+    """Raise if a load has no value at some angle, or a torsional spring is turned beyond half a turn.
+
+    Raises
+    ------
+    FindingError
+        Names the load, the angle and the remedy.
+    """
+    doubtful = {name: load for name, load in machine.loads.items() if isinstance(load, _DOUBTFUL)}
+    if not doubtful:
+        return
+    phi = turn_angles(_ANGLES)
+    require_half_turns(compiled, machine)
+    if np.isfinite(_torques(compiled, phi)).all():
+        return
+    for name, load in doubtful.items():
+        alone = compile_machine(machine.with_entries({"loads": {name: load}}))
+        torques = _torques(alone, phi)
+        if not np.isfinite(torques).all():
+            raise FindingError(_no_value(name, load, float(phi[np.argmin(np.isfinite(torques))])))
+
+
+def require_half_turns(compiled: Compiled, machine: Machine) -> None:
+    """Raise if a torsional spring is turned beyond half a turn from its free angle.
+
+    Raises
+    ------
+    FindingError
+        Names the spring and the angle.
+    """
+    for name, load in machine.loads.items():
+        if isinstance(load, TorsionalSpring):
+            _require_half_turns(name, load, compiled, turn_angles(_ANGLES))
+
+
+def _torques(compiled: Compiled, phi: Floats) -> Floats:
+    """Torque of all loads at the angles, at the speed from which steady motion is sought [N m]."""
+    _, _, load, dry, viscous = compiled.reductions(phi)
+    torques: Floats = load + dry + viscous + compiled.law_torques(phi, compiled.speed_guess)[0]
+    return torques
+
+
+def _no_value(name: str, load: Load, phi: float) -> str:
+    """What a load without value may lack."""
+    where = f"at crank angle {np.degrees(phi):.1f}°"
+    if isinstance(load, GasSpring):
+        return (
+            f"the gas spring {name} is pressed in further than its gas allows {where}; choose one with a "
+            "longer stroke, a smaller progression, or other points"
+        )
+    text = load.text if isinstance(load, FormulaLoad) else ""
+    return (
+        f'the formula of {name}, "{text}", has no finite value {where}: look for a division by zero, and '
+        "for a root or logarithm of a negative number"
+    )
+
+
+def _require_half_turns(name: str, load: TorsionalSpring, compiled: Compiled, phi: Floats) -> None:
+    """Raise if the links of a torsional spring turn by more than half a turn from its free angle."""
+    turned = _angle(compiled, load.on, phi) - load.free_angle
+    if load.against is not None:
+        turned = turned - _angle(compiled, load.against, phi)
+    turned = turned - 2 * np.pi * np.round(turned[0] / (2 * np.pi))
+    if np.nanmax(np.abs(turned), initial=0.0) >= np.pi:
+        at = np.degrees(phi[np.argmax(np.abs(turned) >= np.pi)])
+        raise FindingError(
+            f"the torsional spring {name} is turned by more than 180° from its free angle at crank angle "
+            f"{at:.1f}°; it is computed for less: put it on a link that swings, or change free_angle"
+        )
+
+
+def _angle(compiled: Compiled, link: str, phi: Floats) -> Floats:
+    """Angle of a link without jumps [rad]."""
+    out = np.empty((1, 4, len(phi)))
+    compiled.motions(np.ascontiguousarray(phi), [(1, compiled.links[link])], out.reshape(-1))
+    angle: Floats = np.unwrap(np.arctan2(out[0, 1], out[0, 0]))
+    return angle

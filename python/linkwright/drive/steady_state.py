@@ -1,0 +1,418 @@
+r"""Steady motion: the periodic solution of the machine's equation of motion, and its measures.
+
+.. math:: J \frac{du}{d\varphi} = M_d(\omega) - M_r(\varphi,\omega) - J' u, \qquad u = \tfrac12 \omega^2
+
+The solution is found by Newton on the turn-to-turn map, not by waiting for transients; the core says how
+(`linkwright-core`, module `cycle`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.reduction import NO_INERTIA, mean_laws, mean_over_turn
+from linkwright.drive.sound_loads import require_same_turns, require_sound_loads
+from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.linkages.closure import require_full_turn, require_one_turn, turn_angles
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+
+Floats = NDArray[np.float64]
+
+# Statuses of the core (`linkwright-core`, module `status`).
+_DOES_NOT_CLOSE, _NO_STEADY_MOTION = 1, 2
+
+# Speeds of a turn at which the motor's torque is looked at for its extremes, and how often between the
+# neighbours of the best: an interval is a 32nd of that before.
+_SPEEDS_IN_TURN, _ZOOMS = 65, 7
+
+# Speeds at which it is looked whether the drive can balance the mean load at all.
+_SPEEDS = 400
+
+
+@dataclass(frozen=True)
+class SteadyState(Result):
+    """One turn of steady motion.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n + 1,)
+        0 to 2π [rad].
+    time : ndarray
+        From the start of the turn [s].
+    speed, acceleration : ndarray
+        Of the crank [rad/s, rad/s²].
+    torque_motor : ndarray
+        At the motor's shaft [N m].
+    torque_drive, torque_load : ndarray
+        Driving and resisting torque at the crank [N m].
+    power_motor : ndarray
+        At the motor's shaft [W].
+    inertia_reduced : ndarray
+        [kg m²].
+    speed_min, speed_max, acceleration_min, acceleration_max : float
+        Exact extremes, not those of the curves.
+    speed_min_angle, speed_max_angle, acceleration_min_angle, acceleration_max_angle : float
+        Crank angles where they are [rad].
+    period : float
+        Duration of a turn [s].
+    multiplier : float
+        What is left of a small disturbance of the speed after one turn, as a share; the motion is stable if
+        it is below 1 in size.
+    energy_motor, energy_drive, energy_load : float
+        Work in a turn at the motor's shaft, at the crank, and taken by the loads [J].
+    torque_motor_mean, torque_motor_rms : float
+        Over time [N m].
+    torque_motor_min, torque_motor_max : float
+        Extremes at the motor's shaft [N m]; the least is negative where the load drives the motor.
+    power_motor_max : float
+        Greatest power at the motor's shaft [W].
+    accuracy : float
+        Relative error as measured: of speeds, of accelerations against their peak (or against 1e-4 ω², if the
+        machine turns more evenly than that), and of the integrals. Every step was done again in halves.
+    sweeps, steps : int
+        Newton sweeps over the turn in all, and steps of the finest mesh.
+    method : str
+        ``"collocation"`` or ``"constant speed"``.
+    """
+
+    crank_angle: Floats
+    time: Floats
+    speed: Floats
+    acceleration: Floats
+    torque_motor: Floats
+    torque_drive: Floats
+    torque_load: Floats
+    power_motor: Floats
+    inertia_reduced: Floats
+    speed_min: float
+    speed_max: float
+    acceleration_min: float
+    acceleration_max: float
+    speed_min_angle: float
+    speed_max_angle: float
+    acceleration_min_angle: float
+    acceleration_max_angle: float
+    period: float
+    multiplier: float
+    energy_motor: float
+    energy_drive: float
+    energy_load: float
+    torque_motor_mean: float
+    torque_motor_rms: float
+    torque_motor_min: float
+    torque_motor_max: float
+    power_motor_max: float
+    accuracy: float
+    sweeps: int
+    steps: int
+    method: str = "collocation"
+
+    @property
+    def speed_mean_extremes(self) -> float:
+        """(ω_max + ω_min)/2 [rad/s]."""
+        return 0.5 * (self.speed_max + self.speed_min)
+
+    @property
+    def speed_mean_time(self) -> float:
+        """2π/period [rad/s]."""
+        return 2 * np.pi / self.period
+
+    @property
+    def unevenness(self) -> float:
+        """δ = (ω_max − ω_min)/ω_m with the mean of the extremes [–], paper 1 (13)."""
+        return (self.speed_max - self.speed_min) / self.speed_mean_extremes
+
+    @property
+    def dynamism(self) -> float:
+        """H = |ε|_max/ω_m² with the mean of the extremes [–], paper 1 (14)."""
+        return self._steepest / self.speed_mean_extremes**2
+
+    @property
+    def motion_coefficient(self) -> float:
+        """k_p = δ² + H with the mean of the extremes [–], paper 1 (15)."""
+        return self.unevenness**2 + self.dynamism
+
+    @property
+    def unevenness_time(self) -> float:
+        """δ with the mean over time [–]."""
+        return (self.speed_max - self.speed_min) / self.speed_mean_time
+
+    @property
+    def dynamism_time(self) -> float:
+        """H with the mean over time [–]."""
+        return self._steepest / self.speed_mean_time**2
+
+    @property
+    def motion_coefficient_time(self) -> float:
+        """k_p with the mean over time [–]."""
+        return self.unevenness_time**2 + self.dynamism_time
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether a small disturbance dies away."""
+        return abs(self.multiplier) < 1
+
+    @property
+    def power_motor_mean(self) -> float:
+        """Mean power at the motor's shaft [W]."""
+        return self.energy_motor / self.period
+
+    @property
+    def efficiency(self) -> float | None:
+        """Work taken by the loads over work of the motor [–]; None without any work of the motor."""
+        return self.energy_load / self.energy_motor if self.energy_motor > 0 else None
+
+    @property
+    def _steepest(self) -> float:
+        return max(abs(self.acceleration_min), abs(self.acceleration_max))
+
+
+@public
+def steady_state(
+    machine: Machine, *, accuracy: float = 1e-9, n: int = 360, angles: Floats | None = None
+) -> SteadyState:
+    """Find the steady motion.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine, with a motor.
+    accuracy : float
+        Relative accuracy of everything that is returned, down to 1e-13: speeds, accelerations against their
+        peak, integrals. Rounding may forbid it where the motor is very steep; `SteadyState.accuracy` says
+        what was reached.
+    n : int
+        Intervals of the turn for the curves; extremes and integrals do not depend on it.
+    angles : ndarray, shape (m,), optional
+        Crank angles of the curves instead, from 0 to 2π and increasing [rad].
+
+    Returns
+    -------
+    SteadyState
+        One turn from φ = 0.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close all round.
+    FindingError
+        It does not repeat after one turn of the crank.
+    SteadyStateError
+        There is no periodic motion; says what the drive lacks.
+    ConvergenceError
+        The accuracy was not reached.
+    InputError
+        The machine has no motor.
+
+    Notes
+    -----
+    With a motor of constant speed nothing is solved: the drive's torque is what the motion needs.
+
+    References
+    ----------
+    .. [1] Paper 1, equation (1) for the motion, (13)–(15) for the measures.
+    """
+    if machine.drive is None or machine.drive.motor is None:
+        raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
+    if not 1e-13 <= accuracy <= 1e-2:
+        raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
+    compiled = compile_machine(machine)
+    require_full_turn(compiled, machine)
+    require_one_turn(compiled)
+    require_same_turns(machine)
+    require_sound_loads(compiled, machine)
+    phi = turn_angles(n) if angles is None else angles
+    if isinstance(machine.drive.motor, ConstantSpeedMotor):
+        return _at_constant_speed(machine, compiled, phi)
+    status, scalars, curves = compiled.steady(phi, accuracy)
+    if curves is None:
+        raise _failure(status, scalars, compiled, accuracy)
+    return _from_core(scalars, curves, phi, compiled)
+
+
+def _motor_extremes(compiled: Compiled, low: float, high: float) -> tuple[float, float, float]:
+    """Minimum and maximum torque and maximum power of the motor for speeds of the crank between two.
+
+    In a turn the speed takes every value between its extremes, and the torque depends on the speed alone.
+    """
+    ratio = compiled.gear_factors[0]
+
+    def torque(omega: Floats) -> Floats:
+        return compiled.motor_torques(omega)[0]
+
+    def power(omega: Floats) -> Floats:
+        return torque(omega) * omega * ratio
+
+    return -_peak(lambda omega: -torque(omega), low, high), _peak(torque, low, high), _peak(power, low, high)
+
+
+def _peak(of: Callable[[Floats], Floats], low: float, high: float) -> float:
+    """Maximum of a function on an interval: the best sample, and again between its neighbours.
+
+    A corner is met to the width of the last interval, 1e-9 of the first; a smooth peak to the square of that.
+    """
+    best = -np.inf
+    for _ in range(_ZOOMS):
+        x = np.linspace(low, high, _SPEEDS_IN_TURN)
+        y = of(x)
+        top = int(np.argmax(y))
+        best = max(best, float(y[top]))
+        low, high = float(x[max(top - 1, 0)]), float(x[min(top + 1, _SPEEDS_IN_TURN - 1)])
+    return best
+
+
+def _from_core(scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled) -> SteadyState:
+    """The core's numbers by name; their order is that of `linkwright-core`, module `batch`."""
+    time, speed, acceleration, torque_motor, torque_drive, torque_load, inertia = curves
+    low, high, drop, rise, period, multiplier, motor, drive, load, mean, rms, *places = scalars.tolist()
+    low_at, high_at, drop_at, rise_at, reached, sweeps, steps = places
+    weakest, strongest, most = _motor_extremes(compiled, low, high)
+    ratio = compiled.gear_factors[0]
+    return SteadyState(
+        crank_angle=phi,
+        time=time,
+        speed=speed,
+        acceleration=acceleration,
+        torque_motor=torque_motor,
+        torque_drive=torque_drive,
+        torque_load=torque_load,
+        power_motor=torque_motor * speed * ratio,
+        inertia_reduced=inertia,
+        speed_min=low,
+        speed_max=high,
+        acceleration_min=drop,
+        acceleration_max=rise,
+        speed_min_angle=low_at,
+        speed_max_angle=high_at,
+        acceleration_min_angle=drop_at,
+        acceleration_max_angle=rise_at,
+        period=period,
+        multiplier=multiplier,
+        energy_motor=motor,
+        energy_drive=drive,
+        energy_load=load,
+        torque_motor_mean=mean,
+        torque_motor_rms=rms,
+        torque_motor_min=weakest,
+        torque_motor_max=strongest,
+        power_motor_max=most,
+        accuracy=reached,
+        sweeps=int(sweeps),
+        steps=int(steps),
+    )
+
+
+def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> SteadyState:
+    """The turn of a machine whose motor keeps its speed: its torque is what the motion needs."""
+    drive = machine.drive
+    assert drive is not None
+    assert isinstance(drive.motor, ConstantSpeedMotor)
+    ratio = drive.gearbox.ratio
+    omega = drive.motor.speed / ratio
+
+    def needs(angles: Floats) -> Floats:
+        """J, resisting torque, driving torque that the motion needs, and the motor's, (4, n)."""
+        J, J_d1, load, dry, viscous = compiled.reductions(angles)
+        resisting = load + dry + viscous * omega + compiled.speed_load(omega)
+        if compiled.has_laws:
+            resisting = resisting + compiled.law_torques(angles, omega)[0]
+        driving = resisting + 0.5 * J_d1 * omega**2
+        return np.stack([J, resisting, driving, compiled.motor_torque_for(driving)])
+
+    J, torque_load, torque_drive, torque_motor = needs(phi)
+    turn = turn_curve(needs, compiled.kinks(), "torque of the drive")
+    _, load_mean, drive_mean, motor_mean = turn.mean().tolist()
+    motor_max = turn.extreme(+1, 3)[0]
+    period = 2 * np.pi / omega
+    still = dict.fromkeys(("speed_min_angle", "speed_max_angle"), 0.0)
+    still |= dict.fromkeys(("acceleration_min", "acceleration_max"), 0.0)
+    still |= dict.fromkeys(
+        ("acceleration_min_angle", "acceleration_max_angle", "accuracy", "multiplier"), 0.0
+    )
+    return SteadyState(
+        crank_angle=phi,
+        time=phi / omega,
+        speed=np.full_like(phi, omega),
+        acceleration=np.zeros_like(phi),
+        torque_motor=torque_motor,
+        torque_drive=torque_drive,
+        torque_load=torque_load,
+        power_motor=torque_motor * omega * ratio,
+        inertia_reduced=J,
+        speed_min=omega,
+        speed_max=omega,
+        period=period,
+        energy_motor=motor_mean * ratio * 2 * np.pi,
+        energy_drive=drive_mean * 2 * np.pi,
+        energy_load=load_mean * 2 * np.pi,
+        torque_motor_mean=motor_mean,
+        torque_motor_rms=float(turn.rms()[3]),
+        torque_motor_min=turn.extreme(-1, 3)[0],
+        torque_motor_max=motor_max,
+        power_motor_max=motor_max * omega * ratio,
+        sweeps=0,
+        steps=0,
+        method="constant speed",
+        **still,
+    )
+
+
+def _failure(status: int, places: Floats, compiled: Compiled, accuracy: float) -> Exception:
+    """The error for a status of the core, with its numbers: angle, speed, accuracy reached."""
+    angle, speed, reached = places.tolist()
+    if status == _DOES_NOT_CLOSE:
+        return SteadyStateError(NO_INERTIA)
+    if status == _NO_STEADY_MOTION:
+        if np.isnan(angle):
+            return SteadyStateError(_runs_away(compiled, speed))
+        return SteadyStateError(
+            f"{_what_lacks(compiled)} (started at {speed:.4g} rad/s at φ = 0, it comes to rest at "
+            f"φ = {np.degrees(angle):.4g}°, and every faster start slows down to that)"
+        )
+    text = "was not decided within 200 revolutions" if np.isnan(reached) else f"{reached:.1e} was reached"
+    return ConvergenceError(
+        f"steady motion was not found to a relative accuracy of {accuracy:g} ({text}); ask for less, "
+        "or look for a mechanism that nearly locks",
+        method="collocation",
+        iterations=12288,
+    )
+
+
+def _runs_away(compiled: Compiled, speed: float) -> str:
+    """That the machine gains speed without end."""
+    load, viscous = mean_over_turn(compiled)
+    omega = np.array([speed])
+    drive = float(compiled.motor_torques(omega)[1][0])
+    needed = float((load + viscous * omega + compiled.speed_load(omega) + mean_laws(compiled, omega))[0])
+    return (
+        f"no steady motion: at {speed:.4g} rad/s the drive still gives more than the mean load takes "
+        f"({drive:.4g} against {needed:.4g} N m), so the machine speeds up without end; "
+        "add a load that grows with speed or a motor whose torque falls with it"
+    )
+
+
+def _what_lacks(compiled: Compiled) -> str:
+    """Why the machine comes to rest: the drive against the mean load."""
+    load, viscous = mean_over_turn(compiled)
+    omega = np.linspace(0.0, 1.5 * compiled.speed_guess, _SPEEDS + 1)[1:]
+    drive = compiled.motor_torques(omega)[1]
+    resisting = load + viscous * omega + compiled.speed_load(omega) + mean_laws(compiled, omega)
+    best = int(np.argmax(drive - resisting))
+    if drive[best] < resisting[best]:
+        return (
+            f"no steady motion: at best, at {omega[best]:.4g} rad/s, the drive gives {drive[best]:.4g} N m "
+            f"at the crank and the mean load needs {resisting[best]:.4g} N m; choose a larger motor or ratio"
+        )
+    return (
+        "no steady motion: the drive balances the mean load, but not the turn's peaks: the machine comes to "
+        "rest within the turn; add a flywheel or choose a larger motor"
+    )

@@ -1,0 +1,223 @@
+r"""The step method of Baranov, kept beside the exact solution so that its error can be seen.
+
+From angle step to angle step, with I the reduced inertia, M_p the driving and M_0 the resisting torque:
+
+.. math::
+
+    \omega_{k+1} &= \frac{(M_p(\omega_k) - M_0(\varphi_k))\,\Delta\varphi}{I_k\,\omega_k}
+        + \frac{3 I_k - I_{k+1}}{2 I_k}\,\omega_k \\
+    t_{k+1} &= t_k + \frac{2\,\Delta\varphi}{\omega_{k+1} + \omega_k}, \qquad
+    \varepsilon_k = \frac{\omega_{k+1} - \omega_k}{t_{k+1} - t_k}
+
+It is Euler's method for the energy equation, of order 1 in the step, with one difference for dI/dφ. Source:
+paper 1, equations (4), (11), (12), after Baranov.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.drive.sound_loads import require_same_turns
+from linkwright.kernel.errors import InputError, StartError, SteadyStateError, require_within
+from linkwright.kernel.limits import STEPS
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import ANGLE, positive
+from linkwright.linkages.closure import require_full_turn, require_one_turn, turn_angles
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+
+Floats = NDArray[np.float64]
+
+# Relative change of the speed from turn to turn below which the motion counts as steady.
+_STEADY = 1e-6
+
+# Turns after which the method is given up.
+_TURNS_MAX = 2000
+
+
+@dataclass(frozen=True)
+class StepMotion(Result):
+    """Motion by the step method: all turns from rest, and the measures of the last.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n,)
+        Counted on over the turns [rad].
+    time, speed, acceleration : ndarray
+        [s, rad/s, rad/s²]; the acceleration belongs to the interval that begins at the angle.
+    turns : int
+        Whole turns until the speed repeats to 0.1 % at every step.
+    step : float
+        Step of the angle [rad].
+    speed_min, speed_max, acceleration_min, acceleration_max : float
+        Over the last turn.
+    """
+
+    crank_angle: Floats
+    time: Floats
+    speed: Floats
+    acceleration: Floats
+    turns: int
+    step: float
+    speed_min: float
+    speed_max: float
+    acceleration_min: float
+    acceleration_max: float
+
+    @property
+    def speed_mean_extremes(self) -> float:
+        """(ω_max + ω_min)/2 [rad/s]."""
+        return 0.5 * (self.speed_max + self.speed_min)
+
+    @property
+    def unevenness(self) -> float:
+        """δ [–]."""
+        return (self.speed_max - self.speed_min) / self.speed_mean_extremes
+
+    @property
+    def dynamism(self) -> float:
+        """H [–]."""
+        steepest = max(abs(self.acceleration_min), abs(self.acceleration_max))
+        return steepest / self.speed_mean_extremes**2
+
+    @property
+    def motion_coefficient(self) -> float:
+        """k_p = δ² + H [–]."""
+        return self.unevenness**2 + self.dynamism
+
+
+@public
+def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotion:
+    """Motion from rest to steady motion by the step method.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine, with a motor.
+    step : float
+        Step of the crank angle [rad]; must divide the turn.
+
+    Returns
+    -------
+    StepMotion
+        All turns, and the measures of the last.
+
+    Raises
+    ------
+    InputError
+        The step does not divide the turn.
+    StartError
+        The machine does not start, or comes to rest.
+    SteadyStateError
+        Steady motion is not reached within 2000 turns.
+    """
+    compiled = compile_machine(machine)
+    require_full_turn(compiled, machine)
+    require_one_turn(compiled)
+    require_same_turns(machine)
+    n = whole_steps(step)
+    phi = turn_angles(n)[:-1]
+    J, _, load, dry, viscous = compiled.reductions(phi)
+
+    def torque(k: int, omega: float) -> float:
+        drive = float(compiled.motor_torques(omega)[1][0])
+        laws = compiled.law_torques(phi[k], omega)[0, 0] if compiled.has_laws else 0.0
+        resisting = float(load[k] + dry[k] + viscous[k] * omega) + float(compiled.speed_load(omega))
+        return drive - resisting - float(laws)
+
+    return by_steps(J, torque, step=2 * np.pi / n)
+
+
+def whole_steps(step: float) -> int:
+    """Steps in a turn.
+
+    Raises
+    ------
+    InputError
+        The step does not divide the turn.
+    """
+    in_range(step=(step, positive(ANGLE)))
+    n = 2 * np.pi / step if step < np.pi else 0
+    require_within(STEPS, n, f"step of {np.degrees(step):.3g}°", "take a longer step; 1° is usual")
+    n = round(n)
+    if n == 0 or abs(n * step - 2 * np.pi) > 1e-6:
+        raise InputError(f"a step of {np.degrees(step):g}° does not divide the turn; 1° is usual")
+    return n
+
+
+def by_steps(J: Floats, torque: Callable[[int, float], float], *, step: float) -> StepMotion:
+    """The step method itself.
+
+    Parameters
+    ----------
+    J : ndarray, shape (n,)
+        Reduced inertia at the steps of one turn [kg m²].
+    torque : callable
+        Net torque at the crank [N m] at step k of the turn and speed ω [rad/s].
+    step : float
+        2π/n [rad].
+
+    Returns
+    -------
+    StepMotion
+        From rest at φ = 0. The first step, where (4) divides by zero, is by the energy: ½ I ω² = M Δφ.
+    """
+    n = len(J)
+    first = torque(0, 0.0)
+    if first <= 0:
+        raise StartError(f"does not start: at 0.0° {-first:.0f} N m are lacking at the crank")
+    omega = [0.0, float(np.sqrt(2 * first * step / J[1]))]
+    steady_after = 0
+    while not steady_after:
+        k = len(omega) - 1
+        here, ahead = k % n, (k + 1) % n
+        w = omega[-1]
+        share = (3 * J[here] - J[ahead]) / (2 * J[here])
+        omega.append(float(torque(here, w) * step / (J[here] * w) + share * w))
+        if not omega[-1] > 0:
+            raise StartError(f"stalls at {np.degrees((k + 1) * step) % 360:.1f}° in turn {k // n + 1}")
+        if ahead == 0:
+            steady_after = _repeats(omega, n)
+    return _measured(np.array(omega), J, step, steady_after)
+
+
+def _repeats(omega: list[float], n: int) -> int:
+    """Turns until the speed repeats to 0.1 %, once it repeats to 1e-6; 0 before that."""
+    turns = (len(omega) - 1) // n
+    if turns > _TURNS_MAX:
+        raise SteadyStateError(f"no steady motion within {_TURNS_MAX} turns by the step method")
+    if turns < 3:
+        return 0
+    last, before = np.array(omega[-n:]), np.array(omega[-2 * n : -n])
+    if np.abs(last / before - 1).max() > _STEADY:
+        return 0
+    whole = np.array(omega[1 : 1 + turns * n]).reshape(turns, n)
+    off = np.abs(whole / whole[-1] - 1).max(axis=1)
+    # 0.1 % is the last digit that the published tables print.
+    return int(np.flatnonzero(off > 1e-3)[-1]) + 2
+
+
+def _measured(omega: Floats, J: Floats, step: float, turns: int) -> StepMotion:
+    """Times by (11), accelerations by (12), measures of the last turn."""
+    n = len(J)
+    intervals = 2 * step / (omega[1:] + omega[:-1])
+    epsilon = np.diff(omega) / intervals
+    last, steep = omega[-n:], epsilon[-n:]
+    return StepMotion(
+        crank_angle=np.linspace(0.0, (len(omega) - 1) * step, len(omega)),
+        time=np.concatenate([[0.0], np.cumsum(intervals)]),
+        speed=omega,
+        acceleration=np.append(epsilon, epsilon[-n]),
+        turns=turns,
+        step=step,
+        speed_min=float(last.min()),
+        speed_max=float(last.max()),
+        acceleration_min=float(steep.min()),
+        acceleration_max=float(steep.max()),
+    )

@@ -1,0 +1,216 @@
+"""Motion in time from a given angle and speed, and how it ended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.reduction import NO_INERTIA
+from linkwright.drive.sound_loads import require_half_turns, require_sound_loads
+from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, Quantity, not_negative, positive
+from linkwright.linkages.closure import require_full_turn
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+
+Floats = NDArray[np.float64]
+
+
+class End(IntEnum):
+    """How a motion ended; numbers of `linkwright-core`, module `transient`."""
+
+    TIME = 0
+    TURNS = 1
+    DOES_NOT_START = 2
+    STARTS_BACKWARDS = 3
+    STALL = 4
+    REVERSAL = 5
+    DOES_NOT_CLOSE = 6
+    INACCURATE = 7
+
+
+@dataclass(frozen=True)
+class Transient(Result):
+    """A motion in time, at the ends of the solver's steps.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        [s].
+    crank_angle : ndarray
+        Counted on over the turns [rad].
+    speed, acceleration : ndarray
+        Of the crank [rad/s, rad/s²].
+    end : End
+        How it ended.
+    torque_drive_end, torque_load_end : float
+        At the last angle and at rest: what the drive gives at the crank, and what the loads need [N m].
+    evaluations : int
+        How often the machine was evaluated.
+    """
+
+    time: Floats
+    crank_angle: Floats
+    speed: Floats
+    acceleration: Floats
+    end: End
+    torque_drive_end: float
+    torque_load_end: float
+    evaluations: int
+
+    @property
+    def turns(self) -> float:
+        """Turns of the crank from start to end [–]."""
+        return float(self.crank_angle[-1] - self.crank_angle[0]) / (2 * np.pi)
+
+    @property
+    def came_to_rest(self) -> bool:
+        """Whether the machine never moved or came to rest."""
+        return self.end in (End.DOES_NOT_START, End.STARTS_BACKWARDS, End.STALL, End.REVERSAL)
+
+    def at(self, time: ArrayLike) -> tuple[Floats, Floats]:
+        """Crank angle and speed at given times.
+
+        Parameters
+        ----------
+        time : array_like, shape (m,)
+            Times between the first and the last [s].
+
+        Returns
+        -------
+        tuple of ndarray, shape (m,)
+            Angle [rad] and speed [rad/s], by the quintic through angle, speed and acceleration at both ends
+            of each step: good to five digits or more. To have it better, end a transient there.
+        """
+        t = np.asarray(time, dtype=np.float64)
+        if len(self.time) == 1:
+            return np.full_like(t, self.crank_angle[0]), np.full_like(t, self.speed[0])
+        k = np.clip(np.searchsorted(self.time, t, side="right") - 1, 0, len(self.time) - 2)
+        h = self.time[k + 1] - self.time[k]
+        z = (t - self.time[k]) / h
+        values = [(self.crank_angle[i], self.speed[i] * h, self.acceleration[i] * h**2) for i in (k, k + 1)]
+        return _quintic(z, *values[0], *values[1]), _quintic_slope(z, *values[0], *values[1]) / h
+
+
+def _quintic_coefficients(
+    p0: Floats, v0: Floats, a0: Floats, p1: Floats, v1: Floats, a1: Floats
+) -> tuple[Floats, ...]:
+    """Powers 0 to 5 of the quintic with value, slope and bend at 0 and 1."""
+    rise, gain, bend = p1 - p0 - v0 - a0 / 2, v1 - v0 - a0, a1 - a0
+    return (
+        p0,
+        v0,
+        a0 / 2,
+        10 * rise - 4 * gain + bend / 2,
+        -15 * rise + 7 * gain - bend,
+        6 * rise - 3 * gain + bend / 2,
+    )
+
+
+def _quintic(z: Floats, *ends: Floats) -> Floats:
+    value = np.zeros_like(z)
+    for c in reversed(_quintic_coefficients(*ends)):
+        value = value * z + c
+    return value
+
+
+def _quintic_slope(z: Floats, *ends: Floats) -> Floats:
+    slope = np.zeros_like(z)
+    for power, c in reversed(list(enumerate(_quintic_coefficients(*ends)))[1:]):
+        slope = slope * z + power * c
+    return slope
+
+
+@public
+def transient(
+    machine: Machine,
+    *,
+    angle: float = 0.0,
+    speed: float = 0.0,
+    duration: float = np.inf,
+    turns: float = np.inf,
+    accuracy: float = 1e-8,
+    motor: bool = True,
+    brake: bool = False,
+) -> Transient:
+    """Follow the motion in time.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    angle, speed : float
+        Crank angle [rad] and speed [rad/s] at the start; the speed is not negative.
+    duration : float
+        Longest time [s].
+    turns : float
+        Most turns of the crank; one of the two must be finite.
+    accuracy : float
+        Relative accuracy of a step.
+    motor, brake : bool
+        Whether the motor is on and the brake applied.
+
+    Returns
+    -------
+    Transient
+        The motion until time or turns are over, or the machine comes to rest.
+
+    Raises
+    ------
+    AssemblyError
+        The motion reaches an angle at which the mechanism does not close.
+    ConvergenceError
+        The accuracy cannot be kept.
+    InputError
+        Neither duration nor turns is finite, or the motor is one of constant speed.
+
+    References
+    ----------
+    .. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5 (DOP853).
+    """
+    if duration == turns == np.inf:
+        raise InputError("duration, turns: found neither, expected one of them as the end of the motion")
+    in_range(
+        angle=(angle, Quantity(ANGLE)),
+        speed=(speed, not_negative(SPEED)),
+        duration=(None if duration == np.inf else duration, positive(TIME)),
+        turns=(None if turns == np.inf else turns, positive(COUNT)),
+    )
+    if not 1e-14 <= accuracy <= 1e-2:
+        raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-14 to 1e-2")
+    if motor and machine.drive and isinstance(machine.drive.motor, ConstantSpeedMotor):
+        raise InputError("a motor of constant speed has no run-up: it turns at its speed under any load")
+    compiled = compile_machine(machine, motor=motor, brake=brake)
+    require_half_turns(compiled, machine)
+    end, torques, evaluations, curves = compiled.transient((angle, speed), duration, turns, accuracy)
+    if end == End.DOES_NOT_CLOSE:
+        require_full_turn(compiled, machine)
+        require_sound_loads(compiled, machine)
+        raise SteadyStateError(NO_INERTIA)
+    if not np.isfinite(torques).all():
+        require_sound_loads(compiled, machine)
+    if end == End.INACCURATE:
+        raise ConvergenceError(
+            f"the motion was given up at {curves[0][-1]:.6g} s: steps became too small or too many for an "
+            f"accuracy of {accuracy:g}",
+            method="DOP853",
+            iterations=len(curves[0]),
+        )
+    time, crank_angle, omega, epsilon = curves
+    return Transient(
+        time=time,
+        crank_angle=crank_angle,
+        speed=omega,
+        acceleration=epsilon,
+        end=End(end),
+        torque_drive_end=torques[0],
+        torque_load_end=torques[1],
+        evaluations=evaluations,
+    )

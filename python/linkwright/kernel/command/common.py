@@ -1,0 +1,116 @@
+"""What the commands share: options, and the way from an error to a message and an exit code.
+
+| exit code | means |
+| --- | --- |
+| 0 | done |
+| 1 | the machine cannot do it: it does not close, does not start |
+| 2 | the input is wrong |
+| 70 | the program contradicted itself |
+| 130 | interrupted from the keyboard |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
+
+import typer
+
+from linkwright.kernel.command.interrupt import EXIT_CODE
+from linkwright.kernel.errors import InputError, LinkwrightError, UnitError, plain
+
+if TYPE_CHECKING:
+    from linkwright.kernel.units import Kind
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+File = Annotated[Path, typer.Argument(metavar="FILE", help="The machine file.", show_default=False)]
+Sets = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="PATH=VALUE",
+        help="Override an entry of the file, such as drive.gearbox.ratio=10 or "
+        'mechanism.cranks.A2.phase="80 deg". May be given again.',
+        show_default=False,
+    ),
+]
+Outside = Annotated[
+    bool,
+    typer.Option(
+        "--allow-outside", help="Let entries `file` of the machine file lead out of the folder that it is in."
+    ),
+]
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON object in SI, and nothing else.")]
+
+
+def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
+    """Let a command end with a message on standard error and its exit code, without a traceback.
+
+    Parameters
+    ----------
+    command : callable
+        A command; errors that this package does not raise on purpose pass through.
+
+    Returns
+    -------
+    callable
+        The same command.
+    """
+
+    @wraps(command)
+    def run(*args: P.args, **kwargs: P.kwargs) -> R:
+        try:
+            return command(*args, **kwargs)
+        except LinkwrightError as error:
+            typer.echo(plain(str(error)), err=True)
+            raise typer.Exit(error.exit_code) from None
+        except BrokenPipeError:
+            # Whoever read the output has enough.
+            raise
+        except OSError as error:
+            typer.echo(plain(f"cannot read or write: {error}"), err=True)
+            raise typer.Exit(InputError.exit_code) from None
+        except KeyboardInterrupt:
+            raise typer.Exit(EXIT_CODE) from None
+
+    return run
+
+
+def option_value(option: str, text: str, kind: Kind) -> float:
+    """The value of an option that is a quantity; a bare number is SI, where it can mean but one unit.
+
+    Raises
+    ------
+    InputError
+        It is not such a quantity, or an angle or a speed without its unit; names the option.
+    """
+    from linkwright.kernel.units import ANGLE, SPEED, parse
+
+    if _is_number(text) and float(text) != 0:
+        # On a command line people mean degrees as often as radians; zero is the same in both.
+        for each, units in ((ANGLE, ("deg", "rad")), (SPEED, ("rpm", "rad/s"))):
+            if kind.dimension == each.dimension:
+                one, other = (f'"{text} {unit}"' for unit in units)
+                before = "" if "=" in option else f"{option} "
+                raise InputError(
+                    f"{option}: found {text}, which may be {units[0]} or {units[1]}; give its unit, "
+                    f"{before}{one} or {before}{other}"
+                )
+    try:
+        return parse(float(text) if _is_number(text) else text, kind)
+    except UnitError as error:
+        problem = error.problem
+        raise InputError(f"{option}: found {problem.found}, expected {problem.expected}") from None
+
+
+def _is_number(text: str) -> bool:
+    """Whether a text is a number without a unit."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,134 @@
+"""The option ``--out`` of all commands, and what is written there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from linkwright.kernel.files.output import OutputFolder
+
+
+def _place(text: str) -> Path:
+    """A path that says something: an empty one would be the folder in which the command runs."""
+    if not text.strip():
+        raise typer.BadParameter("found nothing, expected a path", param_hint="--out")
+    return Path(text)
+
+
+def out_option(words: str, metavar: str = "DIR") -> Any:
+    """The option for a folder, or a file, to write.
+
+    Parameters
+    ----------
+    words : str
+        What is written there, for the help.
+    metavar : str
+        ``"DIR"`` or ``"FILE"``.
+    """
+    return typer.Option("--out", metavar=metavar, help=words, show_default=False, parser=_place)
+
+
+Out = Annotated[Path | None, out_option("Write there.", "FILE")]
+Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
+
+
+def output_folder(out: Path | None, *, force: bool) -> OutputFolder | None:
+    """The folder of ``--out``; what it cannot be is told before anything is computed.
+
+    Raises
+    ------
+    InputError
+        It is no folder, or holds files of others.
+    """
+    if out is None:
+        return None
+    from linkwright.kernel.files.output import OutputFolder
+
+    folder = OutputFolder(out, force)
+    folder.require()
+    return folder
+
+
+def write_folder(
+    folder: OutputFolder,
+    contents: Mapping[str, str | bytes],
+    figures: Mapping[str, Figure] | None = None,
+    *,
+    quiet: bool,
+    remarks: Mapping[str, str] | None = None,
+) -> None:
+    """Write files, and figures as SVG and PNG; say where they are.
+
+    Parameters
+    ----------
+    folder : OutputFolder
+        Where.
+    contents : mapping of str to str or bytes
+        Name → what the file holds.
+    figures : mapping of str to Figure, optional
+        Name without ending → figure.
+    quiet : bool
+        Whether to say it on standard error, since standard output is JSON.
+    remarks : mapping of str to str, optional
+        Name → words beside it.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be written to.
+    """
+    drawn: dict[str, str | bytes] = {}
+    if figures:
+        from linkwright.kernel.figure.svg import png, svg
+
+        for name, figure in figures.items():
+            drawn |= {f"{name}.svg": svg(figure), f"{name}.png": png(figure)}
+    say_written(folder.write({**contents, **drawn}), quiet=quiet, remarks=remarks)
+
+
+def say_written(paths: Sequence[Path], *, quiet: bool, remarks: Mapping[str, str] | None = None) -> None:
+    """Say where files are.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        The files.
+    quiet : bool
+        Whether to say it on standard error.
+    remarks : mapping of str to str, optional
+        Name → words beside it.
+    """
+    words = remarks or {}
+    rows = [f"  {path}" + (f": {words[path.name]}" if path.name in words else "") for path in paths]
+    typer.echo("Written:\n" + "\n".join(rows), err=quiet)
+
+
+def put(text: str, out: Path | None, *, force: bool = False) -> None:
+    """Print a text, or write it to a file.
+
+    Parameters
+    ----------
+    text : str
+        What to put; ends in a line break.
+    out : path or None
+        The file; None for standard output.
+    force : bool
+        Replace a file that exists.
+
+    Raises
+    ------
+    InputError
+        The file exists, or cannot be written.
+    """
+    if out is None:
+        typer.echo(text, nl=False)
+        return
+    from linkwright.kernel.files.output import write_file
+
+    write_file(out, text, replace=force)

@@ -1,0 +1,143 @@
+"""What all descriptions share: they are frozen, know their keys, and report all their faults at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Annotated, Any, Self
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from linkwright.kernel.limits import NAME, TITLE
+from linkwright.kernel.public.immutable import held
+from linkwright.kernel.units import show
+
+
+class Description(BaseModel):
+    """A part of the description of a machine; all numbers are SI."""
+
+    # Only the machine as a whole is usually validated; building each part on its own as well costs a tenth of
+    # the time of a start.
+    model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True, defer_build=True)
+
+    def with_entries(self, entries: Mapping[str, Any]) -> Self:
+        """Copy with some entries exchanged, unchecked, so that an entry may be an array over many machines.
+
+        Parameters
+        ----------
+        entries : Mapping
+            Name of the field → its new value, in SI.
+
+        Returns
+        -------
+        Self
+            The copy; a description that completes its own entries completes them anew.
+        """
+        return self.model_copy(update={name: held(value) for name, value in entries.items()})
+
+    def model_post_init(self, context: Any, /) -> None:
+        """Hold tables that nobody writes to."""
+        for name, value in self.__dict__.items():
+            if type(value) is dict:
+                self.__dict__[name] = held(value)
+
+
+def wrong(found: str, expected: str, remedy: str = "") -> PydanticCustomError:
+    """One fault in words, in the form that pydantic collects with all others."""
+    context = {"found": found, "expected": expected, "remedy": remedy}
+    return PydanticCustomError("problem", "found {found}, expected {expected}", context)
+
+
+def fault(*place: str | int, found: object = None, expected: str, remedy: str = "") -> InitErrorDetails:
+    """One fault at a place below the description that reports it.
+
+    Parameters
+    ----------
+    *place : str or int
+        Keys from the reporting description down to the entry.
+    found : object
+        The value that stands there; None if nothing does.
+    expected, remedy : str
+        What belongs there, and what to change.
+    """
+    text = "nothing" if found is None else show(found)
+    return InitErrorDetails(type=wrong(text, expected, remedy), loc=place, input=found)
+
+
+def raise_faults(title: str, faults: Iterable[InitErrorDetails]) -> None:
+    """Raise all faults at once; do nothing if there are none."""
+    listed = list(faults)
+    if listed:
+        raise ValidationError.from_exception_data(title, listed)
+
+
+def faults_of(error: ValidationError) -> list[InitErrorDetails]:
+    """The faults that an error holds, to be raised again together with others."""
+    return [
+        InitErrorDetails(
+            type=PydanticCustomError(each["type"], each["msg"], each.get("ctx")),
+            loc=each["loc"],
+            input=each["input"],
+        )
+        for each in error.errors()
+    ]
+
+
+class Checked(Description):
+    """A description whose entries have to fit together."""
+
+    @model_validator(mode="after")
+    def _entries_fit(self) -> Self:
+        """Report entries that do not go together."""
+        raise_faults(type(self).__name__, self._faults())
+        return self
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        """What contradicts itself."""
+        return iter(())
+
+
+def close_match(name: str, known: Iterable[str]) -> str:
+    """The question whether a similar name was meant; empty if none is similar."""
+    from difflib import get_close_matches
+
+    close = get_close_matches(name, list(known), n=3, cutoff=0.6)
+    return "did you mean " + " or ".join(f'"{each}"' for each in close) + "?" if close else ""
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """The known names that a misspelt one may stand for; all of them if they are few."""
+    listed = list(dict.fromkeys(known))
+    close = close_match(name, listed)
+    if close:
+        return close
+    # A dozen names still fit on a line or two.
+    if 0 < len(listed) <= 12:
+        return "there is " + ", ".join(f'"{each}"' for each in listed)
+    return ""
+
+
+def _checked_name(name: str) -> str:
+    """A name that can stand in an address, or the fault."""
+    if not name.strip() or "." in name or not name.isprintable():
+        remedy = "points separate the parts of an address" if "." in name else ""
+        raise wrong(show(name), "a name of printable characters, without a point", remedy)
+    if '"' in name and "'" in name:
+        remedy = "a part of an address stands in quotes of one kind"
+        raise wrong(show(name), "a name without both kinds of quotes", remedy)
+    if len(name) > NAME.most:
+        raise wrong(show(name), NAME.words, "shorten it")
+    return name
+
+
+def _checked_title(title: str) -> str:
+    """A text that stands on one line of a terminal and of a page, or the fault."""
+    if not title.isprintable():
+        raise wrong(show(title), "a text of printable characters, on one line")
+    if len(title) > TITLE.most:
+        raise wrong(show(title), TITLE.words, "shorten it; the rest may stand in `description`")
+    return title
+
+
+Name = Annotated[str, AfterValidator(_checked_name)]
+Title = Annotated[str, AfterValidator(_checked_title)]

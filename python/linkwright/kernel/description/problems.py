@@ -1,0 +1,116 @@
+"""Errors of pydantic, told in the words of the file: which key, what is there, what belongs there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from linkwright.kernel.description.base import close_match
+from linkwright.kernel.description.plain import field_names, look
+from linkwright.kernel.description.schema_walk import annotation_at, kinds_at, model_of, words_of
+from linkwright.kernel.description.text import join
+from linkwright.kernel.errors import Problem
+from linkwright.kernel.units import show
+
+
+def problems(error: ValidationError, model: type[BaseModel], data: object) -> list[Problem]:
+    """All problems that an error holds.
+
+    Parameters
+    ----------
+    error : ValidationError
+        What pydantic and our own checks found.
+    model : type
+        The model that was to be made.
+    data : object
+        What it was to be made of.
+
+    Returns
+    -------
+    list of Problem
+        Without file and line, each once.
+    """
+    found = (_problem(each, model, data) for each in error.errors(include_url=False))
+    return list(dict.fromkeys(found))
+
+
+def _problem(error: ErrorDetails, model: type[BaseModel], data: object) -> Problem:
+    """One problem in words."""
+    place = _place(error["loc"], model, data)
+    context: dict[str, Any] = error.get("ctx") or {}
+    match error["type"]:
+        case "problem":
+            key, remedy = join(place), context["remedy"]
+            return Problem(key, _as_written(place, data, context["found"]), context["expected"], remedy)
+        case "extra_forbidden":
+            return _unknown_key(place, model, data)
+        case "union_tag_invalid" | "union_tag_not_found":
+            return _wrong_kind((*place, "kind"), model, data)
+        case "missing":
+            return Problem(join(place), "nothing", words_of(annotation_at(model, place, data)))
+    expected = words_of(annotation_at(model, place, data)) + _bound(error["type"], context)
+    return Problem(join(place), show(error["input"]), expected)
+
+
+def _bound(kind: str, context: dict[str, Any]) -> str:
+    """The limit that a whole number goes beyond, in words."""
+    match kind:
+        case "greater_than_equal":
+            return f", at least {context['ge']}"
+        case "less_than_equal":
+            return f", at most {context['le']}"
+    return ""
+
+
+def _place(location: Iterable[str | int], model: type[BaseModel], data: object) -> tuple[str, ...]:
+    """The keys from the top down, without pydantic's own marks between them.
+
+    Where a table has a `kind`, pydantic puts that kind into the place of an error.
+    """
+    place: list[str] = []
+    node, tagged = data, False
+    for part in (str(each) for each in location if each != "[key]"):
+        kinds = kinds_at(annotation_at(model, place, data)) if place and not tagged else []
+        tagged = len(kinds) > 1 and (part in kinds or part == look(node, "kind"))
+        if not tagged:
+            place.append(part)
+            node = look(node, part)
+    return tuple(place)
+
+
+def _as_written(place: Sequence[str], data: object, found: str) -> str:
+    """The value at a place as the user wrote it; else what the check found."""
+    for key in place:
+        data = look(data, key)
+    written = isinstance(data, str | int | float)
+    return show(data) if written else found
+
+
+def _unknown_key(place: tuple[str, ...], model: type[BaseModel], data: object) -> Problem:
+    """A key that its table does not have."""
+    table = data
+    for key in place[:-1]:
+        table = look(table, key)
+    owner = model_of(annotation_at(model, place[:-1], data), table)
+    known = list(field_names(owner)) if owner else []
+    expected = "one of " + ", ".join(known)
+    return Problem(join(place), "an unknown key", expected, close_match(place[-1], known) or "remove it")
+
+
+def _wrong_kind(place: tuple[str, ...], model: type[BaseModel], data: object) -> Problem:
+    """A table whose kind is missing or unknown."""
+    known = kinds_at(annotation_at(model, place[:-1], data))
+    found = data
+    for n, key in enumerate(place):
+        if isinstance(found, str):
+            # A name in place of a table.
+            place = place[:n]
+            break
+        found = look(found, key)
+    expected = "one of " + ", ".join(f'"{each}"' for each in known)
+    if found is None:
+        return Problem(join(place), "nothing", expected)
+    return Problem(join(place), show(found), expected, close_match(str(found), known))

@@ -1,0 +1,122 @@
+"""What belongs at an address, read from the annotations of the models."""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Sequence
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel
+
+from linkwright.kernel.description.plain import field_names, look
+from linkwright.kernel.units import Quantity, QuantityList
+
+Mark = Quantity | QuantityList
+
+
+def annotation_at(model: type[BaseModel], place: Sequence[str], data: object = None) -> Any:
+    """The annotation of the entry at a place; None if no such entry exists.
+
+    Parameters
+    ----------
+    model : type
+        The model at the top.
+    place : sequence of str
+        Keys from the top down.
+    data : object
+        The description, checked or raw; its ``kind`` entries choose among motors and among loads.
+    """
+    annotation: Any = model
+    for key in place:
+        annotation = _below(annotation, key, data)
+        data = look(data, key)
+    return annotation
+
+
+def mark_of(annotation: Any) -> Mark | None:
+    """The quantity that an entry holds; None if it holds something else."""
+    marked = [each for each in (annotation, *_branches(annotation)) if get_origin(each) is Annotated]
+    marks = (mark for each in marked for mark in each.__metadata__)
+    return next((mark for mark in marks if isinstance(mark, Mark)), None)
+
+
+def model_of(annotation: Any, data: object = None) -> type[BaseModel] | None:
+    """The model of a table; of several, the one whose ``kind`` the table has."""
+    models = [each for each in map(_bare, _branches(annotation)) if _is_model(each)]
+    if len(models) == 1:
+        only: type[BaseModel] = models[0]
+        return only
+    return next((each for each in models if look(data, "kind") in kinds_of(each)), None)
+
+
+def kinds_of(model: type[BaseModel]) -> tuple[str, ...]:
+    """The words for ``kind`` that choose a model."""
+    field = model.model_fields.get("kind")
+    return get_args(field.annotation) if field else ()
+
+
+def words_of(annotation: Any) -> str:
+    """What belongs into an entry, in words."""
+    mark = mark_of(annotation)
+    if mark is not None:
+        return mark.expected
+    bare = [_bare(each) for each in _branches(annotation)]
+    if any(get_origin(each) is Literal for each in bare):
+        choices = [choice for each in bare if get_origin(each) is Literal for choice in get_args(each)]
+        quoted = [f'"{each}"' if isinstance(each, str) else str(each) for each in choices]
+        return quoted[0] if len(quoted) == 1 else "one of " + ", ".join(quoted)
+    if any(_is_model(each) or get_origin(each) is dict for each in bare):
+        return "a table"
+    lists = [each for each in bare if get_origin(each) is tuple]
+    if lists:
+        inner = get_args(lists[0])[0]
+        if any(_is_model(_bare(each)) for each in _branches(inner)):
+            return "a list of tables"
+        entry = mark_of(inner)
+        if entry is not None:
+            return f"a list of {len(get_args(lists[0]))} {entry.kind.noun}s"
+        return "a list of whole numbers" if _bare(inner) is int else "a list of two names"
+    if bool in bare:
+        return "true or false"
+    if int in bare:
+        return "a whole number"
+    return "a text" if str in bare else "another value"
+
+
+def _below(annotation: Any, key: str, data: object) -> Any:
+    """The annotation of one entry of a table or of a list."""
+    mark = mark_of(annotation)
+    if isinstance(mark, QuantityList):
+        return Annotated[float, Quantity(mark.kind)]
+    for each in map(_bare, _branches(annotation)):
+        if get_origin(each) in (dict, tuple):
+            return get_args(each)[0 if get_origin(each) is tuple else 1]
+    model = model_of(annotation, data)
+    name = field_names(model).get(key) if model else None
+    if model is None or name is None:
+        return None
+    field = model.model_fields[name]
+    return Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+
+
+def _branches(annotation: Any) -> tuple[Any, ...]:
+    """The alternatives of a union but for None; the annotation itself if it is none."""
+    bare = _bare(annotation)
+    if get_origin(bare) in (Union, types.UnionType):
+        return tuple(branch for each in get_args(bare) for branch in _branches(each))
+    return () if bare is types.NoneType else (annotation,)
+
+
+def _bare(annotation: Any) -> Any:
+    """The annotation without its marks."""
+    return get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
+
+
+def _is_model(annotation: Any) -> bool:
+    return isinstance(annotation, type) and issubclass(annotation, BaseModel)
+
+
+def kinds_at(annotation: Any) -> list[str]:
+    """All words for ``kind`` that a table may have."""
+    models = [each for each in map(_bare, _branches(annotation)) if _is_model(each)]
+    return [word for each in models for word in kinds_of(each)]

@@ -1,0 +1,300 @@
+"""Everything that is written to a disk: files that are whole or not there, and never over somebody else's.
+
+A file is written beside its place under a name of its own, brought to the disk, and only then renamed, so
+that a reader, a crash or a full disk meets the old file or the new one. A folder of results keeps a list of
+the files in it, `MARKER`; a later run replaces those, and nothing else. A link is never followed: what it
+leads to may lie anywhere.
+"""
+
+from __future__ import annotations
+
+import os
+import secrets
+import stat
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from errno import EDQUOT, EFBIG, ENOSPC
+from pathlib import Path
+
+from linkwright.kernel.errors import InputError
+
+# Lists the files of a folder that are ours.
+MARKER = ".linkwright"
+
+_HEAD = "# Files that Linkwright wrote into this folder: it replaces these and no others.\n"
+
+# What every file that is not finished is called; an interrupted run may leave some behind.
+_PART = ".linkwright-part-"
+
+# Names that Windows keeps for devices, whatever follows a point (Microsoft, Naming Files, Paths, Namespaces).
+_DEVICES = frozenset(
+    ["con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))]
+)
+
+# Bytes of a name made from words: 255 is what file systems take, and endings follow.
+_NAME_BYTES = 120
+
+# Names in a message: as many as fit on a line.
+_NAMED = 3
+
+Contents = Mapping[str, str | bytes]
+
+
+def write_file(path: str | os.PathLike[str], content: str | bytes, *, replace: bool = True) -> None:
+    """Write one file, whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    content : str or bytes
+        What it holds; a text becomes UTF-8 as it is.
+    replace : bool
+        Whether a file that exists is replaced.
+
+    Raises
+    ------
+    InputError
+        The file exists and is not to be replaced, is a link or no file, or cannot be written.
+    """
+    place = Path(path)
+    try:
+        if os.path.lexists(place):
+            _require_file(place)
+            if not replace:
+                raise InputError(f"{place}: exists already; --force replaces it")
+        _write_all({place: content})
+    except OSError as error:
+        raise unwritable(place, error) from None
+
+
+@contextmanager
+def trial(path: Path) -> Iterator[Path]:
+    """A file for a program that writes by itself: it gets its name if all goes well, else it vanishes.
+
+    Parameters
+    ----------
+    path : Path
+        The file; replaced if it exists.
+
+    Yields
+    ------
+    Path
+        Where to write meanwhile: in the same folder, with the same ending.
+    """
+    if os.path.lexists(path):
+        _require_file(path)
+    part = _part(path)
+    try:
+        yield part
+        with part.open("rb+") as file:
+            os.fsync(file.fileno())
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+@dataclass(frozen=True)
+class OutputFolder:
+    """A folder of results: new, empty, or written by an earlier run.
+
+    Attributes
+    ----------
+    path : Path
+        The folder; made when it is written to.
+    force : bool
+        Whether files of others may lie in it, and are replaced where the names are the same.
+    """
+
+    path: Path
+    force: bool = False
+
+    def require(self) -> None:
+        """Refuse a folder with files of others in it, before anything is computed for it.
+
+        Raises
+        ------
+        InputError
+            It is no folder, cannot be read, or holds files that are not of an earlier run.
+        """
+        try:
+            names = sorted(each.name for each in self.path.iterdir() if not each.name.startswith(_PART))
+        except FileNotFoundError:
+            self._require_no_file_above()
+            return
+        except NotADirectoryError:
+            raise InputError(f"{self.path}: found a file, expected a folder for --out") from None
+        except OSError as error:
+            raise unwritable(self.path, error) from None
+        if names and MARKER not in names and not self.force:
+            listed = ", ".join(names[:_NAMED]) + (", …" if len(names) > _NAMED else "")
+            raise InputError(
+                f"{self.path}: found a folder with files of others ({listed}), expected a new or empty one, "
+                "or one that Linkwright wrote; name another, or add --force"
+            )
+
+    def write(self, contents: Contents) -> list[Path]:
+        """Write files, all of them or, if the disk is full, none.
+
+        Parameters
+        ----------
+        contents : mapping of str to str or bytes
+            Name → what the file holds.
+
+        Returns
+        -------
+        list of Path
+            The files.
+
+        Raises
+        ------
+        InputError
+            As `require`; or a file of others has one of the names; or the folder cannot be written to.
+        """
+        self.require()
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            known = self._known()
+            for name in contents:
+                self._require_ours(name, known)
+            listed = _HEAD + "".join(f"{name}\n" for name in sorted(known | contents.keys()))
+            # The list comes first: whatever a crash leaves behind is known as ours.
+            whole = {MARKER: listed, **contents}
+            _write_all({self.path / name: content for name, content in whole.items()})
+        except OSError as error:
+            raise unwritable(self.path, error) from None
+        return [self.path / name for name in contents]
+
+    def _require_no_file_above(self) -> None:
+        """A file where a folder above should be."""
+        above = next((each for each in self.path.parents if each.exists()), None)
+        if above is not None and not above.is_dir():
+            raise InputError(f"{self.path}: found a file {above}, expected a folder for --out")
+
+    def _known(self) -> frozenset[str]:
+        """Files that earlier runs wrote."""
+        marker = self.path / MARKER
+        if not os.path.lexists(marker):
+            return frozenset()
+        _require_file(marker)
+        lines = marker.read_text(encoding="utf-8", errors="replace").splitlines()
+        return frozenset(line for line in lines if line and not line.startswith("#"))
+
+    def _require_ours(self, name: str, known: frozenset[str]) -> None:
+        """A place that is free, or holds a file of an earlier run."""
+        place = self.path / name
+        assert place.parent == self.path, "names are plain: see file_names"
+        if not os.path.lexists(place):
+            return
+        _require_file(place)
+        if name not in known and not self.force:
+            raise InputError(f"{place}: exists and is not of an earlier run; --force replaces it")
+
+
+def file_name(words: str) -> str:
+    """A name of a file that every file system takes.
+
+    Parameters
+    ----------
+    words : str
+        Any text, such as the name of a cam.
+
+    Returns
+    -------
+    str
+        Its letters, digits, points, ``-`` and ``_``; others become ``_``. Without an ending of its own.
+    """
+    kept = "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in words.strip())
+    name = kept.encode()[:_NAME_BYTES].decode(errors="ignore").strip("_. ")
+    head, point, rest = name.partition(".")
+    return f"{head}_{point}{rest}" if head.casefold() in _DEVICES else name
+
+
+def file_names(words: Mapping[str, str]) -> dict[str, str]:
+    """Names of files for texts that may be the same but for letters that file systems do not take.
+
+    Parameters
+    ----------
+    words : mapping of str to str
+        Text → ending, such as ``{"cam.A/1": ".csv"}``.
+
+    Returns
+    -------
+    dict of str to str
+        Text → name with its ending, no two the same, not even in letters of the other case.
+    """
+    found: dict[str, str] = {}
+    taken: set[str] = set()
+    for text, ending in words.items():
+        stem = file_name(text) or "file"
+        tries = (f"{stem}{f'_{n}' if n > 1 else ''}{ending}" for n in range(1, len(words) + 2))
+        found[text] = next(each for each in tries if each.casefold() not in taken)
+        taken.add(found[text].casefold())
+    return found
+
+
+def _write_all(contents: Mapping[Path, str | bytes]) -> None:
+    """Bring all to the disk under other names, then rename one after the other."""
+    parts: dict[Path, Path] = {}
+    try:
+        for place, content in contents.items():
+            parts[place] = _part(place)
+            _write_part(parts[place], place, _bytes(content))
+        for place, part in parts.items():
+            part.replace(place)
+    finally:
+        for part in parts.values():
+            part.unlink(missing_ok=True)
+
+
+def _bytes(content: str | bytes) -> bytes:
+    """UTF-8; a path that is no text may stand in a command line that is quoted."""
+    return content.encode(errors="backslashreplace") if isinstance(content, str) else content
+
+
+def _part(place: Path) -> Path:
+    """A free name in the folder of a file, with its ending."""
+    return place.with_name(f"{_PART}{secrets.token_hex(8)}{place.suffix}")
+
+
+def _write_part(part: Path, place: Path, data: bytes) -> None:
+    """Bring bytes to the disk; with the permissions of the file that they replace."""
+    with part.open("xb") as file:
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())
+    if place.exists():
+        part.chmod(stat.S_IMODE(place.stat().st_mode))
+
+
+def _require_file(place: Path) -> None:
+    """Refuse to replace what is no plain file: a link, a folder, a device."""
+    mode = os.lstat(place).st_mode
+    if stat.S_ISLNK(mode):
+        raise InputError(f"{place}: found a link, expected a file; name the file that it leads to")
+    if not stat.S_ISREG(mode):
+        found = "a folder" if stat.S_ISDIR(mode) else "a device"
+        raise InputError(f"{place}: found {found}, expected a file")
+
+
+def unwritable(place: Path, error: OSError) -> InputError:
+    """The error for a file or folder that cannot be written.
+
+    Parameters
+    ----------
+    place : Path
+        The file or folder.
+    error : OSError
+        What hinders.
+
+    Returns
+    -------
+    InputError
+        To be raised.
+    """
+    if error.errno in (ENOSPC, EDQUOT, EFBIG):
+        return InputError(
+            f"{place}: the disk is full; nothing was replaced; free some space or write elsewhere"
+        )
+    return InputError(f"{place}: cannot be written ({error.strerror or error})")

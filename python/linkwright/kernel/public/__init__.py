@@ -1,0 +1,48 @@
+"""What public functions have in common: arguments checked by name, and results that stay as they are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from itertools import zip_longest
+from typing import Any, ParamSpec, TypeVar
+
+from linkwright.kernel.public.arguments import checks_of
+from linkwright.kernel.public.immutable import freeze
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def public(function: Callable[P, R]) -> Callable[P, R]:
+    """Check the arguments of a function by its annotations, and freeze what it returns.
+
+    Parameters
+    ----------
+    function : callable
+        A function of the package.
+
+    Returns
+    -------
+    callable
+        The same function.
+    """
+    code = function.__code__
+    names = code.co_varnames[: code.co_argcount]
+    checks = checks_of(function)
+
+    @wraps(function)
+    def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+        # Arguments that are too many are the function's own business.
+        given: list[Any] = [
+            checks[name](name, value) if name in checks else value
+            for name, value in zip_longest(names[: len(args)], args, fillvalue="")
+        ]
+        named: dict[str, Any] = {
+            name: checks[name](name, value) if name in checks else value for name, value in kwargs.items()
+        }
+        result = function(*given, **named)
+        freeze(result)
+        return result
+
+    return checked

@@ -1,0 +1,334 @@
+"""What the public functions take: plain numbers, whole numbers and lists of them, checked and named.
+
+Checks follow the annotations of a function. A list becomes an array of its own, which nobody else writes to;
+a complex number, a text or a list of lists of different length is refused with the name of the argument.
+
+| annotation | takes |
+| --- | --- |
+| `float` | a finite number; an infinite one where that is the default |
+| `int` | a whole number; some have limits by their name |
+| `bool`, `str` | true or false; a text |
+| `ArrayLike` | numbers, one or an array of them |
+| `Column` | a number, or a list of them |
+| `Floats`, `Sequence[float]` | a list of finite numbers |
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+import numbers
+import operator
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.kernel.errors import InputError, ShapeError
+
+Floats = NDArray[np.float64]
+Check = Callable[[str, Any], Any]
+
+# A number or a list of numbers, not a table.
+Column = ArrayLike
+
+
+class Range(NamedTuple):
+    """Least and greatest value, both allowed."""
+
+    least: float
+    greatest: float
+
+
+# Numbers that mean the same wherever they occur. Ten million angles are some hundred megabytes of each curve.
+RANGES: dict[str, Range] = {
+    "n": Range(1, 10_000_000),
+    "fine": Range(1, 1_000_000),
+    "per_turn": Range(16, 1_000_000),
+    "order": Range(0, 100_000),
+}
+
+# How much of a wrong value is shown.
+_SHOWN = 60
+
+
+def number(name: str, value: Any, *, finite: bool = True, infinite: bool = False) -> float:
+    """A real number as a float.
+
+    Parameters
+    ----------
+    name : str
+        Of the argument, for messages.
+    value : object
+        What was given.
+    finite : bool
+        Whether it must be a number at all, and not infinite.
+    infinite : bool
+        Whether it may be infinite all the same.
+
+    Returns
+    -------
+    float
+        The number.
+
+    Raises
+    ------
+    InputError
+        It is none, is not finite, or is out of its range.
+    """
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value[()]
+    if isinstance(value, bool | np.bool_) or not isinstance(value, numbers.Real):
+        raise _wrong(name, value, "a number")
+    try:
+        found = float(value)
+    except OverflowError:
+        raise _wrong(name, value, "a number below 1e308 in size") from None
+    if finite and (math.isnan(found) or (math.isinf(found) and not infinite)):
+        raise _wrong(name, value, "a finite number")
+    _require_in_range(name, found, f"{found:g}")
+    return found
+
+
+def integer(name: str, value: Any) -> int:
+    """A whole number.
+
+    Parameters
+    ----------
+    name : str
+        Of the argument, for messages.
+    value : object
+        What was given.
+
+    Returns
+    -------
+    int
+        The number.
+
+    Raises
+    ------
+    InputError
+        It is none, or is out of its range.
+    """
+    try:
+        found = operator.index(value)
+    except TypeError:
+        raise _wrong(name, value, "a whole number") from None
+    # Beyond 2⁵³ whole numbers are no floats.
+    if isinstance(value, bool | np.bool_) or abs(found) > 2**53:
+        raise _wrong(name, value, "a whole number of usual size")
+    _require_in_range(name, found, shown(found))
+    return found
+
+
+def array(name: str, value: Any, *, finite: bool = True, complex_too: bool = False) -> NDArray[Any]:
+    """Finite numbers as an array that is its own and stays as it is.
+
+    Parameters
+    ----------
+    name : str
+        Of the argument, for messages.
+    value : array_like
+        What was given, of any shape.
+    finite : bool
+        Whether all must be finite.
+    complex_too : bool
+        Whether the numbers may be complex.
+
+    Returns
+    -------
+    ndarray
+        Of floats, or of complex numbers, contiguous and read-only.
+
+    Raises
+    ------
+    ShapeError
+        They are no numbers, or not finite, or rows of different length.
+    """
+    try:
+        given = np.asarray(value)
+    except (TypeError, ValueError, OverflowError):
+        raise ShapeError(f"{name}: found {shown(value)}, expected numbers in rows of one length") from None
+    if given.dtype == object and all(isinstance(each, numbers.Real) for each in given.flat):
+        # Fractions, and whole numbers beyond those of machines.
+        given = np.array([number(name, each) for each in given.flat]).reshape(given.shape)
+    kinds = "iufc" if complex_too else "iuf"
+    if given.dtype.kind not in kinds:
+        raise ShapeError(f"{name}: found {shown(value)}, expected {'' if complex_too else 'real '}numbers")
+    found = np.array(given, dtype=complex if complex_too else np.float64, order="C")
+    if finite and not np.isfinite(found).all():
+        first = int(np.argmin(np.isfinite(found)))
+        raise ShapeError(f"{name}: found {found.flat[first]:g} at index {first}, expected finite numbers")
+    found.flags.writeable = False
+    return found
+
+
+def rows(name: str, value: Any) -> Floats:
+    """A list of finite numbers.
+
+    Parameters
+    ----------
+    name : str
+        Of the argument, for messages.
+    value : array_like, shape (n,)
+        What was given.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Contiguous and read-only.
+
+    Raises
+    ------
+    ShapeError
+        It is no list of finite numbers, or an empty one.
+    """
+    found = array(name, value)
+    if found.ndim != 1 or not len(found):
+        raise ShapeError(f"{name}: found an array of shape {found.shape}, expected a list of numbers")
+    return found
+
+
+def shown(value: Any) -> str:
+    """A value in a message, cut where it is long.
+
+    Parameters
+    ----------
+    value : object
+        Any.
+
+    Returns
+    -------
+    str
+        At most some sixty characters.
+    """
+    if isinstance(value, np.ndarray):
+        return f"an array of {value.dtype} of shape {value.shape}"
+    if isinstance(value, int) and value.bit_length() > 128:
+        return f"a whole number of {value.bit_length()} bits"
+    text = repr(value)
+    return text if len(text) <= _SHOWN else text[:_SHOWN] + "…"
+
+
+def checks_of(function: Callable[..., Any]) -> dict[str, Check]:
+    """Checks of the arguments of a function, by its annotations.
+
+    Parameters
+    ----------
+    function : callable
+        Its annotations are texts, as with ``from __future__ import annotations``.
+
+    Returns
+    -------
+    dict of str to callable
+        Name of the argument → what takes its name and value, and returns the value.
+    """
+    parameters = inspect.signature(function).parameters.values()
+    found = {each.name: _check(str(each.annotation), each.default) for each in parameters}
+    return {name: check for name, check in found.items() if check is not None}
+
+
+def _check(annotation: str, default: Any) -> Check | None:
+    """The check that an annotation asks for; None if it asks for none."""
+    kinds = set(annotation.split(" | "))
+    if {"float", "Floats"} <= kinds:
+        kinds |= {"Column"}
+    check = next((_CHECKS[kind] for kind in _CHECKS if kind in kinds), None)
+    if check is number and isinstance(default, float) and math.isinf(default):
+        check = _any_number
+    others = kinds - _CHECKS.keys() - {"None"}
+    if check is None or (others and check is _text):
+        return None
+    plain = (int, float, complex, str, list, np.ndarray, np.generic)
+
+    def checked(name: str, value: Any) -> Any:
+        is_left_out = value is default or (value is None and "None" in kinds)
+        if is_left_out or (others and not isinstance(value, plain)):
+            return value
+        return check(name, value)
+
+    return checked
+
+
+def _any_number(name: str, value: Any) -> float:
+    return number(name, value, infinite=True)
+
+
+def _one_or_more(name: str, value: Any) -> Any:
+    """A number stays one; lists become arrays. How large they may be depends on what they are."""
+    if isinstance(value, numbers.Number):
+        return number(name, value, finite=False)
+    return array(name, value, finite=False)
+
+
+def _column(name: str, value: Any) -> Any:
+    """A number, or a list of them."""
+    if isinstance(value, numbers.Number):
+        return _one_or_more(name, value)
+    return rows(name, np.atleast_1d(array(name, value)))
+
+
+def _two(name: str, value: Any) -> tuple[float, float]:
+    found = rows(name, value)
+    if len(found) != 2:
+        raise ShapeError(f"{name}: found {len(found)} numbers, expected two")
+    return float(found[0]), float(found[1])
+
+
+def _three(name: str, value: Any) -> Any:
+    """Three numbers or arrays."""
+    if not isinstance(value, tuple | list) or len(value) != 3:
+        raise _wrong(name, value, "three numbers or arrays")
+    return tuple(_one_or_more(name, each) for each in value)
+
+
+def _complexes(name: str, value: Any) -> Any:
+    return array(name, value, complex_too=True)
+
+
+def _mapping(name: str, value: Any) -> Any:
+    """Something by name; what it is the function looks at itself."""
+    if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
+        raise _wrong(name, value, "a dictionary with names")
+    return value
+
+
+def _truth(name: str, value: Any) -> bool:
+    if not isinstance(value, bool | np.bool_):
+        raise _wrong(name, value, "true or false")
+    return bool(value)
+
+
+def _text(name: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise _wrong(name, value, "a text")
+    return value
+
+
+_CHECKS: dict[str, Check] = {
+    "Mapping[str, ArrayLike]": _mapping,
+    "Mapping[str, Mapping[str, Any]]": _mapping,
+    "ArrayLike": _one_or_more,
+    "tuple[ArrayLike, ArrayLike, ArrayLike]": _three,
+    "tuple[float, float]": _two,
+    "Column": _column,
+    "Floats": rows,
+    "Complexes": _complexes,
+    "Sequence[float]": rows,
+    "int": integer,
+    "float": number,
+    "bool": _truth,
+    "str": _text,
+}
+
+
+def _require_in_range(name: str, value: float, text: str) -> None:
+    allowed = RANGES.get(name)
+    if allowed is not None and not allowed.least <= value <= allowed.greatest:
+        limits = f"at least {allowed.least:.15g}, at most {allowed.greatest:.15g}"
+        raise InputError(f"{name}: found {text}, expected {limits}")
+
+
+def _wrong(name: str, value: Any, expected: str) -> InputError:
+    return InputError(f"{name}: found {shown(value)}, expected {expected}")

@@ -1,0 +1,64 @@
+"""Numbers that are given to a function: each is a quantity of its kind, finite and within the kind's range.
+
+The ranges are those of the machine file (`linkwright.kernel.units`): no number of 1e300 enters by another door.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.units import Quantity, show
+
+Floats = NDArray[np.float64]
+
+
+def in_range(**arguments: tuple[Any, Quantity]) -> None:
+    """Raise unless every number is such a quantity.
+
+    Parameters
+    ----------
+    **arguments : tuple
+        By the name that the message shall have: a number or an array of numbers [SI], and the mark of what it
+        is, as ``positive(SPEED)``. None, for an argument that was left out, is passed over.
+
+    Raises
+    ------
+    InputError
+        One is not finite, beyond the range of its kind, beyond its bound, or no number; says which and where.
+    """
+    for name, (value, mark) in arguments.items():
+        if value is not None:
+            _require(name, value, mark)
+
+
+def _require(name: str, value: Any, mark: Quantity) -> None:
+    """Raise for the first number of one argument that is none of its kind."""
+    try:
+        numbers = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: found {show(value)}, expected {_wanted(mark)}") from None
+    for place in _suspects(numbers):
+        number = float(numbers.flat[place])
+        if not mark.holds(number):
+            where = f" at index {place}" if numbers.ndim else ""
+            remedy = f"; {found}" if (found := mark.remedy(number)) else ""
+            raise InputError(f"{name}: found {number:g}{where}, expected {_wanted(mark)}{remedy}")
+
+
+def _suspects(numbers: Floats) -> list[int]:
+    """Places of the numbers that are wrong if any is: not finite, the extremes, the least above 0."""
+    if not numbers.size:
+        return []
+    places = [int(np.argmin(np.isfinite(numbers))), int(np.argmin(numbers)), int(np.argmax(numbers))]
+    above = np.where(numbers > 0, numbers, np.inf)
+    return [*places, int(np.argmin(above))]
+
+
+def _wanted(mark: Quantity) -> str:
+    """What belongs there, as a number in SI."""
+    unit = f" in {mark.kind.unit_word}" if mark.kind.unit else ""
+    return f"{mark.kind.word}{mark.bound.words.rstrip(',')}{unit}"

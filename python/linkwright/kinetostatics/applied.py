@@ -1,0 +1,219 @@
+"""What each load does to the members; what the crankshaft feels directly stands apart.
+
+A load on a point or a link acts from outside the machine. A load along a slide acts between what slides and
+the body of its guide, a spring between the members that carry its ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import FindingError
+from linkwright.kinetostatics.formula_load import formula_wrenches
+from linkwright.kinetostatics.inertia import masses
+from linkwright.kinetostatics.model.loads.between import (
+    Damper,
+    GasSpring,
+    Spring,
+    TorsionalDamper,
+    TorsionalSpring,
+)
+from linkwright.kinetostatics.model.loads.force import ConstantForce, ConstantTorque, Gravity
+from linkwright.kinetostatics.model.loads.formula import FormulaLoad
+from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
+from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed
+from linkwright.kinetostatics.places import Scene, dot, unit
+from linkwright.kinetostatics.wrench import Wrenches
+from linkwright.linkages.model.structure import FRAME
+from linkwright.machine.program.compiled import gas_column
+
+Floats = NDArray[np.float64]
+
+# Speed, over the crank's times the size of the mechanism, below which dry friction has no direction.
+_STANDS = 1e-12
+
+
+@dataclass
+class Applied:
+    """A load at all crank angles.
+
+    Attributes
+    ----------
+    wrenches : Wrenches
+        On members and frame.
+    resisting : ndarray, shape (n,)
+        Torque against the crankshaft itself [N m].
+    """
+
+    wrenches: Wrenches
+    resisting: Floats
+
+
+def applied(scene: Scene, load: Any) -> Applied:
+    """What a load does.
+
+    Parameters
+    ----------
+    scene : Scene
+        The machine and its motion.
+    load : Load
+        One of its loads.
+
+    Returns
+    -------
+    Applied
+        Forces and moments on the members, and torque on the crankshaft.
+    """
+    on_crankshaft: dict[type, Callable[[Scene, Any], Floats]] = {
+        TorqueAngle: _over_angle,
+        TorqueSpeed: _over_speed,
+    }
+    on_members: dict[type, Callable[[Scene, Any], Wrenches]] = {
+        DryFriction: _dry,
+        ViscousFriction: _viscous,
+        ConstantForce: _force,
+        ConstantTorque: _torque,
+        Gravity: _weight,
+        Spring: _spring,
+        Damper: _damper,
+        GasSpring: _gas,
+        TorsionalSpring: _torsional_spring,
+        TorsionalDamper: _torsional_damper,
+        ForcePosition: _over_position,
+        FormulaLoad: formula_wrenches,
+    }
+    kind = type(load)
+    if kind in on_crankshaft:
+        return Applied(Wrenches(scene), on_crankshaft[kind](scene, load))
+    return Applied(on_members[kind](scene, load), np.zeros(scene.n))
+
+
+def _sense(rate: Floats, size: float, scene: Scene) -> Floats:
+    """Sign of a speed; zero where it stands."""
+    sign: Floats = np.where(np.abs(rate) > _STANDS * size, np.sign(rate), 0.0) * np.sign(scene.motion.speed)
+    return sign
+
+
+def _dry(scene: Scene, load: DryFriction) -> Wrenches:
+    if load.torque is not None:
+        return Wrenches(scene).couple(load.on, -load.torque * _sense(scene.angle(load.on, 1), 1.0, scene))
+    assert load.force is not None
+    if load.on in scene.kinematics.slides:
+        rate = scene.kinematics.slides[load.on].d1
+        return Wrenches(scene).along_slide(load.on, -load.force * _sense(rate, scene.size, scene))
+    path = scene.point(load.on, 1)
+    speed = np.hypot(path[:, 0], path[:, 1])
+    sense = _sense(speed, scene.size, scene) / np.where(speed > 0, speed, 1.0)
+    return Wrenches(scene).at_point(load.on, -load.force * sense[:, None] * path)
+
+
+def _viscous(scene: Scene, load: ViscousFriction) -> Wrenches:
+    speed = scene.motion.speed
+    if load.damping_torsional is not None:
+        return Wrenches(scene).couple(load.on, -load.damping_torsional * scene.angle(load.on, 1) * speed)
+    assert load.damping is not None
+    if load.on in scene.kinematics.slides:
+        return Wrenches(scene).along_slide(
+            load.on, -load.damping * scene.kinematics.slides[load.on].d1 * speed
+        )
+    return Wrenches(scene).at_point(load.on, -load.damping * scene.point(load.on, 1) * speed[:, None])
+
+
+def _force(scene: Scene, load: ConstantForce) -> Wrenches:
+    return Wrenches(scene).at_point(load.on, load.force * unit(scene.angle(load.along) + load.direction))
+
+
+def _torque(scene: Scene, load: ConstantTorque) -> Wrenches:
+    return Wrenches(scene).couple(load.on, np.full(scene.n, load.torque))
+
+
+def _weight(scene: Scene, load: Gravity) -> Wrenches:
+    fall = load.acceleration * np.array([np.cos(load.direction), np.sin(load.direction)])
+    found = Wrenches(scene)
+    for each in masses(scene):
+        found.force(each.member, np.broadcast_to(each.mass * fall, (scene.n, 2)), each.centre)
+    return found
+
+
+def along_line(scene: Scene, between: tuple[str, str], pull: Callable[[Floats, Floats], Floats]) -> Wrenches:
+    """A pull on two points towards each other, by the distance [m] and the speed of parting [m/s]."""
+    first, second = between
+    u = scene.point(second) - scene.point(first)
+    length = np.hypot(u[:, 0], u[:, 1])
+    e = u / np.where(length > 0, length, 1.0)[:, None]
+    parting = dot(e, scene.point(second, 1) - scene.point(first, 1)) * scene.motion.speed
+    force = pull(length, parting)[:, None] * e
+    found = Wrenches(scene).force(scene.carrier(first), force, scene.point(first))
+    return found.force(scene.carrier(second), -force, scene.point(second))
+
+
+def _spring(scene: Scene, load: Spring) -> Wrenches:
+    if load.length is not None and load.force is not None:
+        x, y = load.length, load.force
+        return along_line(scene, load.between, lambda length, _: np.interp(length, x, y))
+    k, free = load.stiffness or 0.0, load.free_length or 0.0
+    return along_line(scene, load.between, lambda length, _: load.preload + k * (length - free))
+
+
+def _damper(scene: Scene, load: Damper) -> Wrenches:
+    if load.velocity is not None and load.force is not None:
+        x, y = load.velocity, load.force
+        return along_line(scene, load.between, lambda _, parting: np.interp(parting, x, y))
+    return along_line(scene, load.between, lambda _, parting: (load.damping or 0.0) * parting)
+
+
+def _gas(scene: Scene, load: GasSpring) -> Wrenches:
+    """p Vⁿ is kept: F = −F₁ (h/(h − way))ⁿ (docs/loads.md)."""
+    h = gas_column(load)
+
+    def pull(length: Floats, _: Floats) -> Floats:
+        rest = h - (load.length_extended - length)
+        if (rest <= 0).any():
+            at = float(np.degrees(scene.motion.crank_angle[int(rest.argmin())]))
+            raise FindingError(
+                f"the gas spring between {' and '.join(load.between)} is pressed in by all of its gas at "
+                f"crank angle {at:.4g}°; make length_compressed smaller or place it elsewhere"
+            )
+        found: Floats = -load.force_extended * (h / rest) ** load.exponent
+        return found
+
+    return along_line(scene, load.between, pull)
+
+
+def _against(scene: Scene, load: TorsionalSpring | TorsionalDamper, torque: Floats) -> Wrenches:
+    """A torque on a link, and the opposite one on what it holds on to."""
+    return Wrenches(scene).couple(load.on, torque).couple(load.against or FRAME, -torque)
+
+
+def _torsional_spring(scene: Scene, load: TorsionalSpring) -> Wrenches:
+    turned = scene.angle(load.on) - scene.angle(load.against) - load.free_angle
+    return _against(scene, load, -load.stiffness * np.arctan2(np.sin(turned), np.cos(turned)))
+
+
+def _torsional_damper(scene: Scene, load: TorsionalDamper) -> Wrenches:
+    rate = (scene.angle(load.on, 1) - scene.angle(load.against, 1)) * scene.motion.speed
+    return _against(scene, load, -load.damping_torsional * rate)
+
+
+def _over_position(scene: Scene, load: ForcePosition) -> Wrenches:
+    slide = scene.kinematics.slides[load.on]
+    sense = _sense(slide.d1, scene.size, scene)
+    ahead = np.interp(slide.position, load.position, load.forward)
+    behind = np.interp(slide.position, load.position, load.return_) if load.return_ else 0.0 * ahead
+    return Wrenches(scene).along_slide(load.on, np.where(sense > 0, -ahead, np.where(sense < 0, behind, 0.0)))
+
+
+def _over_angle(scene: Scene, load: TorqueAngle) -> Floats:
+    torque: Floats = np.interp(scene.motion.crank_angle, load.angle, load.torque, period=2 * np.pi)
+    return torque
+
+
+def _over_speed(scene: Scene, load: TorqueSpeed) -> Floats:
+    speed = scene.motion.speed
+    torque: Floats = np.interp(np.abs(speed), load.speed, load.torque) * np.sign(speed)
+    return torque

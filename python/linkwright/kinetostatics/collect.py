@@ -1,0 +1,190 @@
+"""From the unknowns of all pairs to named forces, powers and findings."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import FindingError
+from linkwright.kinetostatics.applied import Applied
+from linkwright.kinetostatics.equilibrium import Solution
+from linkwright.kinetostatics.pairs import PairModel
+from linkwright.kinetostatics.places import Scene, cross
+from linkwright.kinetostatics.result import Contribution, Forces, PairForce
+from linkwright.linkages.model.structure import FRAME
+
+Floats = NDArray[np.float64]
+
+# Share of the greatest tension that a cable may push by rounding.
+_SLACK = 1e-9
+
+# Kinds of models that are no pairs.
+_DRIVES = ("torque", "force", "contact")
+
+
+class Collector:
+    """From the unknowns to named forces.
+
+    Parameters
+    ----------
+    scene : Scene
+        The machine and its motion.
+    models : list of PairModel
+        Its pairs and drives.
+    sources : dict of str to Applied
+        What acts, by name.
+    solution : Solution
+        The unknowns.
+
+    Raises
+    ------
+    FindingError
+        There is no answer at any angle.
+    """
+
+    def __init__(
+        self, scene: Scene, models: list[PairModel], sources: dict[str, Applied], solution: Solution
+    ) -> None:
+        self.scene, self.models, self.sources, self.solution = scene, models, sources, solution
+        sizes = np.cumsum([0] + [len(model.unknowns) for model in models])
+        self.spans = [slice(int(a), int(b)) for a, b in pairwise(sizes)]
+        self.works = {model.name: model.unknowns[0].power() for model in models if model.kind in _DRIVES}
+        if (solution.singular | solution.locked).all():
+            raise FindingError(_where(self.solution, scene.motion.crank_angle)[0])
+
+    def forces(self) -> Forces:
+        """Everything, by name."""
+        shares = {
+            name: self._contribution(k, name, each) for k, (name, each) in enumerate(self.sources.items())
+        }
+        total = self.solution.x.sum(axis=-1)
+        spans = list(zip(self.models, self.spans, strict=True))
+        pairs = {m.name: self._pair(m, span, total) for m, span in spans if m.kind not in _DRIVES}
+        drives = {m.name: total[:, span.start] for m, span in spans if m.kind in _DRIVES}
+        motion = self.scene.motion
+        torque = np.sum([each.torque_drive for each in shares.values()], axis=0)
+        return Forces(
+            crank_angle=motion.crank_angle,
+            time=motion.time,
+            speed=motion.speed,
+            acceleration=motion.acceleration,
+            torque_drive=torque,
+            **self._powers(torque, total),
+            shaking_moment=np.sum([each.shaking_moment for each in shares.values()], axis=0),
+            shaking_force=np.sum([each.shaking_force for each in shares.values()], axis=0),
+            pairs=pairs,
+            drives=drives,
+            contributions=shares,
+            motion=motion,
+            findings=(*_where(self.solution, motion.crank_angle), *self._slack(pairs)),
+        )
+
+    def _passed(self, model: PairModel, span: slice, x: Floats, member: str) -> Floats:
+        """What a pair does to a member for values (n, unknowns) of all unknowns: force and moment, (n, 3)."""
+        i = self.scene.index[member]
+        found = np.zeros((self.scene.n, 3))
+        for j, unknown in enumerate(model.unknowns):
+            found += x[:, span.start + j, None] * unknown.values[:, i]
+        if model.is_nonlinear and model.extra is not None:
+            found += self._dry(span, x)[:, None] * model.extra.values[:, i]
+        return found
+
+    def _viscous(self, model: PairModel) -> Floats:
+        """Viscous friction of a pair on its second member, (n, 3)."""
+        if model.extra is None or not model.friction.viscous:
+            return np.zeros((self.scene.n, 3))
+        found: Floats = model.viscous[:, None] * model.extra.on_member(model.second)
+        return found
+
+    def _dry(self, span: slice, x: Floats) -> Floats:
+        """Extra force of a pair that goes with its unknowns."""
+        found: Floats = (self.solution.slopes[:, span] * x[:, span]).sum(axis=1)
+        return found
+
+    def _pair(self, model: PairModel, span: slice, total: Floats) -> PairForce:
+        """The force of one pair."""
+        pair = self.scene.structure.pairs[model.name]
+        at = self._passed(model, span, total, pair.second) + self._viscous(model)
+        arm = self.scene.point(pair.point) - self.scene.reference(pair.second)
+        moment = at[:, 2] - cross(arm, at[:, :2])
+        friction = np.zeros(self.scene.n)
+        if model.kind in ("pin", "guide", "slot"):
+            friction = self._dry(span, total) + model.viscous
+        normal = np.hypot(at[:, 0], at[:, 1]) if model.kind == "pin" else total[:, span.start]
+        return PairForce(pair.name, pair.kind, pair.first, pair.second, at[:, :2], moment, friction, normal)
+
+    def _contribution(self, k: int, name: str, source: Applied) -> Contribution:
+        """The share of one source."""
+        x = self.solution.x[..., k]
+        torque = source.resisting + 0.0
+        frame = source.wrenches.values[:, -1].copy()
+        reactions = {}
+        for model, span in zip(self.models, self.spans, strict=True):
+            frame += self._passed(model, span, x, FRAME)
+            if model.kind in _DRIVES:
+                # The work of the drive on this member in a radian of the crank.
+                torque = torque + x[:, span.start] * self.works[model.name]
+                if model.push is not None:
+                    torque = torque + self._dry(span, x) * model.push.lever
+                continue
+            at = self._passed(model, span, x, model.second)
+            at += self._viscous(model) if name == "friction" else 0.0
+            reactions[model.name] = at[:, :2]
+        return Contribution(reactions, torque, frame[:, :2], frame[:, 2])
+
+    def _powers(self, torque: Floats, total: Floats) -> dict[str, Floats]:
+        """Power of drive, loads and friction, and change of kinetic energy."""
+        speed = self.scene.motion.speed
+        by_source = {name: (s.wrenches.power() - s.resisting) * speed for name, s in self.sources.items()}
+        kinetic = -by_source.pop("inertia")
+        lost = by_source.pop("friction", np.zeros(self.scene.n))
+        for model, span in zip(self.models, self.spans, strict=True):
+            if model.extra is not None and model.kind not in ("mesh", "rack"):
+                lost = lost + self._dry(span, total) * model.rate
+        loads = np.sum([np.zeros(self.scene.n), *by_source.values()], axis=0)
+        return {
+            "power_drive": torque * speed,
+            "power_load": loads,
+            "power_friction": lost,
+            "power_kinetic": kinetic,
+        }
+
+    def _slack(self, pairs: dict[str, PairForce]) -> list[str]:
+        """Cables that would have to push."""
+        found = []
+        for pair in pairs.values():
+            if pair.kind != "cable" or np.isnan(pair.normal).all():
+                continue
+            worst = int(np.nanargmin(pair.normal))
+            if pair.normal[worst] < -_SLACK * np.nanmax(np.abs(pair.normal)):
+                at = np.degrees(self.scene.motion.crank_angle[worst])
+                found.append(
+                    f"The cable {pair.second} is slack: at crank angle {at:.4g}° it would have to push with "
+                    f"{-pair.normal[worst]:.4g} N; load its end more, or move it more slowly."
+                )
+        return found
+
+
+def _where(solution: Solution, phi: Floats) -> list[str]:
+    """Sentences about angles without an answer."""
+    found = []
+    if solution.singular.any():
+        found.append(
+            f"Forces are unbounded or not determined at crank angle {_angles(phi[solution.singular])}: the "
+            "mechanism is in a dead or change point there, and its pairs cannot keep it in equilibrium; "
+            "values at these angles are left out."
+        )
+    if solution.locked.any():
+        found.append(
+            f"Friction locks the mechanism at crank angle {_angles(phi[solution.locked])}: no driving torque "
+            "moves it there; less friction or a better angle of transmission is needed."
+        )
+    return found
+
+
+def _angles(phi: Floats) -> str:
+    """Crank angles in degrees; of many the first and the last."""
+    shown = [f"{each:.4g}°" for each in np.degrees(phi)]
+    return ", ".join(shown) if len(shown) <= 4 else f"{shown[0]} to {shown[-1]} ({len(shown)} angles)"

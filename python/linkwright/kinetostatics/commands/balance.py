@@ -1,0 +1,122 @@
+"""``linkwright balance FILE``: counterweights against the forces on the frame."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.out import Force, out_option, put
+from linkwright.kernel.errors import InputError
+from linkwright.kinetostatics.commands.forces import Speed
+from linkwright.kinetostatics.crank_speed import speed_words, speeds_of
+
+if TYPE_CHECKING:
+    from linkwright.kinetostatics.balancing import Balance
+    from linkwright.machine.machine import Machine
+
+Links = Annotated[
+    str | None,
+    typer.Option(
+        "--links",
+        metavar="LINK,…",
+        help="Links with counterweights, such as A,R.rocker; they turn about fixed points.",
+        show_default=False,
+    ),
+]
+Partial = Annotated[
+    str | None,
+    typer.Option(
+        "--slider",
+        metavar="SLIDER",
+        help="Instead of --links: a counterweight on the crank against a share of this slider's mass.",
+        show_default=False,
+    ),
+]
+Share = Annotated[
+    float, typer.Option("--share", metavar="X", help="With --slider: share of the reciprocating mass.")
+]
+Radius = Annotated[
+    str | None,
+    typer.Option(
+        "--radius",
+        metavar="LENGTH",
+        help="Distance of the counterweights from their pivots. Without it, the length of the link.",
+        show_default=False,
+    ),
+]
+OutFile = Annotated[Path | None, out_option("Write the machine with counterweights there.", "FILE")]
+
+
+def balance(
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    links: Links = None,
+    slider: Partial = None,
+    share: Share = 0.5,
+    radius: Radius = None,
+    speed: Speed = None,
+    json: Json = False,
+    out: OutFile = None,
+    force: Force = False,
+) -> None:
+    """Find counterweights.
+
+    Those on given links that make the force of inertia on the frame least, or one on the crank against a
+    share of a slider's mass; and what they change.
+    """
+    from linkwright.app.terminal import print_tables
+    from linkwright.kinetostatics.tables import balance_tables
+    from linkwright.machine.files.read import read
+    from linkwright.machine.files.write import dumps
+
+    machine = read(file, set or (), allow_outside=allow_outside)
+    found = _found(machine, links, slider, share, radius, speed)
+    speeds = speeds_of(found.before, machine, speed)
+    if json:
+        _print_json(found, speeds)
+    else:
+        print_tables(speed_words(speeds), balance_tables(found), found.after.findings)
+    if out is not None:
+        put(dumps(found.machine), out, force=force)
+    if found.after.findings:
+        raise typer.Exit(1)
+
+
+def _found(
+    machine: Machine,
+    links: str | None,
+    slider: str | None,
+    share: float,
+    radius: str | None,
+    speed: str | None,
+) -> Balance:
+    """The counterweights that the options ask for."""
+    from linkwright.kernel.units import LENGTH, SPEED
+    from linkwright.kinetostatics.balancing import balance as fit
+    from linkwright.kinetostatics.counterweight_formulas import partial_balance
+
+    at = None if radius is None else option_value("--radius", radius, LENGTH)
+    omega = None if speed is None else option_value("--speed", speed, SPEED)
+    if (links is None) == (slider is None):
+        found = "neither" if links is None else "both"
+        raise InputError(f"--links or --slider: found {found}, expected one of them")
+    if slider is not None:
+        return partial_balance(machine, slider, share=share, speed=omega, radius=at)
+    names = [each.strip() for each in (links or "").split(",") if each.strip()]
+    return fit(machine, names, speed=omega, radius=at)
+
+
+def _print_json(found: Balance, speeds: dict[str, Any]) -> None:
+    """One object on standard output."""
+    from json import dumps
+
+    measures = {name: {"before": a, "after": b} for name, (a, b) in found.measures().items()}
+    weights = {
+        each.link: {k: v for k, v in vars(each).items() if k != "link"} for each in found.counterweights
+    }
+    listed = speeds | {"counterweights": weights, "rms": measures, "findings": list(found.after.findings)}
+    typer.echo(dumps(listed, allow_nan=False, ensure_ascii=False))

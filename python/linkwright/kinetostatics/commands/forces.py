@@ -1,0 +1,250 @@
+"""``linkwright forces FILE``: what pins, guides and teeth bear, and what the drive must give."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
+from linkwright.kernel.errors import InputError
+from linkwright.kinetostatics.crank_speed import speed_words, speeds_of
+
+if TYPE_CHECKING:
+    from linkwright.kernel.files.output import OutputFolder
+    from linkwright.kinetostatics.friction import Friction
+    from linkwright.kinetostatics.result import Forces
+    from linkwright.machine.machine import Machine
+
+Speed = Annotated[
+    str | None,
+    typer.Option(
+        "--speed",
+        metavar="SPEED",
+        help='Constant speed of the crank, such as "10 rad/s" or "90 rpm". Without it, the steady motion.',
+        show_default=False,
+    ),
+]
+Span = Annotated[
+    str | None,
+    typer.Option(
+        "--angles",
+        metavar='"FROM, TO"',
+        help='With --speed: crank angles between these alone, such as "-20 deg, 50 deg", for a mechanism '
+        "that does not turn fully.",
+        show_default=False,
+    ),
+]
+Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not peaks alone.")]
+Folder = Annotated[Path | None, out_option("Write results.json, forces.csv and figures as SVG there.")]
+Cases = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--case",
+        metavar='"NAME: PATH=VALUE; …"',
+        help='A load case beside the others, such as "idle: loads.work.force=0". May be given again.',
+        show_default=False,
+    ),
+]
+Frictions = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--friction",
+        metavar='"PAIR: KEY=VALUE, …"',
+        help='Friction of a pin, guide or slot, such as "A: radius=20 mm, coefficient=0.1" or "S.guide: '
+        'coefficient=0.1"; also viscous, and length of a guide. May be given again.',
+        show_default=False,
+    ),
+]
+Angle = Annotated[str, typer.Option("--pressure-angle", metavar="ANGLE", help="Pressure angle of all teeth.")]
+
+
+# Intervals between the ends of --angles.
+_ANGLES = 360
+
+
+def forces(
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    speed: Speed = None,
+    angles: Span = None,
+    case: Cases = None,
+    friction: Frictions = None,
+    pressure_angle: Angle = "20 deg",
+    json: Json = False,
+    curves: Curves = False,
+    out: Folder = None,
+    force: Force = False,
+) -> None:
+    """Compute the forces in a machine.
+
+    Forces in all pins, guides, slots, teeth and cables, driving torque, force and moment on the frame;
+    along the steady motion, or at a constant speed.
+    """
+    from linkwright.app.terminal import print_tables
+    from linkwright.kinetostatics.tables import cases_table, contribution_table, envelope_table
+    from linkwright.machine.files.read import read
+
+    folder = output_folder(out, force=force)
+
+    def read_with(entries: list[str]) -> Machine:
+        return read(file, [*(set or []), *entries], allow_outside=allow_outside)
+
+    found, machine = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
+    speeds = {name: speeds_of(each, machine, speed) for name, each in found.items()}
+    findings = [_named(name, each, found) for name, result in found.items() for each in result.findings]
+    first = next(iter(found.values()))
+    if json:
+        _print_json(found, speeds, findings, curves=curves)
+    elif len(found) > 1:
+        head = "\n".join(f"{name}: {speed_words(each)}" for name, each in speeds.items())
+        print_tables(head, [cases_table(found)], findings)
+    else:
+        head = speed_words(next(iter(speeds.values())))
+        print_tables(head, [envelope_table(first), contribution_table(first)], findings)
+    if folder is not None:
+        _write(found, speeds, findings, folder, quiet=json)
+    if findings:
+        raise typer.Exit(1)
+
+
+def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:
+    """A finding with its case, where there are several."""
+    return finding if len(cases) == 1 else f"{name}: {finding}"
+
+
+def _motion(speed: str | None, span: str | None, pressure_angle: str) -> dict[str, Any]:
+    """What the options say about motion and teeth."""
+    from linkwright.kernel.units import ANGLE, SPEED
+
+    options: dict[str, Any] = {"pressure_angle": option_value("--pressure-angle", pressure_angle, ANGLE)}
+    if speed is not None:
+        options["speed"] = option_value("--speed", speed, SPEED)
+    if span is not None:
+        ends = [option_value("--angles", each.strip(), ANGLE) for each in span.split(",")]
+        if len(ends) != 2 or ends[0] >= ends[1] or speed is None:
+            found = f'"{span}"' + ("" if speed is not None else " without --speed")
+            raise InputError(f"--angles: found {found}, expected two increasing angles, and --speed")
+        low, high = ends
+        options["angles"] = [low + (high - low) * k / _ANGLES for k in range(_ANGLES + 1)]
+    return options
+
+
+def _cases(
+    read_with: Callable[[list[str]], Machine], cases: list[str], frictions: list[str], options: dict[str, Any]
+) -> tuple[dict[str, Forces], Machine]:
+    """Forces by case, of the machine as it is where there are none; and the machine."""
+    from linkwright.kinetostatics.forces import forces as compute
+
+    machine = read_with([])
+    options["friction"] = _frictions(machine, frictions)
+    if not cases:
+        return {machine.name: compute(machine, **options)}, machine
+    named = dict(_case(text) for text in cases)
+    found = {name: compute(read_with(entries), **options) for name, entries in named.items()}
+    return found, machine
+
+
+def _case(text: str) -> tuple[str, list[str]]:
+    """Name and overrides of a case."""
+    name, colon, entries = text.partition(":")
+    if not colon or not name.strip():
+        raise InputError(
+            f'--case: found "{text}", expected a name, a colon and entries, as in "idle: loads.work.force=0"'
+        )
+    return name.strip(), [each.strip() for each in entries.split(";") if each.strip()]
+
+
+def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
+    """Friction by pair."""
+    from linkwright.linkages.model.structure import structure
+
+    if not texts:
+        return {}
+    pairs = structure(machine.linkage).pairs
+    found = {}
+    for text in texts:
+        # The last colon with a blank: a pin's name may hold one.
+        name, colon, entries = text.rpartition(": ")
+        if not colon:
+            example = '"A: radius=20 mm, coefficient=0.1"'
+            raise InputError(f'--friction: found "{text}", expected pair, colon and entries, as in {example}')
+        is_pin = name in pairs and pairs[name].kind == "pin"
+        found[name] = _friction(entries, is_pin=is_pin)
+    return found
+
+
+def _friction(entries: str, *, is_pin: bool) -> Friction:
+    """Friction from its entries."""
+    from linkwright.kernel.units import DAMPING, LENGTH, RATIO, TORSIONAL_DAMPING
+    from linkwright.kinetostatics.friction import Friction
+
+    kinds = {"coefficient": RATIO, "radius": LENGTH, "length": LENGTH}
+    kinds["viscous"] = TORSIONAL_DAMPING if is_pin else DAMPING
+    values = {}
+    for entry in entries.split(","):
+        key, sign, value = (part.strip() for part in entry.partition("="))
+        if not sign or key not in kinds:
+            raise InputError(
+                f'--friction: found "{entry.strip()}", expected {", ".join(kinds)} with = and a value'
+            )
+        values[key] = option_value(f"--friction {key}", value, kinds[key])
+    return Friction(**values)
+
+
+def _object(
+    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], findings: list[str], *, curves: bool
+) -> dict[str, Any]:
+    """What is printed and written as JSON."""
+    from linkwright.kernel.result import finite
+    from linkwright.kinetostatics.envelope import envelope
+
+    results = {}
+    for name, result in cases.items():
+        rows = {each.name: {k: v for k, v in vars(each).items() if k != "name"} for each in envelope(result)}
+        results[name] = finite(result.to_dict(curves=curves) | speeds[name] | {"envelope": rows})
+    return {"results": results, "findings": findings}
+
+
+def _print_json(
+    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], findings: list[str], *, curves: bool
+) -> None:
+    from json import dumps
+
+    typer.echo(dumps(_object(cases, speeds, findings, curves=curves), allow_nan=False, ensure_ascii=False))
+
+
+def _write(
+    cases: dict[str, Forces],
+    speeds: dict[str, dict[str, Any]],
+    findings: list[str],
+    folder: OutputFolder,
+    *,
+    quiet: bool,
+) -> None:
+    """JSON, tables and figures; says where they are."""
+    from json import dumps
+
+    from linkwright.kernel.figure.svg import svg
+    from linkwright.kernel.page.csv import forces_csv
+    from linkwright.kinetostatics.figures import cases_figure, forces_figure, hodograph_figure, polar_figure
+
+    texts = {
+        "results.json": dumps(
+            _object(cases, speeds, findings, curves=True), allow_nan=False, ensure_ascii=False
+        )
+        + "\n"
+    }
+    for number, result in enumerate(cases.values(), start=1):
+        end = "" if len(cases) == 1 else f"_{number}"
+        texts[f"forces{end}.csv"] = forces_csv(result)
+        texts[f"forces{end}.svg"] = svg(forces_figure(result))
+        texts[f"hodograph{end}.svg"] = svg(hodograph_figure(result))
+        texts[f"polar{end}.svg"] = svg(polar_figure(result))
+    if len(cases) > 1:
+        texts["load_cases.svg"] = svg(cases_figure(cases))
+    write_folder(folder, texts, quiet=quiet)

@@ -1,0 +1,80 @@
+"""At which speed of the crank a command computes, and where that speed comes from: said with every answer."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from linkwright.kernel.command.common import option_value
+
+if TYPE_CHECKING:
+    from linkwright.kinetostatics.result import Forces
+    from linkwright.machine.machine import Machine
+
+_OPTION = "--speed"
+_DESIGN = "design speed, drive.speed"
+
+
+class CrankSpeed(NamedTuple):
+    """A speed of the crank [rad/s], and where it comes from."""
+
+    value: float
+    source: str
+
+    def __str__(self) -> str:
+        """In both units that people think in."""
+        return f"crank speed {_both(self.value)} ({self.source})"
+
+
+def crank_speed(machine: Machine, text: str | None) -> CrankSpeed:
+    """The speed for a motion at constant speed: that of the option, else the machine's own.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    text : str or None
+        What stands after ``--speed``.
+    """
+    from linkwright.drive.model.motor import ConstantSpeedMotor
+    from linkwright.kernel.units import SPEED
+
+    if text is not None:
+        return CrankSpeed(option_value(_OPTION, text, SPEED), _OPTION)
+    drive = machine.drive
+    if drive is not None and drive.speed is not None:
+        return CrankSpeed(drive.speed, _DESIGN)
+    if drive is not None and isinstance(drive.motor, ConstantSpeedMotor):
+        speed = drive.motor.speed / drive.gearbox.ratio
+        return CrankSpeed(speed, "drive.motor.speed over drive.gearbox.ratio")
+    # Then velocities are transfer functions.
+    return CrankSpeed(1.0, "the file has no drive.speed: rates are those for a radian per second")
+
+
+def speeds_of(found: Forces, machine: Machine, text: str | None) -> dict[str, Any]:
+    """The speeds at which forces were computed, for JSON.
+
+    Parameters
+    ----------
+    found : Forces
+        Forces along a motion.
+    machine : Machine
+        The machine.
+    text : str or None
+        What stands after ``--speed``.
+    """
+    has_motor = machine.drive is not None and machine.drive.motor is not None
+    source = _OPTION if text is not None else "steady motion" if has_motor else _DESIGN
+    low, high = float(found.speed.min()), float(found.speed.max())
+    return {"speed_min": low, "speed_max": high, "speed_source": source}
+
+
+def speed_words(speeds: dict[str, Any]) -> str:
+    """The same in words, for people."""
+    low, high = speeds["speed_min"], speeds["speed_max"]
+    at = _both(low) if low == high else f"{_both(low)} to {_both(high)}"
+    return f"Crank speed {at} ({speeds['speed_source']})"
+
+
+def _both(speed: float) -> str:
+    return f"{speed:.7g} rad/s = {speed * 30 / pi:.6g} rpm"

@@ -1,0 +1,123 @@
+"""Peaks, root mean squares and means of forces, and load cases side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.public import public
+from linkwright.kinetostatics.forces import forces
+from linkwright.kinetostatics.result import Forces, PairForce
+from linkwright.machine.address import replace
+from linkwright.machine.machine import Machine
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How large a quantity becomes.
+
+    Attributes
+    ----------
+    name : str
+        Of the quantity: ``torque_drive``, ``shaking_force``, ``shaking_moment``, a pair, or the moment of a
+        guide as ``name moment``.
+    unit : str
+        ``"N"`` or ``"N m"``.
+    peak : float
+        Value of the greatest size among the angles, with its sign where it has one.
+    peak_angle : float
+        Crank angle there [rad].
+    rms, mean : float
+        Over time.
+    """
+
+    name: str
+    unit: str
+    peak: float
+    peak_angle: float
+    rms: float
+    mean: float
+
+
+@public
+def envelope(result: Forces) -> list[Extent]:
+    """How large every force and torque becomes.
+
+    Parameters
+    ----------
+    result : Forces
+        Forces over the crank angle.
+
+    Returns
+    -------
+    list of Extent
+        Driving torque, force and moment on the frame, each crank's torque where there are several, then the
+        pairs. Angles that a finding names are left out.
+    """
+    return [_extent(result, *each) for each in _quantities(result)]
+
+
+def _quantities(result: Forces) -> Iterator[tuple[str, str, Floats]]:
+    """Name, unit and values of what there is."""
+    yield "torque_drive", "N m", result.torque_drive
+    yield "shaking_force", "N", np.hypot(result.shaking_force[:, 0], result.shaking_force[:, 1])
+    yield "shaking_moment", "N m", result.shaking_moment
+    for name, pair in result.pairs.items():
+        yield from _of_pair(name, pair)
+
+
+def _of_pair(name: str, pair: PairForce) -> Iterator[tuple[str, str, Floats]]:
+    """The force of a pair, and the moment of a guide."""
+    if pair.kind == "mesh" and not pair.force.any():
+        yield name, "N m", pair.normal
+    elif pair.kind in ("guide", "slot", "cable"):
+        yield name, "N", pair.normal
+    else:
+        yield name, "N", pair.size
+    # A moment of rounding is none.
+    if pair.kind == "guide" and np.nanmax(np.abs(pair.moment)) > 1e-9 * np.nanmax(pair.size):
+        yield f"{name} moment", "N m", pair.moment
+
+
+def _extent(result: Forces, name: str, unit: str, values: Floats) -> Extent:
+    at = int(np.nanargmax(np.abs(values)))
+    motion = result.motion
+    rms = float(np.sqrt(motion.mean(values**2)))
+    return Extent(name, unit, float(values[at]), float(motion.crank_angle[at]), rms, motion.mean(values))
+
+
+@public
+def load_cases(machine: Machine, cases: Mapping[str, Mapping[str, Any]], **options: Any) -> dict[str, Forces]:
+    """Forces of one machine under several loads.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    cases : mapping of str to mapping
+        Name of each case → address of each entry that differs → its value, such as
+        ``{"idle": {"loads.work.force": 0.0}}``; see `linkwright.replace`.
+    **options
+        As for `forces`: speed, friction and so on; without a motion and a speed each case has its own steady
+        motion.
+
+    Returns
+    -------
+    dict of str to Forces
+        By name of the case.
+
+    Raises
+    ------
+    InputError
+        There is no case, or an entry does not exist.
+    """
+    if not cases:
+        raise InputError("load cases: found none, expected at least one")
+    return {name: forces(replace(machine, dict(case)), **options) for name, case in cases.items()}

@@ -1,0 +1,203 @@
+"""Equilibrium of all members at all crank angles: one linear system an angle, and Newton over friction.
+
+With the unknowns x of all pairs and drives and their wrenches as the columns of A,
+
+    A(x) x + b = 0        b: inertia and loads, a column for each
+
+A depends on x through friction and the pressure of teeth alone. The size of a pin's force is homogeneous of
+degree one, R = x·x/R, so solving with the direction of the last x is a step of Newton, and once it has
+converged the columns of b still add up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kinetostatics.pairs import PairModel
+from linkwright.kinetostatics.places import Scene
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+# Relative change of the forces at which the iteration over friction ends.
+_SETTLED = 1e-11
+
+# Steps of Newton before friction is brought in bit by bit, and then for each bit.
+_STEPS = 25
+
+# Bits in which friction is brought in where Newton fails from no friction.
+_BITS = 20
+
+# Growth of a unit load that counts as unbounded: beyond it fewer than four digits are left.
+_UNBOUNDED = 1e12
+
+# Load cases of no meaning that show whether forces are unbounded for some load.
+_PROBES = 3
+
+
+@dataclass
+class Solution:
+    """The unknowns, and where there are none.
+
+    Attributes
+    ----------
+    x : ndarray, shape (n, unknowns, sources)
+        Share of each source in each unknown [N, N m]; NaN where there is no answer.
+    slopes : ndarray, shape (n, unknowns)
+        Extra force of its pair by each unknown.
+    singular, locked : ndarray of bool, shape (n,)
+        Where forces are unbounded or not determined; where friction lets nothing move.
+    iterations : int
+        Linear systems solved at each angle, at most.
+    """
+
+    x: Floats
+    slopes: Floats
+    singular: Bools
+    locked: Bools
+    iterations: int
+
+
+class Equilibrium:
+    """The system of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        The machine and its motion.
+    models : list of PairModel
+        Its pairs and drives.
+    loads : ndarray, shape (n, members + 1, 3, sources)
+        Forces and moments on the members from each source.
+    """
+
+    def __init__(self, scene: Scene, models: list[PairModel], loads: Floats) -> None:
+        self.models = models
+        self.rows, row_scale = _rows(scene)
+        sizes = [len(model.unknowns) for model in models]
+        self.spans = [slice(end - size, end) for size, end in zip(sizes, np.cumsum(sizes), strict=True)]
+        moments = np.array([each for model in models for each in model.moments])
+        self.column_scale = np.where(moments, scene.size, 1.0)
+        self.base = self._matrix([each.values for model in models for each in model.unknowns], row_scale)
+        none = np.zeros_like(loads[..., 0])
+        extras = [none if model.extra is None else model.extra.values for model in models]
+        self.extras = self._matrix(extras, row_scale)
+        self.b = loads.reshape(len(loads), -1, loads.shape[-1])[:, self.rows] * row_scale[:, None]
+
+    def _matrix(self, columns: list[Floats], row_scale: Floats) -> Floats:
+        """Wrenches as columns, (n, equations, columns)."""
+        found: Floats = np.stack([each.reshape(len(each), -1)[:, self.rows] for each in columns], axis=-1)
+        return found * row_scale[:, None]
+
+    def solve(self) -> Solution:
+        """Solve at all angles.
+
+        Returns
+        -------
+        Solution
+            With the share of every source.
+        """
+        n, m = self.base.shape[0], self.base.shape[2]
+        everywhere = np.ones(n, dtype=bool)
+        slopes = np.zeros((n, m))
+        x, singular = self._linear(slopes, self.b, everywhere)
+        locked, iterations = np.zeros(n, dtype=bool), 1
+        if any(model.is_nonlinear for model in self.models):
+            slopes, locked, iterations = self._iterate(x.sum(axis=-1), singular)
+            x, also = self._linear(slopes, self.b, everywhere)
+            singular = singular | (also & ~locked)
+        x[singular | locked] = np.nan
+        return Solution(x, slopes, singular, locked, iterations)
+
+    # -- friction ----------------------------------------------------------------------------------------
+
+    def _iterate(self, x: Floats, singular: Bools) -> tuple[Floats, Bools, int]:
+        """Slopes at which x repeats itself, where there are none, and the steps taken."""
+        slopes, open_, steps = self._newton(x, ~singular, 1.0)
+        if open_.any():
+            # Friction that grows from nothing leads to the solution that belongs to it.
+            near, still = x.copy(), open_.copy()
+            for share in np.arange(1, _BITS + 1) / _BITS:
+                part, failed, more = self._newton(near, still, float(share))
+                steps += more
+                still = still & ~failed
+                again, _ = self._linear(part, self.b, still)
+                near[still] = again.sum(axis=-1)[still]
+                slopes[still] = part[still]
+            open_ = open_ & ~still
+        return slopes, open_, steps
+
+    def _newton(self, x: Floats, where: Bools, share: float) -> tuple[Floats, Bools, int]:
+        """Newton with a share of the friction; slopes, and where it has not settled."""
+        x, open_ = x.copy(), where.copy()
+        slopes = self._slopes(x) * share
+        step = 0
+        while open_.any() and step < _STEPS:
+            step += 1
+            total = self.b.sum(axis=-1, keepdims=True)
+            new, bad = self._linear(slopes, total, open_)
+            change = np.abs(new[..., 0] - x).max(axis=1)
+            size = np.abs(new[..., 0]).max(axis=1)
+            x[open_] = new[open_, :, 0]
+            after = self._slopes(x) * share
+            # What the slopes that follow from x would change, against what is there.
+            effect = np.abs((after - slopes) * x).max(axis=1)
+            settled = (np.maximum(change, effect) <= _SETTLED * size) & ~bad
+            open_ = open_ & ~settled
+            slopes[open_] = after[open_]
+        return slopes, open_, step
+
+    def _slopes(self, x: Floats) -> Floats:
+        return np.concatenate(
+            [model.slopes(x[:, span]) for model, span in zip(self.models, self.spans, strict=True)], axis=1
+        )
+
+    # -- the linear system -------------------------------------------------------------------------------
+
+    def _linear(self, slopes: Floats, b: Floats, where: Bools) -> tuple[Floats, Bools]:
+        """x of A x = −b at some angles, (n, unknowns, sources), and where it is unbounded."""
+        A = self.base.copy()
+        for k, span in enumerate(self.spans):
+            if self.models[k].is_nonlinear:
+                A[:, :, span] += self.extras[:, :, k, None] * slopes[:, None, span]
+        A = (A * self.column_scale)[where]
+        rng = np.random.default_rng(1)
+        probes = np.broadcast_to(rng.standard_normal((A.shape[1], _PROBES)), (len(A), A.shape[1], _PROBES))
+        found, singular = _solved(A, np.concatenate((-b[where], probes), axis=-1))
+        growth = np.abs(found[..., -_PROBES:]).max(axis=(1, 2))
+        singular |= ~(growth < _UNBOUNDED)
+        x = np.zeros((len(b), A.shape[1], b.shape[-1]))
+        x[where] = found[..., :-_PROBES] * self.column_scale[:, None]
+        everywhere = np.zeros(len(b), dtype=bool)
+        everywhere[where] = singular
+        return x, everywhere
+
+
+def _rows(scene: Scene) -> tuple[NDArray[np.intp], Floats]:
+    """Equations among all components of the members, and their scale; the frame has none."""
+    found, scale = [], []
+    for i, member in enumerate(scene.structure.members.values()):
+        for component in range(3 if member.turns else 2):
+            found.append(3 * i + component)
+            scale.append(1.0 if component < 2 else 1.0 / scene.size)
+    return np.array(found), np.array(scale)
+
+
+def _solved(A: Floats, b: Floats) -> tuple[Floats, Bools]:
+    """Solution of each system; zero and a mark where a matrix is singular."""
+    # Where the mechanism has no motion there are no forces either.
+    known = np.isfinite(A).all(axis=(1, 2)) & np.isfinite(b).all(axis=(1, 2))
+    unknown: Bools = np.logical_not(known)
+    A = np.where(unknown[:, None, None], np.eye(A.shape[1]), A)
+    b = np.where(unknown[:, None, None], 0.0, b)
+    singular = unknown
+    try:
+        return np.asarray(np.linalg.solve(A, b), dtype=np.float64), singular
+    except np.linalg.LinAlgError:
+        singular = unknown | np.asarray(~(np.linalg.cond(A) < _UNBOUNDED))
+        A = np.where(singular[:, None, None], np.eye(A.shape[1]), A)
+        found = np.linalg.solve(A, np.where(singular[:, None, None], 0.0, b))
+        return np.asarray(found, dtype=np.float64), singular

@@ -1,0 +1,128 @@
+r"""Forces in pins, guides, teeth and cables, the driving torque, and what the machine does to its frame.
+
+For every member, at every crank angle,
+
+.. math:: \sum \mathbf F = m\,\mathbf a_S, \qquad \sum M = J_S\,\ddot\psi
+
+with the motion given: kinetostatics, a linear system for all reactions and the driving torque together
+(Norton, *Design of Machinery*, chapter 11; Wilson and Sadler, *Kinematics and Dynamics of Machinery*,
+chapter 10).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.drive.model.drive import Drive
+from linkwright.drive.steady_state import SteadyState
+from linkwright.drive.transient import Transient
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.units import ANGLE, Bound, Quantity
+from linkwright.kinetostatics.applied import Applied, applied
+from linkwright.kinetostatics.collect import Collector
+from linkwright.kinetostatics.equilibrium import Equilibrium
+from linkwright.kinetostatics.friction import Friction, checked
+from linkwright.kinetostatics.inertia import inertia_forces
+from linkwright.kinetostatics.motion import Motion, motion_at
+from linkwright.kinetostatics.pairs import PairModel, pair_models, with_pulls
+from linkwright.kinetostatics.places import Scene
+from linkwright.kinetostatics.result import Forces
+from linkwright.kinetostatics.wrench import Wrenches
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import drive_inertia
+
+# Pressure angle of involute teeth by DIN 867 and ISO 53 [rad].
+PRESSURE_ANGLE = float(np.radians(20.0))
+
+
+# Teeth press along a line between their common tangent, 0, and the line of centres.
+_ACUTE = Bound(
+    " of 0 or more and below 90 deg,",
+    {"minimum": 0, "exclusiveMaximum": np.pi / 2},
+    lambda value: 0 <= value < np.pi / 2,
+)
+
+
+@public
+def forces(
+    machine: Machine,
+    motion: SteadyState | Transient | Motion | None = None,
+    *,
+    speed: float | None = None,
+    acceleration: float = 0.0,
+    angles: ArrayLike | None = None,
+    n: int = 360,
+    friction: Mapping[str, Friction] | None = None,
+    pressure_angle: float = PRESSURE_ANGLE,
+) -> Forces:
+    """Forces in all pairs, driving torque, and forces on the frame.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine, with bodies and loads.
+    motion : SteadyState, Transient or Motion, optional
+        The motion, with its own angles.
+    speed, acceleration : float, optional
+        Speed and acceleration of the crank instead, the same at all angles [rad/s, rad/s²]; speed 0 is a
+        machine at rest. Without motion and speed: the steady motion of the motor, or the drive's design
+        speed.
+    angles : array_like, shape (n,), optional
+        Crank angles for a speed [rad]; without them a turn.
+    n : int
+        Intervals of the turn.
+    friction : mapping of str to Friction, optional
+        Friction of pins, guides and slots by name of the pair.
+    pressure_angle : float
+        Of all teeth [rad].
+
+    Returns
+    -------
+    Forces
+        Over the crank angle; NaN at angles that a finding names.
+
+    Raises
+    ------
+    FindingError
+        There are no forces at any angle.
+    InputError
+        Motion and speed are both given, or neither where the machine has none; wrong friction.
+
+    Notes
+    -----
+    Bars marked redundant carry no force between their ends: dimensions alone do not say what they would
+    carry.
+
+    References
+    ----------
+    .. [1] Norton, Design of Machinery, chapter 11.
+    """
+    in_range(pressure_angle=(pressure_angle, Quantity(ANGLE, _ACUTE)))
+    scene = Scene(
+        machine, motion_at(machine, motion, speed=speed, acceleration=acceleration, angles=angles, n=n)
+    )
+    models = pair_models(scene, checked(friction or {}, scene.structure.pairs), pressure_angle)
+    sources = _sources(scene, models)
+    loads = np.stack([each.wrenches.values for each in sources.values()], axis=-1)
+    solution = Equilibrium(scene, models, loads).solve()
+    if with_pulls(scene, models, solution.x.sum(axis=-1)):
+        solution = Equilibrium(scene, models, loads).solve()
+    return Collector(scene, models, sources, solution).forces()
+
+
+def _sources(scene: Scene, models: list[PairModel]) -> dict[str, Applied]:
+    """Inertia, viscous friction, and the loads."""
+    motion, drive = scene.motion, scene.machine.drive or Drive()
+    at_shaft = float(drive_inertia(drive)) * motion.acceleration
+    found = {"inertia": Applied(inertia_forces(scene), at_shaft)}
+    if any(model.friction.viscous for model in models):
+        slow = Wrenches(scene)
+        for model in models:
+            if model.extra is not None:
+                slow.values += model.viscous[:, None, None] * model.extra.values
+        found["friction"] = Applied(slow, np.zeros(scene.n))
+    return found | {f"loads.{name}": applied(scene, load) for name, load in scene.machine.loads.items()}

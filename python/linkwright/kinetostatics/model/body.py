@@ -1,0 +1,120 @@
+"""Bodies: the masses on the links and on the points of a mechanism.
+
+| on | given | is |
+| --- | --- | --- |
+| a link | `mass_per_length` | a uniform rod as long as the link |
+| a link | `mass` | a uniform slender rod, centre of mass in the middle, m l²/12 about it |
+| a link | `mass`, `inertia` | centre of mass in the middle, `inertia` about it |
+| a link | `mass`, `inertia`, `along`, `across` | centre of mass there, `inertia` about it |
+| a link | `inertia` | a disc without mass |
+| a point or a slider | `mass` | a point mass, or a body that does not turn |
+
+The name of a crank means its link; a mass at its pin has `along` equal to the radius and `inertia` zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Annotated
+
+from pydantic import BaseModel, Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.kernel.description.base import Checked, fault, suggestion
+from linkwright.kernel.description.plain import keys, look
+from linkwright.kernel.units import INERTIA, MASS, MASS_PER_LENGTH, Length, not_negative
+from linkwright.linkages.model.outline import Outline
+
+
+class Body(Checked):
+    """A mass on a link or on a point."""
+
+    on: str | None = Field(
+        None, description="Link or moving point that carries it. Without it, its own name."
+    )
+    mass: Annotated[float, not_negative(MASS)] | None = Field(None, description="The mass.")
+    mass_per_length: Annotated[float, not_negative(MASS_PER_LENGTH)] | None = Field(
+        None, description="Of a uniform rod as long as the link."
+    )
+    inertia: Annotated[float, not_negative(INERTIA)] | None = Field(
+        None, description="About the centre of mass. Without it, that of a uniform slender rod."
+    )
+    along: Length | None = Field(
+        None,
+        description="Centre of mass, from the start of the link along it. Without it, the middle.",
+    )
+    across: Length = Field(0.0, description="Centre of mass, to the left of the link.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.mass_per_length is not None:
+            yield from self._uniform_faults()
+        elif self.mass is None and self.inertia is None:
+            yield fault(expected="mass, mass_per_length or inertia")
+        elif self._centre_given() and self.mass is None:
+            yield fault("mass", expected="a mass, because the place of its centre is given")
+        elif self._centre_given() and self.inertia is None:
+            yield fault(
+                "inertia",
+                expected="the inertia about the centre of mass, because the place of the centre is given",
+                remedy="write inertia = 0 for a point mass",
+            )
+
+    def _uniform_faults(self) -> Iterator[InitErrorDetails]:
+        """Entries that a uniform rod has no room for."""
+        for name in ("mass", "inertia", "along", "across"):
+            if name in self.model_fields_set and getattr(self, name) is not None:
+                expected = f"either mass_per_length or {name}"
+                remedy = "mass_per_length means a uniform rod, which fixes the rest"
+                yield fault(name, found=getattr(self, name), expected=expected, remedy=remedy)
+
+    def _centre_given(self) -> bool:
+        return self.along is not None or "across" in self.model_fields_set
+
+
+def body_faults(outline: Outline, bodies: object) -> Iterator[InitErrorDetails]:
+    """What is wrong between the bodies and the mechanism.
+
+    Parameters
+    ----------
+    outline : Outline
+        Names of the mechanism.
+    bodies : object
+        The table of bodies, checked or raw.
+
+    Yields
+    ------
+    InitErrorDetails
+        Bodies on nothing or on the frame; entries on a point that only a link can have.
+    """
+    for name in keys(bodies):
+        body = look(bodies, name)
+        on = look(body, "on")
+        place = ("bodies", name) if on is None else ("bodies", name, "on")
+        carrier = name if on is None else on
+        if not isinstance(carrier, str) or not isinstance(body, BaseModel | Mapping):
+            continue
+        if carrier not in outline.links and carrier not in outline.moving_points:
+            yield _on_nothing(outline, carrier, place)
+        elif carrier not in outline.links:
+            yield from _point_faults(name, carrier, body, outline)
+
+
+def _on_nothing(outline: Outline, carrier: str, place: tuple[str, ...]) -> InitErrorDetails:
+    """The fault of a body whose carrier does not exist or does not move."""
+    if carrier in outline.fixed_points:
+        remedy = f'"{carrier}" is a fixed point: a mass at rest has no effect'
+        return fault(*place, found=carrier, expected="the name of a link or a moving point", remedy=remedy)
+    known = dict.fromkeys([*outline.links, *outline.moving_points])
+    expected = "the name of a link or a moving point" + ("" if place[-1] == "on" else ", or an entry on")
+    return fault(*place, found=carrier, expected=expected, remedy=suggestion(carrier, known))
+
+
+def _point_faults(name: str, carrier: str, body: object, outline: Outline) -> Iterator[InitErrorDetails]:
+    """Entries of a body on a point that belong to a link."""
+    links = [link for link, element in outline.links.items() if element == carrier]
+    remedy = f'"{carrier}" is a point' + (f'; the link is "{links[0]}"' if links else "")
+    for key in ("mass_per_length", "inertia", "along", "across"):
+        value = look(body, key)
+        given = key in keys(body) and value not in (None, 0.0) if key == "across" else value is not None
+        if given:
+            yield fault("bodies", name, key, found=value, expected="only a mass on a point", remedy=remedy)

@@ -1,0 +1,120 @@
+"""The motion at which forces are asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.drive.transient import Transient
+from linkwright.kernel.errors import InputError, ShapeError
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.units import ANGULAR_ACCELERATION, SPEED, Quantity
+from linkwright.linkages.closure import turn_angles
+from linkwright.machine.machine import Machine
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Crank angle with speed and acceleration; arrays (n,).
+
+    Attributes
+    ----------
+    crank_angle : ndarray
+        [rad].
+    speed, acceleration : ndarray
+        Of the crank [rad/s, rad/s²].
+    time : ndarray
+        [s]; the crank angle itself where the machine stands at every angle.
+    """
+
+    crank_angle: Floats
+    speed: Floats
+    acceleration: Floats
+    time: Floats
+
+    def mean(self, values: Floats) -> float:
+        """Mean of values (n,) over the time, or the angle of a machine at rest; without NaN.
+
+        Where the crank turns one way, dt = dφ/ω: even angles then integrate a smooth revolution to rounding,
+        which uneven times do not.
+        """
+        known = np.isfinite(values)
+        if known.sum() < 2 or self.time[known][-1] == self.time[known][0]:
+            return float(np.mean(values[known])) if known.any() else float("nan")
+        omega, phi = self.speed[known], self.crank_angle[known]
+        if (omega > 0).all() or (omega < 0).all():
+            return float(np.trapezoid(values[known] / omega, phi) / np.trapezoid(1 / omega, phi))
+        t = self.time[known]
+        return float(np.trapezoid(values[known], t) / (t[-1] - t[0]))
+
+
+def motion_at(
+    machine: Machine,
+    motion: SteadyState | Transient | Motion | None,
+    *,
+    speed: float | None = None,
+    acceleration: float = 0.0,
+    angles: ArrayLike | None = None,
+    n: int = 360,
+) -> Motion:
+    """The motion that is meant: a computed one, or one at a speed.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    motion : SteadyState, Transient, Motion or None
+        A computed motion, with its own angles. Without it and without a speed: the steady motion of the
+        motor, or the design speed of the drive.
+    speed, acceleration : float
+        Of the crank at every angle [rad/s, rad/s²].
+    angles : array_like, shape (n,), optional
+        Crank angles for a speed [rad]; without them a turn.
+    n : int
+        Intervals of the turn.
+
+    Returns
+    -------
+    Motion
+        Angles with speed and acceleration.
+
+    Raises
+    ------
+    InputError
+        Motion and speed are both given, or there is neither of them, nor a motor, nor a design speed.
+    """
+    if motion is not None and speed is not None:
+        raise InputError("forces at a motion or at a speed: found both, expected one of them")
+    if isinstance(motion, Motion):
+        return motion
+    if isinstance(motion, SteadyState | Transient):
+        return Motion(motion.crank_angle, motion.speed, motion.acceleration, motion.time)
+    if speed is None:
+        drive = machine.drive
+        if drive is not None and drive.motor is not None and angles is None:
+            return motion_at(machine, steady_state(machine, n=n))
+        speed = None if drive is None else drive.speed
+    if speed is None:
+        raise InputError(
+            "speed: found none, expected that of the crank, as there is neither a motor nor drive.speed; "
+            'give one, such as --speed "10 rad/s"'
+        )
+    in_range(speed=(speed, Quantity(SPEED)), acceleration=(acceleration, Quantity(ANGULAR_ACCELERATION)))
+    return _at_speed(speed, acceleration, turn_angles(n) if angles is None else angles)
+
+
+def _at_speed(speed: float, acceleration: float, angles: ArrayLike) -> Motion:
+    """The same speed and acceleration at every angle."""
+    try:
+        phi = np.atleast_1d(np.asarray(angles, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise ShapeError(f"crank angles in radians are needed, found {angles!r}") from None
+    if phi.ndim != 1 or not phi.size or not np.isfinite(phi).all():
+        raise ShapeError(f"a list of finite crank angles is needed, found an array of shape {phi.shape}")
+    time = phi / speed if abs(speed) >= SPEED.least else phi
+    return Motion(phi, np.full_like(phi, speed), np.full_like(phi, acceleration), time)

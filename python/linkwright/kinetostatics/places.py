@@ -1,0 +1,113 @@
+"""Where members, points and guides are at every crank angle, and how they move."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.kinetostatics.motion import Motion
+from linkwright.linkages.kinematics import kinematics
+from linkwright.linkages.model.element import Guide
+from linkwright.linkages.model.structure import FRAME, structure
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+
+Floats = NDArray[np.float64]
+
+
+class Scene:
+    """A machine at all crank angles of a motion.
+
+    Parameters
+    ----------
+    machine : Machine
+        One machine.
+    motion : Motion
+        Its motion.
+
+    Raises
+    ------
+    ShapeError
+        The entries describe many machines.
+    InputError
+        Nothing moves.
+    """
+
+    def __init__(self, machine: Machine, motion: Motion) -> None:
+        # Refuses entries that are arrays over many machines.
+        _ = compile_machine(machine).one
+        self.machine = machine
+        self.mechanism = machine.linkage
+        self.motion = motion
+        self.structure = structure(self.mechanism)
+        if not self.structure.members:
+            raise InputError("mechanism: found nothing that moves, expected a crank or a linear driver")
+        self.links = self.mechanism.links()
+        self.kinematics = kinematics(machine, motion.crank_angle)
+        self.n = len(motion.crank_angle)
+        self.index = {name: i for i, name in enumerate((*self.structure.members, FRAME))}
+        self._still = np.zeros((self.n, 2))
+        lengths = [link.length for link in self.links.values() if link.length]
+        # Any length of the mechanism's size makes forces and moments comparable.
+        self.size = float(np.mean(lengths)) if lengths else 1.0
+
+    @property
+    def n_members(self) -> int:
+        """How many members move."""
+        return len(self.index) - 1
+
+    def carrier(self, point: str) -> str:
+        """The member that carries a point."""
+        return self.structure.carriers[point]
+
+    def point(self, name: str, order: int = 0) -> Floats:
+        """Position, first or second derivative of a point by the crank angle, (n, 2)."""
+        if name == "":
+            return self._still
+        found = self.kinematics.points[name]
+        return (found.position, found.d1, found.d2)[order]
+
+    def angle(self, link: str | None, order: int = 0) -> Floats:
+        """Angle of a link, or its derivative by the crank angle, (n,); zero for what does not turn."""
+        if link is None:
+            return np.zeros(self.n)
+        found = self.kinematics.links[link]
+        return (found.angle, found.d1, found.d2)[order]
+
+    def reference(self, member: str, order: int = 0) -> Floats:
+        """A member's point that its moments count about, (n, 2); the origin for the frame."""
+        return self._still if member == FRAME else self.point(self.structure.members[member].point, order)
+
+    def turning(self, member: str, order: int = 1) -> Floats:
+        """First or second derivative of a member's angle by the crank angle, (n,)."""
+        return np.zeros(self.n) if member == FRAME else self.angle(self.structure.members[member].link, order)
+
+    def moved(self, member: str, place: Floats) -> Floats:
+        """First derivative, by the crank angle, of the place (n, 2) as a point of a member."""
+        arm = place - self.reference(member)
+        return self.reference(member, 1) + self.turning(member)[:, None] * left(arm)
+
+    def direction(self, guide: Guide) -> Floats:
+        """Unit vector along a guide, (n, 2)."""
+        return unit(self.angle(guide.on) + guide.angle)
+
+
+def unit(angle: Floats) -> Floats:
+    """Unit vectors (n, 2) at angles (n,)."""
+    return np.stack((np.cos(angle), np.sin(angle)), axis=-1)
+
+
+def left(vector: Floats) -> Floats:
+    """Vectors (…, 2) turned by 90° counter-clockwise."""
+    return np.stack((-vector[..., 1], vector[..., 0]), axis=-1)
+
+
+def cross(a: Floats, b: Floats) -> Floats:
+    """Moment of b about the foot of a, (…)."""
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def dot(a: Floats, b: Floats) -> Floats:
+    """Scalar product (…)."""
+    return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1]

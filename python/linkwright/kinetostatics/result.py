@@ -1,0 +1,170 @@
+"""What is known about the forces in a machine."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.result import Result
+from linkwright.kinetostatics.motion import Motion
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PairForce:
+    """What a pair passes on; arrays (n,), vectors (n, 2).
+
+    Attributes
+    ----------
+    name, kind : str
+        Of the pair (`linkwright.linkages.model.structure`).
+    first, second : str
+        Its members.
+    force : ndarray, shape (n, 2)
+        On the second member, friction included [N].
+    moment : ndarray, shape (n,)
+        Of a guide, and friction of a pin, on the second member about the point of the pair [N m].
+    friction : ndarray, shape (n,)
+        Share of friction: torque of a pin [N m], force along a guide or slot [N], on the second member.
+    normal : ndarray, shape (n,)
+        Of a guide or slot to the left of it, of teeth along their path, tension of a cable [N]; of a belt its
+        torque on the gear [N m]; of a pin the size of its force.
+    """
+
+    name: str
+    kind: str
+    first: str
+    second: str
+    force: Floats
+    moment: Floats
+    friction: Floats
+    normal: Floats
+
+    @property
+    def size(self) -> Floats:
+        """Size of the force, (n,) [N]."""
+        found: Floats = np.hypot(self.force[:, 0], self.force[:, 1])
+        return found
+
+
+@dataclass(frozen=True)
+class Contribution:
+    """The share of one source in the forces.
+
+    Attributes
+    ----------
+    reactions : dict of str to ndarray, shape (n, 2)
+        In the force of each pair on its second member [N].
+    torque_drive : ndarray, shape (n,)
+        In the driving torque [N m].
+    shaking_force : ndarray, shape (n, 2)
+        In the force on the frame [N].
+    shaking_moment : ndarray, shape (n,)
+        In the moment on the frame about the origin [N m].
+    """
+
+    reactions: dict[str, Floats]
+    torque_drive: Floats
+    shaking_force: Floats
+    shaking_moment: Floats
+
+
+@dataclass(frozen=True)
+class Forces(Result):
+    """Forces over the crank angle.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n,)
+        [rad].
+    time, speed, acceleration : ndarray, shape (n,)
+        Of the motion [s, rad/s, rad/s²].
+    torque_drive : ndarray, shape (n,)
+        Driving torque at the crankshaft that the motion needs [N m].
+    power_drive, power_load, power_friction : ndarray, shape (n,)
+        Of the drive at the crankshaft, of all loads on the machine, of friction in the pairs [W].
+    power_kinetic : ndarray, shape (n,)
+        Change of the kinetic energy in time [W].
+    shaking_moment : ndarray, shape (n,)
+        On the frame about the origin, by pairs, springs and the torque of the drive [N m].
+    shaking_force : ndarray, shape (n, 2)
+        On the frame [N].
+    pairs : dict of str to PairForce
+        Forces of pins, guides, slots, teeth and cables by name.
+    drives : dict of str to ndarray, shape (n,)
+        Torque on each crank [N m], force on each linear driver along its guide [N].
+    contributions : dict of str to Contribution
+        ``"inertia"``, ``"friction"`` (its viscous share), and each load as ``"loads.name"``. Dry friction
+        goes with what causes it.
+    motion : Motion
+        As it was given.
+    findings : tuple of str
+        Where forces are unbounded, friction locks, or a cable pushes, in sentences.
+    """
+
+    crank_angle: Floats
+    time: Floats
+    speed: Floats
+    acceleration: Floats
+    torque_drive: Floats
+    power_drive: Floats
+    power_load: Floats
+    power_friction: Floats
+    power_kinetic: Floats
+    shaking_moment: Floats
+    shaking_force: Floats
+    pairs: dict[str, PairForce]
+    drives: dict[str, Floats]
+    contributions: dict[str, Contribution]
+    motion: Motion
+    findings: tuple[str, ...] = field(default=())
+
+    @property
+    def power_residual(self) -> Floats:
+        """Driving, load and friction power less the change of kinetic energy, (n,) [W]: rounding."""
+        found: Floats = self.power_drive + self.power_load + self.power_friction - self.power_kinetic
+        return found
+
+    @property
+    def reactions(self) -> dict[str, Floats]:
+        """Force of each pin on its second member by name, (n, 2) [N]."""
+        return {name: pair.force for name, pair in self.pairs.items() if pair.kind == "pin"}
+
+    @property
+    def reaction_max(self) -> dict[str, float]:
+        """Greatest force of each pair [N]."""
+        return {name: float(np.nanmax(pair.size)) for name, pair in self.pairs.items()}
+
+    @property
+    def torque_drive_max(self) -> float:
+        """Driving torque of the greatest size, with its sign [N m]."""
+        return float(self.torque_drive[np.nanargmax(np.abs(self.torque_drive))])
+
+    @property
+    def shaking_force_max(self) -> float:
+        """Greatest size of the force on the frame [N]."""
+        return float(np.nanmax(np.hypot(self.shaking_force[:, 0], self.shaking_force[:, 1])))
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Scalars and greatest forces by name, with ``curves`` also all forces as lists.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether arrays are included.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and lists, ready for JSON.
+        """
+        found = super().to_dict(curves=curves) | {"reaction_max": self.reaction_max}
+        if curves:
+            found["reactions"] = {name: pair.force.tolist() for name, pair in self.pairs.items()}
+            found["moments"] = {name: pair.moment.tolist() for name, pair in self.pairs.items()}
+            found["drives"] = {name: torque.tolist() for name, torque in self.drives.items()}
+        return found

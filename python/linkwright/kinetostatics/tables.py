@@ -1,0 +1,149 @@
+"""Forces as tables of text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from linkwright.kernel.page.quantities import SHOWN, degrees, number
+from linkwright.kernel.page.table import Row, Table, with_unit
+from linkwright.kinetostatics.balancing import Balance
+from linkwright.kinetostatics.envelope import Extent, envelope
+from linkwright.kinetostatics.result import Forces
+
+_KINDS = {
+    "pin": "pin",
+    "guide": "guide, normal force",
+    "slot": "slot, normal force",
+    "mesh": "teeth",
+    "rack": "teeth of the rack",
+    "cable": "cable, tension",
+}
+
+
+def envelope_table(forces: Forces) -> Table:
+    """Peak, its angle, root mean square and mean of every force.
+
+    Parameters
+    ----------
+    forces : Forces
+        Forces over the crank angle.
+
+    Returns
+    -------
+    Table
+        A row for each quantity.
+    """
+    rows = [_row(each, forces) for each in envelope(forces)]
+    return Table("forces", "Forces", ("quantity", "", "peak", "at φ", "rms", "mean"), rows)
+
+
+def _row(each: Extent, forces: Forces) -> Row:
+    word, symbol = _words(each.name, forces)
+    values = (with_unit(value, each.unit) for value in (each.rms, each.mean))
+    return word, symbol, with_unit(each.peak, each.unit), degrees(each.peak_angle), *values
+
+
+def _words(name: str, forces: Forces) -> tuple[str, str]:
+    """Words for a quantity, and its symbol or the name of the pair."""
+    if name in SHOWN:
+        return SHOWN[name].word, SHOWN[name].symbol
+    if name.endswith(" moment"):
+        return "guide, moment", name.removesuffix(" moment")
+    pair = forces.pairs[name]
+    return f"{_KINDS[pair.kind]}, {pair.first} on {pair.second}", name
+
+
+def cases_table(cases: Mapping[str, Forces]) -> Table:
+    """Peaks of several load cases side by side.
+
+    Parameters
+    ----------
+    cases : mapping of str to Forces
+        By name of the case.
+
+    Returns
+    -------
+    Table
+        A row for each quantity, a column for each case.
+    """
+    columns = {case: {each.name: each for each in envelope(forces)} for case, forces in cases.items()}
+    first = next(iter(cases.values()))
+    names = list(dict.fromkeys(name for column in columns.values() for name in column))
+    rows: list[Row] = []
+    for name in names:
+        found = [column.get(name) for column in columns.values()]
+        peaks = ("–" if each is None else with_unit(each.peak, each.unit) for each in found)
+        rows.append((*_words(name, first), *peaks))
+    return Table("load_cases", "Peaks by load case", ("quantity", "", *cases), rows)
+
+
+def contribution_table(forces: Forces) -> Table:
+    """Share of each source in the peaks of torque and of the force on the frame.
+
+    Parameters
+    ----------
+    forces : Forces
+        Forces over the crank angle.
+
+    Returns
+    -------
+    Table
+        A row for each source: its share at the angle of the peak, which add up to the peak.
+    """
+    found = {each.name: each for each in envelope(forces)}
+    at = [
+        int(abs(forces.crank_angle - found[name].peak_angle).argmin())
+        for name in ("torque_drive", "shaking_force")
+    ]
+    total = forces.shaking_force[at[1]]
+    size = float((total**2).sum() ** 0.5) or 1.0
+    rows: list[Row] = []
+    for name, share in forces.contributions.items():
+        along = float(share.shaking_force[at[1]] @ total) / size
+        rows.append((name, "", with_unit(float(share.torque_drive[at[0]]), "N m"), with_unit(along, "N")))
+    heads = ("source", "", "of the peak of M_d", "of the peak force on the frame")
+    return Table("contributions", "What the forces come from", heads, rows)
+
+
+def balance_tables(balance: Balance) -> list[Table]:
+    """The counterweights, and what they do.
+
+    Parameters
+    ----------
+    balance : Balance
+        A machine with counterweights.
+
+    Returns
+    -------
+    list of Table
+        Counterweights; root mean squares before and after.
+    """
+    weights: list[Row] = [
+        (
+            each.link,
+            "",
+            with_unit(each.mass, "kg"),
+            with_unit(each.radius, "m"),
+            degrees(each.angle),
+            with_unit(each.moment, "kg m"),
+        )
+        for each in balance.counterweights
+    ]
+    heads = ("link", "", "mass", "radius", "direction from the link", "moment")
+    rows: list[Row] = []
+    for name, (before, after) in balance.measures().items():
+        unit = SHOWN[name].unit
+        change = "–" if before == 0 else f"{number(100 * (after / before - 1), 4)} %"
+        rows.append(
+            (
+                f"{SHOWN[name].word}, rms",
+                SHOWN[name].symbol,
+                with_unit(before, unit),
+                with_unit(after, unit),
+                change,
+            )
+        )
+    return [
+        Table("counterweights", "Counterweights", heads, weights),
+        Table("balance", "What they do", ("quantity", "", "before", "after", "change"), rows),
+    ]

@@ -1,0 +1,110 @@
+"""Forces and couples on members."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kinetostatics.places import Scene, cross
+from linkwright.linkages.model.element import Guide
+from linkwright.linkages.model.structure import FRAME, Pair
+
+Floats = NDArray[np.float64]
+
+
+class Wrenches:
+    """A force and a moment on each member and, last, on the frame.
+
+    Parameters
+    ----------
+    scene : Scene
+        What the members are.
+
+    Attributes
+    ----------
+    values : ndarray, shape (n, members + 1, 3)
+        Force along x and y [N] and moment about the member's reference point [N m]; of the frame about the
+        origin.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.values: Floats = np.zeros((scene.n, len(scene.index), 3))
+
+    def force(self, member: str, force: Floats, place: Floats) -> Wrenches:
+        """Add a force (n, 2) at a place (n, 2)."""
+        to = self.values[:, self.scene.index[member]]
+        to[:, :2] += force
+        to[:, 2] += cross(place - self.scene.reference(member), force)
+        return self
+
+    def couple(self, member: str, moment: Floats) -> Wrenches:
+        """Add a moment (n,)."""
+        self.values[:, self.scene.index[member], 2] += moment
+        return self
+
+    def between(self, first: str, second: str, force: Floats, place: Floats) -> Wrenches:
+        """Add a force on the second member, and the opposite one on the first."""
+        return self.force(second, force, place).force(first, -force, place)
+
+    def on_guide(self, pair: Pair, force: Floats, moment: Floats) -> Wrenches:
+        """Add force and moment on the second member of a guide; the guide's body takes the opposite ones.
+
+        The force goes to what carries the point that the guide passes through, its moment about that point to
+        what turns the guide: as a rule the same body.
+        """
+        assert pair.guide is not None
+        place = self.scene.point(pair.point)
+        self.force(pair.second, force, place).couple(pair.second, moment)
+        through = self.scene.structure.guide_point(pair.guide, self.scene.mechanism)
+        foot = self.scene.point(through)
+        self.force(_holds_guide(pair.guide, through, self.scene), -force, foot)
+        turner = turns_guide(pair.guide, self.scene)
+        return self.couple(turner, -moment - cross(place - foot, force))
+
+    def along_slide(self, on: str, force: Floats) -> Wrenches:
+        """Add a force (n,) along a slide on what slides, and its opposite on the guide."""
+        pair = self.scene.structure.pairs[f"{on}.guide"]
+        assert pair.guide is not None
+        t = self.scene.direction(pair.guide)
+        return self.on_guide(pair, force[:, None] * t, np.zeros(self.scene.n))
+
+    def at_point(self, point: str, force: Floats) -> Wrenches:
+        """Add a force (n, 2) on what carries a point."""
+        return self.force(self.scene.carrier(point), force, self.scene.point(point))
+
+    def on_member(self, member: str) -> Floats:
+        """Force and moment on one member, (n, 3)."""
+        found: Floats = self.values[:, self.scene.index[member]]
+        return found
+
+    def power(self) -> Floats:
+        """Σ F·p′ + M ψ′ over the members, (n,) [N m]; times the speed it is power."""
+        total = np.zeros(self.scene.n)
+        for name, i in self.scene.index.items():
+            if name != FRAME:
+                total += (self.values[:, i, :2] * self.scene.reference(name, 1)).sum(axis=-1)
+                total += self.values[:, i, 2] * self.scene.turning(name)
+        return total
+
+
+def _holds_guide(guide: Guide, through: str, scene: Scene) -> str:
+    """The member that takes the force on a guide: its link, or what carries a point elsewhere."""
+    if guide.on is not None and through in (scene.links[guide.on].start, scene.links[guide.on].end):
+        return guide.on
+    return scene.carrier(through)
+
+
+def turns_guide(guide: Guide, scene: Scene) -> str:
+    """The member that keeps the direction of a guide: its link, the block it rides on, or the frame."""
+    if guide.on is not None:
+        return guide.on
+    carrier = FRAME if guide.through is None else scene.carrier(guide.through)
+    return carrier if carrier == FRAME or _keeps_direction(carrier, scene) else FRAME
+
+
+def _keeps_direction(member: str, scene: Scene) -> bool:
+    """Whether a member slides without turning, and can take a moment: a block, or a yoke on the frame."""
+    found = scene.structure.members[member]
+    yoke = scene.mechanism.yokes.get(member)
+    return found.turns and (found.link is None or (yoke is not None and yoke.guide.on is None))

@@ -1,0 +1,174 @@
+"""Circuits and branches: in which assemblies a linkage can be put together, and which of them hang together.
+
+Each dyad has two assemblies. A *branch* is one choice for every dyad and one range of the crank; at an end of
+its range the dyad that limits it is stretched or folded, and the linkage goes on in the other assembly of
+that dyad. Branches that meet so make a *circuit*: from one to another the linkage must be taken apart (Chase
+and Mirth, *Circuits and branches of single-degree-of-freedom planar linkages*, Journal of Mechanical Design
+115 (1993) 223–230).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.public import public
+from linkwright.linkages.closure import closure_of, limiter_at
+from linkwright.linkages.dyads import dyads_of
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+
+# Dyads with two assemblies of which all combinations are looked at.
+_DYADS_MAX = 8
+
+# Kinds of rows (`crates/linkwright-core/src/plan.rs`) → place of the sign's slot.
+_SIGNS = {2: 12, 3: 11, 5: 13, 6: 7}
+
+# Rows that were made for one assembly: continuous angles, change points, groups.
+_TIED = frozenset((10, 11, 12, 15))
+
+# Difference of crank angles at which two branches end that is rounding: limits are roots.
+_MEET = 1e-6
+
+
+@dataclass(frozen=True)
+class Branch:
+    """One assembly in one range of the crank.
+
+    Attributes
+    ----------
+    assembly : dict of str to str
+        ``"given"`` or ``"other"`` by dyad: as in the machine's description, or mirrored.
+    low, high : float
+        Range of the crank [rad]; a full turn if it turns fully.
+    turns_fully : bool
+        Whether the crank turns all round.
+    """
+
+    assembly: dict[str, str]
+    low: float
+    high: float
+    turns_fully: bool
+
+
+@dataclass(frozen=True)
+class Circuit:
+    """Branches that hang together; the linkage passes from one to the next at the limits of the crank.
+
+    Attributes
+    ----------
+    branches : tuple of Branch
+        Those with as many dyads as possible in the given assembly first.
+    """
+
+    branches: tuple[Branch, ...]
+
+    @property
+    def turns_fully(self) -> bool:
+        """Whether the crank turns all round in it."""
+        return any(branch.turns_fully for branch in self.branches)
+
+
+@public
+def circuits(machine: Machine) -> tuple[Circuit, ...]:
+    """The circuits of a linkage.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; of a batch, the first.
+
+    Returns
+    -------
+    tuple of Circuit
+        The one with the given assembly first; empty if it closes in no assembly.
+
+    Raises
+    ------
+    InputError
+        More than 8 dyads have two assemblies, or the linkage has gears on swinging links, change points or
+        groups: these are known in the given assembly alone.
+    """
+    compiled = compile_machine(machine).first()
+    slots = _slots(compiled, machine)
+    branches = [
+        branch
+        for signs in product((1.0, -1.0), repeat=len(slots))
+        for branch in _branches(compiled, slots, signs)
+    ]
+    return tuple(Circuit(tuple(each for each, _ in group)) for group in _joined(branches))
+
+
+def _slots(compiled: Compiled, machine: Machine) -> dict[str, int]:
+    """Slot of the sign of each dyad that has two assemblies.
+
+    Raises
+    ------
+    InputError
+        They cannot be exchanged, or are too many.
+    """
+    if _TIED.intersection(row[0] for row in compiled.rows):
+        raise InputError(
+            f"{machine.name}: circuits are found for linkages of cranks and dyads; this one has change "
+            "points, gears on moving links or a group, which are followed in the given assembly alone"
+        )
+    slots = {each.name: each.row[_SIGNS[each.row[0]]] for each in dyads_of(compiled) if each.row[0] in _SIGNS}
+    if len(slots) > _DYADS_MAX:
+        raise InputError(
+            f"{machine.name} has {len(slots)} dyads with two assemblies each; circuits are found for up to "
+            f"{_DYADS_MAX}"
+        )
+    return slots
+
+
+# A branch, and at each of its ends the crank angle and the dyad that limits it.
+Ended = tuple[Branch, list[tuple[float, str]]]
+
+
+def _branches(compiled: Compiled, slots: dict[str, int], signs: tuple[float, ...]) -> list[Ended]:
+    """The branches of one choice of assemblies."""
+    q = compiled.parameters.copy()
+    q[list(slots.values())] *= signs
+    other = replace(compiled, parameters=q)
+    where = closure_of(other)
+    words = dict(zip(slots, ("given" if sign > 0 else "other" for sign in signs), strict=True))
+    whole = where.turns_fully
+    return [
+        (
+            Branch(words, low, high, whole),
+            [] if whole else [(end, limiter_at(other, end)) for end in (low, high)],
+        )
+        for low, high in where.ranges
+    ]
+
+
+def _joined(branches: list[Ended]) -> list[list[Ended]]:
+    """Branches in groups that meet at limits."""
+    groups: list[list[Ended]] = []
+    for branch in branches:
+        meeting = [group for group in groups if any(_meet(branch, each) for each in group)]
+        groups = [group for group in groups if group not in meeting]
+        groups.append([each for group in meeting for each in group] + [branch])
+    # The given assembly is the first branch.
+    return sorted(groups, key=lambda group: min(branches.index(each) for each in group))
+
+
+def _meet(first: Ended, second: Ended) -> bool:
+    """Whether two branches end at the same angle, by the same dyad, and differ in that dyad alone."""
+    return any(
+        _apart(a, b) < _MEET and dyad == limiting and _mirrored(first[0], second[0], dyad)
+        for a, dyad in first[1]
+        for b, limiting in second[1]
+    )
+
+
+def _mirrored(first: Branch, second: Branch, dyad: str) -> bool:
+    """Whether two assemblies differ in one dyad, and in no other."""
+    return [name for name in first.assembly if first.assembly[name] != second.assembly[name]] == [dyad]
+
+
+def _apart(a: float, b: float) -> float:
+    return float(abs((a - b + np.pi) % (2 * np.pi) - np.pi))

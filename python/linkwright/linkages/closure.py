@@ -1,0 +1,442 @@
+"""Whether a mechanism closes: at which crank angles every dyad can be assembled.
+
+Each dyad has a radicand, (length to spare)² in a sense, that is negative where its links cannot meet: l² − h²
+for a rod l at distance h from its guide, 4a²u² − (u² + a² − b²)² for a coupler a and a rocker b whose ends
+are u apart, c² − o² for a pin at distance c from the pivot of a slot with offset o. The angles where it
+changes sign bound the ranges in which the mechanism moves. For two guides that cross it is the square of the
+sine between them, for a group solved together the determinant of its equations, squared: both are zero where
+the motion is not determined.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import AssemblyError, InputError
+from linkwright.kernel.numerics.roots import minima, zeros
+from linkwright.kernel.public import public
+from linkwright.kernel.units import ANGLE
+from linkwright.linkages.dyads import dyads_of
+from linkwright.linkages.obstacle import change_point, describe
+from linkwright.linkages.period import turns_to_repeat
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+# A radicand whose parabola through three angles dips below this share of its greatest is looked into.
+_CLOSE = 1e-3
+
+# A radicand below this share counts as zero: links in line to a hundred-thousandth of their length.
+_ZERO = 1e-10
+
+# Angles of a first look, and the share of its greatest above which every radicand has room to spare: one that
+# falls to zero between two of these angles is a few ten-thousandths at the nearer one.
+_FEW = 180
+_AMPLE = 0.02
+
+# Angles at which closure is looked at; gaps and openings between two of them are found by the minima and
+# maxima that the parabolas through three angles promise.
+_ANGLES = 1440
+
+# Distance from a change point at which rates are compared [rad], and the difference, over one and their size,
+# that they may have there: a rate that is smooth changes by a hundredth of this.
+_BESIDE = 1e-5
+_JUMP = 1e-3
+
+# Difference in what the crank feels from one turn to the next, over its size, that counts as rounding.
+_SAME = 1e-7
+
+# Doublings of the turns looked at in a motion that never repeats: some 8000 turns either way.
+_DOUBLINGS = 13
+
+# Kind of the rows of slotted levers (`crates/linkwright-core/src/plan.rs`).
+_LEVER = 6
+
+# Number of a link among what the core can give the motion of.
+_LINK = 1
+
+
+@dataclass(frozen=True)
+class Closure:
+    """Where a mechanism closes.
+
+    Attributes
+    ----------
+    ranges : tuple of (float, float)
+        Ranges of crank angle in which every element closes [rad]; one range of a full turn, or of all the
+        turns of a longer motion, if it turns fully, none if it never closes. A range may pass 2π.
+    element : str
+        Name of the first element that does not close; empty if all do.
+    change_point : float or None
+        Crank angle at which that element closes with nothing to spare [rad] and its motion does not go on
+        by itself: its speeds are not determined there.
+    turns : int or None
+        Turns of the crank after which the motion repeats; None if it never does, as with a screw.
+    """
+
+    ranges: tuple[tuple[float, float], ...]
+    element: str
+    change_point: float | None = None
+    turns: int | None = 1
+
+    @property
+    def turns_fully(self) -> bool:
+        """Whether the crank can turn all round."""
+        return not self.element
+
+    @property
+    def moves(self) -> bool:
+        """Whether the first range is more than a single angle, at which the mechanism stands."""
+        return bool(self.ranges) and self.ranges[0][1] - self.ranges[0][0] >= ANGLE.least
+
+
+@public
+def closure(machine: Machine) -> Closure:
+    """Find the crank angles at which the mechanism closes.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    Closure
+        Ranges of crank angle, and the element that limits them.
+    """
+    return closure_of(compile_machine(machine))
+
+
+def closure_of(compiled: Compiled) -> Closure:
+    """`closure` of a compiled machine."""
+    turns = turns_to_repeat(compiled)
+    if turns is None:
+        return _endless(compiled)
+    full = Closure(((0.0, 2 * np.pi * turns),), "", turns=turns)
+    if not compiled.dyads:
+        return full
+    gaps = compiled.gaps(_over(turns, _FEW))
+    flat = np.flatnonzero((gaps == 0).all(axis=1))
+    if len(flat):
+        # Guides that are always parallel never meet.
+        return Closure((), compiled.dyads[int(flat[0])], turns=turns)
+    if (gaps.min(axis=1) > _AMPLE * gaps.max(axis=1)).all():
+        return full
+    return _Search(compiled, turns).run() or full
+
+
+def _over(turns: int, per_turn: int) -> Floats:
+    """Crank angles of a whole period, its end included."""
+    if turns == 1:
+        return turn_angles(per_turn)
+    return np.linspace(0.0, 2 * np.pi * turns, per_turn * turns + 1)
+
+
+def limiter_at(compiled: Compiled, angle: float) -> str:
+    """Name of the dyad that limits the motion at an end of a range."""
+    return _Search(compiled, 1).limiter(angle)
+
+
+class _Search:
+    """The angles of a fine look over the period, with those added where something happens between them."""
+
+    def __init__(self, compiled: Compiled, turns: int) -> None:
+        self.compiled, self.turns = compiled, turns
+        self.period = 2 * np.pi * turns
+        self.angles: Floats = _over(turns, _ANGLES)[:-1].copy()
+        gaps = compiled.gaps(self.angles)
+        # A dyad that closes nowhere is measured by how far it is from closing.
+        known = np.abs(gaps) if not (gaps > 0).any() else gaps
+        self.sizes: Floats = np.nan_to_num(known).max(axis=1, keepdims=True)
+        self.sizes[self.sizes <= 0] = np.nan_to_num(np.abs(gaps)).max() or 1.0
+        self.room = self._least(gaps)
+
+    def _least(self, gaps: Floats) -> Floats:
+        # A dyad behind one that does not close is NaN, and that one is negative.
+        least: Floats = np.fmin.reduce(gaps / self.sizes, axis=0)
+        return least
+
+    def spare(self, angles: Floats) -> Floats:
+        """Least radicand of all dyads as a share of its greatest, at crank angles."""
+        return self._least(self.compiled.gaps(angles))
+
+    def limiter(self, angle: float) -> str:
+        """Name of the dyad with the least radicand at an angle."""
+        gaps = self.compiled.gaps(np.array([angle])) / self.sizes
+        return self.compiled.dyads[int(np.nanargmin(gaps[:, 0]))]
+
+    def run(self) -> Closure | None:
+        """The closure; None if it closes all round."""
+        touch = self._between(+1)
+        self._between(-1)
+        # Links in line leave zero, or by rounding a little less.
+        closes = self.room >= -_ZERO
+        if closes.all():
+            return None if touch is None else self._touched(touch)
+        return Closure(tuple(self._ranges(closes)), self._element(closes), turns=self.turns)
+
+    def _between(self, sign: int) -> float | None:
+        """Adds minima below zero between closing angles (+1), or maxima above zero between open ones (−1).
+
+        Gives the angle of a minimum that touches zero.
+        """
+        room = sign * self.room
+        before, after = np.roll(room, 1), np.roll(room, -1)
+        bend = np.maximum(before + after - 2 * room, 1e-30)
+        lowest = room - (after - before) ** 2 / (8 * bend)
+        found = np.flatnonzero((room <= before) & (room <= after) & (room >= -_ZERO) & (lowest < _CLOSE))
+        if not len(found):
+            return None
+        step = 2 * np.pi / _ANGLES
+        near = self.angles[found]
+        at, least = minima(lambda x: sign * self.spare(x), near - step, near + step)
+        missed = least < -_ZERO
+        order = np.argsort(angles := np.concatenate([self.angles, at[missed] % self.period]))
+        room = np.concatenate([self.room, sign * least[missed]])
+        self.angles, self.room = angles[order], room[order]
+        touches = at[np.abs(least) <= _ZERO]
+        touching = [
+            float(x) for x in touches if not (self._is_known(float(x)) or _passes(self.compiled, float(x)))
+        ]
+        return touching[0] % self.period if touching else None
+
+    def _is_known(self, at: float) -> bool:
+        """Whether the dyad that touches zero passes a change point there."""
+        near, turn = self.limiter(at), 2 * np.pi
+        known = (
+            point for dyad in dyads_of(self.compiled) if dyad.name == near for point in dyad.change_points
+        )
+        return any(abs((at - point + np.pi) % turn - np.pi) < _BESIDE for point in known)
+
+    def _touched(self, at: float) -> Closure:
+        """A dyad is stretched or folded: the positions alone do not tell the rates of its links there."""
+        return Closure(((at, at + self.period),), self.limiter(at), at, self.turns)
+
+    def _element(self, closes: NDArray[np.bool_]) -> str:
+        """The first dyad in build order that does not close somewhere."""
+        gaps = self.compiled.gaps(self.angles[~closes])
+        fails = (gaps < -_ZERO * self.sizes).any(axis=1)
+        return self.compiled.dyads[int(np.argmax(fails))]
+
+    def _ranges(self, closes: NDArray[np.bool_]) -> Iterator[tuple[float, float]]:
+        starts = np.flatnonzero(closes & ~np.roll(closes, 1))
+        ends = np.flatnonzero(closes & ~np.roll(closes, -1))
+        if not len(starts):
+            return
+        inside = self.angles[np.concatenate([starts, ends])]
+        around = np.concatenate([np.roll(self.angles, 1)[starts], np.roll(self.angles, -1)[ends]])
+        # The neighbour across the end of the period.
+        around = inside + (around - inside + self.period / 2) % self.period - self.period / 2
+        edges = self._edges(inside, around)
+        for low, start in zip(edges[: len(starts)], starts, strict=True):
+            high = edges[len(starts) + np.searchsorted(ends, start) % len(ends)]
+            yield float(low), float(high if high >= low else high + self.period)
+
+    def _edges(self, inside: Floats, outside: Floats) -> Floats:
+        """Where the ranges end, between angles that close and their neighbours that do not."""
+        near, far = zeros(self.spare, inside, outside)
+        edges = np.where(self.spare(near) >= 0, near, far)
+        # An angle that closes by rounding alone is the edge itself.
+        return np.where(self.spare(inside) > 0, edges, inside)
+
+
+def _endless(compiled: Compiled) -> Closure:
+    """A motion that never repeats: from where it is at angle zero as far as it goes, both ways."""
+    reach, found = 2 * np.pi, Closure(((0.0, 2 * np.pi),), "", turns=None)
+    for _ in range(_DOUBLINGS if compiled.dyads else 0):
+        angles = np.linspace(-reach, reach, 2 * _ANGLES + 1)
+        gaps = compiled.gaps(angles)
+        closes = _closing(gaps)
+        sizes = np.nan_to_num(np.abs(gaps)).max(axis=1, keepdims=True)
+        worst = np.nan_to_num(gaps / np.maximum(sizes, 1e-300), nan=-1.0).min(axis=1)
+        element = compiled.dyads[int(np.argmin(worst))]
+        if not closes[_ANGLES]:
+            return Closure((), element, turns=None)
+        ends = [_first_end(compiled, angles[_ANGLES::way], closes[_ANGLES::way]) for way in (-1, 1)]
+        if ends != [None, None]:
+            low = -reach if ends[0] is None else ends[0]
+            high = reach if ends[1] is None else ends[1]
+            found = Closure(((low, high),), element, turns=None)
+        if None not in ends:
+            break
+        reach *= 2
+    return found
+
+
+def _first_end(compiled: Compiled, angles: Floats, closes: Flags) -> float | None:
+    """Where a motion that starts at the first angle ends; None if it goes on to the last."""
+    if closes.all():
+        return None
+
+    def least(at: Floats) -> Floats:
+        found: Floats = np.fmin.reduce(compiled.gaps(at), axis=0)
+        return found
+
+    first = int(np.argmin(closes))
+    return float(zeros(least, angles[first - 1 : first], angles[first : first + 1])[0][0])
+
+
+def _closing(gaps: Floats) -> Flags:
+    """At which angles every dyad closes, (n,). Links in line leave zero, or by rounding a little less."""
+    sizes = np.nan_to_num(gaps).max(axis=1, keepdims=True)
+    closes: Flags = ((gaps >= -_ZERO * sizes) & (sizes > 0)).all(axis=0)
+    return closes
+
+
+def _passes(compiled: Compiled, at: float) -> bool:
+    """Whether the links go on where one touches zero: directions and rates agree before, at and after it.
+
+    A group is not carried on through a change point, and its rates jump; a lever whose pin passes over its
+    pivot turns about at once.
+    """
+    angles = at + np.array([-_BESIDE, 0.0, _BESIDE])
+    out = np.empty((1, 4 * len(compiled.links), 3))
+    compiled.first().motions(angles, [(_LINK, index) for index in compiled.links.values()], out.reshape(-1))
+    numbers = out.reshape(-1, 4, 3)[:, :3].reshape(-1, 3)
+    jumps = np.ptp(numbers, axis=1)
+    return bool((jumps <= _JUMP * (1 + np.abs(numbers).max(axis=1))).all())
+
+
+def require_full_turn(compiled: Compiled, machine: Machine) -> None:
+    """Raise if the crank cannot turn all round.
+
+    Raises
+    ------
+    AssemblyError
+        Says which element does not close, where the mechanism closes, and what to change.
+    """
+    found = closure_of(compiled)
+    if not found.turns_fully:
+        raise closure_error(found, machine)
+
+
+def require_one_turn(compiled: Compiled) -> None:
+    """Raise if the crank does not feel the same masses and loads again after one turn.
+
+    Raises
+    ------
+    AssemblyError
+        Says after how many turns it does, and what to change.
+    """
+    if compiled.one_turn:
+        return
+    turns = turns_to_repeat(compiled)
+    if turns != 1 and not _feels_one_turn(compiled):
+        after = f"only after {turns} turns" if turns else "never"
+        raise AssemblyError(
+            f"masses and loads are {after} again where they were, so one turn of the crank does not tell the "
+            "motion; let the crank be the part that turns slowest, or give masses and loads to parts that "
+            "repeat with it"
+        )
+
+
+def _feels_one_turn(compiled: Compiled) -> bool:
+    """Whether the crank feels the same inertia and load in the next turn."""
+    first, next_ = (compiled.first().reductions(turn_angles(16) + turn) for turn in (0.0, 2 * np.pi))
+    sizes = np.abs(first).max(axis=1, keepdims=True)
+    return bool((np.abs(next_ - first) <= _SAME * sizes).all())
+
+
+def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None:
+    """Raise if the mechanism does not close at one of some crank angles, or is not determined between them.
+
+    Raises
+    ------
+    AssemblyError
+        Says which element does not close, where the mechanism closes, and what to change; or which change
+        point lies at one of the angles or between them, where the motion does not go on by itself.
+    """
+    if not compiled.dyads:
+        return
+    gaps = compiled.gaps(angles)
+    closes = (gaps >= 0).all(axis=0)
+    if closes.all() and not has_levers(compiled):
+        return
+    at = float(angles[int(np.argmin(closes))])
+    found = closure_of(compiled)
+    if closes.all():
+        if _meets_change_point(found, angles):
+            raise closure_error(found, machine)
+        return
+    if found.turns_fully:
+        # Less than nothing by rounding alone.
+        return
+    text = f"at crank angle {_deg(at)}° {_sentence(found, machine)}"
+    raise AssemblyError(text, element=found.element, crank_angle=at)
+
+
+def has_levers(compiled: Compiled) -> bool:
+    """Whether there is a dyad that is not carried on through a change point: levers turn about there."""
+    return any(row[0] == _LEVER for row in compiled.rows)
+
+
+def _meets_change_point(found: Closure, angles: Floats) -> bool:
+    """Whether a change point where the motion does not go on lies at one of the angles, or between them."""
+    if found.change_point is None or found.turns is None:
+        return False
+    turns = (angles - found.change_point) / (2 * np.pi * found.turns)
+    near = np.abs(turns - np.round(turns)) * 2 * np.pi * found.turns < _BESIDE
+    return bool(near.any() or np.ptp(np.floor(turns)) > 0)
+
+
+def closure_error(found: Closure, machine: Machine) -> AssemblyError:
+    """The error for a mechanism that does not turn fully: what does not close, where, and what to change.
+
+    Parameters
+    ----------
+    found : Closure
+        Of a mechanism that does not turn fully.
+    machine : Machine
+        Its description.
+    """
+    at = found.ranges[0][1] if found.ranges else 0.0
+    at = at if found.turns is None else at % (2 * np.pi * found.turns)
+    return AssemblyError(_sentence(found, machine), element=found.element, crank_angle=at)
+
+
+def _sentence(found: Closure, machine: Machine) -> str:
+    """What does not close, where, and the remedy."""
+    if found.change_point is not None:
+        what, remedy = change_point(found.element, machine)
+        where = f"a change point at crank angle {_deg(found.change_point)}°"
+        return f"{found.element} reaches {where}: {what}; {remedy}"
+    what, remedy = describe(found.element, machine)
+    if not found.ranges:
+        return f"the mechanism does not close at any crank angle: {what}; {remedy}"
+    where = " and ".join(_range(low, high, found.turns) for low, high in found.ranges)
+    return f"the mechanism closes only at crank angles {where}: beyond, {what}; {remedy}"
+
+
+def _range(low: float, high: float, turns: int | None) -> str:
+    """A range in degrees; one that passes a full turn is given about 0°."""
+    turn = 2 * np.pi * (turns or 1)
+    back = turn if turns and high > turn * (1 + 1e-9) else 0.0
+    return f"{_deg(low - back)}° to {_deg(high - back)}°"
+
+
+def _deg(angle: float) -> str:
+    rounded = round(float(np.degrees(angle)), 2)
+    return f"{0.0 if rounded == 360.0 else rounded:.2f}"
+
+
+@lru_cache(maxsize=8)
+def turn_angles(n: int) -> NDArray[np.float64]:
+    """Crank angles from 0 to 2π inclusive, ``n`` intervals [rad]; shared by results, so read-only.
+
+    Raises
+    ------
+    InputError
+        ``n`` is less than 1.
+    """
+    if n < 1:
+        raise InputError(f"n = {n}: expected at least 1 interval of the turn")
+    angles = np.linspace(0.0, 2 * np.pi, n + 1)
+    angles.flags.writeable = False
+    return angles

@@ -1,0 +1,240 @@
+"""``linkwright motion FILE``: where everything is, at one crank angle, over a turn or over time."""
+
+from __future__ import annotations
+
+from math import degrees, pi
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.kernel.command.common import Json, Outside, Sets, option_value
+from linkwright.kernel.command.out import Force, Out, put
+from linkwright.kernel.errors import InputError, require_within
+from linkwright.kernel.limits import ROWS_OUT
+from linkwright.kinetostatics.crank_speed import CrankSpeed, crank_speed
+
+if TYPE_CHECKING:
+    from linkwright.linkages.law import Law
+    from linkwright.linkages.pose import Pose
+    from linkwright.machine.machine import Machine
+
+At = Annotated[
+    str | None,
+    typer.Option("--at", metavar="ANGLE", help="One pose, at this crank angle.", show_default=False),
+]
+Speed = Annotated[
+    str | None,
+    typer.Option(
+        "--speed",
+        metavar="SPEED",
+        help='Speed of the crank, such as "90 rpm", for --at and a turn without --law. Without it, the '
+        "design speed of the file, or 1 rad/s where it has none.",
+        show_default=False,
+    ),
+]
+LawText = Annotated[
+    str | None,
+    typer.Option(
+        "--law",
+        metavar="FORMULA|FILE",
+        help='Crank angle [rad] over time t [s]: a formula as "2*pi*t", or a CSV file of times and angles.',
+        show_default=False,
+    ),
+]
+Duration = Annotated[
+    str | None,
+    typer.Option(
+        "--duration",
+        metavar="TIME",
+        help="With --law as a formula: how long it is followed. Without it, 1 s.",
+        show_default=False,
+    ),
+]
+Steps = Annotated[int, typer.Option("--steps", metavar="N", help="Intervals of the turn or of the time.")]
+Csv = Annotated[bool, typer.Option("--csv", help="CSV with all columns, in SI.")]
+File = Annotated[Path, typer.Argument(metavar="FILE", help="The machine file.", show_default=False)]
+
+
+def motion(
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    at: At = None,
+    speed: Speed = None,
+    law: LawText = None,
+    duration: Duration = None,
+    steps: Steps = 72,
+    csv: Csv = False,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Where everything is and how fast it moves.
+
+    One pose with --at, under a law of time with --law, else a turn of the crank at constant speed.
+    """
+    from linkwright.machine.files.read import read
+
+    if steps < 1:
+        raise InputError(f"--steps: found {steps}, expected 1 or more")
+    require_within(ROWS_OUT, steps, "--steps", "take fewer")
+    if at is not None and law is not None:
+        raise InputError("--at and --law: one pose or a motion, not both")
+    if speed is not None and law is not None:
+        raise InputError("--speed and --law: the law gives the speed; expected one of them")
+    if duration is not None and (law is None or _is_table(law)):
+        raise InputError("--duration: it belongs to a --law that is a formula")
+    machine = read(file, set or [], allow_outside=allow_outside)
+    if law is not None:
+        text = _under_law(machine, law, duration or "1 s", steps, json=json, csv=csv)
+    elif at is not None:
+        text = _pose(machine, at, crank_speed(machine, speed), json=json, csv=csv)
+    else:
+        text = _turn(machine, crank_speed(machine, speed), steps, json=json, csv=csv)
+    put(text, out, force=force)
+
+
+def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool) -> str:
+    """One pose as a table, CSV or JSON."""
+    from linkwright.kernel.files.csv_text import csv_text
+    from linkwright.kernel.units import ANGLE
+    from linkwright.linkages.pose import pose
+
+    found = pose(machine, option_value("--at", at, ANGLE), speed=speed.value)
+    if json:
+        return _object(found.to_dict() | {"speed_source": speed.source})
+    phi = found.crank_angle
+    rows = [("crank angle", "φ [rad]", (phi, found.speed, found.acceleration)), *_pose_rows(found)]
+    if csv:
+        typer.echo(speed, err=True)
+        heads = ("name", "quantity", "position", "velocity", "acceleration")
+        # A transmission angle stands alone: rows are as long as the head all the same.
+        empty = (float("nan"),) * 2
+        return csv_text(heads, ((name, what, *(*numbers, *empty)[:3]) for name, what, numbers in rows))
+    lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad, {speed}"]
+    lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
+    lines += [
+        f"{name + ' ' + what:<24}" + "".join(f"{value:>16.8g}" for value in numbers)
+        for name, what, numbers in rows
+    ]
+    if found.near_limit:
+        lines.append(f"near a limit: {', '.join(found.near_limit)}")
+    return "\n".join(lines) + "\n"
+
+
+def _pose_rows(found: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
+    """Name, quantity with its unit, and position, velocity, acceleration."""
+    rows: list[tuple[str, str, tuple[float, ...]]] = []
+    for name, point in found.points.items():
+        for k, axis in enumerate("xy"):
+            numbers = (point.position[k], point.velocity[k], point.acceleration[k])
+            rows.append((name, f"{axis} [m]", numbers))
+    for unit, part in (("angle [rad]", found.links), ("place [m]", found.slides)):
+        for name, each in part.items():
+            rows.append((name, unit, (each.position, each.velocity, each.acceleration)))
+    for name, mu in found.transmission_angles.items():
+        rows.append((name, "μ [rad]", (mu,)))
+    return rows
+
+
+def _turn(machine: Machine, speed: CrankSpeed, steps: int, *, json: bool, csv: bool) -> str:
+    """A revolution at a constant speed."""
+    from linkwright.kernel.units import SPEED
+    from linkwright.linkages.law import constant_speed
+
+    if speed.value < SPEED.least:
+        expected = f"a speed above zero for a turn, {SPEED.least:g} rad/s or more"
+        raise InputError(f"--speed: found {speed.value:g} rad/s, expected {expected}")
+    times = (0.0, 2 * pi / speed.value)
+    told = {"crank_speed": speed.value, "speed_source": speed.source}
+    head = f"one revolution of the crank in {times[1]:.6g} s, {speed}"
+    return _followed(machine, constant_speed(speed.value), times, steps, head, told, json=json, csv=csv)
+
+
+def _under_law(machine: Machine, law: str, duration: str, steps: int, *, json: bool, csv: bool) -> str:
+    """The motion under a law of the crank."""
+    from linkwright.kernel.units import TIME
+
+    driver, start, end = _law(law), 0.0, option_value("--duration", duration, TIME)
+    if hasattr(driver, "times"):
+        start, end = driver.times[[0, -1]]
+    if not end > start:
+        raise InputError(f"--duration: found {end:g} s, expected more than {start:g} s")
+    head = f"crank angle [rad] by {law}, from {start:g} s to {end:g} s"
+    return _followed(machine, driver, (start, end), steps, head, {"law": law}, json=json, csv=csv)
+
+
+def _followed(
+    machine: Machine,
+    law: Law,
+    span: tuple[float, float],
+    steps: int,
+    head: str,
+    told: dict[str, Any],
+    *,
+    json: bool,
+    csv: bool,
+) -> str:
+    """A motion as a table of the outputs, CSV or JSON of everything; what drives it is said first."""
+    import numpy as np
+
+    from linkwright.kernel.page.csv import curves_csv
+    from linkwright.linkages.motion import motion as follow
+
+    found = follow(machine, law, np.linspace(*span, steps + 1))
+    if json:
+        return _object(told | found.to_dict(curves=True) | _lists(found.curves()))
+    if csv:
+        typer.echo(head, err=True)
+        return curves_csv(found)
+    return f"{head}\n{_table(found.curves())}"
+
+
+def _object(found: dict[str, Any]) -> str:
+    """One JSON object."""
+    from json import dumps
+
+    from linkwright.kernel.result import finite
+
+    return dumps(finite(found), allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:
+    return {name: curve.tolist() for name, curve in curves.items()}
+
+
+def _table(curves: dict[str, Any]) -> str:
+    """Positions alone, for people; everything is in the CSV."""
+    from linkwright.kernel.page.csv import head
+
+    shown = {
+        head(name): curve for name, curve in curves.items() if name == "time" or _is_position(name, curve)
+    }
+    width = max(14, *(len(name) + 2 for name in shown))
+    lines = ["".join(f"{name:>{width}}" for name in shown)]
+    lines += ["".join(f"{x:>{width}.7g}" for x in row) for row in zip(*shown.values(), strict=True)]
+    return "\n".join(lines) + "\n"
+
+
+def _is_position(name: str, curve: Any) -> bool:
+    """Whether a column is a position of something that moves."""
+    return name == "crank_angle" or (
+        name.endswith((".x", ".y", ".angle", ".place")) and float(curve.max() - curve.min()) > 0
+    )
+
+
+def _is_table(law: str) -> bool:
+    return law.lower().endswith(".csv")
+
+
+def _law(text: str) -> Law:
+    """A formula, or the table in a file."""
+    if _is_table(text):
+        from linkwright.linkages.law import TableLaw
+        from linkwright.linkages.law_table import read_law_table
+
+        return TableLaw(*read_law_table(Path(text)))
+    from linkwright.linkages.law_formula import FormulaLaw
+
+    return FormulaLaw(text)

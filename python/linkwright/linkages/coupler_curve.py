@@ -1,0 +1,275 @@
+r"""The path of a point: length, extent, curvature, its straightest portion, double points and cusps.
+
+.. math::
+
+    L = \int \lVert\mathbf p'\rVert\,d\varphi, \qquad \kappa = \frac{x'y'' - y'x''}{\lVert\mathbf p'\rVert^3}
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import MachineError, Problem, ShapeError
+from linkwright.kernel.numerics.roots import brackets, minima, zeros
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.linkages.closure import closure_error, closure_of
+from linkwright.linkages.dyads import POINT, evaluate
+from linkwright.linkages.period import turns_to_repeat
+from linkwright.linkages.straight_portion import straightest
+from linkwright.linkages.turning import Cycle
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+
+Floats = NDArray[np.float64]
+
+# Greatest distance from the chord, over its length, of what counts as straight.
+_STRAIGHT = 1e-3
+
+# Speed of the point, over its greatest, at which its path has a cusp: its square is known to rounding.
+_STANDS = 1e-7
+
+# Rounds of Newton for a double point; from a degree's polygon four suffice.
+_ROUNDS = 20
+
+
+class DoublePoint(NamedTuple):
+    """Where a path crosses itself: place [m], and the two crank angles [rad]."""
+
+    x: float
+    y: float
+    first_angle: float
+    second_angle: float
+
+
+class Cusp(NamedTuple):
+    """Where the point stands still and turns back: place [m], and the crank angle [rad]."""
+
+    x: float
+    y: float
+    angle: float
+
+
+@dataclass(frozen=True)
+class CouplerCurve(Result):
+    """The path of a point over the cycle.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n,)
+        [rad].
+    x, y : ndarray
+        The path [m].
+    curvature : ndarray
+        Positive where it bends to the left [1/m].
+    point : str
+        Name of the point.
+    is_closed : bool
+        Whether the path comes back to its start.
+    length : float
+        [m].
+    x_min, x_max, y_min, y_max : float
+        Its extent, located exactly [m].
+    straight_length : float
+        Chord of the longest portion that is straight: nowhere farther from its chord than a thousandth of it
+        [m].
+    straight_from, straight_to : float
+        Crank angles at its ends [rad]; the second is greater.
+    straight_error : float
+        Greatest distance from that chord [m].
+    double_points : tuple of DoublePoint
+        Where the path crosses itself.
+    cusps : tuple of Cusp
+        Where the point stands still.
+    """
+
+    crank_angle: Floats
+    x: Floats
+    y: Floats
+    curvature: Floats
+    point: str
+    is_closed: bool
+    length: float
+    x_min: float
+    x_max: float
+    y_min: float
+    y_max: float
+    straight_length: float
+    straight_from: float
+    straight_to: float
+    straight_error: float
+    double_points: tuple[DoublePoint, ...]
+    cusps: tuple[Cusp, ...]
+
+
+@public
+def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) -> CouplerCurve:
+    """The path of a point over the cycle.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; of a batch, the first.
+    point : str
+        Name of a point that moves.
+    straight : float
+        Greatest distance from the chord of what counts as straight, over the chord's length.
+
+    Returns
+    -------
+    CouplerCurve
+        Over the period; of a mechanism with limits, over the first range in which it closes.
+
+    Raises
+    ------
+    MachineError
+        There is no such point.
+    ShapeError
+        ``straight`` is not between 0 and 1.
+    AssemblyError
+        The mechanism closes nowhere.
+    """
+    if not 0 < straight < 1:
+        raise ShapeError(f"straight = {straight:g}: expected a number between 0 and 1")
+    compiled = compile_machine(machine).first()
+    if point not in compiled.points:
+        raise MachineError([Problem("point", point, f"one of {', '.join(compiled.points)}")])
+    where = closure_of(compiled)
+    if not where.moves:
+        raise closure_error(where, machine)
+    cycle = Cycle.of(where, turns_to_repeat(compiled) if where.turns_fully else None)
+    return _Path(compiled, compiled.points[point], cycle).result(point, straight)
+
+
+class _Path:
+    """A path with what is looked for on it."""
+
+    def __init__(self, compiled: Compiled, index: int, cycle: Cycle) -> None:
+        self.compiled, self.index, self.cycle = compiled, index, cycle
+        self.table = self.at(cycle.angles)
+        self.place = self.table[:2].T
+
+    def at(self, angles: Floats) -> Floats:
+        """x, y, x′, y′, x″, y″ at crank angles."""
+        return evaluate(self.compiled, [(POINT, self.index)], angles)[0]
+
+    def result(self, point: str, straight: float) -> CouplerCurve:
+        x, y, x1, y1, x2, y2 = self.table
+        speed = np.hypot(x1, y1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            curvature = (x1 * y2 - y1 * x2) / speed**3
+        (x_min, x_max), (y_min, y_max) = self._extent(0), self._extent(1)
+        start, end, chord, error = straightest(self.at, self.cycle, straight)
+        return CouplerCurve(
+            crank_angle=self.cycle.angles,
+            x=x,
+            y=y,
+            curvature=curvature,
+            point=point,
+            is_closed=self.cycle.repeats,
+            length=self._length(),
+            x_min=x_min,
+            x_max=x_max,
+            y_min=y_min,
+            y_max=y_max,
+            straight_length=chord,
+            straight_from=start,
+            straight_to=end,
+            straight_error=error,
+            double_points=tuple(self._double_points()),
+            cusps=tuple(self._cusps()),
+        )
+
+    def _length(self) -> float:
+        """Gauss–Legendre from sample to sample, and to where the point stands: there its speed has a kink."""
+        nodes, weights = np.polynomial.legendre.leggauss(4)
+        ends = np.union1d(self.cycle.angles, self._stops())
+        low, high = ends[:-1, None], ends[1:, None]
+        at = 0.5 * (low + high) + 0.5 * (high - low) * nodes
+        table = self.at(at.ravel())
+        speed = np.hypot(table[2], table[3]).reshape(at.shape)
+        return float((speed @ weights @ (0.5 * (high - low)[:, 0])).item())
+
+    def _extent(self, axis: int) -> tuple[float, float]:
+        """Least and greatest x or y."""
+        _, column = brackets(self.table[2 + axis][None])
+        angles = self.cycle.angles
+        at = angles[[0, -1]]
+        if len(column):
+            near, _ = zeros(lambda phi: self.at(phi)[2 + axis], angles[column], angles[column + 1])
+            at = np.concatenate([at, near])
+        values = self.at(at)[axis]
+        return float(values.min()), float(values.max())
+
+    # -- double points and cusps -------------------------------------------------------------------------
+
+    def _double_points(self) -> list[DoublePoint]:
+        """Crossings of the polygon through the samples, then Newton on p(φ₁) = p(φ₂)."""
+        found: list[DoublePoint] = []
+        size = float(np.ptp(self.place, axis=0).max())
+        for first, second in _crossings(self.place, closed=self.cycle.repeats):
+            angles = self.cycle.angles[[first, second]] + 0.5 * (self.cycle.angles[1] - self.cycle.angles[0])
+            point = self._double_point(angles, size)
+            if point is not None and not any(
+                np.hypot(point.x - p.x, point.y - p.y) < 1e-9 * size for p in found
+            ):
+                found.append(point)
+        return found
+
+    def _double_point(self, angles: Floats, size: float) -> DoublePoint | None:
+        for _ in range(_ROUNDS):
+            table = self.at(angles)
+            off = table[:2, 0] - table[:2, 1]
+            jacobian = np.array([table[2:4, 0], -table[2:4, 1]]).T
+            if not np.isfinite(table).all() or abs(np.linalg.det(jacobian)) <= 1e-14 * size**2:
+                return None
+            step = np.linalg.solve(jacobian, -off)
+            angles = angles + np.clip(step, -0.1, 0.1)
+            if np.abs(step).max() < 1e-13:
+                break
+        table = self.at(angles)
+        apart = abs((angles[0] - angles[1] + np.pi) % (2 * np.pi) - np.pi)
+        if np.hypot(*(table[:2, 0] - table[:2, 1])) > 1e-12 * size or apart < 1e-4:
+            return None
+        low, high = sorted(float(angle) % (2 * np.pi) for angle in angles)
+        return DoublePoint(float(table[0, 0]), float(table[1, 0]), low, high)
+
+    def _cusps(self) -> list[Cusp]:
+        at = self._stops()
+        return [
+            Cusp(float(x), float(y), self.cycle.named(phi))
+            for x, y, phi in zip(*self.at(at)[:2], at, strict=True)
+        ]
+
+    def _stops(self) -> Floats:
+        """Crank angles at which the point stands still: minima of its speed that are zero."""
+        speed = np.hypot(self.table[2], self.table[3])
+        inner = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] < speed[2:])) + 1
+        inner = inner[speed[inner] < 0.1 * speed.max()]
+        if not len(inner):
+            return np.empty(0)
+        angles = self.cycle.angles
+        at, least = minima(lambda phi: np.hypot(*self.at(phi)[2:4]), angles[inner - 1], angles[inner + 1])
+        found: Floats = at[least <= _STANDS * speed.max()]
+        return found
+
+
+def _crossings(place: Floats, *, closed: bool) -> list[tuple[int, int]]:
+    """Pairs of segments of a polygon that cross, neighbours left out."""
+    a, d = place[:-1], np.diff(place, axis=0)
+    n = len(d)
+    first, second = np.triu_indices(n, 2)
+    if closed:
+        keep = ~((first == 0) & (second == n - 1))
+        first, second = first[keep], second[keep]
+    r, s, q = d[first], d[second], a[second] - a[first]
+    cross = r[:, 0] * s[:, 1] - r[:, 1] * s[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        t = (q[:, 0] * s[:, 1] - q[:, 1] * s[:, 0]) / cross
+        u = (q[:, 0] * r[:, 1] - q[:, 1] * r[:, 0]) / cross
+    hit = (t >= 0) & (t <= 1) & (u >= 0) & (u <= 1)
+    return list(zip(first[hit].tolist(), second[hit].tolist(), strict=True))

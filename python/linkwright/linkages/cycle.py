@@ -1,0 +1,280 @@
+r"""A linkage over its cycle: extreme positions, time ratios, transmission angles, velocity ratios, Grashof.
+
+.. math::
+
+    i = \frac{d\psi}{d\varphi}\ \text{or}\ \frac{ds}{d\varphi}, \qquad \frac{M_\text{out}}{M_\text{in}} =
+    \frac{1}{i}
+
+Extremes are zeros of exact derivatives: bracketed on a grid, then located to rounding.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.linkages.closure import Closure, closure_error, closure_of
+from linkwright.linkages.dead_points import DeadPoint, dead_points
+from linkwright.linkages.grashof import FourBar, four_bars
+from linkwright.linkages.outputs import Output
+from linkwright.linkages.period import turns_to_repeat
+from linkwright.linkages.turning import Cycle, Swept, sweep
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+
+Floats = NDArray[np.float64]
+
+# Difference of the rates of two links that stay parallel: rounding, lost near change points.
+_PARALLEL = 1e-6
+
+
+@dataclass(frozen=True)
+class ElementMotion:
+    """One element over the cycle.
+
+    Attributes
+    ----------
+    element : str
+        Its name; for bars, that of their joint.
+    output : str
+        Name of the link or slide that is looked at.
+    swing : float or None
+        Between the extreme positions of the link [rad]; None if it turns on, or is none.
+    stroke : float or None
+        Between the extreme positions of the slide [m]; None if there is none.
+    turns : float or None
+        Turns of the link in a period where it turns on.
+    low, high : float
+        Extreme positions [rad or m].
+    low_angle, high_angle : float
+        Crank angles there [rad].
+    time_ratio : float or None
+        Crank angle of the slower stroke over that of the quicker one [–], at least 1.
+    velocity_ratio_min, velocity_ratio_max : float or None
+        Extremes of the output's speed over the crank's [– or m/rad]; None where they grow without limit.
+    mechanical_advantage_min : float or None
+        Least torque or force out for the torque in, without losses [– or 1/m].
+    transmission_angle_min, transmission_angle_max : float or None
+        Extremes of μ [rad]; None for what is no dyad.
+    transmission_angle_min_angle, transmission_angle_max_angle : float or None
+        Crank angles there [rad].
+    four_bar : FourBar or None
+        The four-bar loop that the element closes.
+    """
+
+    element: str
+    output: str
+    swing: float | None
+    stroke: float | None
+    turns: float | None
+    low: float
+    high: float
+    low_angle: float
+    high_angle: float
+    time_ratio: float | None
+    velocity_ratio_min: float | None
+    velocity_ratio_max: float | None
+    mechanical_advantage_min: float | None
+    transmission_angle_min: float | None = None
+    transmission_angle_max: float | None = None
+    transmission_angle_min_angle: float | None = None
+    transmission_angle_max_angle: float | None = None
+    four_bar: FourBar | None = None
+
+    @property
+    def transmission_angle_worst(self) -> float | None:
+        """Acute angle between the two links where it is least [rad]: μ or π − μ."""
+        low, high = self.transmission_angle_min, self.transmission_angle_max
+        return None if low is None or high is None else min(low, math.pi - high)
+
+    @property
+    def grashof(self) -> str | None:
+        """Class of its four-bar loop, in words."""
+        return None if self.four_bar is None else self.four_bar.grashof
+
+    def to_dict(self) -> dict[str, Any]:
+        """Scalars by name, without those that do not exist.
+
+        Returns
+        -------
+        dict
+            SI numbers and words.
+        """
+        found = {name: value for name, value in vars(self).items() if name not in ("element", "four_bar")}
+        found["transmission_angle_worst"] = self.transmission_angle_worst
+        if self.four_bar is not None:
+            found["grashof"] = self.grashof
+            found["grashof_sum_extremes"] = self.four_bar.sum_extremes
+            found["grashof_sum_others"] = self.four_bar.sum_others
+        return {name: value for name, value in found.items() if value is not None}
+
+
+@dataclass(frozen=True)
+class Linkage(Result):
+    """A linkage over its cycle.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n,)
+        Over the period, or over the range in which it closes [rad].
+    transmission_angles : dict of str to ndarray
+        μ by element [rad].
+    velocity_ratios : dict of str to ndarray
+        Speed of the output over that of the crank, by name of the link or slide [– or m/rad].
+    elements : tuple of ElementMotion
+        In build order.
+    closure : Closure
+        Where it closes.
+    period_turns : int or None
+        Turns of the crank in a period; None if it has none or does not turn fully.
+    dead_points : tuple of DeadPoint
+        Limits, change points and reversals, by crank angle.
+    """
+
+    crank_angle: Floats
+    transmission_angles: dict[str, Floats] = field(repr=False)
+    velocity_ratios: dict[str, Floats] = field(repr=False)
+    elements: tuple[ElementMotion, ...]
+    closure: Closure
+    period_turns: int | None
+    dead_points: tuple[DeadPoint, ...]
+
+    def element(self, name: str) -> ElementMotion:
+        """The first entry of an element, or of the link or slide with this name.
+
+        Raises
+        ------
+        KeyError
+            There is none.
+        """
+        for each in self.elements:
+            if name in (each.element, each.output):
+                return each
+        raise KeyError(name)
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Whether the crank turns fully, period, elements by name and dead points, ready for JSON.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether arrays are included.
+
+        Returns
+        -------
+        dict
+            SI numbers. An element with two outputs has the second under that one's name.
+        """
+        elements: dict[str, Any] = {}
+        for each in self.elements:
+            elements[each.output if each.element in elements else each.element] = each.to_dict()
+        found: dict[str, Any] = {
+            "turns_fully": self.closure.turns_fully,
+            "period_turns": self.period_turns,
+            "elements": elements,
+            "dead_points": [each._asdict() for each in self.dead_points],
+        }
+        if curves:
+            found |= {name: curve.tolist() for name, curve in self.curves().items()}
+        return found
+
+    def curves(self) -> dict[str, np.ndarray]:
+        """The curves by name: ``R.transmission_angle``, ``R.rocker.velocity_ratio``, ``S.stroke_ratio``."""
+        found = {"crank_angle": self.crank_angle}
+        found |= {f"{name}.transmission_angle": curve for name, curve in self.transmission_angles.items()}
+        slides = {each.output for each in self.elements if each.stroke is not None}
+        for name, curve in self.velocity_ratios.items():
+            found[f"{name}.stroke_ratio" if name in slides else f"{name}.velocity_ratio"] = curve
+        return found
+
+
+@public
+def linkage(machine: Machine) -> Linkage:
+    """Examine a linkage over its cycle.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; of a batch, the first.
+
+    Returns
+    -------
+    Linkage
+        Over the period of a mechanism that turns fully; else over the first range in which it closes.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism closes nowhere, or at single angles alone.
+
+    References
+    ----------
+    .. [1] Norton, Design of Machinery: transmission angle, mechanical advantage, time ratio.
+    .. [2] VDI 2123: transmission angle.
+    """
+    compiled = compile_machine(machine).first()
+    where = closure_of(compiled)
+    if not where.moves:
+        raise closure_error(where, machine)
+    period = turns_to_repeat(compiled) if where.turns_fully else None
+    cycle = Cycle.of(where, period)
+    swept = sweep(compiled, machine.linkage, cycle)
+    loops = {each.element: each for each in four_bars(compiled)}
+    return Linkage(
+        crank_angle=cycle.angles,
+        transmission_angles={each.name: swept.mu[k] for k, each in enumerate(swept.dyads)},
+        velocity_ratios={each.name: swept.d1[k] for k, each in enumerate(swept.outputs)},
+        elements=tuple(
+            _element(swept, k, each, _parallel(loops.get(each.element), swept.d1[k]))
+            for k, each in enumerate(swept.outputs)
+        ),
+        closure=where,
+        period_turns=period,
+        dead_points=tuple(dead_points(compiled, swept, where)),
+    )
+
+
+def _parallel(loop: FourBar | None, rate: Floats) -> FourBar | None:
+    """The loop with the knowledge whether its follower turns as its driver does."""
+    return None if loop is None else replace(loop, is_parallel=bool(np.abs(rate - 1).max() < _PARALLEL))
+
+
+def _element(swept: Swept, k: int, output: Output, loop: FourBar | None) -> ElementMotion:
+    """The entry of one output."""
+    travel = swept.travel(k)
+    slow, fast = swept.ratios(k)
+    most = max(abs(slow), abs(fast)) if slow is not None and fast is not None else None
+    mu = swept.transmission(output.element)
+    on = travel.turns is not None
+    size = travel.high - travel.low
+    return ElementMotion(
+        element=output.element,
+        output=output.name,
+        swing=size if output.kind == "swing" and not on else None,
+        stroke=size if output.kind == "stroke" and not on else None,
+        turns=travel.turns,
+        low=travel.low,
+        high=travel.high,
+        low_angle=travel.low_angle,
+        high_angle=travel.high_angle,
+        time_ratio=travel.time_ratio,
+        velocity_ratio_min=slow,
+        velocity_ratio_max=fast,
+        mechanical_advantage_min=1 / most if most else None,
+        four_bar=loop,
+        **({} if mu is None else dict(zip(_MU, mu, strict=True))),
+    )
+
+
+_MU = (
+    "transmission_angle_min",
+    "transmission_angle_max",
+    "transmission_angle_min_angle",
+    "transmission_angle_max_angle",
+)

@@ -1,0 +1,183 @@
+"""Four-bar loops of a mechanism and their class after Grashof.
+
+With the shortest link s, the longest l and the others p, q: only if s + l ≤ p + q can a link turn fully
+against the others, and which one depends on where the shortest is (Grashof 1883; Norton, *Design of
+Machinery*, section 2.12).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.linkages.dyads import POINT, Dyad, dyads_of, evaluate
+from linkwright.machine.program.compiled import Compiled
+
+Floats = NDArray[np.float64]
+
+# Share of s + l by which p + q may differ and still be the same: lengths given to all digits are.
+_SAME = 1e-9
+
+
+@dataclass(frozen=True)
+class FourBar:
+    """A loop of four links.
+
+    Attributes
+    ----------
+    element : str
+        Name of the dyad that closes it.
+    driver, coupler, follower, ground : float
+        Lengths [m].
+    is_parallel : bool or None
+        Whether driver and follower stay parallel; None where that is not known.
+    """
+
+    element: str
+    driver: float
+    coupler: float
+    follower: float
+    ground: float
+    is_parallel: bool | None = None
+
+    @property
+    def sum_extremes(self) -> float:
+        """s + l, the shortest and the longest link [m]."""
+        lengths = self._lengths()
+        return lengths[0] + lengths[3]
+
+    @property
+    def sum_others(self) -> float:
+        """p + q, the other two [m]."""
+        lengths = self._lengths()
+        return lengths[1] + lengths[2]
+
+    @property
+    def grashof(self) -> str:
+        """The class in words.
+
+        ``crank-rocker``, ``rocker-crank`` (the follower turns), ``double-crank (drag link)``,
+        ``double-rocker`` (the coupler turns), ``triple-rocker`` (nothing turns), or ``change-point`` with its
+        kind.
+        """
+        spare = self.sum_others - self.sum_extremes
+        if abs(spare) <= _SAME * self.sum_others:
+            return f"change-point: {self._change_point()}"
+        if spare < 0:
+            return "triple-rocker"
+        return ("crank-rocker", "double-rocker", "rocker-crank", "double-crank (drag link)")[
+            int(np.argmin((self.driver, self.coupler, self.follower, self.ground)))
+        ]
+
+    def _lengths(self) -> list[float]:
+        return sorted((self.driver, self.coupler, self.follower, self.ground))
+
+    def _change_point(self) -> str:
+        """The kind of a linkage whose links can all come into line."""
+        opposite = _same(self.driver, self.follower) and _same(self.coupler, self.ground)
+        if opposite:
+            words = {
+                True: "parallelogram",
+                False: "antiparallelogram",
+                None: "parallelogram or antiparallelogram",
+            }
+            return words[self.is_parallel]
+        beside_driver = _same(self.driver, self.coupler) and _same(self.follower, self.ground)
+        beside_follower = _same(self.coupler, self.follower) and _same(self.driver, self.ground)
+        return "kite" if beside_driver or beside_follower else "links in line once a turn"
+
+
+def _same(a: float, b: float) -> bool:
+    return abs(a - b) <= _SAME * max(a, b)
+
+
+def four_bars(compiled: Compiled) -> list[FourBar]:
+    """The four-bar loops of a machine: an arm on a fixed point, a coupler, and a link on another fixed point.
+
+    Parameters
+    ----------
+    compiled : Compiled
+        The machine; of a batch, the first.
+
+    Returns
+    -------
+    list of FourBar
+        In build order, from cranks and rockers as well as from joints and bars.
+    """
+    grounds = {row[1]: _ground(compiled, row) for row in compiled.rows if row[0] == 0}
+    arms = _arms(compiled, grounds)
+    found = []
+    for dyad in dyads_of(compiled):
+        if dyad.kind == "RRR":
+            found += _loops(compiled, dyad, grounds, arms)
+    return found
+
+
+def _ground(compiled: Compiled, row: tuple[int, ...]) -> Floats:
+    return compiled.parameters[list(row[2:4])]
+
+
+def _loops(
+    compiled: Compiled, dyad: Dyad, grounds: dict[int, Floats], arms: dict[int, tuple[int, float]]
+) -> list[FourBar]:
+    """Loops that a dyad closes: one, or none if neither of its ends is at rest."""
+    pin, pivot, a, b = dyad.row[5:9]
+    lengths = compiled.parameters[[a, b]]
+    found = []
+    for moving, fixed, order in ((pin, pivot, (0, 1)), (pivot, pin, (1, 0))):
+        if fixed in grounds and moving in arms:
+            centre, driver = arms[moving]
+            ground = float(np.hypot(*(grounds[fixed] - grounds[centre])))
+            if ground > 0:
+                coupler, follower = (float(lengths[k]) for k in order)
+                found.append(FourBar(dyad.name, driver, coupler, follower, ground))
+    return found
+
+
+def _arms(compiled: Compiled, grounds: dict[int, Floats]) -> dict[int, tuple[int, float]]:
+    """Point that turns about a fixed point → that point and its distance."""
+    centres = dict(_centred(compiled.rows, grounds))
+    arms: dict[int, tuple[int, float]] = {}
+    for row in compiled.rows:
+        for point, centre in _carried(row, centres, grounds):
+            if point != centre:
+                arms.setdefault(point, (centre, _distance(compiled, point, grounds[centre])))
+    return {point: arm for point, arm in arms.items() if arm[1] > 0}
+
+
+def _centred(rows: tuple[tuple[int, ...], ...], grounds: dict[int, Floats]) -> list[tuple[int, int]]:
+    """Links that turn about a fixed point, with that point."""
+    ends = []
+    for row in rows:
+        if row[0] == 1:
+            ends.append((row[2], row[3]))
+        elif row[0] in (3, 11):
+            ends += [(row[2], row[5]), (row[3], row[6])]
+        elif row[0] == 13:
+            ends += [(row[1], row[2]), (row[1], row[3])]
+        elif row[0] == 6:
+            ends.append((row[1], row[5]))
+    return [(link, point) for link, point in ends if point in grounds]
+
+
+def _carried(
+    row: tuple[int, ...], centres: dict[int, int], grounds: dict[int, Floats]
+) -> list[tuple[int, int]]:
+    """Points of a row that a link on a fixed point carries."""
+    if row[0] == 1:
+        return [(row[1], row[3])]
+    if row[0] in (3, 11):
+        return [(row[1], end) for end in row[5:7] if end in grounds]
+    if row[0] == 4 and (row[3] in grounds or row[2] in centres):
+        return [(row[1], row[3] if row[3] in grounds else centres[row[2]])]
+    return []
+
+
+def _distance(compiled: Compiled, point: int, centre: Floats) -> float:
+    """Distance of a point from a fixed one that it turns about, at an angle where the mechanism closes."""
+    places = evaluate(compiled, [(POINT, point)], np.linspace(0.1, 6.2, 24))[0][:2]
+    distances = np.hypot(*(places - centre[:, None]))
+    known = distances[np.isfinite(distances)]
+    return float(known[0]) if len(known) else 0.0

@@ -1,0 +1,297 @@
+"""Motion of points, links and slides over the crank angle, with first and second transfer functions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.kernel.errors import MachineError, Problem, ShapeError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import array, shown
+from linkwright.linkages.closure import has_levers, require_closed
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+
+Floats = NDArray[np.float64]
+
+# What the core gives for a point, a link and a slide: how many numbers at each angle.
+_WIDTHS = {"points": 6, "links": 4, "slides": 3}
+
+# Numbers of the third derivative.
+_THIRD = {"points": 2, "links": 1, "slides": 1}
+
+
+@dataclass(frozen=True)
+class PointMotion:
+    """A point over the crank angle; arrays (n, 2) for one machine, (rows, n, 2) for a batch.
+
+    Attributes
+    ----------
+    position : ndarray
+        [m].
+    d1, d2 : ndarray
+        First and second derivative by the crank angle [m/rad, m/rad²].
+    d3 : ndarray or None
+        Third derivative [m/rad³], where it was asked for.
+    """
+
+    position: Floats
+    d1: Floats
+    d2: Floats
+    d3: Floats | None = None
+
+
+@dataclass(frozen=True)
+class LinkMotion:
+    """A link over the crank angle; arrays (n,) for one machine, (rows, n) for a batch.
+
+    Attributes
+    ----------
+    angle : ndarray
+        Direction of the link, continuous over the angles [rad].
+    d1, d2 : ndarray
+        First and second derivative by the crank angle [–].
+    d3 : ndarray or None
+        Third derivative [–], where it was asked for.
+    """
+
+    angle: Floats
+    d1: Floats
+    d2: Floats
+    d3: Floats | None = None
+
+
+@dataclass(frozen=True)
+class SlideMotion:
+    """A slider along its guide; arrays (n,) for one machine, (rows, n) for a batch.
+
+    Attributes
+    ----------
+    position : ndarray
+        Along the guide from the foot of its through point [m].
+    d1, d2 : ndarray
+        First and second derivative by the crank angle [m/rad, m/rad²].
+    d3 : ndarray or None
+        Third derivative [m/rad³], where it was asked for.
+    """
+
+    position: Floats
+    d1: Floats
+    d2: Floats
+    d3: Floats | None = None
+
+
+@dataclass(frozen=True)
+class Kinematics:
+    """Motion of a mechanism over given crank angles.
+
+    Attributes
+    ----------
+    angles : ndarray, shape (n,)
+        Crank angles [rad].
+    points, links, slides : dict
+        `PointMotion`, `LinkMotion`, `SlideMotion` by name.
+    """
+
+    angles: Floats
+    points: dict[str, PointMotion]
+    links: dict[str, LinkMotion]
+    slides: dict[str, SlideMotion]
+
+
+@public
+def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool = False) -> Kinematics:
+    r"""Motion of every point, link and slide over the crank angle.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine. Entries may be arrays over many machines; results then have a row for each.
+    angles : array_like, shape (n,), optional
+        Crank angles [rad]; without them a turn by single degrees.
+    third : bool
+        Whether third derivatives are wanted too; of one machine only.
+
+    Returns
+    -------
+    Kinematics
+        Positions and derivatives by the crank angle φ. Velocity is :math:`p' \omega`, acceleration
+        :math:`p'' \omega^2 + p' \varepsilon`, jerk
+        :math:`p''' \omega^3 + 3 p'' \omega \varepsilon + p' \dot\varepsilon`.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close at one of the angles, or its motion is not determined between them.
+    ShapeError
+        Third derivatives of many machines at once.
+
+    Notes
+    -----
+    Derivatives are exact. Angles count counter-clockwise from x; signs in ``docs/signs.md``.
+    """
+    compiled = compile_machine(machine)
+    phi = np.linspace(0, 2 * np.pi, 361) if angles is None else checked_angles(angles)
+    what = everything(compiled)
+    out = motion_arrays(compiled, phi, what)
+    if np.isnan(out).any() or has_levers(compiled):
+        require_closed(compiled, machine, phi)
+    single = compiled.n_rows == 1 and not len(compiled.slots)
+    found = _collect(phi, out[0] if single else out, what)
+    return with_third(compiled, found, what) if third else found
+
+
+def kinematics_of(
+    compiled: Compiled, angles: Floats, what: list[tuple[str, str]], *, third: bool = False
+) -> Kinematics:
+    """`kinematics` of one compiled machine where it closes; ``what`` holds pairs of part and name."""
+    found = _collect(angles, motion_arrays(compiled, angles, what)[0], what)
+    return with_third(compiled, found, what) if third else found
+
+
+def everything(compiled: Compiled) -> list[tuple[str, str]]:
+    """Pairs of part and name of all that has a name in the machine: not what the core keeps for itself."""
+    names = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
+    hidden = (".angle", ".law", " reversed")
+    return [(part, name) for part, known in names.items() for name in known if not name.endswith(hidden)]
+
+
+def with_third(compiled: Compiled, found: Kinematics, what: list[tuple[str, str]]) -> Kinematics:
+    """The same motion with third derivatives.
+
+    Raises
+    ------
+    ShapeError
+        Entries vary from machine to machine.
+    """
+    if len(compiled.slots):
+        raise ShapeError("third derivatives are for one machine, and entries vary from machine to machine")
+    known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
+    kinds = list(_WIDTHS)
+    table = compiled.third(found.angles, [(kinds.index(part), known[part][name]) for part, name in what])
+    parts: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
+    at = 0
+    for part, name in what:
+        rows = table[at : at + _THIRD[part]]
+        at += _THIRD[part]
+        d3 = np.stack((rows[0], rows[1]), axis=-1) if part == "points" else rows[0]
+        parts[part][name] = replace(getattr(found, part)[name], d3=d3)
+    return Kinematics(found.angles, **parts)
+
+
+def checked_angles(angles: ArrayLike) -> Floats:
+    """Crank angles as a contiguous list.
+
+    Raises
+    ------
+    ShapeError
+        They are no list of finite numbers.
+    """
+    phi = array("crank angles", angles)
+    if phi.ndim != 1:
+        raise ShapeError(f"crank angles: found an array of shape {phi.shape}, expected a list")
+    return phi
+
+
+def _collect(phi: Floats, table: Floats, what: list[tuple[str, str]]) -> Kinematics:
+    """Rows of the core's table by name."""
+    found = Kinematics(phi, {}, {}, {})
+    at = 0
+    for part, name in what:
+        rows = table[..., at : at + _WIDTHS[part], :]
+        at += _WIDTHS[part]
+        if part == "points":
+            # Views, not copies: x and y of a point lie one after the other.
+            pairs = [rows[..., i : i + 2, :].swapaxes(-1, -2) for i in (0, 2, 4)]
+            found.points[name] = PointMotion(*pairs)
+        elif part == "links":
+            angle = _continuous(np.arctan2(rows[..., 1, :], rows[..., 0, :]))
+            found.links[name] = LinkMotion(angle, rows[..., 2, :], rows[..., 3, :])
+        else:
+            found.slides[name] = SlideMotion(rows[..., 0, :], rows[..., 1, :], rows[..., 2, :])
+    return found
+
+
+def _continuous(angles: Floats) -> Floats:
+    """Angles without jumps; most have none."""
+    has_jumps = (np.abs(angles[..., 1:] - angles[..., :-1]) > np.pi).any()
+    return np.unwrap(angles) if has_jumps else angles
+
+
+@public
+def motions(
+    machine: Machine,
+    angles: ArrayLike,
+    *,
+    points: Iterable[str] = (),
+    links: Iterable[str] = (),
+    slides: Iterable[str] = (),
+    out: NDArray[np.float64] | None = None,
+) -> Floats:
+    """Motions of one or many machines as one array, at the speed of the core.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; entries may be arrays over many machines (`linkwright.replace`).
+    angles : array_like, shape (n,)
+        Crank angles [rad].
+    points, links, slides : iterable of str
+        What is wanted. A point gives six numbers: x, y, x′, y′, x″, y″. A link gives four: cos ψ, sin ψ,
+        ψ′, ψ″. A slide gives three: s, s′, s″.
+    out : ndarray, optional
+        Array of the result's shape to write into; saves making a new one each time.
+
+    Returns
+    -------
+    ndarray, shape (rows, numbers, n)
+        In the order asked for, points first; NaN where a machine does not close.
+
+    Raises
+    ------
+    MachineError
+        A name that does not exist.
+    ShapeError
+        ``out`` does not fit.
+    """
+    compiled = compile_machine(machine)
+    asked: Mapping[str, Iterable[str]] = {"points": points, "links": links, "slides": slides}
+    what = [(part, name) for part, names in asked.items() for name in names]
+    return motion_arrays(compiled, checked_angles(angles), what, out)
+
+
+def motion_arrays(
+    compiled: Compiled, angles: Floats, what: list[tuple[str, str]], out: Floats | None = None
+) -> Floats:
+    """`motions` of a compiled machine; ``what`` holds pairs of part and name."""
+    known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
+    for part, name in what:
+        if name not in known[part]:
+            expected = f"one of {', '.join(known[part])}"
+            raise MachineError([Problem(part, name, expected)])
+    shape = (compiled.n_rows, sum(_WIDTHS[part] for part, _ in what), len(angles))
+    if out is None:
+        out = _room(shape)
+    if (
+        not isinstance(out, np.ndarray)
+        or out.shape != shape
+        or out.dtype != np.float64
+        or not out.flags.carray
+    ):
+        expected = f"a contiguous array of floats of shape {shape} that may be written to"
+        raise ShapeError(f"out: found {shown(out)}, expected {expected}")
+    kinds = list(_WIDTHS)
+    compiled.motions(angles, [(kinds.index(part), known[part][name]) for part, name in what], out.reshape(-1))
+    return out
+
+
+def _room(shape: tuple[int, ...]) -> Floats:
+    """An array to write into."""
+    try:
+        return np.empty(shape)
+    except (MemoryError, ValueError):
+        raise ShapeError(f"motions: {shape} numbers do not fit into memory; ask for fewer at once") from None

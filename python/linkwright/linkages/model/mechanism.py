@@ -1,0 +1,150 @@
+"""The mechanism: drivers on the crankshaft, and the elements that they move, one built on another.
+
+Angles count counter-clockwise from the x axis. Elements refer to each other by name, in any order; `outline`
+says which points and links each of them makes.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NamedTuple, Self
+
+from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
+
+from linkwright.cam.model.cam import Cam
+from linkwright.cam.model.follower import cam_place_faults
+from linkwright.kernel.description.base import Description, Name, faults_of, raise_faults
+from linkwright.kernel.units import Angle
+from linkwright.linkages.model.assembly import Step
+from linkwright.linkages.model.element import (
+    Bar,
+    Cable,
+    Crank,
+    Crossing,
+    FixedPoint,
+    Gear,
+    Joint,
+    LinearDriver,
+    Rack,
+    RigidPoint,
+    Rocker,
+    Slider,
+    SlottedLever,
+    Yoke,
+)
+from linkwright.linkages.model.outline import ORIGIN, Outline
+
+
+class Link(NamedTuple):
+    """A link of a mechanism: the rigid body between two of its points.
+
+    Attributes
+    ----------
+    role : str
+        ``"crank"``, ``"rod"``, ``"coupler"``, ``"rocker"``, ``"lever"``, ``"bar"``, ``"gear"`` or ``"yoke"``.
+    element : str
+        Name of the element that makes it.
+    start, end : str
+        Names of the points that it runs between; the same for a gear or a yoke, which has one point.
+    length : float
+        Distance between them [m]; zero where it is not given.
+    """
+
+    role: Literal["crank", "rod", "coupler", "rocker", "lever", "bar", "gear", "yoke"]
+    element: str
+    start: str
+    end: str
+    length: float
+
+
+class Mechanism(Description):
+    """Fixed points, cranks, and what the cranks move."""
+
+    points: dict[Name, FixedPoint] = Field(default_factory=dict, description="Fixed points by name.")
+    cranks: dict[Name, Crank] = Field(default_factory=dict, description="Cranks by name.")
+    sliders: dict[Name, Slider] = Field(default_factory=dict, description="Sliders by name.")
+    rockers: dict[Name, Rocker] = Field(default_factory=dict, description="Rockers by name.")
+    rigid_points: dict[Name, RigidPoint] = Field(
+        default_factory=dict, description="Points fixed to links, by name."
+    )
+    linear_drivers: dict[Name, LinearDriver] = Field(
+        default_factory=dict, description="Points moved along a guide by the drive, by name."
+    )
+    cams: dict[Name, Cam] = Field(default_factory=dict, description="Cams and their followers by name.")
+    slotted_levers: dict[Name, SlottedLever] = Field(
+        default_factory=dict, description="Slotted levers by name."
+    )
+    crossings: dict[Name, Crossing] = Field(default_factory=dict, description="Pins in two guides, by name.")
+    yokes: dict[Name, Yoke] = Field(default_factory=dict, description="Yokes by name.")
+    gears: dict[Name, Gear] = Field(default_factory=dict, description="Gears and pulleys by name.")
+    racks: dict[Name, Rack] = Field(default_factory=dict, description="Racks by name.")
+    cables: dict[Name, Cable] = Field(default_factory=dict, description="Cables on arcs, by name.")
+    joints: dict[Name, Joint] = Field(
+        default_factory=dict, description="Joints that bars and guides hold, by name."
+    )
+    bars: dict[Name, Bar] = Field(default_factory=dict, description="Bars between points, by name.")
+    assembled_at: Angle = Field(
+        0.0, description="Crank angle at which the joints are about where they are given."
+    )
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _names_fit(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Report wrong values and wrong names together."""
+        try:
+            mechanism = handler(data)
+        except ValidationError as error:
+            raise_faults(cls.__name__, [*faults_of(error), *Outline.of(data).faults(values_fit=False)])
+            raise
+        raise_faults(cls.__name__, Outline.of(mechanism).faults())
+        raise_faults(cls.__name__, cam_place_faults(mechanism))
+        return mechanism
+
+    def fixed_points(self) -> dict[str, FixedPoint]:
+        """The points at rest by name, with the origin."""
+        own = dict(self.points)
+        return {name: own.get(name) or FixedPoint(x=0.0, y=0.0) for name in Outline.of(self).fixed_points}
+
+    def moving_points(self) -> tuple[str, ...]:
+        """Names of the points that move."""
+        return tuple(Outline.of(self).moving_points)
+
+    def slides(self) -> tuple[str, ...]:
+        """Names of the coordinates along guides."""
+        return tuple(Outline.of(self).slides)
+
+    def links(self) -> dict[str, Link]:
+        """The links by name.
+
+        Returns
+        -------
+        dict of str to Link
+            A crank has the name of its element; ``"cart1.rod"`` is the rod of the slider ``cart1``.
+        """
+        found: dict[str, Link] = {}
+        for name, crank in self.cranks.items():
+            found[name] = Link("crank", name, crank.pivot or ORIGIN, name, crank.radius)
+        for name, cam in self.cams.items():
+            if cam.is_oscillating:
+                found[name] = Link("crank", name, cam.arm_pivot or ORIGIN, name, cam.arm_length or 0.0)
+        for name, slider in self.sliders.items():
+            found[f"{name}.rod"] = Link("rod", name, slider.crank, name, slider.rod)
+        for name, rocker in self.rockers.items():
+            found[f"{name}.coupler"] = Link("coupler", name, rocker.crank, name, rocker.coupler)
+            found[f"{name}.rocker"] = Link("rocker", name, rocker.pivot, name, rocker.rocker)
+        for name, lever in self.slotted_levers.items():
+            found[name] = Link("lever", name, lever.pivot, lever.pin, lever.length or 0.0)
+        for name in self.yokes:
+            found[name] = Link("yoke", name, name, name, 0.0)
+        for name, gear in self.gears.items():
+            found[name] = Link("gear", name, gear.pivot, gear.pivot, 0.0)
+        for name, bar in self.bars.items():
+            found[name] = Link("bar", name, bar.start, bar.end, bar.length)
+        return found
+
+    def steps(self) -> list[Step]:
+        """The steps in which the mechanism is built."""
+        return Outline.of(self).build().steps
+
+    def build_order(self) -> list[str]:
+        """Names of the moving elements, each after those that it is built on."""
+        return [name for step in self.steps() for name in step.names]

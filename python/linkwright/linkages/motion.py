@@ -1,0 +1,215 @@
+r"""A mechanism over time under any law of its crank: positions, velocities, accelerations and jerks.
+
+.. math::
+
+    \dot p = p'\dot\varphi, \quad \ddot p = p''\dot\varphi^2 + p'\ddot\varphi, \quad
+    \dddot p = p'''\dot\varphi^3 + 3 p''\dot\varphi\ddot\varphi + p'\dddot\varphi
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.kernel.errors import AssemblyError, ShapeError
+from linkwright.kernel.numerics.roots import brackets, zeros
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
+from linkwright.linkages.closure import closure_of, require_closed
+from linkwright.linkages.kinematics import checked_angles, everything, kinematics_of
+from linkwright.linkages.law import Law, as_law
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Path:
+    """A point, link or slide over time.
+
+    Attributes
+    ----------
+    position, velocity, acceleration, jerk : ndarray, shape (n, 2) or (n,)
+        Of a point two columns [m, m/s, m/s², m/s³]; of a slide, and of a link with angles in [rad], one.
+    """
+
+    position: Floats
+    velocity: Floats
+    acceleration: Floats
+    jerk: Floats
+
+
+@dataclass(frozen=True)
+class Motion(Result):
+    """A mechanism over time.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        [s].
+    crank_angle, speed, acceleration, crank_jerk : ndarray, shape (n,)
+        Of the crank [rad, rad/s, rad/s², rad/s³].
+    points, links, slides : dict of str to Path
+        By name.
+    """
+
+    time: Floats
+    crank_angle: Floats
+    speed: Floats
+    acceleration: Floats
+    crank_jerk: Floats
+    points: dict[str, Path]
+    links: dict[str, Path]
+    slides: dict[str, Path]
+
+    def curves(self) -> dict[str, np.ndarray]:
+        """All columns by name: ``K.x``, ``K.x.velocity``, ``R.rocker.angle``, …."""
+        found = super().curves()
+        for name, path in self.points.items():
+            for k, axis in enumerate("xy"):
+                found |= _columns(f"{name}.{axis}", path, k)
+        for name, path in self.links.items():
+            found |= _columns(f"{name}.angle", path, ...)
+        for name, path in self.slides.items():
+            found |= _columns(f"{name}.place", path, ...)
+        return found
+
+
+def _columns(head: str, path: Path, at: Any) -> dict[str, Floats]:
+    """Position and three rates of one coordinate."""
+    places = {head: path.position[..., at] if at is not ... else path.position}
+    for rate in ("velocity", "acceleration", "jerk"):
+        values = getattr(path, rate)
+        places[f"{head}.{rate}"] = values[..., at] if at is not ... else values
+    return places
+
+
+@public
+def motion(
+    machine: Machine, law: Law | Callable[[Any], Any] | Sequence[ArrayLike], times: ArrayLike
+) -> Motion:
+    """Motion of every point, link and slide over time under a law of the crank.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; of a batch, the first. Drive and loads play no part.
+    law : Law, callable or pair of array_like, shape (k,)
+        Crank angle over time: a law of `linkwright.linkages.law`, a function written with numpy, or a table
+        of times and angles [s, rad].
+    times : array_like, shape (n,)
+        Increasing [s].
+
+    Returns
+    -------
+    Motion
+        Positions with three exact derivatives by time.
+
+    Raises
+    ------
+    AssemblyError
+        The law leaves the range in which the mechanism closes; says at what time and crank angle.
+    InputError
+        Times or law are not usable, or the law goes beyond the range of angles, speeds or accelerations.
+    """
+    t = checked_angles(times)
+    if len(t) == 0 or (np.diff(t) <= 0).any():
+        raise ShapeError("times must increase, and there must be at least one")
+    driver = as_law(law)
+    compiled = compile_machine(machine).first()
+    rates = driver.at(t)
+    if not np.isfinite(rates).all():
+        first = t[int(np.argmin(np.isfinite(rates).all(axis=0)))]
+        raise ShapeError(f"the law gives no finite angle or rate at t = {first:g} s")
+    given = (
+        ("angle", Quantity(ANGLE)),
+        ("speed", Quantity(SPEED)),
+        ("acceleration", Quantity(ANGULAR_ACCELERATION)),
+    )
+    in_range(**{f"crank {name} by the law": (rates[n], kind) for n, (name, kind) in enumerate(given)})
+    _require_within(compiled, machine, driver, t)
+    found = kinematics_of(compiled, np.ascontiguousarray(rates[0]), everything(compiled), third=True)
+    columns = rates[:, :, None]
+    return Motion(
+        time=t,
+        crank_angle=rates[0],
+        speed=rates[1],
+        acceleration=rates[2],
+        crank_jerk=rates[3],
+        points={name: _path(each.position, each, columns) for name, each in found.points.items()},
+        links={name: _path(each.angle, each, rates) for name, each in found.links.items()},
+        slides={name: _path(each.position, each, rates) for name, each in found.slides.items()},
+    )
+
+
+def _path(position: Floats, each: Any, rates: Floats) -> Path:
+    """The chain rule."""
+    _, w, a, j = rates
+    return Path(
+        position,
+        each.d1 * w,
+        each.d2 * w**2 + each.d1 * a,
+        each.d3 * w**3 + 3 * each.d2 * w * a + each.d1 * j,
+    )
+
+
+def _require_within(compiled: Compiled, machine: Machine, law: Law, times: Floats) -> None:
+    """Raise if the law leaves the range of the mechanism, also between the times.
+
+    Raises
+    ------
+    AssemblyError
+        Says when, and at which limit.
+    """
+    where = closure_of(compiled)
+    if where.turns_fully:
+        return
+    start = law.at(times[:1])[0]
+    require_closed(compiled, machine, start)
+    low, high = _range_around(float(start[0]), where.ranges)
+    looked = _with_turning_points(law, times)
+    angles = law.at(looked)[0]
+    out = np.flatnonzero((angles < low) | (angles > high))
+    if not len(out):
+        return
+    first = int(out[0])
+    limit = low if angles[first] < low else high
+    ends = np.array([looked[first - 1]]), np.array([looked[first]])
+    at = float(zeros(lambda t: law.at(t)[0] - limit, *ends)[0][0])
+    raise AssemblyError(
+        f"the law of the crank passes the limit of {where.element} at t = {at:.6g} s, crank angle "
+        f"{np.degrees(limit):.6g}°: the mechanism closes from {np.degrees(low):.6g}° to "
+        f"{np.degrees(high):.6g}° only; keep the law within that range",
+        element=where.element,
+        crank_angle=limit,
+    )
+
+
+def _range_around(start: float, ranges: tuple[tuple[float, float], ...]) -> tuple[float, float]:
+    """The range that holds an angle, on the turn of that angle."""
+    for low, high in ranges:
+        turn = 2 * np.pi * np.floor((start - low) / (2 * np.pi))
+        if low + turn <= start <= high + turn:
+            return low + turn, high + turn
+    # At a limit, by rounding.
+    return min(
+        ((low + turn, high + turn) for low, high in ranges for turn in (0.0, -2 * np.pi)),
+        key=lambda each: min(abs(start - each[0]), abs(start - each[1])),
+    )
+
+
+def _with_turning_points(law: Law, times: Floats) -> Floats:
+    """The times, and those between them at which the crank turns back."""
+    speed = law.at(times)[1]
+    _, column = brackets(speed[None])
+    if not len(column):
+        return times
+    near, _ = zeros(lambda t: law.at(t)[1], times[column], times[column + 1])
+    return np.unique(np.concatenate([times, near]))

@@ -1,0 +1,116 @@
+"""Why an element does not close, in words, and what to change: a sentence for each kind of dyad and group."""
+
+from __future__ import annotations
+
+from linkwright.linkages.model.mechanism import Mechanism
+from linkwright.machine.machine import Machine
+
+# What is wrong, and the remedy.
+Words = tuple[str, str]
+
+
+def describe(element: str, machine: Machine) -> Words:
+    """Why an element does not close, and the remedy.
+
+    Parameters
+    ----------
+    element : str
+        Name of a dyad, or the joints of a group joined by "and", as in `Closure.element`.
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    tuple of str
+        What cannot meet, with its lengths, and what to change.
+    """
+    mechanism = machine.linkage
+    makers = {
+        "sliders": _slider,
+        "rockers": _rocker,
+        "slotted_levers": _slotted_lever,
+        "crossings": _crossing,
+        "yokes": _crossing,
+        "joints": _joint,
+    }
+    for table, make in makers.items():
+        if element in getattr(mechanism, table):
+            return make(element, mechanism)
+    return _group(element, mechanism)
+
+
+def change_point(element: str, machine: Machine) -> Words:
+    """Why the speeds of an element are not determined where it closes with nothing to spare, and the remedy.
+
+    Parameters
+    ----------
+    element : str
+        Name of a dyad or a group, as in `Closure.element`.
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    tuple of str
+        What happens there, and what to change.
+    """
+    if element in machine.linkage.slotted_levers:
+        what = "its pin passes over its pivot, where the lever has no direction"
+        return what, "move the pivot, or give the slot an offset"
+    what = "its links are in line there and the speeds are not determined"
+    if " and " in element:
+        what = "its links can go two ways there and the speeds are not determined"
+    return what, "change a length by a little"
+
+
+def _slider(name: str, mechanism: Mechanism) -> Words:
+    rod = mechanism.sliders[name].rod
+    return f"the rod of {name} ({rod:g} m) does not reach its guide", "lengthen the rod or shorten the crank"
+
+
+def _rocker(name: str, mechanism: Mechanism) -> Words:
+    rocker = mechanism.rockers[name]
+    lengths = f"{rocker.coupler:g} m and {rocker.rocker:g} m"
+    remedy = "shorten the crank, or change coupler and rocker until the crank can turn fully (Grashof)"
+    return f"coupler and rocker of {name} ({lengths}) cannot meet", remedy
+
+
+def _slotted_lever(name: str, mechanism: Mechanism) -> Words:
+    lever = mechanism.slotted_levers[name]
+    what = f"the pin of {name} comes nearer to its pivot than the slot passes ({lever.offset:g} m)"
+    return what, "reduce the offset of the slot, or move the pivot away from the pin"
+
+
+def _crossing(name: str, mechanism: Mechanism) -> Words:
+    return f"the two guides of {name} are parallel", "turn one of them"
+
+
+def _joint(name: str, mechanism: Mechanism) -> Words:
+    bars = _bars_at((name,), mechanism)
+    on_guide = " and its guide" if mechanism.joints[name].guide is not None else ""
+    return f"{bars}{on_guide} cannot meet in the joint {name}", "change their lengths, or shorten the crank"
+
+
+def _group(element: str, mechanism: Mechanism) -> Words:
+    joints = tuple(element.split(" and "))
+    what = f"{_bars_at(joints, mechanism)} cannot all meet in the joints {element}"
+    return what, "change their lengths, or shorten the crank"
+
+
+def _bars_at(joints: tuple[str, ...], mechanism: Mechanism) -> str:
+    """The bars that hold joints, with their lengths."""
+    carried = {
+        name for name, part in mechanism.rigid_points.items() if _hangs_on(part.link, joints, mechanism)
+    }
+    ends = {*joints, *carried}
+    found = [
+        f"{name} ({bar.length:g} m)"
+        for name, bar in mechanism.bars.items()
+        if {bar.start, bar.end} & ends and not bar.redundant
+    ]
+    return " and ".join(filter(None, [", ".join(found[:-1]), *found[-1:]]))
+
+
+def _hangs_on(link: str, joints: tuple[str, ...], mechanism: Mechanism) -> bool:
+    bar = mechanism.bars.get(link)
+    return bar is not None and bool({bar.start, bar.end} & set(joints))

@@ -1,0 +1,152 @@
+r"""One pose: everything about a mechanism at one crank angle.
+
+.. math:: v = p'\omega, \qquad a = p''\omega^2 + p'\varepsilon
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
+from linkwright.linkages.closure import require_closed
+from linkwright.linkages.dyads import dyads_of, evaluate, transmission, transmission_channels
+from linkwright.linkages.kinematics import everything, kinematics_of
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+
+# A dyad whose links are nearer than this to one line, as the sine of the angle between them, is near a limit.
+_NEAR = 0.1
+
+
+@dataclass(frozen=True)
+class PosePoint:
+    """A point: place [m], velocity [m/s], acceleration [m/s²], each as x and y."""
+
+    position: tuple[float, float]
+    velocity: tuple[float, float]
+    acceleration: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class PoseCoordinate:
+    """A link or a slide: its angle [rad] or place [m], with rate and acceleration per second."""
+
+    position: float
+    velocity: float
+    acceleration: float
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A mechanism at one crank angle.
+
+    Attributes
+    ----------
+    crank_angle, speed, acceleration : float
+        Of the crank [rad, rad/s, rad/s²].
+    points : dict of str to PosePoint
+        Points by name.
+    links, slides : dict of str to PoseCoordinate
+        Links (directions from −π to π) and slides by name.
+    transmission_angles : dict of str to float
+        μ of each dyad [rad].
+    near_limit : tuple of str
+        Dyads whose links are within some 6° of one line.
+    """
+
+    crank_angle: float
+    speed: float
+    acceleration: float
+    points: dict[str, PosePoint]
+    links: dict[str, PoseCoordinate]
+    slides: dict[str, PoseCoordinate]
+    transmission_angles: dict[str, float]
+    near_limit: tuple[str, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything by name, ready for JSON.
+
+        Returns
+        -------
+        dict
+            SI numbers; x and y as lists.
+        """
+        parts = {
+            part: {name: _plain(each) for name, each in getattr(self, part).items()}
+            for part in ("points", "links", "slides")
+        }
+        whole = {"crank_angle": self.crank_angle, "speed": self.speed, "acceleration": self.acceleration}
+        found = {"transmission_angles": dict(self.transmission_angles), "near_limit": list(self.near_limit)}
+        return whole | parts | found
+
+
+def _plain(each: PosePoint | PoseCoordinate) -> dict[str, Any]:
+    return {name: list(x) if isinstance(x, tuple) else x for name, x in vars(each).items()}
+
+
+@public
+def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, acceleration: float = 0.0) -> Pose:
+    """The pose at a crank angle.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; of a batch, the first.
+    crank_angle : float
+        [rad].
+    speed, acceleration : float
+        Of the crank [rad/s, rad/s²]; with a speed of 1, velocities are transfer functions.
+
+    Returns
+    -------
+    Pose
+        Places, rates, transmission angles.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close there.
+    InputError
+        A number is not finite, or beyond its range.
+    """
+    in_range(
+        crank_angle=(crank_angle, Quantity(ANGLE)),
+        speed=(speed, Quantity(SPEED)),
+        acceleration=(acceleration, Quantity(ANGULAR_ACCELERATION)),
+    )
+    compiled = compile_machine(machine).first()
+    at = np.array([crank_angle], dtype=np.float64)
+    require_closed(compiled, machine, at)
+    found = kinematics_of(compiled, at, everything(compiled))
+    rates = (speed, acceleration)
+    mu = {}
+    for dyad in dyads_of(compiled):
+        if dyad.kind != "group":
+            channels = transmission_channels(compiled, dyad)
+            mu[dyad.name] = float(transmission(compiled, dyad, evaluate(compiled, channels, at))[0][0])
+    return Pose(
+        crank_angle=float(crank_angle),
+        speed=float(speed),
+        acceleration=float(acceleration),
+        points={name: _point(each, *rates) for name, each in found.points.items()},
+        links={name: _coordinate(each.angle, each, *rates) for name, each in found.links.items()},
+        slides={name: _coordinate(each.position, each, *rates) for name, each in found.slides.items()},
+        transmission_angles=mu,
+        near_limit=tuple(name for name, angle in mu.items() if np.sin(angle) < _NEAR),
+    )
+
+
+def _point(each: Any, speed: float, acceleration: float) -> PosePoint:
+    v, a = each.d1[0] * speed, each.d2[0] * speed**2 + each.d1[0] * acceleration
+    (x, y), (vx, vy), (ax, ay) = (pair.tolist() for pair in (each.position[0], v, a))
+    return PosePoint((x, y), (vx, vy), (ax, ay))
+
+
+def _coordinate(position: Any, each: Any, speed: float, acceleration: float) -> PoseCoordinate:
+    d1, d2 = float(each.d1[0]), float(each.d2[0])
+    return PoseCoordinate(float(position[0]), d1 * speed, d2 * speed**2 + d1 * acceleration)

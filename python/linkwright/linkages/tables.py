@@ -1,0 +1,91 @@
+"""A linkage as tables of text: travel, transmission angles, four-bar loops, dead points."""
+
+from __future__ import annotations
+
+from linkwright.app.study import Study
+from linkwright.kernel.page.quantities import degrees, number
+from linkwright.kernel.page.table import Row, Table
+from linkwright.linkages.cycle import ElementMotion, Linkage
+
+# More dead points than this are the regular ones of many outputs, and tell nothing.
+_DEAD_POINTS_MAX = 24
+
+
+def linkage_tables(study: Study) -> list[Table]:
+    """The tables of a linkage.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Returns
+    -------
+    list of Table
+        Empty without a linkage.
+    """
+    found = study.linkage
+    if found is None:
+        return []
+    return [
+        table for table in (_travel(found), _transmission(found), _loops(found), _dead(found)) if table.rows
+    ]
+
+
+def _travel(found: Linkage) -> Table:
+    heads = ("output", "", "travel", "from φ", "to φ", "time ratio", "velocity ratio", "mechanical advantage")
+    return Table("linkage", "Linkage over its cycle", heads, [_travel_row(each) for each in found.elements])
+
+
+def _travel_row(each: ElementMotion) -> Row:
+    """Swing, stroke or turns, where the extremes are, and the ratios."""
+    if each.turns is not None:
+        travel, ends = f"{number(each.turns)} turns", ("–", "–")
+    elif each.swing is not None:
+        travel, ends = degrees(each.swing), (degrees(each.low_angle), degrees(each.high_angle))
+    else:
+        travel, ends = f"{number(each.stroke)} m", (degrees(each.low_angle), degrees(each.high_angle))
+    low, high = each.velocity_ratio_min, each.velocity_ratio_max
+    ratios = "–" if low is None else f"{number(low, 4)} to {number(high, 4)}"
+    unit = "1/m" if each.stroke is not None else ""
+    advantage = each.mechanical_advantage_min
+    gain = "–" if advantage is None else f"≥ {number(advantage, 4)} {unit}".rstrip()
+    return each.output, "", travel, *ends, number(each.time_ratio, 4), ratios, gain
+
+
+def _transmission(found: Linkage) -> Table:
+    heads = ("dyad", "", "least", "at φ", "greatest", "at φ")
+    rows: dict[str, Row] = {}
+    for each in found.elements:
+        low, high = each.transmission_angle_min, each.transmission_angle_max
+        at = each.transmission_angle_min_angle, each.transmission_angle_max_angle
+        if low is not None and high is not None and at[0] is not None and at[1] is not None:
+            rows[each.element] = (
+                each.element,
+                "μ",
+                degrees(low),
+                degrees(at[0]),
+                degrees(high),
+                degrees(at[1]),
+            )
+    return Table("transmission", "Transmission angle", heads, list(rows.values()))
+
+
+def _loops(found: Linkage) -> Table:
+    heads = ("four-bar loop", "", "driver", "coupler", "follower", "ground", "s + l", "p + q")
+    rows = []
+    for each in found.elements:
+        loop = each.four_bar
+        if loop is not None:
+            lengths = (loop.driver, loop.coupler, loop.follower, loop.ground)
+            sums = (loop.sum_extremes, loop.sum_others)
+            rows.append(
+                (f"{each.element}: {loop.grashof}", "", *(f"{number(x)} m" for x in (*lengths, *sums)))
+            )
+    return Table("grashof", "Four-bar loops", heads, rows)
+
+
+def _dead(found: Linkage) -> Table:
+    points = found.dead_points if len(found.dead_points) <= _DEAD_POINTS_MAX else ()
+    rows: list[Row] = [(f"{each.element}: {each.kind}", "φ", degrees(each.angle)) for each in points]
+    return Table("dead_points", "Dead points", ("element", "", "crank angle"), rows)

@@ -1,0 +1,295 @@
+"""Read a machine file: TOML in, a checked machine in SI out, or all problems with file, line and key."""
+
+from __future__ import annotations
+
+import os
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import BaseModel
+
+from linkwright.kernel.description.text import split
+from linkwright.kernel.errors import MachineError, MachineFileError, Problem
+from linkwright.kernel.files.bounds import deep_line, long_number_line, size_problems
+from linkwright.kernel.files.lines import key_lines, line_of
+from linkwright.kernel.files.points import Column, with_points
+from linkwright.kernel.files.text_file import TextError, text_of
+from linkwright.kernel.limits import DEPTH, FILE_BYTES
+from linkwright.kernel.units import show
+from linkwright.machine.files.overrides import Override, apply, parse_all
+from linkwright.machine.machine import FORMAT, Machine
+
+Model = TypeVar("Model", bound=BaseModel)
+
+Overrides = Sequence[str] | Mapping[str, Any]
+
+# What each override brought in.
+Places = Sequence[tuple[tuple[str, ...], Override]]
+
+# What tomllib says of a key or a table that is written twice.
+_TWICE = re.compile("Cannot (overwrite a value|declare .* twice)|Duplicate")
+
+_LINE_IN_MESSAGE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
+
+
+def read(path: str | os.PathLike[str], overrides: Overrides = (), *, allow_outside: bool = False) -> Machine:
+    """Read a machine file.
+
+    Parameters
+    ----------
+    path : path
+        A TOML file.
+    overrides : sequence of str or Mapping
+        Entries that replace or add to those of the file: texts ``PATH=VALUE``, or path → value.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
+
+    Returns
+    -------
+    Machine
+        Checked, in SI.
+
+    Raises
+    ------
+    MachineFileError
+        The file cannot be read or describes no machine; all problems are listed.
+    InputError
+        An override is malformed.
+    """
+    return read_as(Machine, path, overrides, allow_outside=allow_outside)
+
+
+def read_as(
+    model: type[Model],
+    path: str | os.PathLike[str],
+    overrides: Overrides = (),
+    *,
+    allow_outside: bool = False,
+) -> Model:
+    """Read a description of some kind from a file, such as the task of a synthesis.
+
+    Parameters
+    ----------
+    model : type
+        The description; raises `MachineError` with all problems when it is validated.
+    path : path
+        A TOML file.
+    overrides : sequence of str or Mapping
+        As for `read`.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
+
+    Returns
+    -------
+    Model
+        Checked, in SI.
+
+    Raises
+    ------
+    MachineFileError
+        The file cannot be read or describes no such thing; all problems are listed.
+    InputError
+        An override is malformed.
+    """
+    return loads_as(model, _text(Path(path)), overrides, path=str(path), allow_outside=allow_outside)
+
+
+def loads(text: str, overrides: Overrides = (), *, path: str = "", allow_outside: bool = False) -> Machine:
+    """Read a machine from a TOML text.
+
+    Parameters
+    ----------
+    text : str
+        What a machine file holds.
+    overrides : sequence of str or Mapping
+        As for `read`.
+    path : str
+        Name of the text in messages.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
+
+    Returns
+    -------
+    Machine
+        Checked, in SI.
+
+    Raises
+    ------
+    MachineFileError
+        The text describes no machine; all problems are listed.
+    InputError
+        An override is malformed.
+    """
+    return loads_as(Machine, text, overrides, path=path, allow_outside=allow_outside)
+
+
+def loads_as(
+    model: type[Model],
+    text: str,
+    overrides: Overrides = (),
+    *,
+    path: str = "",
+    allow_outside: bool = False,
+) -> Model:
+    """Read a description of some kind from a TOML text.
+
+    Parameters
+    ----------
+    model : type
+        The description; raises `MachineError` with all problems when it is validated.
+    text : str
+        What such a file holds.
+    overrides : sequence of str or Mapping
+        As for `read`.
+    path : str
+        Name of the text in messages.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
+
+    Returns
+    -------
+    Model
+        Checked, in SI.
+
+    Raises
+    ------
+    MachineFileError
+        The text describes no such thing; all problems are listed.
+    InputError
+        An override is malformed.
+    """
+    tables = _tables(text, path)
+    _check_format(tables, path, text)
+    places = [(apply(tables, change), change) for change in parse_all(overrides)]
+    if too_large := size_problems(tables):
+        raise MachineFileError(_located(too_large, text, path, places, ()))
+    columns: list[Column] = []
+    try:
+        columns = with_points(tables, Path(path).parent, allow_outside=allow_outside)
+        return model.model_validate(tables)
+    except MachineError as error:
+        raise MachineFileError(_located(error.problems, text, path, places, columns)) from None
+
+
+def _text(path: Path) -> str:
+    """The text of a file, or the problem with it."""
+    try:
+        text = text_of(path, FILE_BYTES)
+    except TextError as error:
+        remedy = error.remedy or _similar(path)
+        raise _unreadable(path, error.found, remedy, error.expected or "a machine file") from None
+    if not text.strip():
+        remedy = 'start from a template: "linkwright new --list" names them'
+        raise _unreadable(path, "an empty file", remedy)
+    return text
+
+
+def _unreadable(
+    path: Path, found: str, remedy: str = "", expected: str = "a machine file"
+) -> MachineFileError:
+    return MachineFileError([Problem(found=found, expected=expected, remedy=remedy, path=str(path))])
+
+
+def _similar(path: Path) -> str:
+    """A file beside a missing one with a similar name."""
+    from linkwright.kernel.description.base import close_match
+
+    try:
+        if path.exists():
+            return ""
+        names = [each.name for each in path.parent.glob("*.toml")]
+    except OSError:
+        return ""
+    return close_match(path.name, names)
+
+
+def _tables(text: str, path: str) -> dict[str, Any]:
+    """The tables of a TOML text, or the problem with its syntax."""
+    if (line := deep_line(text)) is not None:
+        found, remedy = "keys or brackets inside one another", "remove what is inside"
+        raise MachineFileError([Problem("", found, DEPTH.words, remedy, path, line)])
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise MachineFileError([_syntax(str(error), text, path)]) from None
+    except RecursionError:
+        problem = Problem("", "keys or brackets inside one another", DEPTH.words, path=path)
+        raise MachineFileError([problem]) from None
+    except ValueError:
+        # A number of more digits than Python reads.
+        found, line = "a number of thousands of digits", long_number_line(text)
+        raise MachineFileError([Problem("", found, "a number below 9.2e18", "", path, line)]) from None
+
+
+def _syntax(message: str, text: str, path: str) -> Problem:
+    """A fault in the TOML, with its line."""
+    match = _LINE_IN_MESSAGE.search(message)
+    words = _LINE_IN_MESSAGE.sub("", message)
+    line = int(match[1]) if match and match[1] else text.rstrip().count("\n") + 1
+    column = f" (column {match[2]})" if match and match[2] else " (end of the file)"
+    lines = text.splitlines()
+    found = show(lines[line - 1].strip()) if line <= len(lines) else "the end of the file"
+    remedy = "this name or key is there already; give each its own" if _TWICE.search(words) else ""
+    return Problem(found=found, expected=f"TOML; {words}{column}", remedy=remedy, path=path, line=line)
+
+
+def _check_format(tables: dict[str, Any], path: str, text: str) -> None:
+    """Refuse another version of the format before anything else is said about it."""
+    version = tables.get("format", FORMAT)
+    if isinstance(version, int) and not isinstance(version, bool) and version == FORMAT:
+        return
+    line = line_of(key_lines(text), ("format",))
+    remedy = "a newer Linkwright may read it" if isinstance(version, int) and version > FORMAT else ""
+    expected = f"{FORMAT}, the format that this version reads"
+    raise MachineFileError([Problem("format", show(version), expected, remedy, path, line)])
+
+
+def _located(
+    problems: Sequence[Problem], text: str, path: str, places: Places, columns: Sequence[Column]
+) -> list[Problem]:
+    """The problems in the order of the file, each with its line or with the override that brought it in."""
+    lines = key_lines(text)
+    in_columns, others = _of_columns(problems, columns)
+    # A file of points that is no such file has its place already.
+    found = [each if each.path else _placed(each, lines, path, places) for each in others]
+    return [*sorted(found, key=lambda each: (each.line is None, each.line or 0)), *in_columns]
+
+
+def _of_columns(
+    problems: Sequence[Problem], columns: Sequence[Column]
+) -> tuple[list[Problem], list[Problem]]:
+    """Problems of lists from files of points, each kind of them once a column; and all others."""
+    others: list[Problem] = []
+    first: dict[tuple[object, ...], Problem] = {}
+    for each in problems:
+        key = split(each.key) if each.key else ()
+        column = next((one for one in columns if one.holds(key)), None)
+        if column is None:
+            others.append(each)
+        else:
+            placed = replace(each, path=str(column.path), line=column.line(key))
+            first.setdefault((column.place, each.expected, each.remedy), placed)
+    return list(first.values()), others
+
+
+def _placed(
+    problem: Problem,
+    lines: dict[tuple[str, ...], int],
+    path: str,
+    places: Places,
+) -> Problem:
+    """One problem with its place."""
+    key = split(problem.key) if problem.key else ()
+    change = next((each for place, each in places if _touches(place, key, lines)), None)
+    if change is not None:
+        return replace(problem, path=str(change))
+    return replace(problem, path=path, line=line_of(lines, key))
+
+
+def _touches(place: tuple[str, ...], key: tuple[str, ...], lines: dict[tuple[str, ...], int]) -> bool:
+    """Whether an override brought in the entry of a problem, a part of it, or its table."""
+    return key[: len(place)] == place or (place[: len(key)] == key and key not in lines)

@@ -1,0 +1,287 @@
+"""What has to be known of a mechanism's motion before it can be computed at any angle.
+
+| pending | is settled by |
+| --- | --- |
+| side of a joint given by its place | where that lies when the mechanism is assembled |
+| continuous angle of a link | its turns in a turn of the crank, and the middle of its swing about them |
+| change points of a dyad | the radicand's zeros, found exactly, and its series there |
+| start of a group | its motion, followed step by step over the turn |
+
+They are settled in build order, each with what stands before it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright import _core
+from linkwright.kernel.errors import AssemblyError
+from linkwright.machine.program.change_points import InLine, encoded, folding_row, in_line, undecided
+from linkwright.machine.program.driver_law import require_smooth
+from linkwright.machine.program.elements import Continuous, Foldable, Pending, Rows, Side, Solved
+
+Floats = NDArray[np.float64]
+
+# First row of all parameters, which of them vary, and their values over the rows.
+Columns = tuple[Floats, NDArray[np.int32], Floats]
+
+# Angles of a look at a link over the turn.
+_LOOK = 720
+
+# Largest swing of a link about its mean turning that leaves its angle unambiguous, in radians.
+_SWING_MAX = 1.98 * np.pi
+
+# Crank angle at which the side of a rocker or a slider is given [rad]: just after zero, where it may have a
+# change point.
+_JUST_AFTER = 1e-7
+
+# A joint's place this near to the line of its bars, over their length, says nothing of its side.
+_IN_LINE = 1e-9
+
+# A whole number of turns is one to this.
+_WHOLE = 1e-6
+
+# Difference in length of a redundant bar, over its length, that counts as rounding.
+_FITS = 1e-9
+
+
+class Settled:
+    """Rows, tables and numbers of a mechanism with everything pending filled in."""
+
+    def __init__(
+        self, rows: Rows, columns: Columns, plan: Callable[[], _core.Plan], assembled_at: float
+    ) -> None:
+        self.rows = rows
+        self.parameters, self.slots, self.values = columns
+        self.make_plan = plan
+        self.assembled_at = assembled_at
+        self.plan = plan()
+        # Crank angle at which the side of a dyad is given, by the slot of its sign; others just after zero.
+        self.given_at: dict[int, float] = {}
+        # Machines in which a dyad passes an odd number of change points: their motion takes two turns.
+        self.odd = np.zeros(1, dtype=np.bool_)
+
+    def run(self) -> None:
+        """Settles all that is pending, in build order.
+
+        Raises
+        ------
+        AssemblyError
+            A law cannot be followed, a group does not close where it is assembled, a link turns irregularly,
+            or a redundant bar does not fit.
+        """
+        self._check_laws()
+        for each in self.rows.pending:
+            self._settle(each)
+        self._check_redundant()
+
+    def _settle(self, each: Pending) -> None:
+        match each:
+            case Side():
+                self._side(each)
+            case Continuous():
+                self._continuous(each)
+            case Foldable():
+                self._fold(each)
+            case Solved():
+                self._follow(each)
+
+    def _check_laws(self) -> None:
+        """A driver's law must have a value everywhere, and no jump."""
+        mechanism = self.rows.mechanism
+        laws = {name: crank.law for name, crank in mechanism.cranks.items()}
+        laws |= {name: driver.law for name, driver in mechanism.linear_drivers.items()}
+        for name, law in laws.items():
+            if law is not None:
+                require_smooth(name, law, partial(self._law, self.rows.slides[f"{name}.law"]))
+
+    def _law(self, slide: int, angles: Floats) -> Floats:
+        """Value and slope of a law, (2, n)."""
+        return self._motion(2, slide, angles)[:2]
+
+    def _changed(self, plan: _core.Plan) -> None:
+        """Goes on with another plan."""
+        self.plan = plan
+
+    def _motion(self, kind: int, index: int, angles: Floats) -> Floats:
+        """Numbers of a point (6), link (4) or slide (3) at crank angles."""
+        width = (6, 4, 3)[kind]
+        out = np.empty((width, len(angles)))
+        what = np.array([[kind, index]], dtype=np.int32)
+        none = np.empty(0, dtype=np.int32)
+        _core.motions(self.plan, self.parameters, none, np.empty((0, 1)), angles, what, out.reshape(-1))
+        return out
+
+    # -- sides -------------------------------------------------------------------------------------------
+
+    def _side(self, each: Side) -> None:
+        """Left of the line from pin to pivot, or ahead along the guide."""
+        at = np.array([self.assembled_at])
+        joint = self.rows.mechanism.joints[each.joint]
+        x, y = self._motion(0, each.pin, at)[:2, 0]
+        to = np.array([_first(joint.x) - x, _first(joint.y) - y])
+        if each.pivot is not None:
+            u, v = self._motion(0, each.pivot, at)[:2, 0] - (x, y)
+            side = (u * to[1] - v * to[0]) / max(np.hypot(u, v), 1e-300)
+        else:
+            assert each.guide is not None
+            link, angle = each.guide
+            cos, sin = (1.0, 0.0) if link == self.rows.frame else self._motion(1, link, at)[:2, 0]
+            direction = np.array(
+                [cos * np.cos(angle) - sin * np.sin(angle), sin * np.cos(angle) + cos * np.sin(angle)]
+            )
+            side = float(direction @ to)
+        if abs(side) <= _IN_LINE * float(np.hypot(*to)):
+            raise AssemblyError(
+                f"the joint {each.joint} is given in line with what holds it, so its side is not known; give "
+                "its place at another crank angle (assembled_at), or a little aside",
+                element=each.joint,
+                crank_angle=self.assembled_at,
+            )
+        self.parameters[each.slot] = 1.0 if side > 0 else -1.0
+        self.given_at[each.slot] = self.assembled_at
+
+    # -- continuous angles -------------------------------------------------------------------------------
+
+    def _continuous(self, each: Continuous) -> None:
+        """Turns a turn of the crank, and the middle of the swing about them."""
+        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
+        cos, sin, *_ = self._motion(1, each.link, angles)
+        closes = np.isfinite(cos)
+        if not closes.any():
+            return
+        psi = np.unwrap(np.arctan2(sin[closes], cos[closes]))
+        at = angles[closes]
+        winding = 0.0
+        if closes.all():
+            winding = (psi[-1] - psi[0]) / (2 * np.pi)
+            winding = round(winding) if abs(winding - round(winding)) < _WHOLE else winding
+        rest = psi - winding * at
+        if np.ptp(rest) > _SWING_MAX:
+            raise AssemblyError(
+                f"the link {each.name} swings by {np.degrees(np.ptp(rest)):.0f}° about its mean turning; "
+                "a gear, a rack or a cable on it has no unambiguous place beyond 356°",
+                element=each.name,
+            )
+        near = _first(each.near)
+        turns = np.round((near - psi[0]) / (2 * np.pi))
+        self.parameters[each.winding] = winding
+        self.parameters[each.centre] = 0.5 * (rest.min() + rest.max()) + 2 * np.pi * turns
+
+    # -- change points -----------------------------------------------------------------------------------
+
+    def _fold(self, each: Foldable) -> None:
+        """Finds the change points of a dyad in every machine, and gives its row their series."""
+        element = sum(row[0] != 0 for row in self.rows.rows[: each.row])
+        found = in_line(self.plan, self.parameters, *self._mechanisms(), element)
+        if not any(found):
+            return
+        signs = np.array([self._sign(each, points) for points in found])
+        for row, points in enumerate(found):
+            at = undecided(points, signs[row])
+            if at is not None and len(found) == 1:
+                raise at.error(each.name)
+            if at is not None:
+                # A machine of a batch that has no answer, and shows it.
+                found[row], signs[row] = [], np.nan
+        self._give_change_points(each, found, signs)
+
+    def _mechanisms(self) -> tuple[NDArray[np.int32], Floats]:
+        """What varies from one mechanism to the next: where masses and the like vary, nothing."""
+        if any(slot < self.rows.n_own or slot >= self.rows.n_described for slot in self.slots):
+            return self.slots, self.values
+        return np.empty(0, dtype=np.int32), np.empty((0, 1))
+
+    def _sign(self, each: Foldable, points: list[InLine]) -> float:
+        """The side of a dyad where the product of half-angle sines is positive."""
+        # A side that varies from row to row does not exist.
+        wanted = self.parameters[each.sign]
+        given_at = self.given_at.get(each.sign, _JUST_AFTER)
+        return float(wanted * np.sign(np.prod([np.sin((given_at - point.angle) / 2) for point in points])))
+
+    def _give_change_points(self, each: Foldable, found: list[list[InLine]], signs: Floats) -> None:
+        """Turns the row of a dyad into one with change points."""
+        entries, numbers = encoded(found, len(self.parameters))
+        self.rows.rows[each.row] = [*folding_row(self.rows.rows[each.row], self.rows.frame), *entries]
+        self._add(numbers)
+        self._change(each.sign, signs)
+        self.odd = self.odd | np.array([len(points) % 2 == 1 for points in found])
+        self._changed(self.make_plan())
+
+    def _add(self, columns: Floats) -> None:
+        """Appends parameters, a row of values over the machines for each."""
+        slots = np.arange(len(self.parameters), len(self.parameters) + len(columns), dtype=np.int32)
+        self.rows.parameters += columns[:, 0].tolist()
+        self.parameters = np.concatenate([self.parameters, columns[:, 0]])
+        if columns.shape[1] > 1:
+            self.slots = np.concatenate([self.slots, slots])
+            self.values = np.concatenate([self.values, columns])
+
+    def _change(self, slot: int, column: Floats) -> None:
+        """Sets a parameter that did not vary until now."""
+        self.parameters[slot] = column[0]
+        if len(column) > 1:
+            self.slots = np.append(self.slots, np.int32(slot))
+            self.values = np.concatenate([self.values, column[None]])
+
+    # -- groups ------------------------------------------------------------------------------------------
+
+    def _follow(self, each: Solved) -> None:
+        """Follows a group over the turn from where it is assembled."""
+        element = sum(row[0] != 0 for row in self.rows.rows[: each.row])
+        joints = [self.rows.mechanism.joints[name] for name in each.names]
+        near = np.array([_first(value) for joint in joints for value in (joint.x, joint.y)])
+        path = _core.follow_group(self.plan, self.parameters, element, self.assembled_at, near)
+        if path is None:
+            names = " and ".join(each.names)
+            raise AssemblyError(
+                f"the joints {names} do not close near their given places at crank angle "
+                f"{np.degrees(self.assembled_at):.6g}°; give places from a drawing of that position, or "
+                "change the lengths",
+                element=each.names[0],
+                crank_angle=self.assembled_at,
+            )
+        phi, places, turns = path
+        span = float(phi[-1] - phi[0])
+        cycle = float(turns or max(1, int(np.ceil(span / (2 * np.pi) + _WHOLE))))
+        # The last angle of a motion that repeats is the first again.
+        for table, place in zip(each.tables, places, strict=True):
+            self.rows.tables[table] = (list(phi / cycle), list(place))
+        self.parameters[each.inverse_turns] = 1.0 / cycle
+        self.rows.rows[each.row][3] = int(turns is not None)
+        self._changed(self.make_plan())
+
+    # -- redundant bars ----------------------------------------------------------------------------------
+
+    def _check_redundant(self) -> None:
+        """A redundant bar must fit at every angle; of a batch, in the first machine."""
+        mechanism = self.rows.mechanism
+        for name, bar in mechanism.bars.items():
+            if bar.redundant:
+                ends = self.rows.points[bar.start], self.rows.points[bar.end]
+                self._check_fit(name, *ends, _first(bar.length))
+
+    def _check_fit(self, name: str, start: int, end: int, length: float) -> None:
+        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
+        u = self._motion(0, end, angles)[:2] - self._motion(0, start, angles)[:2]
+        off = np.abs(np.hypot(*u) - length)
+        off = np.where(np.isfinite(off), off, 0.0)
+        worst = int(off.argmax())
+        if off[worst] > _FITS * length:
+            raise AssemblyError(
+                f"the redundant bar {name} ({length:g} m) does not fit: at crank angle "
+                f"{np.degrees(angles[worst]):.4g}° the distance of its ends differs by {off[worst]:.3g} m "
+                "from its length, so the mechanism is locked; correct the length or remove the bar",
+                element=name,
+                crank_angle=float(angles[worst]),
+            )
+
+
+def _first(value: Any) -> float:
+    """A number; of an array over many machines, that of the first."""
+    return float(np.ravel(value)[0])

@@ -1,0 +1,242 @@
+"""Other laws at the same stroke and time, and the crank drive, all on the same motor, gearbox and cart.
+
+Velocity, acceleration and jerk are those at the design speed. Force and torque act in steady motion, where
+the crankshaft turns unevenly:
+
+.. math:: F = m\\,(s''\\omega^2 + s'\\varepsilon) + F_r \\operatorname{sgn} s', \\qquad M = F s'
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam.profile.profile import cam_profile
+from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.kernel.files.library import library_path
+from linkwright.kinetostatics.model.loads.friction import DryFriction
+from linkwright.linkages.kinematics import SlideMotion, kinematics
+from linkwright.machine.files.read import read
+from linkwright.machine.machine import Machine
+from linkwright.papers.paper2.formulas import Formulas
+
+Floats = NDArray[np.float64]
+
+CART, ROLLING = "cart", "rolling"
+
+# Intervals of the turn. Values are taken in the middle of pairs of them, off the joints of the laws, where
+# the rolling resistance changes its sign; between these angles extremes err by 1e-6.
+_ANGLES = 7200
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """A drive of the cart.
+
+    Attributes
+    ----------
+    name, short : str
+        What it is; a word or two for figures.
+    machine : Machine
+        The machine.
+    steady : SteadyState
+        Its steady motion.
+    crank_angle : ndarray, shape (n,)
+        Of the curves below [rad].
+    velocity, acceleration : ndarray, shape (n,)
+        Of the cart at the design speed [m/s, m/s²].
+    force, torque : ndarray, shape (n,)
+        On the cart, and from there on the shaft, in steady motion [N, N m].
+    velocity_max, acceleration_max, jerk_max : float
+        Largest in size at the design speed [m/s, m/s², m/s³]; exact for a cam.
+    jerk_step : float
+        Largest step of the jerk [m/s³].
+    pressure_angle_max : float or None
+        Of a cam [rad].
+    concave_radius : float or None
+        Least concave radius of curvature of a cam [m]; None without hollows.
+    steady_share : float
+        Share of the stroke at constant speed [–].
+    """
+
+    name: str
+    short: str
+    machine: Machine
+    steady: SteadyState
+    crank_angle: Floats
+    velocity: Floats
+    acceleration: Floats
+    force: Floats
+    torque: Floats
+    velocity_max: float
+    acceleration_max: float
+    jerk_max: float
+    jerk_step: float
+    pressure_angle_max: float | None
+    concave_radius: float | None
+    steady_share: float
+
+    @property
+    def force_max(self) -> float:
+        """Largest in size in steady motion [N]."""
+        return float(np.abs(self.force).max())
+
+    @property
+    def torque_max(self) -> float:
+        """Greatest torque that the cart asks of the shaft in steady motion [N m]."""
+        return float(self.torque.max())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Its numbers, ready for JSON."""
+        own = ("velocity_max", "acceleration_max", "jerk_max", "jerk_step", "force_max", "torque_max")
+        found = {name: getattr(self, name) for name in ("name", *own)}
+        found |= {name: getattr(self.steady, name) for name in ("unevenness", "dynamism", "period")}
+        cam = ("pressure_angle_max", "concave_radius", "steady_share")
+        return found | {name: getattr(self, name) for name in cam}
+
+
+def alternatives(formulas: Formulas) -> tuple[Alternative, ...]:
+    """The drive of paper 2, the crank drive, and other laws.
+
+    Parameters
+    ----------
+    formulas : Formulas
+        As printed.
+
+    Returns
+    -------
+    tuple of Alternative
+        The printed law first, then the crank.
+    """
+    given = formulas.printed
+    name = given["given"]["machine"]
+    found = [_with(name, "combined, 1/6 each, as printed", "as printed", {})]
+    found.append(_with(name, "crank r = 0.2 m, rod 0.8 m", "crank", {"mechanism": _crank(given["crank"])}))
+    for words, short, sections in _programmes(formulas.stroke):
+        found.append(_with(name, words, short, {"mechanism.cams.cart.sections": sections}))
+    return tuple(found)
+
+
+def _crank(lengths: dict[str, float]) -> dict[str, Any]:
+    """The mechanism of paper 1 for the same cart."""
+    slider = {"crank": "A", "rod": lengths["rod"]}
+    return {"cranks": {"A": {"radius": lengths["radius"]}}, "sliders": {CART: slider}}
+
+
+def _programmes(stroke: float) -> Iterator[tuple[str, str, list[dict[str, Any]]]]:
+    """Names and sections of the other laws."""
+    for words, share in (("1/10", 1 / 10), ("1/4", 1 / 4), ("1/2", 1 / 2)):
+        law = {"kind": "combined", "start": share, "stop": share}
+        yield f"combined, {words} each", f"{words} each", _there_and_back(stroke, law)
+    law = {"kind": "combined", "ramp": "optimal_jerk_free"}
+    yield "combined, least ∫ jerk² over free travel", "free travel", _there_and_back(stroke, law)
+    smooth: dict[str, Any] = {"kind": "polynomial", "continuity_start": 3, "continuity_end": 3}
+    yield "combined, continuous jerk", "continuous jerk", _ramped(stroke, 1 / 2, smooth, smooth)
+    free: dict[str, Any] = {"kind": "optimal", "order": 3}
+    ends = free | {"free_start": [2]}, free | {"free_end": [2]}
+    yield "combined, acceleration free at the turn", "free at the turn", _ramped(stroke, 5 / 8, *ends)
+    for kind in ("polynomial_4_5_6_7", "cycloidal", "modified_sine", "harmonic"):
+        words = kind.replace("_4_5_6_7", " 4-5-6-7").replace("_", " ")
+        yield words, words, _there_and_back(stroke, kind)
+
+
+def _there_and_back(stroke: float, law: object) -> list[dict[str, Any]]:
+    """A law over each half of the turn."""
+    return [{"angle": np.pi, "lift": sign * stroke, "law": law} for sign in (1, -1)]
+
+
+def _ramped(stroke: float, travel: float, start: object, stop: object) -> list[dict[str, Any]]:
+    """Start, constant speed and braking from single sections; the ramps have a sixth of the time each.
+
+    The travel of a ramp is given over that of constant speed in the same time.
+    """
+    share = 1 / 6
+    cruise = 1 - 2 * share
+    speed = stroke / (2 * share * travel + cruise)
+    middle = {"angle": cruise * np.pi, "law": "constant_velocity"}
+    return [
+        part
+        for sign in (1, -1)
+        for part in (
+            {"angle": share * np.pi, "lift": sign * speed * share * travel, "law": start},
+            middle | {"lift": sign * speed * cruise},
+            {"angle": share * np.pi, "lift": sign * speed * share * travel, "law": stop},
+        )
+    ]
+
+
+def _with(machine: str, name: str, short: str, entries: dict[str, Any]) -> Alternative:
+    """The machine of the library with some entries exchanged, and what becomes of it."""
+    changed = read(library_path(machine), entries)
+    omega = design_speed(changed)
+    steady = steady_state(changed, n=_ANGLES)
+    middle = slice(1, None, 2)
+    phi, speed, bend = (each[middle] for each in (steady.crank_angle, steady.speed, steady.acceleration))
+    slide = kinematics(changed, phi, third=True).slides[CART]
+    force = resistance(changed) * np.sign(slide.d1)
+    force += (changed.bodies[CART].mass or 0.0) * (slide.d2 * speed**2 + slide.d1 * bend)
+    return Alternative(
+        name=name,
+        short=short,
+        machine=changed,
+        steady=steady,
+        crank_angle=phi,
+        velocity=slide.d1 * omega,
+        acceleration=slide.d2 * omega**2,
+        force=force,
+        torque=force * slide.d1,
+        **(_of_cam(changed, omega) if changed.mechanism.cams else _of_slide(slide, omega)),
+    )
+
+
+def design_speed(machine: Machine) -> float:
+    """Of the shaft [rad/s]."""
+    assert machine.drive is not None
+    assert machine.drive.speed is not None
+    return float(machine.drive.speed)
+
+
+def resistance(machine: Machine) -> float:
+    """Rolling resistance of the cart [N]."""
+    load = machine.loads[ROLLING]
+    assert isinstance(load, DryFriction)
+    return float(load.force or 0.0)
+
+
+def _of_slide(slide: SlideMotion, omega: float) -> dict[str, Any]:
+    """Peaks of a crank drive, at its angles; it has nothing of a cam."""
+    assert slide.d3 is not None
+    peaks = [float(np.abs(row).max()) * omega**n for n, row in enumerate((slide.d1, slide.d2, slide.d3), 1)]
+    names = ("velocity_max", "acceleration_max", "jerk_max")
+    none = {"jerk_step": 0.0, "pressure_angle_max": None, "concave_radius": None, "steady_share": 0.0}
+    return dict(zip(names, peaks, strict=True)) | none
+
+
+def _of_cam(machine: Machine, omega: float) -> dict[str, Any]:
+    """Peaks of a cam drive, the largest step of its jerk, its shape, and its share at constant speed."""
+    profile = cam_profile(machine)
+    law = profile.cam.lift
+    # The joints inside the turn, and that where it closes.
+    steps = np.append(law.jumps(3), law.at(law.start, 3) - law.at(law.end, 3, "before"))
+    return {
+        "velocity_max": profile.velocity_max,
+        "acceleration_max": profile.acceleration_max,
+        "jerk_max": profile.jerk_max,
+        "jerk_step": float(np.abs(steps).max()) * omega**3,
+        "pressure_angle_max": profile.pressure_angle_max,
+        "concave_radius": profile.curvature_radius_concave_min,
+        "steady_share": _even(law) / (2 * profile.stroke),
+    }
+
+
+def _even(law: MotionLaw) -> float:
+    """Travel at constant speed over a turn [m]."""
+    stretches = zip(pairwise(law.breaks), law.derivative(2).pieces, strict=True)
+    ends = [law.at(np.array(pair)) for pair, bend in stretches if bend.vanishes(law.peak(2).value)]
+    return float(sum(abs(high - low) for low, high in ends))

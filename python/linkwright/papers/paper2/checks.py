@@ -1,0 +1,131 @@
+"""The printed formulas of paper 2 against the general synthesis, and against one another.
+
+All differences are the largest over many points, as a share of the largest value.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.profile.profile import CamProfile
+from linkwright.papers.paper2.formulas import SECTIONS, Formulas
+
+Floats = NDArray[np.float64]
+
+# Points of a stroke: middles of equal parts, none of them on a joint.
+_POINTS = 3600
+
+NAMES = ("x", "ẋ", "ẍ", "jerk")
+
+
+def motion_difference(formulas: Formulas, profile: CamProfile, order: int) -> float:
+    """(1) to (3), there and back, against the law of the machine at its design speed.
+
+    Parameters
+    ----------
+    formulas : Formulas
+        As printed.
+    profile : CamProfile
+        Of the machine.
+    order : int
+        Of the derivative by time, 0 to 3.
+    """
+    time = (np.arange(_POINTS) + 0.5) / _POINTS * formulas.time
+    omega = np.pi / formulas.time
+    printed = formulas.stroke_motion(time, order)
+    there, back = (profile.cam.lift.at(omega * time + turn, order) * omega**order for turn in (0, np.pi))
+    start = formulas.stroke if order == 0 else 0.0
+    return max(_share(there, printed), _share(back, start - printed))
+
+
+def radius_difference(formulas: Formulas, profile: CamProfile) -> float:
+    """(17) to (22) against the curve that the core puts under the follower.
+
+    Parameters
+    ----------
+    formulas : Formulas
+        As printed.
+    profile : CamProfile
+        Of the machine.
+    """
+    phi = (np.arange(2 * _POINTS) + 0.5) / _POINTS * np.pi
+    x, y = profile.flanks[0].curve().points(phi).T
+    printed = formulas.radius(phi, breadth_of(profile))
+    # The point that will touch at φ lies at −φ as the cam stands at its start.
+    off = np.hypot(x - printed * np.cos(phi), y + printed * np.sin(phi))
+    return float(off.max() / printed.max())
+
+
+def diameter_difference(formulas: Formulas, profile: CamProfile) -> float:
+    """ρ(φ) + ρ(φ + π) by (17) to (22) against b."""
+    phi, b = (np.arange(_POINTS) + 0.5) / _POINTS * np.pi, breadth_of(profile)
+    apart = formulas.radius(phi, b) + formulas.radius(phi + np.pi, b)
+    return float(np.abs(apart - b).max() / b)
+
+
+def chain_difference(formulas: Formulas, section: str) -> float:
+    """Whether each line of (1) to (3) is the derivative of the line before, by its coefficients."""
+    lines = [formulas.polynomial(section, order) for order in range(4)]
+    off = [(line.deriv() - after).coef for line, after in pairwise(lines)]
+    largest = max(float(np.abs(line.coef).max()) for line in lines)
+    return max(float(np.abs(each).max()) for each in off) / largest
+
+
+def mirror_difference(formulas: Formulas) -> float:
+    """Whether (3) is (1) run through backwards, by its values."""
+    u = np.linspace(0.0, 1.0, 101)
+    start, stop = formulas.polynomial("start", 0), formulas.polynomial("stop", 0)
+    return _share(stop(u), start(1.0) - start(1 - u))
+
+
+def joint_difference(formulas: Formulas) -> float:
+    """Whether velocity and acceleration pass from (1) to (2) and from (2) to (3) without a step."""
+    scale, ends = formulas.speed / formulas.times["start"], np.array([0.0, 1.0])
+    steps = []
+    for order in (1, 2):
+        values = [formulas.over(section, order, ends) for section in SECTIONS]
+        steps += [abs(a[1] - b[0]) for a, b in pairwise(values)]
+    return float(max(steps) / scale)
+
+
+def radius_joint_difference(formulas: Formulas) -> float:
+    """Whether (17) meets (18), (18) meets (19), and the two half turns meet."""
+    ends = np.array([*formulas.branch_begins, np.pi])
+    values = [formulas.branch(n, ends[n : n + 2]) for n in range(3)]
+    steps = [before[1] - after[0] for before, after in pairwise(values)]
+    # The return is the same with the other sign: the forward stroke has to end as far out as it begins in.
+    steps.append(values[-1][1] + values[0][0])
+    return float(np.abs(steps).max() / formulas.stroke)
+
+
+def peak(formulas: Formulas, order: int) -> float:
+    """Largest value of a derivative over a stroke by (1) to (3), from the zeros of the next one.
+
+    Parameters
+    ----------
+    formulas : Formulas
+        As printed.
+    order : int
+        Of the derivative, 1 to 3.
+    """
+    found = 0.0
+    for section in SECTIONS:
+        roots = formulas.polynomial(section, order).deriv().roots()
+        inside = roots[np.isreal(roots)].real
+        u = np.concatenate(([0.0, 1.0], inside[(inside > 0) & (inside < 1)]))
+        found = max(found, float(np.abs(formulas.over(section, order, u)).max()))
+    return found
+
+
+def breadth_of(profile: CamProfile) -> float:
+    """b of the cam [m]."""
+    assert profile.cam.breadth is not None
+    return profile.cam.breadth
+
+
+def _share(found: Floats, printed: Floats) -> float:
+    """Largest difference over the largest value."""
+    return float(np.abs(found - printed).max() / np.abs(printed).max())

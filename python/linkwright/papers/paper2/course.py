@@ -1,0 +1,109 @@
+"""How the cart moves in steady motion, where the shaft turns unevenly, against the law that it was given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.profile.profile import the_cam
+from linkwright.papers.paper2.alternatives import Alternative, design_speed
+from linkwright.papers.paper2.formulas import Formulas, fraction
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Course:
+    """The cart over a turn of steady motion.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        From the start of the turn [s].
+    velocity, intended : ndarray, shape (n,)
+        Of the cart, and by the law at the mean speed over time [m/s].
+    speed : ndarray, shape (n,)
+        Of the shaft [rad/s].
+    speed_mean, speed_design : float
+        Of the shaft over time, and as designed [rad/s].
+    steady : ndarray of bool, shape (n,)
+        Where the law has constant speed.
+    speed_constant : float
+        That speed at the mean speed of the shaft [m/s].
+    """
+
+    time: Floats
+    velocity: Floats
+    intended: Floats
+    speed: Floats
+    speed_mean: float
+    speed_design: float
+    steady: NDArray[np.bool_]
+    speed_constant: float
+
+    @property
+    def deviation(self) -> Floats:
+        """Velocity less the intended one over the constant speed, (n,) [–]."""
+        return (self.velocity - self.intended) / self.speed_constant
+
+    @property
+    def deviation_max(self) -> float:
+        """Largest in size [–]."""
+        return float(np.abs(self.deviation).max())
+
+    @property
+    def deviation_time(self) -> float:
+        """When [s]."""
+        return float(self.time[np.abs(self.deviation).argmax()])
+
+    @property
+    def steady_range(self) -> tuple[float, float]:
+        """Least and greatest speed of the cart where the law has constant speed, over that speed [–]."""
+        speeds = np.abs(self.velocity[self.steady]) / self.speed_constant
+        return float(speeds.min()), float(speeds.max())
+
+    def to_dict(self) -> dict[str, float | list[float]]:
+        """Its numbers, ready for JSON."""
+        return {
+            "speed_mean": self.speed_mean,
+            "speed_design": self.speed_design,
+            "speed_constant": self.speed_constant,
+            "deviation_max": self.deviation_max,
+            "deviation_max_time": self.deviation_time,
+            "steady_range": list(self.steady_range),
+        }
+
+
+def course(drive: Alternative, formulas: Formulas) -> Course:
+    """The cart of a cam drive in steady motion.
+
+    Parameters
+    ----------
+    drive : Alternative
+        With the printed law.
+    formulas : Formulas
+        As printed.
+
+    Returns
+    -------
+    Course
+        Over one turn.
+    """
+    turn, law = drive.steady, the_cam(drive.machine)[1].lift
+    mean = turn.speed_mean_time
+    even = np.mod(mean * turn.time, 2 * np.pi)
+    half = np.mod(turn.crank_angle, np.pi) / np.pi
+    begin = fraction(formulas.printed["given"]["start"])
+    end = 1 - fraction(formulas.printed["given"]["stop"])
+    return Course(
+        time=turn.time,
+        velocity=law.at(turn.crank_angle, 1) * turn.speed,
+        intended=law.at(even, 1) * mean,
+        speed=turn.speed,
+        speed_mean=mean,
+        speed_design=design_speed(drive.machine),
+        steady=(half >= begin) & (half <= end),
+        speed_constant=formulas.speed * formulas.time * mean / np.pi,
+    )

@@ -1,0 +1,120 @@
+"""What rollers do on the printed profile, which is made for points.
+
+The centre of a roller runs on the curve at its radius from the profile. Two rollers at a fixed distance need
+a curve of centres of constant diameter; the printed profile has the constant diameter itself. So the printed
+curve has to be the curve of centres, and the profile that is cut lies a radius inside it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.profile.least_base import base_for_pressure_angle, largest_roller
+from linkwright.cam.profile.profile import CamProfile, cam_profile
+from linkwright.kernel.files.library import library_path
+from linkwright.machine.files.read import read
+
+Floats = NDArray[np.float64]
+
+# Points of the curve of centres, an even number: between them straight lines err by 1e-9 of the radius.
+_POINTS = 40_000
+
+
+@dataclass(frozen=True)
+class Rollers:
+    """Rollers on the printed profile, and on a profile inside of it.
+
+    Attributes
+    ----------
+    radius : float
+        Of the rollers looked at [m].
+    largest_in_hollow : float or None
+        Least concave radius of the printed profile: a roller that runs on it must be smaller [m].
+    largest_inside : float or None
+        Least convex radius of the printed curve: a roller whose centre runs on it must be smaller [m].
+    play : float
+        By how much the distance of two rollers on the printed profile changes over a turn [m].
+    lift_error : float
+        By how much the place of a roller's centre differs from ρ + r at most [m].
+    offset : CamProfile
+        The cam whose rollers' centres run on the printed curve.
+    breadth_for_limit : float
+        Least b at which the pressure angle keeps the limit of the cam [m].
+    """
+
+    radius: float
+    largest_in_hollow: float | None
+    largest_inside: float | None
+    play: float
+    lift_error: float
+    offset: CamProfile
+    breadth_for_limit: float
+
+
+def rollers(profile: CamProfile, machine: str, radius: float) -> Rollers:
+    """Look at rollers on a cam that is made for points.
+
+    Parameters
+    ----------
+    profile : CamProfile
+        The cam with points.
+    machine : str
+        Its machine in the library.
+    radius : float
+        Of the rollers [m].
+
+    Returns
+    -------
+    Rollers
+        On the profile, and inside of it.
+    """
+    cam, contact = profile.cam, profile.flanks[0].contact
+    centres = centre_distance(profile, radius)
+    half = _POINTS // 2
+    apart = centres[:half] + centres[half:]
+    phi = _angles()
+    printed = np.hypot(*profile.flanks[0].curve().points(phi).T)
+    place = f"mechanism.cams.{profile.name}"
+    offset = read(library_path(machine), {f"{place}.contact": "roller", f"{place}.roller_radius": radius})
+    base = base_for_pressure_angle(cam, contact, cam.limit)
+    assert base is not None
+    return Rollers(
+        radius=radius,
+        largest_in_hollow=profile.curvature_radius_concave_min,
+        largest_inside=largest_roller(contact),
+        play=float(np.ptp(apart)),
+        lift_error=float(np.abs(centres - printed - radius).max()),
+        offset=cam_profile(offset),
+        breadth_for_limit=2 * base + cam.stroke,
+    )
+
+
+def centre_distance(profile: CamProfile, radius: float) -> Floats:
+    """Distance of a roller's centre from the cam's, the roller on the profile, over a turn.
+
+    Parameters
+    ----------
+    profile : CamProfile
+        The cam with points.
+    radius : float
+        Of the roller, below the least concave radius of the profile [m].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        At equal angles of the cam [m].
+    """
+    phi = _angles()
+    x, y = profile.flanks[0].curve(radius).points(phi).T
+    # The cam is seen as it stands at the start: the place of contact goes round it backwards.
+    polar = np.unwrap(-np.arctan2(y, x))
+    distance: Floats = np.interp(phi, polar, np.hypot(x, y), period=2 * np.pi)
+    return distance
+
+
+def _angles() -> Floats:
+    """Equal angles of a turn [rad]."""
+    return np.linspace(0.0, 2 * np.pi, _POINTS, endpoint=False)

@@ -1,0 +1,154 @@
+"""The disc of a throw by (1) to (12) of paper 3 against the exact motion of master and articulated rod."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from linkwright.papers.paper3.engine import Shift, TrialEngine
+from linkwright.torsion.model.engine.dead_centres import dead_centres
+from linkwright.torsion.model.engine.equivalent_inertia import (
+    articulated_inertia,
+    disc_by_distribution,
+    disc_by_two_masses,
+    printed_disc,
+    published_piston_speed,
+    published_throw_inertia,
+)
+from linkwright.torsion.model.engine.mean_inertia import central_mean_inertia, mean_inertia
+from linkwright.torsion.model.engine.pendulum import PRINTED_GRAVITY
+from linkwright.torsion.model.engine.rod import Rod
+from linkwright.torsion.model.engine.rod_motion import slider_crank
+
+# Crank angles at which speeds are compared.
+_ANGLES = 3600
+
+# 1 kgf cm s² is so many kg m², with the paper's g.
+KGF_CM_S2 = PRINTED_GRAVITY * 1e-4
+
+
+@dataclass(frozen=True)
+class InertiaChecks:
+    """The disc of a throw by the formulas, each against the exact one.
+
+    Attributes
+    ----------
+    share : float
+        k of the master rod, (8).
+    centre, centre_split : float
+        Of its centre of mass from the big end, and that of the two masses of (1), (2) [m].
+    split : float
+        Mean inertia of a throw with the master rod alone, as two masses over exact, less one [–].
+    speed : float
+        Greatest difference of (3) from the exact speed, as a share of the greatest speed [–].
+    series : float
+        (7) over the exact mean of the same two masses, less one [–].
+    one_rod : float
+        (7) over the exact mean with the master rod alone, less one [–].
+    simple : float
+        (9) in SI over the same, less one [–].
+    factor : float
+        0.00051 over 1/(2·981), less one [–].
+    printed : float
+        (9) as printed over (9) in SI, less one [–].
+    articulated, articulated_printed : float
+        The articulated rod about its small end: exact, and by (12) [kg m²].
+    articulated_share : float
+        What the articulated rod adds to the exact mean, without its piston [kg m²].
+    strokes : tuple of float
+        Of both banks [m].
+    shifts : tuple of Shift
+        What the formulas make of the frequencies.
+    """
+
+    share: float
+    centre: float
+    centre_split: float
+    split: float
+    speed: float
+    series: float
+    one_rod: float
+    simple: float
+    factor: float
+    printed: float
+    articulated: float
+    articulated_printed: float
+    articulated_share: float
+    strokes: tuple[float, ...]
+    shifts: tuple[Shift, ...]
+
+
+def inertia_checks(trial: TrialEngine, printed: dict[str, Any]) -> InertiaChecks:
+    """Compare (1) to (12).
+
+    Parameters
+    ----------
+    trial : TrialEngine
+        The engine.
+    printed : dict
+        Printed numbers.
+
+    Returns
+    -------
+    InertiaChecks
+        Each formula against the exact one.
+    """
+    e, own, exact = trial.engine, trial.own, trial.master_inertia
+    rod, R, m_3 = e.rod, e.radius, e.piston_mass
+    seven = disc_by_two_masses(R, rod.length, (rod.mass_pin, rod.mass_piston, m_3), own)
+    nine = disc_by_distribution(R, rod.share, rod.mass, m_3, own)
+    two = Rod(length=rod.length, mass=rod.mass, distribution=rod.share)
+    of_two = central_mean_inertia(R, two, m_3, own)
+    cm = 100 * R
+    in_kgf = printed_disc(cm, rod.share, rod.mass, m_3, own / KGF_CM_S2) * KGF_CM_S2
+    return InertiaChecks(
+        share=rod.share,
+        centre=rod.body.centre,
+        centre_split=two.body.centre,
+        split=of_two / exact - 1,
+        speed=_speed_difference(R, rod.length),
+        series=seven / of_two - 1,
+        one_rod=seven / exact - 1,
+        simple=nine / exact - 1,
+        factor=2 * PRINTED_GRAVITY * printed["factor"] - 1,
+        printed=in_kgf / nine - 1,
+        articulated=trial.articulated.moment_small_end,
+        articulated_printed=articulated_inertia(rod.moment_small_end, rod.mass, trial.articulated.mass),
+        articulated_share=_without_piston(trial) - exact,
+        strokes=tuple(each.stroke for each in dead_centres(R, trial.gears)),
+        shifts=tuple(_shifts(trial, printed)),
+    )
+
+
+def _speed_difference(crank_radius: float, length: float) -> float:
+    """(3) against the exact speed of the piston, as a share of the greatest."""
+    phi = 2 * np.pi * np.arange(_ANGLES) / _ANGLES
+    # Exact speeds are counted away from the crank, that of (3) towards it.
+    exact = -slider_crank(crank_radius, length, phi).piston_d1
+    printed = published_piston_speed(crank_radius, length, 1.0, phi)
+    return float(np.abs(printed - exact).max() / np.abs(exact).max())
+
+
+def _without_piston(trial: TrialEngine) -> float:
+    """Exact mean inertia of a throw whose articulated rod moves no piston."""
+    master, articulated = trial.gears
+    return mean_inertia(trial.engine.radius, (master, replace(articulated, piston_mass=0.0)), trial.own).mean
+
+
+def _shifts(trial: TrialEngine, printed: dict[str, Any]) -> Iterator[Shift]:
+    """The disc of a throw by the formulas."""
+    e, own = trial.engine, trial.own
+    R, rod, light, m_3 = e.radius, e.rod, trial.articulated.mass, e.piston_mass
+    literal = published_throw_inertia(R, trial.gears, own)
+    yield trial.with_inertia("(7) with I_a by (12), as printed", literal)
+    # The articulated rod as a second rod of the same k and length on the crank pin.
+    second = disc_by_two_masses(R, rod.length, (rod.share * light, (1 - rod.share) * light, m_3))
+    first = disc_by_two_masses(R, rod.length, (rod.mass_pin, rod.mass_piston, m_3), own)
+    yield trial.with_inertia("(7), I_a reduced to the crank pin", first + second)
+    for k in (rod.share, *printed["k"]):
+        both = disc_by_distribution(R, k, rod.mass + light, 2 * m_3)
+        scaled = own + both * 2 * PRINTED_GRAVITY * printed["factor"]
+        yield trial.with_inertia(f"(9), both rods with k = {k:.2f}", scaled)

@@ -1,0 +1,129 @@
+r"""The step of paper 5 from its condition (4) to its length (5).
+
+(4) divided by cos α has :math:`S_x/\cos\alpha = d(1 + \tan\alpha\sin\alpha)` before :math:`v_h/v`; (5) has
+d cos α there. The first over the second is
+
+.. math:: \frac{\cos\alpha + \sin^2\alpha}{\cos^2\alpha}
+    = 1 + \frac{(1 - \cos\alpha)(1 + 2\cos\alpha)}{\cos^2\alpha},
+
+one at α = 0 alone. (5) would follow from :math:`S_x = d\cos^2\alpha`. A knife as long as (5) says has crossed
+after the inverse of this factor of the time that (1) asks for.
+
+The travel itself is short as well: with the knife at rest the edge passes the head in :math:`d/\cos\alpha`,
+and :math:`S_x\cos\alpha/d = 1 - \sin^2\alpha\,(1 - \cos\alpha)`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.topping.published import (
+    PublishedLengths,
+    length_consistent,
+    length_published,
+    published_lengths,
+)
+
+Floats = NDArray[np.float64]
+
+# Angles at which identities are looked at: every half degree of what the formulas are good for.
+_ANGLES = np.radians(np.arange(0.5, 85.0, 0.5))
+
+# Share of a length by which an edge is made shorter and longer to see (1) break and hold.
+_HAIR = 1e-9
+
+
+@dataclass(frozen=True)
+class StepChecks:
+    """The step from (4) to (5).
+
+    Attributes
+    ----------
+    angles : ndarray
+        α of the table [rad].
+    factors : ndarray
+        What (4) has before v_h/v over what (5) has there [–].
+    times : ndarray
+        t_y/t_x of an edge as long as (5) says [–].
+    longer : ndarray
+        The length by (4) over that by (5) at the greatest v_h/v [–].
+    travels : ndarray
+        S_x over the travel in which the edge passes the head, knife at rest [–].
+    identity : float
+        Greatest difference of the factors from the closed form, as a share.
+    travel_identity : float
+        Greatest difference of the travels from theirs.
+    flips : bool
+        Whether (1) breaks a hair below the length by (4), and holds a hair above, at every angle.
+    """
+
+    angles: Floats
+    factors: Floats
+    times: Floats
+    longer: Floats
+    travels: Floats
+    identity: float
+    travel_identity: float
+    flips: bool
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        arrays = {name: each.tolist() for name, each in vars(self).items() if isinstance(each, np.ndarray)}
+        return vars(self) | arrays
+
+
+def step_checks(angles: Floats, ratio: float) -> StepChecks:
+    """Check the step.
+
+    Parameters
+    ----------
+    angles : ndarray
+        α of the table [rad].
+    ratio : float
+        Greatest v_h/v [–].
+    """
+    cos, sin = np.cos(_ANGLES), np.sin(_ANGLES)
+    closed = 1 + (1 - cos) * (1 + 2 * cos) / cos**2
+    travel = 1 - sin**2 * (1 - cos)
+    return StepChecks(
+        angles=angles,
+        factors=factors(angles),
+        times=np.array([_at_printed_length(each, ratio) for each in angles.tolist()]),
+        longer=length_consistent(1.0, angles, ratio) / length_published(1.0, angles, ratio),
+        travels=_travels(angles),
+        identity=float(np.abs(factors(_ANGLES) / closed - 1).max()),
+        travel_identity=float(np.abs(_travels(_ANGLES) - travel).max()),
+        flips=all(_flips(each, ratio) for each in _ANGLES.tolist()),
+    )
+
+
+def factors(angles: Floats) -> Floats:
+    """What (4) has before v_h/v over what (5) has there [–]: rise of both lengths with v_h/v."""
+    by_4, by_5 = (
+        each(1.0, angles, 1.0) - each(1.0, angles, 0.0) for each in (length_consistent, length_published)
+    )
+    return np.asarray(by_4 / by_5)
+
+
+def _travels(angles: Floats) -> Floats:
+    return np.array([_edge(each, 1.0, 1.0).travel_along * np.cos(each) for each in angles.tolist()])
+
+
+def _edge(angle: float, length: float, ratio: float) -> PublishedLengths:
+    """An edge over a head of 1 m at v = 1 m/s."""
+    return published_lengths(1.0, angle, length, 1.0, ratio)
+
+
+def _at_printed_length(angle: float, ratio: float) -> float:
+    found = _edge(angle, float(length_published(1.0, angle, ratio)), ratio)
+    return found.time_across / found.time_along
+
+
+def _flips(angle: float, ratio: float) -> bool:
+    length = float(length_consistent(1.0, angle, ratio))
+    short, long = (_edge(angle, length * (1 + each), ratio).holds for each in (-_HAIR, _HAIR))
+    return long and not short

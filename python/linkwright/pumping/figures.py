@@ -1,0 +1,125 @@
+"""Pumping units and rotators: the polished rod, the torque of the gearbox, and the lever over a turn."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.kernel.figure.style import (
+    BLUE,
+    GREEN,
+    MATH,
+    PURPLE,
+    RED,
+    legend_above,
+    panels,
+    roomy,
+    styled,
+    turn_axis,
+    zero_line,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from linkwright.pumping.gear_torque import GearTorque
+    from linkwright.pumping.rod_rotator import RodRotatorMotion
+    from linkwright.pumping.unit import PumpingUnitMotion
+
+
+@styled
+def polished_rod_figure(unit: PumpingUnitMotion) -> Figure:
+    """Draw the rise of the polished rod and its torque factor; with a speed, velocity and acceleration.
+
+    Parameters
+    ----------
+    unit : PumpingUnitMotion
+        What to draw.
+
+    Returns
+    -------
+    Figure
+        Panels one above the other.
+    """
+    curves = [
+        ("rise $s$\n[m]", unit.rod_travel, GREEN),
+        ("torque factor\n$dS/dθ$ [m]", unit.torque_factor, PURPLE),
+    ]
+    if unit.rod_velocity is not None and unit.rod_acceleration is not None:
+        curves.append(("velocity $v$\n[m/s]", unit.rod_velocity, BLUE))
+        curves.append(("acceleration $a$\n[m/s²]", unit.rod_acceleration, RED))
+    figure, axes = panels(len(curves), height=1.6 * len(curves) + 0.6)
+    degrees = np.degrees(unit.crank_angle)
+    for panel, (label, values, colour) in zip(axes, curves, strict=True):
+        panel.plot(degrees, values, color=colour)
+        panel.set_ylabel(label, **MATH)
+        roomy(panel, values)
+        zero_line(panel)
+        turn_axis(panel, label=panel is axes[-1])
+    return figure
+
+
+@styled
+def gear_torque_figure(gear: GearTorque) -> Figure:
+    """Draw the load of the polished rod, and the torques at the crank.
+
+    Parameters
+    ----------
+    gear : GearTorque
+        What to draw.
+
+    Returns
+    -------
+    Figure
+        Two panels, one above the other.
+    """
+    figure, (load, torque) = panels(2, height=4.4)
+    degrees = np.degrees(gear.crank_angle)
+    load.plot(degrees, gear.rod_load, color=RED)
+    load.set_ylabel("polished-rod load\n$W$ [N]", **MATH)
+    roomy(load, gear.rod_load)
+    for values, colour, label in (
+        (gear.torque_rod, RED, "polished rod"),
+        (gear.torque_counterbalance, GREEN, "counterbalance"),
+        (gear.torque_net, BLUE, "gearbox"),
+    ):
+        torque.plot(degrees, values, color=colour, label=label)
+    torque.set_ylabel("torque at the crank\n[N m]")
+    roomy(torque, gear.torque_rod, gear.torque_counterbalance)
+    zero_line(torque)
+    legend_above(torque)
+    turn_axis(load, label=False)
+    turn_axis(torque)
+    return figure
+
+
+@styled
+def rotator_figure(rotator: RodRotatorMotion) -> Figure:
+    """Draw the lever's angle and its first and second transfer functions.
+
+    Parameters
+    ----------
+    rotator : RodRotatorMotion
+        What to draw.
+
+    Returns
+    -------
+    Figure
+        Three panels, one above the other; change points are marked.
+    """
+    figure, axes = panels(3, height=5.4)
+    degrees = np.degrees(rotator.crank_angle)
+    for panel, values, label, colour in (
+        (axes[0], np.degrees(rotator.lever_angle), "lever $φ_5$ [°]", BLUE),
+        (axes[1], rotator.lever_transfer, "$φ_5′$", RED),
+        (axes[2], rotator.lever_transfer_d1, "$φ_5″$", PURPLE),
+    ):
+        panel.plot(degrees, values, color=colour)
+        at = np.degrees(rotator.change_points)
+        panel.plot(at, np.interp(at, degrees, values), "o", color=colour, markersize=4)
+        panel.set_ylabel(label, **MATH)
+        roomy(panel, values)
+        zero_line(panel)
+        turn_axis(panel, label=panel is axes[-1])
+    return figure

@@ -1,0 +1,276 @@
+r"""Torque of the gearbox of a pumping unit: polished-rod load and counterbalance.
+
+.. math::
+
+    T(\theta) = \mathrm{TF}\,(W - B)\,\eta^{\mp 1} - M\sin(\theta + \tau)
+
+with W the load of the polished rod, B the structural unbalance and M the greatest moment of cranks and
+counterweights. An air cylinder of effect E at the polished rod takes the place of the moment:
+:math:`T = \mathrm{TF}\,(W - B - E)\,\eta^{\mp 1}`. The efficiency η of the structure divides a torque that
+resists and multiplies one that drives.
+
+References
+----------
+.. [1] API Spec 11E, 17th ed. 1994, annexes on torque factors: net reducer torque.
+.. [2] Takács, Sucker-Rod Pumping Handbook, 2015, 3.7 and 4.6: net torque, balance by equal peaks, cyclic
+load factor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import FindingError
+from linkwright.kernel.numerics.roots import zeros
+from linkwright.kernel.numerics.turn_curve import TurnCurve
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.result import Result
+from linkwright.pumping.model.polished_rod_load import PolishedRodLoad
+from linkwright.pumping.model.unit import PumpingUnit
+
+Floats = NDArray[np.float64]
+
+# Angles of the turn at which the counterbalance of equal peaks is bracketed.
+_ANGLES = 720
+
+# Counterbalance beyond which none is looked for [N m or N].
+_LARGEST = 1e15
+
+# Halvings of a bracket by samples: what is left is a thousandth of what samples err.
+_HALVINGS = 40
+
+
+@dataclass(frozen=True)
+class GearTorque(Result):
+    """Torque of the gearbox over a turn.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n + 1,)
+        0 to 2π by API [rad].
+    rod_load : ndarray
+        Load W of the polished rod [N].
+    torque_rod : ndarray
+        Torque at the crank by the polished rod [N m].
+    torque_counterbalance : ndarray
+        Torque at the crank by the counterbalance, as it resists [N m].
+    torque_net : ndarray
+        Their sum, what the gearbox gives [N m].
+    counterbalance : float or None
+        Greatest moment M of cranks and counterweights [N m].
+    counterbalance_effect : float or None
+        Effect E of the air cylinder [N].
+    torque_net_up, torque_net_down : float
+        Greatest net torque on the upstroke and on the downstroke [N m].
+    torque_net_min : float
+        Least net torque; below zero, the gears change flanks [N m].
+    torque_net_mean, torque_net_rms : float
+        Mean and root mean square over the crank angle [N m].
+    cyclic_load_factor : float or None
+        Root mean square over mean [–]; None where the mean is not positive.
+    torque_rated : float or None
+        Rating of the gearbox by the designation [N m].
+    load_max : float
+        Greatest load [N].
+    load_rated : float or None
+        Rating of the structure by the designation [N].
+    work : float
+        Of the polished rod in a stroke [J].
+    """
+
+    crank_angle: Floats
+    rod_load: Floats
+    torque_rod: Floats
+    torque_counterbalance: Floats
+    torque_net: Floats
+    counterbalance: float | None
+    counterbalance_effect: float | None
+    torque_net_up: float
+    torque_net_down: float
+    torque_net_min: float
+    torque_net_mean: float
+    torque_net_rms: float
+    cyclic_load_factor: float | None
+    torque_rated: float | None
+    load_max: float
+    load_rated: float | None
+    work: float
+
+    @property
+    def gear_load(self) -> float | None:
+        """Greatest net torque over the rating of the gearbox [–]."""
+        peak = max(self.torque_net_up, self.torque_net_down)
+        return None if self.torque_rated is None else peak / self.torque_rated
+
+
+@dataclass(frozen=True)
+class _Stroke:
+    """What acts on the crank at crank angles, and the counterbalance of size one."""
+
+    unit: PumpingUnit
+    load: Floats
+    factor: Floats
+    moment: Floats
+
+    def rod(self, effect: float = 0.0) -> Floats:
+        """Torque by the polished rod, less the effect of a cylinder."""
+        assert self.unit.load is not None
+        resisting = self.factor * (self.load - self.unit.structural_unbalance - effect)
+        efficiency = self.unit.load.efficiency
+        return resisting * np.where(resisting > 0, 1 / efficiency, efficiency)
+
+    def net(self, size: float) -> Floats:
+        """Net torque with a counterbalance of some size: a moment, or the effect of a cylinder."""
+        if self.unit.geometry == "air_balanced":
+            return self.rod(size)
+        return self.rod() - size * self.moment
+
+
+def gear_torque(
+    unit: PumpingUnit, motion: Callable[[Floats], Floats], ends: tuple[float, float], angles: Floats
+) -> GearTorque:
+    """Torque of the gearbox under the load of a unit.
+
+    Parameters
+    ----------
+    unit : PumpingUnit
+        The unit, with a load.
+    motion : callable
+        Rise of the polished rod and its derivatives at crank angles, (3, n) [m].
+    ends : tuple of float
+        Crank angles at the bottom and at the top of the stroke [rad].
+    angles : ndarray, shape (n + 1,)
+        Crank angles of the curves [rad].
+
+    Returns
+    -------
+    GearTorque
+        Curves at the angles; peaks and means do not depend on them.
+    """
+    load = unit.load
+    assert load is not None, "a unit with a load"
+    is_air = unit.geometry == "air_balanced"
+    given = load.counterbalance_effect if is_air else load.counterbalance
+    strokes = _Strokes(unit, load, motion, ends)
+    size = float(given) if isinstance(given, int | float) else strokes.equal_peaks()
+    up, down = strokes.curves(size)
+    mean, _, work = (up.integral() + down.integral()) / (2 * np.pi)
+    span = np.array([np.ptp(up.ends), np.ptp(down.ends)]) / (2 * np.pi)
+    rms = float(np.sqrt(span @ [up.rms()[0] ** 2, down.rms()[0] ** 2]))
+    shown, rating = _stroke(unit, load, motion(angles), angles), unit.rating
+    return GearTorque(
+        crank_angle=angles,
+        rod_load=shown.load,
+        torque_rod=shown.rod(),
+        torque_counterbalance=shown.net(size) - shown.rod(),
+        torque_net=shown.net(size),
+        counterbalance=None if is_air else size,
+        counterbalance_effect=size if is_air else None,
+        torque_net_up=up.extreme(+1)[0],
+        torque_net_down=down.extreme(+1)[0],
+        torque_net_min=min(up.extreme(-1)[0], down.extreme(-1)[0]),
+        torque_net_mean=float(mean),
+        torque_net_rms=rms,
+        cyclic_load_factor=rms / float(mean) if mean > 0 else None,
+        torque_rated=rating.torque if rating else None,
+        load_max=max(up.extreme(+1, 1)[0], down.extreme(+1, 1)[0]),
+        load_rated=rating.load if rating else None,
+        work=float(work) * 2 * np.pi,
+    )
+
+
+@dataclass(frozen=True)
+class _Strokes:
+    """Upstroke and downstroke of a unit under its load."""
+
+    unit: PumpingUnit
+    load: PolishedRodLoad
+    motion: Callable[[Floats], Floats]
+    ends: tuple[float, float]
+
+    def curves(self, size: float) -> tuple[TurnCurve, TurnCurve]:
+        """Net torque, load, and torque factor times load over each stroke, with a counterbalance."""
+
+        def of(angles: Floats) -> Floats:
+            at = angles % (2 * np.pi)
+            stroke = _stroke(self.unit, self.load, self.motion(at), at)
+            return np.stack([stroke.net(size), stroke.load, stroke.load * stroke.factor])
+
+        up, down = self._spans()
+        return turn_curve(of, up, "torque of the gearbox"), turn_curve(of, down, "torque of the gearbox")
+
+    def _spans(self) -> tuple[Floats, Floats]:
+        """Crank angles of each stroke from end to end, with the corners of a table over the angle between."""
+        bottom = self.ends[0]
+        top = bottom + (self.ends[1] - bottom) % (2 * np.pi)
+        corners = bottom + (np.array(self.load.angle or ()) - bottom) % (2 * np.pi)
+        up, down = (
+            np.unique([start, *corners[(corners > start) & (corners < end)], end])
+            for start, end in ((bottom, top), (top, bottom + 2 * np.pi))
+        )
+        return up, down
+
+    def equal_peaks(self) -> float:
+        """The counterbalance with which both strokes have equal peaks: bracketed by samples, then exact.
+
+        More counterbalance lowers the peak of the upstroke and raises that of the downstroke.
+        """
+        fine: Floats = np.linspace(0.0, 2 * np.pi, _ANGLES, endpoint=False)
+        turn = _stroke(self.unit, self.load, self.motion(fine), fine)
+        is_up = (fine - self.ends[0]) % (2 * np.pi) <= (self.ends[1] - self.ends[0]) % (2 * np.pi)
+        guess = _equal_peaks(turn, is_up)
+
+        def excess(size: Floats) -> Floats:
+            up, down = self.curves(float(size[0]))
+            return np.array([up.extreme(+1)[0] - down.extreme(+1)[0]])
+
+        reach = np.array([1e-4 * (abs(guess) or 1.0)])
+        while excess(guess - reach) <= 0 or excess(guess + reach) >= 0:
+            reach *= 4.0
+        return float(zeros(excess, guess - reach, guess + reach)[0][0])
+
+
+def _stroke(unit: PumpingUnit, load: PolishedRodLoad, motion: Floats, angles: Floats) -> _Stroke:
+    """Load and torques at crank angles."""
+    travel, factor, _ = motion
+    force = _force(load, angles, travel / unit.stroke, factor)
+    return _Stroke(unit, force, factor, np.sin(angles + load.phase))
+
+
+def _force(load: PolishedRodLoad, angles: Floats, position: Floats, factor: Floats) -> Floats:
+    """Load of the polished rod at crank angles, from its table."""
+    if load.angle is not None:
+        assert load.force is not None
+        return np.interp(angles, load.angle, load.force, period=2 * np.pi)
+    assert load.position is not None
+    assert load.up is not None
+    assert load.down is not None
+    up, down = (np.interp(position, load.position, values) for values in (load.up, load.down))
+    return np.where(factor >= 0, up, down)
+
+
+def _equal_peaks(turn: _Stroke, is_up: NDArray[np.bool_]) -> float:
+    """The counterbalance with which both strokes have equal peaks among samples, by bisection."""
+
+    def excess(size: float) -> float:
+        net = turn.net(size)
+        return float(net[is_up].max() - net[~is_up].max())
+
+    reach = 1.0
+    while excess(-reach) <= 0 or excess(reach) >= 0:
+        reach *= 2.0
+        if reach > _LARGEST:
+            raise FindingError(
+                "no counterbalance gives both strokes equal peaks of torque: with this phase of the "
+                "counterweights (pumping_unit.load.phase) their moment does not fall in one stroke and rise "
+                "in the other"
+            )
+    low, high = -reach, reach
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(middle) > 0 else (low, middle)
+    return 0.5 * (low + high)

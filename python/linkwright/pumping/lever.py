@@ -1,0 +1,160 @@
+"""Link and lever of a rotator as functions of the crank angle, and what the lever gives the worm."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import AssemblyError
+from linkwright.linkages.closure import require_full_turn
+from linkwright.linkages.kinematics import motion_arrays
+from linkwright.linkages.model.mechanism import Mechanism
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.pumping.model.rod_rotator import LEVER, LINK, PIN, RodRotator
+from linkwright.pumping.model.rotator_lengths import Lengths, lengths
+from linkwright.pumping.model.unit import ROD, PumpingUnit
+from linkwright.pumping.unit import PolishedRod, turn_extreme
+
+Floats = NDArray[np.float64]
+
+# Angles over which the motion of a stroke is looked at.
+_ANGLES = 1440
+
+# Difference between the way forward by samples and the swing of a lever that rocks once [rad].
+_ONCE = 1e-3
+
+
+@dataclass(frozen=True)
+class LeverMotion:
+    """Link and lever at crank angles, arrays (n,).
+
+    Attributes
+    ----------
+    angles : ndarray
+        Crank angles [rad].
+    link, lever : ndarray
+        φ_4 and φ_5, continuous over the angles [rad].
+    link_d1, link_d2, lever_d1, lever_d2 : ndarray
+        Their derivatives by the crank angle [–].
+    diagonal : ndarray
+        l_d [m].
+    residual : float
+        Greatest gap in the loop over the longest link [–].
+    """
+
+    angles: Floats
+    link: Floats
+    lever: Floats
+    link_d1: Floats
+    link_d2: Floats
+    lever_d1: Floats
+    lever_d2: Floats
+    diagonal: Floats
+    residual: float
+
+
+@dataclass(frozen=True)
+class Lever:
+    """Link and lever of a rotator as functions of the crank angle.
+
+    Attributes
+    ----------
+    compiled : Compiled
+        Unit and rotator alone.
+    lengths : Lengths
+        l_4 and l_5 [m].
+    """
+
+    compiled: Compiled
+    lengths: Lengths
+
+    @classmethod
+    def of(cls, machine: Machine, unit: PumpingUnit, rotator: RodRotator) -> Lever:
+        """The lever of a machine's rotator, whatever else the machine holds.
+
+        Parameters
+        ----------
+        machine : Machine
+            The machine.
+        unit, rotator : PumpingUnit, RodRotator
+            Its parts.
+
+        Raises
+        ------
+        AssemblyError
+            Link and lever cannot meet all round.
+        """
+        alone = machine.with_entries({"mechanism": Mechanism(), "bodies": {}, "loads": {}, "drive": None})
+        compiled = compile_machine(alone)
+        require_full_turn(compiled, alone)
+        return cls(compiled, lengths(unit, rotator))
+
+    def motion(self, angles: Floats) -> LeverMotion:
+        """Link and lever at crank angles [rad]."""
+        asked = [("points", PIN), ("points", ROD), ("links", LINK), ("links", LEVER)]
+        found = motion_arrays(self.compiled, np.ascontiguousarray(angles), asked)[0]
+        if not np.isfinite(found).all():
+            at = float(angles[int(np.argmin(np.isfinite(found).all(axis=0)))])
+            raise AssemblyError(
+                f"the pin of the rotator passes over the hanger at crank angle {np.degrees(at):.2f}°, where "
+                "the lever may point anywhere; give the hanger cable a free length (pumping_unit.cable)",
+                element="rotator",
+                crank_angle=at,
+            )
+        pin, hanger, link, lever = found[0:2], found[6:8], found[12:16], found[16:20]
+        l_4, l_5 = self.lengths
+        gap = pin + l_4 * link[:2] - hanger - l_5 * lever[:2]
+        return LeverMotion(
+            angles=angles,
+            link=np.unwrap(np.arctan2(link[1], link[0])),
+            lever=np.unwrap(np.arctan2(lever[1], lever[0])),
+            link_d1=link[2],
+            link_d2=link[3],
+            lever_d1=lever[2],
+            lever_d2=lever[3],
+            diagonal=np.hypot(*(pin - hanger)),
+            residual=float(np.hypot(*gap).max() / max(l_4, l_5)),
+        )
+
+
+def turns_of(fine: LeverMotion) -> float:
+    """Whole turns of the lever in a turn of the crank, counter-clockwise positive."""
+    return float(np.round((fine.lever[-1] - fine.lever[0]) / (2 * np.pi)))
+
+
+def swing_of(lever: Lever, fine: LeverMotion) -> float:
+    """Range of the lever's angle [rad]."""
+    if turns_of(fine):
+        return 2 * np.pi
+    # Angles are taken about the middle of their range, where none comes near the cut of the arc tangent.
+    middle = 0.5 * (fine.lever.min() + fine.lever.max())
+
+    def angle(at: Floats) -> Floats:
+        off = lever.motion(at).lever - middle
+        near: Floats = off - 2 * np.pi * np.round(off / (2 * np.pi))
+        return near
+
+    return turn_extreme(angle, +1)[0] - turn_extreme(angle, -1)[0]
+
+
+def takes_along(rotator: RodRotator, rod: PolishedRod, lever: Lever) -> Callable[[LeverMotion], Floats]:
+    """1 where the lever turns the worm, 0 where the clutch slips: by its sense in the clutch's stroke."""
+    if rotator.regime == "continuous":
+        return lambda motion: np.ones(len(motion.angles))
+    start, end = (rod.bottom, rod.top) if rotator.clutch == "upstroke" else (rod.top, rod.bottom)
+    stroke = lever.motion(np.linspace(start, start + (end - start) % (2 * np.pi), _ANGLES)).lever
+    sense = np.sign(stroke[-1] - stroke[0])
+    return lambda motion: (sense * motion.lever_d1 > 0).astype(np.float64)
+
+
+def worm_turns_of(rotator: RodRotator, fine: LeverMotion, swing: float) -> float:
+    """Turns of the worm in a turn of the crank."""
+    if rotator.regime == "continuous":
+        return abs(turns_of(fine))
+    # What goes forward comes back; a lever that rocks once goes forward by its swing, which is known exactly.
+    forward = float(np.maximum(np.diff(fine.lever), 0).sum())
+    return (swing if abs(forward - swing) < _ONCE else forward) / (2 * np.pi)

@@ -1,0 +1,87 @@
+"""The worm-type rotator of a sucker-rod string: a lever on the hanger, pulled by a link from the beam.
+
+| letter of paper 4 | is | key |
+| --- | --- | --- |
+| r, L, k, k_1 | crank, pitman, arms of the beam | `R`, `P`, `C`, `A` of the pumping unit |
+| l_K | free cable at the top of the stroke | `cable` of the pumping unit |
+| l_3 | saddle bearing to the link's pin on the beam | `pin_distance` |
+| l_4 | link | `link_length` |
+| l_5 | lever | `lever_length` |
+
+Lengths that are not given are made for the unit and the regime by `rotator_lengths`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+from pydantic_core import InitErrorDetails
+
+from linkwright.kernel.description.base import Description, fault, raise_faults
+from linkwright.kernel.units import ANGLE, FRACTION, RATIO, TORQUE, Bound, Quantity, not_negative, positive
+from linkwright.linkages.model.element import PositiveLength
+
+# Names of the parts that a rotator expands into.
+PIN, ROTATOR = "rotator_pin", "rotator"
+LINK, LEVER = f"{ROTATOR}.coupler", f"{ROTATOR}.rocker"
+
+# A lever that swings through half a turn comes into line with its link.
+_SWING = Bound(
+    " between 0 and 180 deg,",
+    {"exclusiveMinimum": 0, "exclusiveMaximum": np.pi},
+    lambda value: 0 < value < np.pi,
+)
+
+
+class RodRotator(Description):
+    """A rotator of the rod string on the hanger of a pumping unit."""
+
+    regime: Literal["continuous", "intermittent"] = Field(
+        description="Whether the lever turns all round in each stroke, or rocks and works through a clutch."
+    )
+    pin_distance: PositiveLength = Field(
+        description="Saddle bearing to the link's pin on the front arm, l_3."
+    )
+    link_length: PositiveLength | None = Field(
+        None, description="Length l_4 of the link. Without it, that which suits the regime."
+    )
+    lever_length: PositiveLength | None = Field(
+        None, description="Length l_5 of the lever. Without it, that which suits the regime."
+    )
+    swing: Annotated[float, Quantity(ANGLE, _SWING)] | None = Field(
+        None, description="Wanted swing of the lever in the intermittent regime. Without it, 90 deg."
+    )
+    assembly: Literal["left", "right"] = Field(
+        "left", description="Side of the joint of link and lever, seen from the pin to the hanger."
+    )
+    worm_ratio: Annotated[float, positive(RATIO)] | None = Field(
+        None, description="Turns of the worm for a turn of the rod string."
+    )
+    worm_efficiency: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
+        1.0, description="Of the worm gear, worm driving."
+    )
+    string_torque: Annotated[float, not_negative(TORQUE)] | None = Field(
+        None, description="Torque that it takes to turn the rod string."
+    )
+    clutch: Literal["upstroke", "downstroke"] = Field(
+        "downstroke",
+        description="Stroke in which the lever takes the worm along, in the intermittent regime.",
+    )
+
+    @model_validator(mode="after")
+    def _entries_fit(self) -> Self:
+        """Report entries that do not go together."""
+        raise_faults("RodRotator", self._faults())
+        return self
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        given = [self.link_length is not None, self.lever_length is not None]
+        if self.swing is not None and (self.regime == "continuous" or any(given)):
+            remedy = "a swing is wanted of an intermittent rotator without given lengths"
+            yield fault("swing", found=self.swing, expected="nothing", remedy=remedy)
+        if given[0] != given[1]:
+            key = "lever_length" if given[0] else "link_length"
+            yield fault(key, expected="a length: link_length and lever_length are given together")

@@ -1,0 +1,348 @@
+r"""The rotator of a sucker-rod string: motion of link, lever, worm and string, and the forces in them.
+
+The lever closes the loop from the beam's pin through the link to the hanger, paper 4 (8). Link and lever are
+a dyad whose ends are l_d apart; it closes while :math:`|l_4 - l_5| \le l_d \le l_4 + l_5`. Where one of
+these is an equality link and lever are in line, a change point: the lever goes on in the same sense with
+finite dφ_5/dφ_1, but the link has no arm about it, so friction must be overcome by the lever's own momentum
+there.
+
+Friction of the string, torque M, asks :math:`M/(u\,\eta)` of the worm of ratio u and efficiency η; the link
+gives it with the force :math:`F = M/(u\,\eta\,l_5\,|\sin(\varphi_4 - \varphi_5)|)`, which loads the joints
+at both of its ends and, by way of the lever, the hanger.
+
+References
+----------
+.. [1] Paper 4, equations (8) to (18).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.linkages.closure import turn_angles
+from linkwright.machine.machine import Machine
+from linkwright.pumping.lever import Lever, LeverMotion, swing_of, takes_along, turns_of, worm_turns_of
+from linkwright.pumping.model.rod_rotator import RodRotator
+from linkwright.pumping.model.rotator_lengths import Lengths
+from linkwright.pumping.unit import PolishedRod, turn_extreme
+
+Floats = NDArray[np.float64]
+
+# Seconds of a day.
+_DAY = 86400.0
+
+# Angles of the turn at which conditions are looked at, a quarter of a degree.
+_ANGLES = 1440
+
+# Diagonals, and lengths, that differ by less than this share are the same: a hundred times rounding.
+_SAME = 1e-13
+
+# Difference of a swing from the wanted one that is rounding [rad]: near s = 180° a lever's swing changes with
+# the root of its length, so that the last digits of a length are some 1e-8 of a swing.
+_SAME_SWING = 1e-7
+
+# Sine of the angle between link and lever below which the link has no arm: at a change point it is rounding.
+_NO_ARM = 1e-6
+
+
+@dataclass(frozen=True)
+class RodRotatorMotion(Result):
+    """Motion of a rotator over a turn of the crank.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n + 1,)
+        As in `PumpingUnitMotion` [rad].
+    link_angle, lever_angle : ndarray
+        φ_4, from the beam's pin to the joint, and φ_5, from the hanger to the joint; continuous [rad].
+    link_transfer, lever_transfer : ndarray
+        dφ_4/dφ_1 and dφ_5/dφ_1 [–].
+    link_transfer_d1, lever_transfer_d1 : ndarray
+        Second transfer functions [–].
+    diagonal : ndarray
+        Distance l_d from the beam's pin to the hanger [m].
+    link_arm : ndarray
+        Arm of the link's force about the hanger [m].
+    regime : str
+        ``"continuous"`` or ``"intermittent"``, as described.
+    link_length, lever_length : float
+        l_4 and l_5 [m].
+    lever_turns_per_cycle : float
+        Whole turns of the lever in a turn of the crank, in either sense [–].
+    lever_swing : float
+        Range of the lever's angle, a full turn where it turns all round [rad].
+    transfer_min, transfer_max : float
+        Extremes of dφ_5/dφ_1 [–].
+    diagonal_min, diagonal_max : float
+        Extremes of l_d [m].
+    extremes_coincide : bool
+        Whether l_d has its extremes where the beam has, as equations (5) and (6) of the paper take for
+        granted.
+    change_points : tuple of float
+        Crank angles where link and lever are in line [rad].
+    loop_residual : float
+        Greatest gap in the loop of equation (8), over the longest link [–].
+    verdict : str
+        Why the lever turns, rocks, or does not close.
+    findings : tuple of str
+        What the regime asks for and the lever does not do: turn all round, or swing as wanted.
+    worm_turns_per_cycle : float
+        Turns that the lever gives the worm in a turn of the crank; through the clutch, one sense only [–].
+    speed : float or None
+        Design speed of the crank [rad/s].
+    lever_speed, lever_acceleration : ndarray or None
+        Of the lever at that speed [rad/s, rad/s²].
+    string_speed, string_acceleration : ndarray or None
+        Of the rod string; zero while the clutch slips [rad/s, rad/s²].
+    string_turn_days : float or None
+        Time of a full turn of the string [days].
+    string_turns_per_day : float or None
+        Its inverse.
+    worm_torque : float or None
+        Torque at the worm that turns the string, quasi-static [N m].
+    link_force : ndarray or None
+        Force in the link, positive in tension; infinite at change points [N].
+    link_force_max : float or None
+        Greatest size of it [N]; None where there are change points.
+    """
+
+    crank_angle: Floats
+    link_angle: Floats
+    lever_angle: Floats
+    link_transfer: Floats
+    lever_transfer: Floats
+    link_transfer_d1: Floats
+    lever_transfer_d1: Floats
+    diagonal: Floats
+    link_arm: Floats
+    regime: str
+    link_length: float
+    lever_length: float
+    lever_turns_per_cycle: float
+    lever_swing: float
+    transfer_min: float
+    transfer_max: float
+    diagonal_min: float
+    diagonal_max: float
+    extremes_coincide: bool
+    change_points: tuple[float, ...]
+    loop_residual: float
+    verdict: str
+    findings: tuple[str, ...]
+    worm_turns_per_cycle: float
+    speed: float | None
+    lever_speed: Floats | None
+    lever_acceleration: Floats | None
+    string_speed: Floats | None
+    string_acceleration: Floats | None
+    string_turn_days: float | None
+    string_turns_per_day: float | None
+    worm_torque: float | None
+    link_force: Floats | None
+    link_force_max: float | None
+
+
+@public
+def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
+    """Motion of the rotator of a rod string, its reduction, and its forces.
+
+    Parameters
+    ----------
+    machine : Machine
+        A machine with a pumping unit and a rotator.
+    n : int
+        Intervals of the turn for the curves; the other numbers do not depend on it.
+
+    Returns
+    -------
+    RodRotatorMotion
+        Curves over the turn, extremes, time for a turn of the string.
+
+    Raises
+    ------
+    InputError
+        The machine has no rotator.
+    AssemblyError
+        The crank cannot turn all round, link and lever cannot meet, or no lever has the wanted swing.
+
+    Notes
+    -----
+    Speeds and accelerations are those at constant speed of the crank, ``drive.speed``.
+
+    References
+    ----------
+    .. [1] Paper 4, equations (8) to (18).
+    """
+    unit, rotator = machine.pumping_unit, machine.rod_rotator
+    if unit is None or rotator is None:
+        raise InputError(f"{machine.name} has no [rod_rotator] on a [pumping_unit]: expected both")
+    rod = PolishedRod.of(machine, unit)
+    lever = Lever.of(machine, unit, rotator)
+    curves = lever.motion(turn_angles(n))
+    fine = lever.motion(turn_angles(_ANGLES))
+    speed = machine.drive.speed if machine.drive else None
+    diagonal_ends = [turn_extreme(lambda at: lever.motion(at).diagonal, sign)[0] for sign in (-1, +1)]
+    at_ends = lever.motion(np.array([rod.top, rod.bottom])).diagonal
+    turns, swing = turns_of(fine), swing_of(lever, fine)
+    worm_turns = worm_turns_of(rotator, fine, swing)
+    takes = takes_along(rotator, rod, lever)
+    days = _days(rotator, speed, worm_turns)
+    return RodRotatorMotion(
+        crank_angle=curves.angles,
+        link_angle=curves.link,
+        lever_angle=curves.lever,
+        link_transfer=curves.link_d1,
+        lever_transfer=curves.lever_d1,
+        link_transfer_d1=curves.link_d2,
+        lever_transfer_d1=curves.lever_d2,
+        diagonal=curves.diagonal,
+        link_arm=lever.lengths.lever * np.abs(np.sin(curves.link - curves.lever)),
+        regime=rotator.regime,
+        link_length=float(lever.lengths.link),
+        lever_length=float(lever.lengths.lever),
+        lever_turns_per_cycle=abs(turns),
+        lever_swing=swing,
+        transfer_min=turn_extreme(lambda at: lever.motion(at).lever_d1, -1)[0],
+        transfer_max=turn_extreme(lambda at: lever.motion(at).lever_d1, +1)[0],
+        diagonal_min=diagonal_ends[0],
+        diagonal_max=diagonal_ends[1],
+        extremes_coincide=bool(np.allclose(diagonal_ends, at_ends, rtol=_SAME, atol=0)),
+        change_points=_change_points(lever.lengths, rod, at_ends),
+        loop_residual=fine.residual,
+        verdict=verdict(lever.lengths, diagonal_ends[0], diagonal_ends[1]),
+        findings=tuple(_missed(rotator, lever.lengths, turns, swing)),
+        worm_turns_per_cycle=worm_turns,
+        string_turn_days=days,
+        string_turns_per_day=None if days is None else 1 / days,
+        **_at_speed(rotator, takes(curves), curves, speed),
+        **_forces(lever, rotator, takes, curves),
+    )
+
+
+def _missed(rotator: RodRotator, known: Lengths, turns: float, swing: float) -> Iterator[str]:
+    """What the lever does not do although the regime asks for it, by its motion."""
+    of = f"a lever of {known.lever:.6g} m with a link of {known.link:.6g} m"
+    if rotator.regime == "continuous":
+        if not turns:
+            yield (
+                f"the lever of the continuous regime does not turn all round: {of} swings through "
+                f"{np.degrees(swing):.4g}°; leave link_length and lever_length out, or choose another "
+                "pin_distance"
+            )
+        return
+    wanted = np.pi / 2 if rotator.swing is None else rotator.swing
+    if rotator.link_length is None and abs(swing - wanted) > _SAME_SWING:
+        yield (
+            f"the lever does not have the wanted swing of {np.degrees(wanted):.6g}°: {of} swings through "
+            f"{np.degrees(swing):.6g}°; give link_length and lever_length"
+        )
+
+
+def _change_points(known: Lengths, rod: PolishedRod, at_ends: Floats) -> tuple[float, ...]:
+    """Crank angles at the ends of the stroke where link and lever are in line."""
+    in_line = (abs(known.link - known.lever), known.link + known.lever)
+    is_change = [abs(each - other) <= 1e-12 * each for each, other in zip(at_ends, in_line, strict=True)]
+    return tuple(sorted(angle for angle, yes in zip((rod.top, rod.bottom), is_change, strict=True) if yes))
+
+
+def verdict(known: Lengths, least: float, greatest: float) -> str:
+    """Whether the lever turns, rocks, or does not close, and by which lengths.
+
+    Parameters
+    ----------
+    known : Lengths
+        l_4 and l_5 [m].
+    least, greatest : float
+        Extremes m and M of the diagonal [m].
+
+    Returns
+    -------
+    str
+        A sentence.
+
+    Notes
+    -----
+    Grashof's rule speaks of four fixed lengths; here the diagonal changes, so the dyad must close at both of
+    its extremes. The paper's (18), l_5 + l_6 > l_3 + l_4, speaks of one position and is not sufficient.
+    """
+    folded, stretched = abs(known.link - known.lever), known.link + known.lever
+    close = 1e-9 * greatest
+    spare = (
+        f"the diagonal runs from {least:.4f} to {greatest:.4f} m, link and lever reach from {folded:.4f} to "
+    )
+    spare += f"{stretched:.4f} m"
+    if greatest > stretched + close or least < folded - close:
+        return f"does not close all round: {spare}"
+    meets = (abs(least - folded) <= close, abs(greatest - stretched) <= close)
+    if all(meets):
+        return f"turns all round, through two change points: {spare}"
+    if any(meets):
+        return f"touches a change point at one end of the stroke and turns back from there: {spare}"
+    return f"rocks, never in line with its link: {spare}"
+
+
+def _days(rotator: RodRotator, speed: float | None, worm_turns: float) -> float | None:
+    """Days for a full turn of the string; None without speed or ratio."""
+    if speed is None or rotator.worm_ratio is None or not worm_turns:
+        return None
+    return rotator.worm_ratio / worm_turns * (2 * np.pi / speed) / _DAY
+
+
+def _at_speed(rotator: RodRotator, takes: Floats, curves: LeverMotion, speed: float | None) -> dict[str, Any]:
+    """Speeds and accelerations at constant speed of the crank."""
+    names = ("lever_speed", "lever_acceleration", "string_speed", "string_acceleration")
+    if speed is None:
+        return {"speed": None} | dict.fromkeys(names)
+    omega, epsilon = curves.lever_d1 * speed, curves.lever_d2 * speed**2
+    if rotator.worm_ratio is None:
+        string: tuple[Floats | None, ...] = (None, None)
+    else:
+        share = takes / rotator.worm_ratio
+        string = (omega * share, epsilon * share)
+    return {"speed": speed} | dict(zip(names, (omega, epsilon, *string), strict=True))
+
+
+def _forces(
+    lever: Lever,
+    rotator: RodRotator,
+    takes: Callable[[LeverMotion], Floats],
+    curves: LeverMotion,
+) -> dict[str, Any]:
+    """Torque at the worm and force in the link."""
+    if rotator.string_torque is None or rotator.worm_ratio is None:
+        return {"worm_torque": None, "link_force": None, "link_force_max": None}
+    torque = rotator.string_torque / (rotator.worm_ratio * rotator.worm_efficiency)
+
+    def force(motion: LeverMotion) -> Floats:
+        """The link pulls the joint toward the pin: its moment about the hanger is −F l_5 sin(φ_4 − φ_5)."""
+        sine = np.sin(motion.link - motion.lever)
+        with np.errstate(divide="ignore"):
+            size = -torque * np.sign(motion.lever_d1) / (lever.lengths.lever * sine)
+        size = np.where(np.abs(sine) < _NO_ARM, np.inf, size)
+        return np.where(takes(motion) > 0, size, 0.0)
+
+    return {
+        "worm_torque": torque,
+        "link_force": force(curves),
+        "link_force_max": _greatest(lever, force) if rotator.regime == "intermittent" else None,
+    }
+
+
+def _greatest(lever: Lever, force: Callable[[LeverMotion], Floats]) -> float | None:
+    """Greatest size of the link's force over the revolution [N]; None where the link loses its arm."""
+
+    def arm(angles: Floats) -> Floats:
+        motion = lever.motion(angles)
+        return np.abs(np.sin(motion.link - motion.lever))
+
+    if turn_extreme(arm, -1)[0] < _NO_ARM:
+        return None
+    return turn_extreme(lambda angles: np.abs(force(lever.motion(angles))), +1)[0]

@@ -1,0 +1,274 @@
+r"""Beam pumping units: motion of the polished rod, torque factors, counterbalance and torque of the gearbox.
+
+With S the rise of the polished rod and θ the crank angle of API Spec 11E, the torque factor is
+:math:`\mathrm{TF} = dS/d\theta`, positive on the upstroke, where the load resists. API gives the same number
+as :math:`\frac{RA}{C}\frac{\sin\alpha}{\sin\beta}`; here it is the exact first transfer function of the
+mechanism.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.linkages.closure import require_full_turn, turn_angles
+from linkwright.linkages.kinematics import motion_arrays
+from linkwright.linkages.model.mechanism import Mechanism
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.pumping.gear_torque import GearTorque, gear_torque
+from linkwright.pumping.model.unit import BEAM_LINK, PumpingUnit
+
+Floats = NDArray[np.float64]
+
+# API tabulates torque factors and positions of rods at every 15°.
+_TABLE = 24
+
+
+@dataclass(frozen=True)
+class PumpingUnitMotion(Result):
+    """Motion of the polished rod over a turn of the crank.
+
+    Attributes
+    ----------
+    crank_angle : ndarray, shape (n + 1,)
+        0 to 2π, by API: from 12 o'clock (class III: 6 o'clock) in the direction of rotation [rad].
+    rod_position : ndarray
+        Rise of the polished rod over the stroke, 0 at the bottom, 1 at the top [–].
+    rod_travel : ndarray
+        Rise above the bottom of the stroke [m].
+    torque_factor : ndarray
+        dS/dθ, positive on the upstroke [m, or N m per N].
+    torque_factor_d1 : ndarray
+        d²S/dθ² [m/rad²].
+    stroke : float
+        Exact stroke [m].
+    stroke_nominal : float or None
+        Stroke of the designation [m].
+    torque_factor_max, torque_factor_min : float
+        Extremes over the turn [m].
+    torque_factor_max_angle, torque_factor_min_angle : float
+        Crank angles where they are [rad].
+    bottom_angle, top_angle : float
+        Crank angles at the ends of the stroke, crank and pitman in line [rad].
+    upstroke_angle : float
+        Angle that the crank turns in the upstroke [rad].
+    stroke_ratio : float
+        Angle of the upstroke over that of the downstroke [–].
+    torque_factors, rod_positions : tuple of float
+        `torque_factor` [m] and `rod_position` [–] at 0°, 15°, …, 345°.
+    speed : float or None
+        Design speed of the crankshaft [rad/s].
+    rod_velocity, rod_acceleration : ndarray or None
+        Of the polished rod, upward, at that speed [m/s, m/s²].
+    rod_velocity_max, rod_velocity_min : float or None
+        Extremes of the velocity [m/s].
+    rod_acceleration_max, rod_acceleration_min : float or None
+        Extremes of the acceleration [m/s²].
+    gear : GearTorque or None
+        Torque of the gearbox, where a load is given.
+    """
+
+    crank_angle: Floats
+    rod_position: Floats
+    rod_travel: Floats
+    torque_factor: Floats
+    torque_factor_d1: Floats
+    stroke: float
+    stroke_nominal: float | None
+    torque_factor_max: float
+    torque_factor_min: float
+    torque_factor_max_angle: float
+    torque_factor_min_angle: float
+    bottom_angle: float
+    top_angle: float
+    upstroke_angle: float
+    stroke_ratio: float
+    torque_factors: tuple[float, ...]
+    rod_positions: tuple[float, ...]
+    speed: float | None
+    rod_velocity: Floats | None
+    rod_acceleration: Floats | None
+    rod_velocity_max: float | None
+    rod_velocity_min: float | None
+    rod_acceleration_max: float | None
+    rod_acceleration_min: float | None
+    gear: GearTorque | None
+
+
+@public
+def pumping_unit(machine: Machine, *, n: int = 360) -> PumpingUnitMotion:
+    """Motion of the polished rod of a pumping unit, and the torque of its gearbox.
+
+    Parameters
+    ----------
+    machine : Machine
+        A machine with a pumping unit.
+    n : int
+        Intervals of the turn for the curves; the other numbers do not depend on it.
+
+    Returns
+    -------
+    PumpingUnitMotion
+        Curves over the turn, tables at every 15°, extremes.
+
+    Raises
+    ------
+    InputError
+        The machine has no pumping unit.
+    AssemblyError
+        The crank cannot turn all round.
+
+    Notes
+    -----
+    Velocity and acceleration are those at constant speed of the crank, ``drive.speed``.
+
+    References
+    ----------
+    .. [1] API Spec 11E, 17th ed. 1994, annexes on torque factors.
+    .. [2] Takács, Sucker-Rod Pumping Handbook, 2015, 3.7.
+    """
+    unit = machine.pumping_unit
+    if unit is None:
+        raise InputError(f"{machine.name} has no [pumping_unit]: expected the description of one")
+    rod = PolishedRod.of(machine, unit)
+    phi = turn_angles(n)
+    travel, factor, factor_d1 = rod.motion(phi)
+    table = np.linspace(0.0, 2 * np.pi, _TABLE, endpoint=False)
+    at_table = rod.motion(table)
+    speed = machine.drive.speed if machine.drive else None
+    high, high_at = turn_extreme(lambda at: rod.motion(at)[1], +1)
+    low, low_at = turn_extreme(lambda at: rod.motion(at)[1], -1)
+    up = (rod.top - rod.bottom) % (2 * np.pi)
+    return PumpingUnitMotion(
+        crank_angle=phi,
+        rod_position=travel / rod.stroke,
+        rod_travel=travel,
+        torque_factor=factor,
+        torque_factor_d1=factor_d1,
+        stroke=rod.stroke,
+        stroke_nominal=unit.rating.stroke if unit.rating else None,
+        torque_factor_max=high,
+        torque_factor_min=low,
+        torque_factor_max_angle=high_at,
+        torque_factor_min_angle=low_at,
+        bottom_angle=rod.bottom,
+        top_angle=rod.top,
+        upstroke_angle=up,
+        stroke_ratio=up / (2 * np.pi - up),
+        torque_factors=tuple(at_table[1].tolist()),
+        rod_positions=tuple((at_table[0] / rod.stroke).tolist()),
+        speed=speed,
+        rod_velocity=None if speed is None else factor * speed,
+        rod_acceleration=None if speed is None else factor_d1 * speed**2,
+        rod_velocity_max=None if speed is None else high * speed,
+        rod_velocity_min=None if speed is None else low * speed,
+        rod_acceleration_max=_acceleration(rod, speed, +1),
+        rod_acceleration_min=_acceleration(rod, speed, -1),
+        gear=gear_torque(unit, rod.motion, (rod.bottom, rod.top), phi) if unit.load else None,
+    )
+
+
+def _acceleration(rod: PolishedRod, speed: float | None, sign: int) -> float | None:
+    """Greatest or least acceleration at a speed."""
+    if speed is None:
+        return None
+    return turn_extreme(lambda at: rod.motion(at)[2], sign)[0] * speed**2
+
+
+@dataclass(frozen=True)
+class PolishedRod:
+    """The polished rod of a unit as a function of the crank angle.
+
+    Attributes
+    ----------
+    compiled : Compiled
+        The unit alone.
+    unit : PumpingUnit
+        Its description.
+    stroke : float
+        [m].
+    bottom, top : float
+        Crank angles at the ends of the stroke, 0 to 2π [rad].
+    """
+
+    compiled: Compiled
+    unit: PumpingUnit
+    stroke: float
+    bottom: float
+    top: float
+
+    @classmethod
+    def of(cls, machine: Machine, unit: PumpingUnit) -> PolishedRod:
+        """The polished rod of a machine's unit, whatever else the machine holds.
+
+        Parameters
+        ----------
+        machine : Machine
+            The machine.
+        unit : PumpingUnit
+            Its unit.
+
+        Raises
+        ------
+        AssemblyError
+            The crank cannot turn all round.
+        """
+        alone = machine.with_entries(
+            {"mechanism": Mechanism(), "rod_rotator": None, "bodies": {}, "loads": {}, "drive": None}
+        )
+        compiled = compile_machine(alone)
+        require_full_turn(compiled, alone)
+        ends = [_end_angle(unit, psi, sign) for psi, sign in _ends(unit)]
+        return cls(compiled, unit, float(unit.stroke), *ends)
+
+    def motion(self, angles: Floats) -> Floats:
+        """Rise above the bottom and its derivatives by the crank angle at crank angles, (3, n) [m]."""
+        cosine, sine, d1, d2 = motion_arrays(self.compiled, angles, [("links", BEAM_LINK)])[0]
+        # Up is counter-clockwise for a beam that points to the right.
+        sign = -1.0 if self.unit.is_mirrored else 1.0
+        low = self.unit.arm_angle(self.unit.psi_bottom)
+        turned = np.arctan2(
+            sine * np.cos(low) - cosine * np.sin(low), cosine * np.cos(low) + sine * np.sin(low)
+        )
+        rise: Floats = sign * self.unit.A * np.stack((turned, d1, d2))
+        return rise
+
+
+def _ends(unit: PumpingUnit) -> tuple[tuple[float, int], tuple[float, int]]:
+    """ψ at the bottom and at the top, each with +1 where the crank points to the pitman's end, else −1."""
+    return (unit.psi_bottom, -1 if unit.is_class_3 else 1), (unit.psi_top, 1 if unit.is_class_3 else -1)
+
+
+def _end_angle(unit: PumpingUnit, psi: float, sign: int) -> float:
+    """Crank angle with crank and pitman in line."""
+    x, y = unit.saddle
+    arm = unit.arm_angle(psi)
+    ex, ey = x + unit.C * np.cos(arm), y + unit.C * np.sin(arm)
+    return float((np.arctan2(sign * ey, sign * ex) - unit.crank_phase) % (2 * np.pi))
+
+
+def turn_extreme(of: Callable[[Floats], Floats], sign: int) -> tuple[float, float]:
+    """Greatest (+1) or least (−1) value of a smooth quantity over the turn, and its crank angle.
+
+    Parameters
+    ----------
+    of : callable
+        Values at crank angles [rad].
+    sign : int
+        +1 or −1.
+
+    Returns
+    -------
+    tuple of float
+        The value, and the first crank angle from 0 to 2π that has it [rad].
+    """
+    turn = turn_curve(lambda phi: of(phi)[None], np.array([0.0, 2 * np.pi]), "motion")
+    return turn.extreme(sign)

@@ -1,0 +1,263 @@
+"""``linkwright size FILE``: the smallest motor and flywheel that will do."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import typer
+
+from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.console import console, progress_bar, styled
+from linkwright.kernel.command.out import Force, out_option, put
+
+if TYPE_CHECKING:
+    from rich.table import Table
+    from rich.text import Text
+
+    from linkwright.drive.model.catalogue import CatalogueMotor
+    from linkwright.machine.machine import Machine
+    from linkwright.sizing.checks import Check
+    from linkwright.sizing.flywheel import FlywheelChoice
+    from linkwright.sizing.motor import Candidate, MotorChoice
+
+Reserve = Annotated[
+    float, typer.Option("--power-reserve", metavar="X", help="Rated power over required power, at least.")
+]
+Unevenness = Annotated[
+    float,
+    typer.Option("--unevenness", metavar="X", help="(ω_max − ω_min)/ω_mean that the flywheel must give."),
+]
+By = Annotated[
+    Literal["all", "fixed-start", "power"],
+    typer.Option(
+        "--by",
+        help="Checks that decide. fixed-start: all but the start from the worst angle. power: rated power "
+        "and start alone, as is often done.",
+    ),
+]
+FreeRatio = Annotated[
+    bool, typer.Option("--free-ratio", help="Give each motor the ratio that suits it, not the file's.")
+]
+Together = Annotated[
+    bool, typer.Option("--together", help="Judge each motor with its flywheel; a smaller one may do.")
+]
+Inertia = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--inertia",
+        metavar="TYPE=VALUE",
+        help='Inertia of a rotor, such as 4A132S6U3="0.04 kg m^2". May be given again.',
+        show_default=False,
+    ),
+]
+OutFile = Annotated[Path | None, out_option("Write the machine with motor and flywheel there.", "FILE")]
+
+# Seconds after which a bar shows how far it is.
+_PATIENCE = 1.0
+
+# Rows of the table beyond the motor that is chosen; larger ones are larger still.
+_BEYOND = 2
+
+
+def size(
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    power_reserve: Reserve = 1.1,
+    unevenness: Unevenness = 0.05,
+    by: By = "all",
+    free_ratio: FreeRatio = False,
+    together: Together = False,
+    inertia: Inertia = None,
+    json: Json = False,
+    out: OutFile = None,
+    force: Force = False,
+) -> None:
+    """Choose motor and flywheel.
+
+    The smallest motor of the catalogue that passes every check, then the flywheel on the crankshaft, both
+    verified by analysing the machine again. Exit code 1 if no motor suffices.
+    """
+    from linkwright.machine.files.read import read
+    from linkwright.sizing.flywheel import choose_flywheel
+    from linkwright.sizing.motor import choose_motor
+
+    machine = read(file, set or (), allow_outside=allow_outside)
+    motor = choose_motor(
+        machine,
+        reserve=power_reserve,
+        by=by,
+        free_ratio=free_ratio,
+        unevenness=unevenness if together else None,
+        inertias=_inertias(inertia or []),
+        track=_tracked,
+    )
+    flywheel = None
+    if motor.chosen and motor.chosen.machine:
+        flywheel = choose_flywheel(motor.chosen.machine, unevenness)
+        if out:
+            put(_file_text(flywheel.machine, motor.chosen), out, force=force)
+    if json:
+        _print_json(machine, motor, flywheel)
+    else:
+        _print(machine, motor, flywheel)
+    if motor.chosen is None:
+        typer.echo(motor.reason, err=True)
+        raise typer.Exit(1)
+
+
+def _inertias(texts: Sequence[str]) -> dict[str, float]:
+    """Type → inertia, of ``TYPE=VALUE``."""
+    from linkwright.kernel.errors import InputError
+    from linkwright.kernel.units import INERTIA
+
+    found = {}
+    for text in texts:
+        type, equals, value = text.rpartition("=")
+        if not equals:
+            raise InputError(f'--inertia {text}\n  expected: TYPE=VALUE, such as 4A132S6U3="0.04 kg m^2"')
+        found[type.strip()] = option_value("--inertia", value.strip().strip("\"'"), INERTIA)
+    return found
+
+
+def _tracked(types: Sequence[CatalogueMotor]) -> Iterator[CatalogueMotor]:
+    """The types one by one, with a bar on standard error once that takes long."""
+    from time import monotonic
+
+    start, bar = monotonic(), None
+    for done, each in enumerate(types):
+        if bar is None and monotonic() - start > _PATIENCE and sys.stderr.isatty():
+            bar = progress_bar("motors", len(types))
+        if bar is not None:
+            bar.update(bar.task_ids[0], completed=done)
+        yield each
+    if bar is not None:
+        bar.stop()
+
+
+def _file_text(machine: Machine, chosen: Candidate) -> str:
+    """The machine file, with a remark where a number is an estimate."""
+    import tomlkit
+
+    from linkwright.machine.files.write import dumps
+    from linkwright.sizing.motor import ESTIMATE
+
+    document: Any = tomlkit.parse(dumps(machine))
+    if chosen.inertia_estimated:
+        document["drive"]["motor"]["inertia"].comment(ESTIMATE)
+    return tomlkit.dumps(document)
+
+
+def _warnings(motor: MotorChoice, flywheel: FlywheelChoice | None) -> list[str]:
+    return [*motor.warnings, *(flywheel.warnings if flywheel else ())]
+
+
+def _print_json(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> None:
+    """One object on standard output."""
+    from json import dumps
+
+    results = {
+        "required_power": motor.required.to_dict(),
+        "motor": motor.to_dict(),
+        "flywheel": flywheel.to_dict() if flywheel else None,
+    }
+    found = {"machine": machine.name, "results": results, "warnings": _warnings(motor, flywheel)}
+    typer.echo(dumps(found, allow_nan=False, ensure_ascii=False))
+
+
+def _print(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> None:
+    """Tables on the terminal."""
+    out, need = console(), motor.required
+    out.print(machine.name + "\n", style="bold")
+    out.print(f"Required power {need.power / 1e3:.2f} kW at {need.speed:.4g} rad/s")
+    out.print(f"  {need.formula}, mean load {need.torque_load_mean:.2f} N m, η {need.efficiency:.4g}\n")
+    if motor.present:
+        out.print(_checks_table("The motor in the file", motor.present))
+    if motor.chosen:
+        chosen = motor.chosen
+        out.print(_checks_table(f"{chosen.type} at ratio {chosen.ratio:.4g}", chosen.checks))
+    out.print(_considered_table(motor))
+    if motor.chosen:
+        out.print("\n" + motor.reason, style="bold")
+    if flywheel:
+        out.print(_flywheel_words(flywheel))
+    for warning in _warnings(motor, flywheel):
+        out.print(styled(("note", "yellow"), f" {warning}"))
+
+
+def _checks_table(title: str, checks: Sequence[Check]) -> Table:
+    """A line for each check: found, limit, verdict."""
+    from rich.table import Table
+
+    table = Table(title=title, title_justify="left", box=None, padding=(0, 2, 0, 0))
+    for word in ("check", "found", "", "limit", "unit", "", "remark"):
+        table.add_column(word, justify="right" if word in ("found", "limit") else "left")
+    marks = {True: ("passes", "green"), False: ("fails", "red"), None: ("not known", "yellow")}
+    for check in checks:
+        sign = "" if check.limit is None else "≤" if check.at_most else "≥"
+        row = (check.name.replace("_", " "), _number(check.value), sign, _number(check.limit), check.unit)
+        table.add_row(*row, styled(marks[check.passed]), check.note)
+    return table
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None else f"{value:.0f}" if abs(value) >= 1e3 else f"{value:.4g}"
+
+
+def _considered_table(motor: MotorChoice) -> Table:
+    """The motors in the order of their power, around the one that is chosen."""
+    from rich.table import Table
+
+    table = Table(title="\nMotors considered", title_justify="left", box=None, padding=(0, 2, 0, 0))
+    for word in ("type", "kW", "ratio", "inertia", "verdict"):
+        table.add_column(word, justify="left" if word in ("type", "verdict") else "right")
+    for each in _shown(motor):
+        inertia = f"{each.inertia:.3g}{'*' if each.inertia_estimated else ''}"
+        power = f"{each.known.power_rated / 1e3:.4g}"
+        table.add_row(each.type, power, f"{each.ratio:.4g}", inertia, _verdict(each, motor))
+    others = len(motor.candidates) - len(_suited(motor))
+    remark = f"; {others} types have another speed: see --free-ratio" if others else ""
+    table.caption, table.caption_justify = f"inertia in kg m²; * estimated{remark}", "left"
+    return table
+
+
+def _shown(motor: MotorChoice) -> list[Candidate]:
+    """Motors from half the required power to a little beyond the one that is chosen."""
+    ranked = sorted(_suited(motor), key=lambda each: each.known.power_rated)
+    enough = [each for each in ranked if each.known.power_rated >= 0.5 * motor.required.power]
+    enough = enough if len(enough) > _BEYOND else ranked[-_BEYOND - 1 :]
+    if motor.chosen is None:
+        return enough
+    at = next(n for n, each in enumerate(enough) if each is motor.chosen)
+    beyond = [each for each in enough[at + 1 :] if each.passes]
+    return [*enough[: at + 1], *beyond[:_BEYOND]]
+
+
+def _suited(motor: MotorChoice) -> list[Candidate]:
+    """Motors whose speed suits the ratio; all, if there is none."""
+    return [each for each in motor.candidates if each.checks[0].passed] or list(motor.candidates)
+
+
+def _verdict(each: Candidate, motor: MotorChoice) -> str | Text:
+    if each is motor.chosen:
+        return styled(("chosen", "bold green"))
+    return "passes, larger than needed" if each.passes else ", ".join(check.brief for check in each.failed)
+
+
+def _flywheel_words(flywheel: FlywheelChoice) -> Text:
+    """What flywheel, what it gives, what the classical estimate would have been."""
+    without = flywheel.unevenness_without
+    bare = "there is no steady motion" if without is None else f"the unevenness is {without:.4f}"
+    if flywheel.inertia == 0:
+        wanted = f" {bare}, at most {flywheel.unevenness_wanted:g} is wanted"
+        return styled(("No flywheel is needed:", "bold"), wanted)
+    return styled(
+        (f"Flywheel {flywheel.inertia:.4g} kg m² on the crankshaft", "bold"),
+        f" for an unevenness of "
+        f"{flywheel.unevenness:.6g}; without it {bare}\n"
+        f"  classical estimate {flywheel.inertia_estimate:.4g} kg m², from an excess work of "
+        f"{flywheel.excess_work:.4g} J",
+    )

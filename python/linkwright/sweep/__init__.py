@@ -1,1 +1,0 @@
-"""Many machines at once: `steady_states` in `batch`; many cams: `search_cams` in `cams`."""

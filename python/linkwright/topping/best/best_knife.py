@@ -1,0 +1,272 @@
+r"""The best knife of a topper: shortest edge, or fastest along the row, that keeps its limits.
+
+At an angle α, a speed v_h of the knife and a speed v along the row, one pass over the heads gives the length
+that each needs, and so the least edge for the share of heads that has to be cut right through; where the
+haulm has a limit, the edge is made longer until it is kept. The draw-cut ratio does not depend on the length.
+So only α and v_h are sought, on a grid, and then on ever finer ones about the best:
+
+* robust against the steps of a sample, against locked phases, and against limits on whose edge the best lies;
+* the search looks at a part of the roots, the last rounds at all of them, and the verification at others,
+  drawn with another seed, with a finer look at each pass.
+
+Edges that run backwards at times are passed over: they push the head instead of cutting it. Without
+`slicing_min` nothing speaks for moving the knife: the shortest edge then rests across the row.
+
+For the fastest, the shortest edge is sought at several speeds; between the greatest speed at which it is
+short enough and the next one, halving goes on.
+
+References
+----------
+.. [1] Derived here.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.topping.best.knife_failing import Failing, failing_limit
+from linkwright.topping.best.knife_search import MAP, KnifeGrid
+from linkwright.topping.best.knife_trial import Trial, Trials, thinned
+from linkwright.topping.coverage import FINE
+from linkwright.topping.edge import require_topper
+from linkwright.topping.field import TopperField, field_result
+from linkwright.topping.model.limits import TopperLimits
+from linkwright.topping.model.motion import MemberKnife
+from linkwright.topping.passes import Watch, pass_over
+from linkwright.topping.roots import draw_roots, field_of
+
+Floats = NDArray[np.float64]
+Objective = Literal["shortest", "fastest"]
+
+# Roots that the search looks at.
+_ROOTS = 4000
+
+# Verification draws its roots with a seed that far from the own.
+_OTHER_SEED = 1_000_003
+
+# Nearer to a bound than this share of the range is on it.
+_ON = 1e-4
+
+
+@dataclass(frozen=True)
+class BestKnife(Result):
+    """The best knife.
+
+    Attributes
+    ----------
+    edge_angle, edge_length : float
+        α [rad] and L [m].
+    knife_speed, forward_speed : float
+        v_h and v [m/s].
+    crank_speed : float or None
+        Of the crank that moves the knife [rad/s]; None where it moves by a law.
+    slicing_ratio_mean : float
+        Mean draw-cut ratio [–].
+    share_complete, share_complete_low, share_complete_high : float
+        Share of heads that it cuts right through, over the roots that it was sought with [–].
+    haulm_mean, haulm_mean_low, haulm_mean_high : float
+        Mean share of the head that it leaves there [–].
+    share_verified, share_verified_low, share_verified_high : float
+        Share of heads over other roots, looked at more finely [–].
+    haulm_verified, haulm_verified_low, haulm_verified_high : float
+        Likewise [–].
+    seed_verified : int
+        Seed of the other roots.
+    is_verified : bool
+        Whether the other roots keep the limits, but for what the intervals over both leave open.
+    at_bounds : tuple of str
+        Bounds of the search on which it lies.
+    """
+
+    edge_angle: float
+    edge_length: float
+    knife_speed: float
+    forward_speed: float
+    crank_speed: float | None
+    slicing_ratio_mean: float
+    share_complete: float
+    share_complete_low: float
+    share_complete_high: float
+    haulm_mean: float
+    haulm_mean_low: float
+    haulm_mean_high: float
+    share_verified: float
+    share_verified_low: float
+    share_verified_high: float
+    haulm_verified: float
+    haulm_verified_low: float
+    haulm_verified_high: float
+    seed_verified: int
+    is_verified: bool
+    at_bounds: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class KnifeSearch(Result):
+    """A search for the best knife.
+
+    Attributes
+    ----------
+    map_angle, map_speed : ndarray, shape (a,), (b,)
+        Angles [rad] and knife speeds [m/s] of the map.
+    map_length : ndarray, shape (a, b)
+        Least edge for the shares asked for [m], at the forward speed of the best; NaN where the edge runs
+        backwards, infinite where none does.
+    map_slicing : ndarray, shape (a, b)
+        Mean draw-cut ratio [–].
+    objective : str
+        ``"shortest"`` or ``"fastest"``.
+    limits : TopperLimits
+        What had to be kept.
+    length_max : float
+        Greatest length of the edge [m]; infinite without a limit.
+    tried : int
+        Knives that were looked at.
+    best : BestKnife or None
+        The best one; None if no knife keeps the limits.
+    failing : Failing or None
+        What cannot be kept then.
+    """
+
+    map_angle: Floats
+    map_speed: Floats
+    map_length: Floats
+    map_slicing: Floats
+    objective: Objective
+    limits: TopperLimits
+    length_max: float
+    tried: int
+    best: BestKnife | None
+    failing: Failing | None
+
+
+@public
+def best_knife(
+    machine: Machine,
+    *,
+    objective: Objective = "shortest",
+    seed: int | None = None,
+    watch: Watch | None = None,
+) -> KnifeSearch:
+    """Find the best knife within its limits.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a topper, its limits, and a field of roots.
+    objective : {"shortest", "fastest"}
+        The shortest edge at the forward speed of the file; or the greatest forward speed, with an edge of
+        at most ``length_max``, without it that of the file.
+    seed : int, optional
+        In place of the field's.
+    watch : callable, optional
+        Told how much is done, from 0 to 1.
+
+    Returns
+    -------
+    KnifeSearch
+        The best knife and a map about it, or the limit that cannot be kept.
+
+    Raises
+    ------
+    InputError
+        No topper.
+    AssemblyError
+        The mechanism of the knife does not close all round.
+    """
+    topper = require_topper(machine)
+    limits = topper.limits
+    roots = draw_roots(topper, seed)
+    length_max = limits.length_max or (math.inf if objective == "shortest" else topper.edge_length)
+    trials = Trials(machine, topper, thinned(roots, _ROOTS))
+    search = KnifeGrid(trials, length_max, objective, watch)
+    chosen = search.fastest() if objective == "fastest" else None
+    speed = topper.forward_speed if chosen is None else chosen.forward_speed
+    table = search.grid(speed, MAP, search.low, search.high)
+    if chosen is None:
+        chosen = search.shortest(speed, [each for row in table for each in row])
+    if trials.roots is not roots:
+        trials = Trials(machine, topper, roots, trials.count)
+        search = KnifeGrid(trials, length_max, objective, watch)
+        chosen = search.settled(chosen)
+    keeps = search.keeps(chosen)
+    return KnifeSearch(
+        map_angle=np.array([row[0].edge_angle for row in table]),
+        map_speed=np.array([each.knife_speed for each in table[0]]),
+        map_length=np.array([[each.length for each in row] for row in table]),
+        map_slicing=np.array([[each.slicing for each in row] for row in table]),
+        objective=objective,
+        limits=limits,
+        length_max=length_max,
+        tried=trials.count,
+        best=_verified(trials, chosen, search, seed) if keeps else None,
+        failing=None if keeps else failing_limit(chosen, roots, limits, length_max),
+    )
+
+
+def _verified(trials: Trials, chosen: Trial, search: KnifeGrid, seed: int | None) -> BestKnife:
+    """The knife over the roots that it was sought with, and over others."""
+    topper, roots, length = trials.topper, trials.roots, chosen.length
+    at = (chosen.edge_angle, chosen.knife_speed, chosen.forward_speed)
+    edges = trials.edges(*at)
+    entries = {"edge_angle": at[0], "edge_length": length, "forward_speed": at[2]}
+    best = topper.with_entries(entries)
+    own = field_result(best, edges, roots, pass_over(edges, roots, length=length))
+    other = (field_of(topper).seed if seed is None else seed) + _OTHER_SEED
+    fresh = draw_roots(topper, other)
+    check = field_result(best, edges, fresh, pass_over(edges, fresh, length=length, fine=FINE))
+    rate = edges[0].knife.rate
+    return BestKnife(
+        edge_angle=at[0],
+        edge_length=length,
+        knife_speed=at[1],
+        forward_speed=at[2],
+        crank_speed=rate if isinstance(topper.motion, MemberKnife) else None,
+        slicing_ratio_mean=own.slicing_ratio_mean,
+        share_complete=own.share_complete,
+        share_complete_low=own.share_complete_low,
+        share_complete_high=own.share_complete_high,
+        haulm_mean=own.haulm_mean,
+        haulm_mean_low=own.haulm_mean_low,
+        haulm_mean_high=own.haulm_mean_high,
+        share_verified=check.share_complete,
+        share_verified_low=check.share_complete_low,
+        share_verified_high=check.share_complete_high,
+        haulm_verified=check.haulm_mean,
+        haulm_verified_low=check.haulm_mean_low,
+        haulm_verified_high=check.haulm_mean_high,
+        seed_verified=other,
+        is_verified=_holds(own, check, topper.limits),
+        at_bounds=_at_bounds(chosen, search),
+    )
+
+
+def _holds(own: TopperField, check: TopperField, limits: TopperLimits) -> bool:
+    """Whether other roots keep the limits but for chance, which both samples have their part in."""
+    most = math.inf if limits.haulm_max is None else max(limits.haulm_max, own.haulm_mean_high)
+    least = min(limits.complete_min, own.share_complete_low)
+    return check.haulm_mean_low <= most and check.share_complete_high >= least
+
+
+def _at_bounds(chosen: Trial, search: KnifeGrid) -> tuple[str, ...]:
+    """Keys of the bounds that a knife lies on."""
+    ranges = {
+        "angle": (chosen.edge_angle, search.low[0], search.high[0]),
+        "knife_speed": (chosen.knife_speed, search.low[1], search.high[1]),
+    }
+    if search.is_fastest:
+        ranges["forward_speed"] = (chosen.forward_speed, *search.speeds)
+    found = []
+    for key, (value, low, high) in ranges.items():
+        near = _ON * (high - low)
+        if high > low and min(value - low, high - value) <= near:
+            found.append(f"{key}_min" if value - low <= near else f"{key}_max")
+    return tuple(found)

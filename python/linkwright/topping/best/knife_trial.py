@@ -1,0 +1,173 @@
+"""One knife of a topper that may be the best: the least edge that does what is asked of it, and how it
+slices."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.machine.machine import Machine
+from linkwright.topping.edge import Edge
+from linkwright.topping.knife import Knife
+from linkwright.topping.model.topper import Topper
+from linkwright.topping.passes import pass_over
+from linkwright.topping.roots import Roots
+from linkwright.topping.slicing import slicing
+from linkwright.topping.sweep import edges_with
+
+Floats = NDArray[np.float64]
+
+# The haulm that an edge leaves falls with its length: halvings to 1e-4 of the greatest length.
+_HALVINGS = 14
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A knife that was looked at.
+
+    Attributes
+    ----------
+    edge_angle : float
+        α [rad].
+    knife_speed, forward_speed : float
+        v_h and v [m/s].
+    length : float
+        Least edge that keeps the limits of heads and haulm [m]; infinite if none does, NaN if it runs
+        backwards at times.
+    slicing : float
+        Mean draw-cut ratio [–]; NaN likewise.
+    """
+
+    edge_angle: float
+    knife_speed: float
+    forward_speed: float
+    length: float
+    slicing: float
+
+    @property
+    def retreats(self) -> bool:
+        """Whether the edge runs backwards at times."""
+        return math.isnan(self.slicing)
+
+    def lack(self, slicing_min: float | None) -> float:
+        """How much the draw-cut ratio lacks.
+
+        Parameters
+        ----------
+        slicing_min : float or None
+            What is asked for.
+
+        Returns
+        -------
+        float
+            Zero if it is enough, infinite for an edge that runs backwards.
+        """
+        return math.inf if self.retreats else max(0.0, (slicing_min or 0.0) - self.slicing)
+
+
+class Trials:
+    """Knives over the same roots.
+
+    Parameters
+    ----------
+    machine : Machine
+        What may move the knife.
+    topper : Topper
+        With its limits.
+    roots : Roots
+        What all of them meet.
+    count : int
+        Knives that were looked at before.
+    """
+
+    def __init__(self, machine: Machine, topper: Topper, roots: Roots, count: int = 0) -> None:
+        self.topper, self.roots, self.count = topper, roots, count
+        self._machine = machine
+        self._knives: dict[float, list[Knife]] = {}
+
+    def edges(self, angle: float, knife_speed: float, forward_speed: float) -> list[Edge]:
+        """An edge, in one or two directions.
+
+        Parameters
+        ----------
+        angle : float
+            α [rad].
+        knife_speed, forward_speed : float
+            v_h and v [m/s].
+        """
+        if knife_speed not in self._knives:
+            changed = self.topper.with_entries({"knife_speed": knife_speed})
+            self._knives[knife_speed] = [
+                edge.knife for edge in edges_with(self._machine, changed, knife_speed)
+            ]
+        return [Edge(knife, angle, forward_speed) for knife in self._knives[knife_speed]]
+
+    def at(self, angle: float, knife_speed: float, forward_speed: float) -> Trial:
+        """Look at a knife.
+
+        Parameters
+        ----------
+        angle : float
+            α [rad].
+        knife_speed, forward_speed : float
+            v_h and v [m/s].
+        """
+        self.count += 1
+        edges = self.edges(angle, knife_speed, forward_speed)
+        if any(edge.retreats for edge in edges):
+            return Trial(angle, knife_speed, forward_speed, math.nan, math.nan)
+        length = self.length(edges)
+        return Trial(angle, knife_speed, forward_speed, length, slicing(edges).ratio_mean)
+
+    def length(self, edges: list[Edge]) -> float:
+        """Least edge for the share of heads, and for the haulm that may be left [m].
+
+        Parameters
+        ----------
+        edges : list of Edge
+            In one or two directions.
+        """
+        limits = self.topper.limits
+        needed = np.sort(pass_over(edges, self.roots).length_needed)
+        enough = math.ceil(limits.complete_min * len(needed) - 1e-9) - 1
+        least = float(needed[max(enough, 0)])
+        if limits.haulm_max is None or not math.isfinite(least):
+            return least
+        return self._for_haulm(edges, least, float(needed[np.isfinite(needed)][-1]), limits.haulm_max)
+
+    def _for_haulm(self, edges: list[Edge], least: float, most: float, haulm_max: float) -> float:
+        """Least edge, from one that cuts enough heads on, that leaves no more haulm."""
+        if float(self.roots.is_missed.mean()) > haulm_max:
+            return math.inf
+        if self._haulm(edges, least) <= haulm_max:
+            return least
+        if self._haulm(edges, most) > haulm_max:
+            return math.inf
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (least + most)
+            least, most = (least, middle) if self._haulm(edges, middle) <= haulm_max else (middle, most)
+        return most
+
+    def _haulm(self, edges: list[Edge], length: float) -> float:
+        return float(pass_over(edges, self.roots, length=length).left.mean())
+
+
+def thinned(roots: Roots, most: int) -> Roots:
+    """Some of the roots, evenly among all of them.
+
+    Parameters
+    ----------
+    roots : Roots
+        All.
+    most : int
+        How many are enough.
+    """
+    n = len(roots.start)
+    if n <= most:
+        return roots
+    kept = np.arange(most) * n // most
+    names = ("root_diameter", "cut_height", "offset", "distance", "start", "cluster")
+    return replace(roots, **{name: getattr(roots, name)[kept] for name in names})

@@ -1,0 +1,194 @@
+"""``linkwright topper field FILE``: a topper over a field of roots."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
+from linkwright.kernel.errors import InputError, require_within
+from linkwright.kernel.limits import FIELD_VARIANTS
+
+if TYPE_CHECKING:
+    from linkwright.kernel.files.output import OutputFolder
+    from linkwright.machine.machine import Machine
+    from linkwright.topping.field import TopperField
+    from linkwright.topping.sweep import FieldSweep
+
+Over = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--over",
+        metavar="NAME=LOW:HIGH:N",
+        help='What varies, such as edge_length=0.1:0.3:21 or edge_angle="0 deg":"40 deg":9: edge_length, '
+        "edge_angle, forward_speed, knife_speed, cut_height. A second one: all combinations.",
+        show_default=False,
+    ),
+]
+Seed = Annotated[
+    int | None, typer.Option("--seed", metavar="N", help="In place of the field's.", show_default=False)
+]
+Level = Annotated[
+    float, typer.Option("--level", metavar="P", help="Probability that the intervals hold the truth.")
+]
+Folder = Annotated[
+    Path | None, out_option("Write results.json, curves as CSV, and figures as SVG and PNG there.")
+]
+
+# Lengths at which the haulm that is left is looked at for its figure.
+_LENGTHS = 31
+
+
+def topper() -> None:
+    """Topper knives over fields of roots, and the best knife; `linkwright run FILE` has the knife itself.
+
+    Roots are those of [topper.field] in the machine file: random ones by distributions, or measured ones.
+    """
+
+
+def field(
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    over: Over = None,
+    seed: Seed = None,
+    level: Level = 0.95,
+    json: Json = False,
+    out: Folder = None,
+    force: Force = False,
+) -> None:
+    """A field of roots: share of heads cut right through, haulm that is left, loss, length for all shares.
+
+    Exit code 1 if the file has [topper.limits] that are not kept.
+    """
+    from linkwright.kernel.command.bar import bar
+    from linkwright.machine.files.read import read
+    from linkwright.topping.edge import edges_of, require_topper
+    from linkwright.topping.field import topper_field
+    from linkwright.topping.field_verdict import field_cautions, field_findings
+    from linkwright.topping.sweep import sweep_field
+
+    folder = output_folder(out, force=force)
+    machine, axes = read(file, set or [], allow_outside=allow_outside), _axes(over or [])
+    described = require_topper(machine)
+    with bar("heads") as watch:
+        found = topper_field(machine, seed=seed, level=level, watch=watch)
+    swept = None
+    if axes:
+        with bar("variants") as watch:
+            swept = sweep_field(machine, axes, seed=seed, level=level, watch=watch)
+    findings = list(field_findings(found, described))
+    warnings = list(field_cautions(found, described, edges_of(machine, described)[0].knife))
+    shown = _object(machine.name, found, swept, findings, warnings)
+    if json:
+        typer.echo(shown, nl=False)
+    else:
+        _print(machine, found, swept, findings, warnings)
+    if folder is not None:
+        _write(machine, found, swept, shown, folder, seed=seed, quiet=json)
+    if findings:
+        raise typer.Exit(1)
+
+
+def _axes(wanted: list[str]) -> dict[str, Any]:
+    """Values of all entries that vary."""
+    axes = dict(_axis(each) for each in wanted)
+    if len(axes) < len(wanted):
+        raise InputError("--over: found the same name twice, expected each once")
+    if len(axes) > 2:
+        raise InputError(f"--over: found {len(axes)} names, expected two at most")
+    return axes
+
+
+def _axis(text: str) -> tuple[str, Any]:
+    """Name and values of one ``NAME=LOW:HIGH:N``."""
+    import numpy as np
+
+    from linkwright.kernel.description.base import suggestion
+    from linkwright.topping.sweep import ENTRIES
+
+    name, _, values = text.partition("=")
+    parts = [part.strip().strip("\"'") for part in values.split(":")]
+    if name not in ENTRIES:
+        expected = "expected an entry of the knife, "
+        raise InputError(f'--over {text}: found "{name}", {expected}{suggestion(name, ENTRIES)}')
+    if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
+        remedy = "such as edge_length=0.1:0.3:21 for 21 values from 0.1 to 0.3 m"
+        raise InputError(f'--over {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
+    low, high = (option_value(f"--over {text}", part, ENTRIES[name]) for part in parts[:2])
+    # A count of thousands of digits is no number for Python.
+    count = int(parts[2][:16])
+    require_within(FIELD_VARIANTS, count, text, "take fewer values")
+    return name, np.linspace(low, high, count)
+
+
+def _object(
+    name: str, found: TopperField, swept: FieldSweep | None, findings: list[str], warnings: list[str]
+) -> str:
+    """One JSON object."""
+    from json import dumps
+
+    from linkwright.kernel.result import finite
+
+    results: dict[str, Any] = {"topper_field": found.to_dict()}
+    if swept is not None:
+        columns = {key: column.tolist() for key, column in swept.columns().items()}
+        results["topper_field_sweep"] = {"shape": list(swept.shape), **columns}
+    told = {"findings": findings, "warnings": [*findings, *warnings]}
+    shown = {"machine": name, "results": finite(results), **told}
+    return dumps(shown, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def _print(
+    machine: Machine,
+    found: TopperField,
+    swept: FieldSweep | None,
+    findings: list[str],
+    warnings: list[str],
+) -> None:
+    """Tables for people."""
+    from linkwright.app.terminal import print_tables
+    from linkwright.topping.tables.field import field_tables, sweep_table
+
+    tables = list(field_tables(found))
+    if swept is not None:
+        tables.append(sweep_table(swept))
+    print_tables(machine.name, tables, findings, warnings)
+
+
+def _write(
+    machine: Machine,
+    found: TopperField,
+    swept: FieldSweep | None,
+    shown: str,
+    folder: OutputFolder,
+    *,
+    seed: int | None,
+    quiet: bool,
+) -> None:
+    """Results, curves and figures; says where they are."""
+    import numpy as np
+
+    from linkwright.kernel.command.bar import bar
+    from linkwright.topping.figures.field import field_haulm_figure, field_length_figure, field_share_figure
+    from linkwright.topping.figures.sweep import sweep_figures
+    from linkwright.topping.sweep import sweep_field
+    from linkwright.topping.tables.field import field_csv
+
+    lengths = np.linspace(0, found.length[-1], _LENGTHS)[1:]
+    with bar("lengths") as watch:
+        over = sweep_field(machine, {"edge_length": lengths}, seed=seed, level=found.level, watch=watch)
+    texts = {"results.json": shown, "share.csv": field_csv(found.curves())}
+    texts["haulm.csv"] = field_csv(over.columns())
+    figures = {
+        "share": field_share_figure(found),
+        "length_needed": field_length_figure(found),
+        "haulm_and_loss": field_haulm_figure(found, over),
+    }
+    if swept is not None:
+        texts["sweep.csv"] = field_csv(swept.columns())
+        figures |= sweep_figures(swept)
+    write_folder(folder, texts, figures, quiet=quiet)

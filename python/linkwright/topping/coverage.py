@@ -1,0 +1,128 @@
+r"""What a knife cuts of heads, by any law: the length that each needs, and what a shorter edge leaves.
+
+With the middle of the edge at q along itself and p normal to itself, seen from the centre of a head (`edge`),
+it crosses the chord :math:`\pm\sqrt{d^2/4 - p^2}` of the disc and cuts of it what lies within
+:math:`q \pm L/2`. If the edge never retreats, each chord is crossed once, and the head needs
+
+.. math:: L = 2\max_t\left(|q| + \sqrt{d^2/4 - p^2}\right).
+
+A retreating edge crosses some chords again; any crossing counts.
+
+References
+----------
+.. [1] Derived here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.result import Result
+from linkwright.topping.edge import Edge
+
+Floats = NDArray[np.float64]
+
+# Stations a turn of the law for one machine: tops between them are then told apart to 1e-9.
+FINE = 128
+
+# Stations a turn of the law for many heads: two tops that differ by less than 1e-6 of the head may be
+# confused.
+COARSE = 16
+
+# Far aslant, the point that is reached last lies within cot α of the end of the pass: so many stations see
+# it, times tan α; no more than the second for an edge that hardly goes on.
+_ASLANT, _MOST = 4, 100_000
+
+
+@dataclass(frozen=True)
+class Coverage(Result):
+    """What heads need, and what is left of them; arrays (n,), a head each.
+
+    Attributes
+    ----------
+    length_needed : ndarray
+        Least length of the edge that cuts all of the head [m]; zero for a head without a disc.
+    last_x, last_y : ndarray
+        The point that is reached last, from the centre of the head [m].
+    uncut_right, uncut_left, uncut_between : ndarray
+        Area that is left on the right of the edge, on its left, and between two passes of it [m²]; zero
+        without a length.
+    """
+
+    length_needed: Floats
+    last_x: Floats
+    last_y: Floats
+    uncut_right: Floats
+    uncut_left: Floats
+    uncut_between: Floats
+
+    @property
+    def uncut(self) -> Floats:
+        """Area that is left [m²]."""
+        return self.uncut_right + self.uncut_left + self.uncut_between
+
+
+def coverage(
+    edge: Edge,
+    diameter: ArrayLike,
+    offset: ArrayLike = 0.0,
+    phase: ArrayLike = 0.0,
+    *,
+    length: float | None = None,
+    fine: int = FINE,
+) -> Coverage:
+    """What an edge cuts of heads.
+
+    Parameters
+    ----------
+    edge : Edge
+        The edge.
+    diameter, offset, phase : array_like, shape (n,) or (1,)
+        d of the discs [m], their centres to the left of the row [m], phase of the knife when the middle of
+        the edge is abreast of the centre [rad]; one, or one a head.
+    length : float, optional
+        Of the edge [m]; without it, only what is needed is looked at.
+    fine : int
+        Stations a turn of the law; an edge far aslant takes more.
+
+    Returns
+    -------
+    Coverage
+        Arrays, a head each.
+
+    Raises
+    ------
+    InputError
+        A diameter is negative, a number is not finite.
+    """
+    radius, place, angle = (
+        np.atleast_1d(np.asarray(each, dtype=float)) for each in (diameter, offset, phase)
+    )
+    if not all(np.isfinite(each).all() for each in (radius, place, angle)) or (radius < 0).any():
+        raise InputError("heads: found a negative diameter or a number that is not finite")
+    radius = 0.5 * radius
+    n = max(len(each) for each in (radius, place, angle))
+    discs = np.pi * np.broadcast_to(radius, n) ** 2
+    if edge.stands:
+        none = np.zeros(n)
+        return Coverage(
+            np.where(discs > 0, np.inf, 0.0), none, none, none, none, discs * (length is not None)
+        )
+    stations = _stations(edge, fine, float(2 * radius.max()), float(np.abs(place).max()))
+    table = edge.kernel.cover(radius, place, angle, length=length, fine=stations).T
+    # A head without a disc has no point to be cut.
+    table[:, discs == 0] = 0.0
+    return Coverage(*table)
+
+
+def _stations(edge: Edge, fine: int, diameter: float, offset: float) -> int:
+    """Stations a turn: more far aslant; fewer if each stretch between corners has them all."""
+    leans = [edge.angle] if edge.retreats else [edge.angle, *edge.leans]
+    aslant = int(min(_MOST, _ASLANT * np.abs(np.tan(leans)).max()))
+    if edge.knife.corners and not edge.retreats:
+        fine = max(2, int(fine / max(1.0, edge.turns(diameter, offset))))
+    return max(fine, aslant)

@@ -1,0 +1,273 @@
+r"""A field of roots under the knife: how many heads are cut right through, what is left, what is lost.
+
+Of a root, D, h_p and δ are drawn or measured, and the phase of the knife in which it is met
+(`roots`). `coverage` gives the length L that its head needs; then
+
+* the share of heads that an edge cuts right through is the distribution function of the lengths needed, for
+  all lengths of the edge at once, and its quantiles are the lengths for 50, 90, 95, 99 and 99.9 % of heads;
+* the haulm that remains is the mean share of the head's area that is not crossed: haulm grows from the disc;
+* the loss is the cap of the root above the cut, whether all of it comes off or not.
+
+A root whose h_p is 0 or less is missed: no length cuts it, and all its haulm remains. A root whose h_p comes
+to D or more is lost as a whole; no haulm remains, so that it counts as cut.
+
+References
+----------
+.. [1] Derived here; `intervals` and `share_curve` for the intervals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import INSIDE_ONE, RATIO, Quantity
+from linkwright.machine.machine import Machine
+from linkwright.topping.coverage import COARSE
+from linkwright.topping.edge import Edge, edges_of, require_topper
+from linkwright.topping.intervals import Clusters, Interval
+from linkwright.topping.model.topper import Topper
+from linkwright.topping.passes import Pass, Watch, pass_over
+from linkwright.topping.roots import Roots, draw_roots, field_of
+from linkwright.topping.share_curve import QUANTILES, ShareCurve
+from linkwright.topping.slicing import slicing
+
+Floats = NDArray[np.float64]
+
+# Lengths of the curve, from zero to the greatest that a head needs.
+_LENGTHS = 201
+
+
+@dataclass(frozen=True)
+class TopperField(Result):
+    """What an edge does to a field of roots.
+
+    Attributes
+    ----------
+    length : ndarray, shape (k,)
+        Lengths of the edge from zero to that which cuts all heads that can be cut [m].
+    share, share_low, share_high : ndarray, shape (k,)
+        Share of heads that each cuts right through, and its interval, each length by itself [–].
+    length_needed : ndarray, shape (n,)
+        Length that each head needs [m]; infinite for one that is missed.
+    root_loss : ndarray, shape (n,)
+        Volume above the cut of each [m³].
+    n_roots, n_clusters : int
+        Roots that were looked at, of measured ones each in all its phases; and rows, or measured roots.
+    clusters : str
+        ``"rows"`` or ``"roots"``.
+    n_missed, n_lost : int
+        Roots that the knife passes above, and below.
+    level : float
+        Probability that an interval holds the truth.
+    edge_length : float
+        L of the edge [m].
+    share_complete, share_complete_low, share_complete_high : float
+        Share of heads that are cut right through [–].
+    haulm_mean, haulm_mean_low, haulm_mean_high : float
+        Mean share of the head that is left [–].
+    loss_mean, loss_mean_low, loss_mean_high : float
+        Mean volume of a root above the cut [m³].
+    loss_share, loss_share_low, loss_share_high : float
+        Of all roots, the share that is above the cut [–].
+    loss_mass_mean : float or None
+        Mean mass of a root above the cut [kg], with a density.
+    slicing_ratio_mean : float
+        Mean draw-cut ratio of the edge, in all phases [–].
+    quantile : tuple of float
+        Shares of heads.
+    quantile_length, quantile_length_low, quantile_length_high : tuple of float
+        Length for each of them [m]; infinite where so many cannot be cut.
+    """
+
+    length: Floats
+    share: Floats
+    share_low: Floats
+    share_high: Floats
+    length_needed: Floats
+    root_loss: Floats
+    n_roots: int
+    n_clusters: int
+    clusters: str
+    n_missed: int
+    n_lost: int
+    level: float
+    edge_length: float
+    share_complete: float
+    share_complete_low: float
+    share_complete_high: float
+    haulm_mean: float
+    haulm_mean_low: float
+    haulm_mean_high: float
+    loss_mean: float
+    loss_mean_low: float
+    loss_mean_high: float
+    loss_share: float
+    loss_share_low: float
+    loss_share_high: float
+    loss_mass_mean: float | None
+    slicing_ratio_mean: float
+    quantile: tuple[float, ...]
+    quantile_length: tuple[float, ...]
+    quantile_length_low: tuple[float, ...]
+    quantile_length_high: tuple[float, ...]
+
+    def length_at(self, share: float) -> float:
+        """Least length that cuts a share of the heads right through [m].
+
+        Parameters
+        ----------
+        share : float
+            From 0 to 1.
+        """
+        place = int(np.ceil(share * self.n_roots - 1e-9)) - 1
+        return float(np.sort(self.length_needed)[max(place, 0)])
+
+    @property
+    def length_for_50(self) -> float:
+        """Length for half of the heads [m]."""
+        return self.quantile_length[0]
+
+    @property
+    def length_for_90(self) -> float:
+        """Length for 90 % of the heads [m]."""
+        return self.quantile_length[1]
+
+    @property
+    def length_for_95(self) -> float:
+        """Length for 95 % of the heads [m]."""
+        return self.quantile_length[2]
+
+    @property
+    def length_for_99(self) -> float:
+        """Length for 99 % of the heads [m]."""
+        return self.quantile_length[3]
+
+    @property
+    def length_for_99_9(self) -> float:
+        """Length for 99.9 % of the heads [m]."""
+        return self.quantile_length[4]
+
+
+@public
+def topper_field(
+    machine: Machine,
+    *,
+    seed: int | None = None,
+    level: float = 0.95,
+    fine: int = COARSE,
+    watch: Watch | None = None,
+) -> TopperField:
+    """Study a topper over a field of roots.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a topper; without a field, its roots are all alike and stand evenly within the offset.
+    seed : int, optional
+        In place of the field's.
+    level : float
+        Probability that an interval holds the truth.
+    fine : int
+        Stations a turn of the law.
+    watch : callable, optional
+        Told how much is done, from 0 to 1.
+
+    Returns
+    -------
+    TopperField
+        The same for the same seed, with any number of threads.
+
+    Raises
+    ------
+    InputError
+        No topper, a seed below 0, a level that is no probability.
+    AssemblyError
+        The mechanism of the knife does not close all round.
+    FindingError
+        The edge runs over heads and back again and again, and hardly goes on.
+    """
+    topper = require_topper(machine)
+    in_range(level=(level, Quantity(RATIO, INSIDE_ONE)))
+    roots = draw_roots(topper, seed)
+    edges = edges_of(machine, topper)
+    found = pass_over(edges, roots, length=topper.edge_length, fine=fine, watch=watch)
+    return field_result(topper, edges, roots, found, level)
+
+
+def field_result(
+    topper: Topper, edges: Sequence[Edge], roots: Roots, found: Pass, level: float = 0.95
+) -> TopperField:
+    """Sum up a pass of an edge over roots.
+
+    Parameters
+    ----------
+    topper : Topper
+        With the length of the edge.
+    edges : sequence of Edge
+        The edge, in one or two directions.
+    roots : Roots
+        The roots.
+    found : Pass
+        What it does to them.
+    level : float
+        Probability that an interval holds the truth.
+
+    Returns
+    -------
+    TopperField
+        Shares and means with intervals.
+    """
+    is_random = topper.field is None or topper.field.kind == "random"
+    # Phases mean nothing to a knife that rests.
+    are_free = roots.are_free or (is_random and not edges[0].knife.rate)
+    clusters = Clusters(roots.cluster, roots.n_clusters, are_free, level)
+    clusters = replace(clusters, worth=ShareCurve(found.length_needed, clusters).worth())
+    curve = ShareCurve(found.length_needed, clusters)
+    top = float(found.length_needed[np.isfinite(found.length_needed)].max(initial=topper.edge_length))
+    length = np.linspace(0.0, top, _LENGTHS)
+    share = curve.at(length)
+    density = field_of(topper).root_density
+    loss = clusters.mean(roots.cap)
+    return TopperField(
+        length=length,
+        share=share.value,
+        share_low=share.low,
+        share_high=share.high,
+        length_needed=found.length_needed,
+        root_loss=roots.cap,
+        n_roots=len(found.length_needed),
+        n_clusters=roots.n_clusters,
+        clusters="rows" if is_random else "roots",
+        n_missed=int(roots.is_missed.sum()),
+        n_lost=int(roots.is_lost.sum()),
+        level=level,
+        edge_length=topper.edge_length,
+        **_named("share_complete", curve.at(np.array([topper.edge_length]))),
+        **_named("haulm_mean", clusters.share(found.left)),
+        **_named("loss_mean", loss),
+        **_named("loss_share", clusters.ratio(roots.cap, roots.volume)),
+        loss_mass_mean=None if density is None else density * float(loss.value),
+        slicing_ratio_mean=slicing(edges).ratio_mean,
+        **_quantiles(curve),
+    )
+
+
+def _named(name: str, found: Interval) -> dict[str, Any]:
+    """An estimate and the ends of its interval as entries."""
+    keys = (name, f"{name}_low", f"{name}_high")
+    return {key: float(np.squeeze(each)) for key, each in zip(keys, found, strict=True)}
+
+
+def _quantiles(curve: ShareCurve) -> dict[str, Any]:
+    """Lengths for the usual shares, with what holds the true ones."""
+    keys = ("quantile_length", "quantile_length_low", "quantile_length_high")
+    found = (tuple(each.tolist()) for each in curve.lengths(QUANTILES))
+    return {"quantile": QUANTILES, **dict(zip(keys, found, strict=True))}

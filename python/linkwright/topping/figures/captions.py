@@ -1,0 +1,186 @@
+"""The figures of toppers with their captions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.app.study import Study
+from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.page.quantities import degrees, number
+from linkwright.topping.edge import Edge, edges_of
+from linkwright.topping.figures.lengths import length_chart_figure, verdict_figure
+from linkwright.topping.figures.phase import edge_use_figure, phase_figure, slicing_figure
+from linkwright.topping.figures.view import top_view_figure
+from linkwright.topping.head_pass import head_pass, worse_edge
+from linkwright.topping.length_chart import length_chart
+from linkwright.topping.model.topper import Topper
+from linkwright.topping.slicing import slicing_over_phase
+from linkwright.topping.tables.topper import mm, percent, shown_head, stroke_of
+from linkwright.topping.topper import TopperStudy, leaves
+from linkwright.topping.verdict import PAPER, WAYS, length_verdict
+from linkwright.topping.verdict_chart import verdict_chart
+
+# Phases of a curve.
+_PHASES = 361
+
+
+@dataclass(frozen=True)
+class _Cut:
+    """A study with its topper."""
+
+    study: Study
+    described: Topper
+    found: TopperStudy
+
+    @cached_property
+    def edges(self) -> list[Edge]:
+        return edges_of(self.study.machine, self.described)
+
+    @property
+    def leaves(self) -> bool:
+        return leaves(self.found)
+
+    @property
+    def head(self) -> tuple[float, float]:
+        """Offset and phase of the head that is drawn."""
+        return shown_head(self.found)
+
+
+def topper_figures(study: Study) -> Iterator[Captioned]:
+    """The figures of the knife over heads.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Yields
+    ------
+    Captioned
+        Nothing without a topper.
+    """
+    if study.topper is None or study.machine.topper is None:
+        return
+    cut = _Cut(study, study.machine.topper, study.topper)
+    moves = cut.edges[0].knife.rate > 0
+    if not cut.found.obstacle:
+        yield _view(cut)
+        yield from [_phases(cut)] if moves else []
+    yield _chart(cut)
+    yield _verdict(cut)
+    # An edge that moves along itself has no use, and what cannot be followed none that is known.
+    if math.isfinite(cut.found.length_exact) and not cut.found.obstacle:
+        yield _use(cut)
+    yield from [_slicing(cut)] if moves else []
+
+
+def _view(cut: _Cut) -> Captioned:
+    offset, phase = cut.head
+    found, length = cut.found, cut.described.edge_length
+    head = (found.head_diameter, offset, phase, length)
+    seen = head_pass(worse_edge(cut.edges, *head), *head)
+    figure = top_view_figure(seen, cut.described.offset, None if cut.leaves else (found.last_x, found.last_y))
+    moves = f" in the phase {degrees(phase)}" if cut.edges[0].knife.rate else ""
+    where = f"{_place(offset)}{moves}"
+    if cut.leaves:
+        words = f"The head of which most is left, {where}: {percent(found.uncut_share)}, hatched."
+    else:
+        words = (
+            f"The head that needs the longest edge, {where}: {mm(found.length_exact)}. The edge of "
+            f"{mm(length)} cuts all of it."
+        )
+    words += " Five places of the edge, the later the darker; the machine goes to the right."
+    return Captioned("topper_view", "The edge over the worst head, from above", words, figure)
+
+
+def _place(offset: float) -> str:
+    """Where a head stands."""
+    if offset == 0:
+        return "on the row"
+    return f"{mm(abs(offset))} to the {'left' if offset > 0 else 'right'} of the row"
+
+
+def _phases(cut: _Cut) -> Captioned:
+    found, length = cut.found, cut.described.edge_length
+    if cut.described.motion.phase is None:
+        words = (
+            f"At the worst offset heads need from {mm(found.length_best_phase)} to {mm(found.length_exact)}, "
+            f"as the knife meets them."
+        )
+    else:
+        words = f"Heads come in the phase {degrees(cut.described.motion.phase)} only, dotted."
+    if cut.leaves:
+        words += f" An edge of {mm(length)} leaves up to {percent(found.uncut_share)} of a head."
+    figure = phase_figure(found, length, cut.described.motion.phase)
+    return Captioned("topper_phase", "Length needed over the phase of the knife", words, figure)
+
+
+def _chart(cut: _Cut) -> Captioned:
+    chart = length_chart(cut.described, cut.edges)
+    slow, own, fast = (number(each, 3) for each in chart.forward_speeds)
+    words = (
+        f"The chart of paper 5 (its figure 3) for α = {degrees(cut.described.edge_angle)}, cut height "
+        f"{mm(cut.described.cut_height)} and Δ = {mm(cut.described.offset)}, at v = {slow}, {own} and {fast} "
+        f"m/s: above over the diameter of roots at this knife's mean speed, {number(chart.knife_speed, 3)} "
+        "m/s, below over the speed of the knife at this machine's root. Solid lines keep one speed over the "
+        "head"
+    )
+    words += "; dashed: its true motion." if chart.over_roots.moved.size else "."
+    words += " The dot is this machine."
+    return Captioned(
+        "topper_lengths", "Lengths printed, consistent and exact", words, length_chart_figure(chart)
+    )
+
+
+def _verdict(cut: _Cut) -> Captioned:
+    described, stroke = cut.described, stroke_of(cut.found)
+    chart = verdict_chart(described, stroke)
+    low, high = PAPER.lengths
+    (slow, fast), (least, most) = PAPER.forward_speeds, PAPER.knife_speeds
+    judged = length_verdict(PAPER, described.edge_angle, cut.found.head_diameter, described.offset, stroke)
+    ways = [WAYS[each.way] for each in judged.demands if each.holds]
+    words = (
+        f"Paper 5 gives {low:.2f} to {high:.2f} m for v from {slow:g} to {fast:g} m/s and knife speeds from "
+        f"{least:g} to {most:g} m/s, and does not print angle, cut height and offset. Shaded: for which of "
+        "them the longest edge over these speeds lies in that range, each way of computing it; on the left "
+        "offsets have this machine's share in the band, on the right the root is this machine's. For its own "
+        f"heads, the dot, the range holds {'by the ' + ', the '.join(ways) if ways else 'in no way'}."
+    )
+    title = f"Where the published {low:.2f} to {high:.2f} m hold"
+    return Captioned("topper_verdict", title, words, verdict_figure(chart))
+
+
+def _use(cut: _Cut) -> Captioned:
+    found, length = cut.found, cut.described.edge_length
+    place, use = found.edge_place, found.edge_use
+    total = float(np.trapezoid(use, place))
+    inside = np.abs(place) <= 0.5 * length
+    share = float(np.trapezoid(np.where(inside, use, 0.0), place)) / total if total else 0.0
+    middle = float(np.interp(0.0, place, use))
+    heads = "offsets and phases" if cut.edges[0].knife.rate else "offsets"
+    words = (
+        f"How far each place of an edge long enough goes through a head, on average over {heads}: where it "
+        f"wears. The middle of the edge goes through {mm(middle)} of a head."
+    )
+    if share < 1 - 1e-4:
+        words += f" About {percent(1 - share)} of the cut would be done beyond the ends of this edge."
+    figure = edge_use_figure(place, use, length, found.head_diameter)
+    return Captioned("topper_use", "Use of the edge along its length", words, figure)
+
+
+def _slicing(cut: _Cut) -> Captioned:
+    phases = np.linspace(0.0, 2 * math.pi, _PHASES)
+    ratio, speed = slicing_over_phase(cut.edges[0], phases)
+    found = cut.found
+    words = (
+        "The edge draws along itself while it cuts: speed along it over speed normal to it, "
+        f"{number(found.slicing_ratio_mean, 3)} on average over what is cut."
+    )
+    if found.edge_retreats:
+        words += " Where it retreats, its back meets the head."
+    return Captioned("topper_slicing", "Slicing over the phase", words, slicing_figure(phases, ratio, speed))

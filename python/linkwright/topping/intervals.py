@@ -1,0 +1,193 @@
+r"""Shares and means of a sample in clusters, and the intervals that hold the true ones.
+
+Roots of a row are not independent where their phases follow one another, nor are the looks at one root in
+many phases: the row, or the root, is what was drawn at random. With the sum :math:`y_c` and the number
+:math:`n_c` of each of C clusters the mean and its variance are
+
+.. math:: \bar y = \frac{\sum y_c}{\sum n_c}, \qquad
+    s^2 = \frac{C}{C - 1}\,\frac{\sum (y_c - \bar y\,n_c)^2}{(\sum n_c)^2}
+
+and the interval is :math:`\bar y \pm t\,s` with Student's t for C − 1 degrees of freedom.
+
+Shares p near 0 or 1 would get an interval that is too short, or none at all. They get Wilson's,
+
+.. math:: \frac{p + \frac{t^2}{2n} \pm t\sqrt{\frac{p(1-p)}{n} + \frac{t^2}{4n^2}}}{1 + \frac{t^2}{n}}, \qquad
+    n = \frac{p(1 - p)}{s^2},
+
+with the number n of independent pieces that would have the same variance; never more than there are, where
+each piece is counted or is not. Of exactly 0 and 1 the variance says nothing: there n is the number of pieces
+if they are independent, else what other shares of the same pieces are worth (`ShareCurve.worth`), or without
+such the number of clusters.
+
+References
+----------
+.. [1] Cochran, *Sampling Techniques*, 3rd ed. 1977, 2.11 and 9A.
+.. [2] Wilson, Probable inference, J. Amer. Statist. Assoc. 22 (1927) 209-212.
+.. [3] Korn, Graubard, Confidence intervals for proportions with small expected number of positive counts
+   estimated from survey data, Survey Methodology 24 (1998) 193-201.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.numerics.confidence import coverage_factor
+
+Floats = NDArray[np.float64]
+
+
+class Interval(NamedTuple):
+    """Estimates and what holds the true ones; arrays (k,), or numbers.
+
+    Attributes
+    ----------
+    value, low, high : ndarray, shape (k,)
+        Of each quantity.
+    """
+
+    value: Floats
+    low: Floats
+    high: Floats
+
+
+@dataclass(frozen=True)
+class Clusters:
+    """How pieces of a sample belong together.
+
+    Attributes
+    ----------
+    of : ndarray of int, shape (n,)
+        Cluster of each piece, from 0.
+    count : int
+        How many clusters, at least 2.
+    are_free : bool
+        Whether pieces of a cluster are independent all the same.
+    level : float
+        Probability that an interval holds the truth.
+    worth : float, optional
+        Number of independent pieces that shares of 0 and 1 are worth, where pieces depend on one another.
+    """
+
+    of: NDArray[np.intp]
+    count: int
+    are_free: bool
+    level: float = 0.95
+    worth: float | None = None
+
+    @property
+    def sizes(self) -> Floats:
+        """Pieces in each cluster."""
+        return np.asarray(np.bincount(self.of, minlength=self.count), dtype=float)
+
+    @property
+    def factor(self) -> float:
+        """Student's t."""
+        return coverage_factor(self.level, self.count - 1)
+
+    def sums(self, values: Floats) -> Floats:
+        """Sum of the values in each cluster.
+
+        Parameters
+        ----------
+        values : ndarray, shape (n,)
+            A value for each piece.
+
+        Returns
+        -------
+        ndarray, shape (clusters,)
+            The sums.
+        """
+        return np.asarray(np.bincount(self.of, values, minlength=self.count), dtype=float)
+
+    def mean(self, values: Floats) -> Interval:
+        """Mean of a quantity that is not negative.
+
+        Parameters
+        ----------
+        values : ndarray, shape (n,)
+            A value for each piece.
+        """
+        return self.ratio(values, np.ones(len(values)))
+
+    def ratio(self, values: Floats, sizes: Floats) -> Interval:
+        """Sum of a quantity that is not negative over the sum of another.
+
+        Parameters
+        ----------
+        values, sizes : ndarray, shape (n,)
+            Of each piece; sizes not negative.
+        """
+        mean, variance = self._moments(self.sums(values), self.sums(sizes))
+        half = self.factor * np.sqrt(variance)
+        return Interval(mean, np.maximum(mean - half, 0.0), mean + half)
+
+    def share(self, values: Floats) -> Interval:
+        """Mean of a quantity that is between 0 and 1.
+
+        Parameters
+        ----------
+        values : ndarray, shape (n,)
+            A value for each piece.
+        """
+        return self._wilson(self.sums(values), np.inf)
+
+    def shares(self, counts: Floats) -> Interval:
+        """Shares of pieces that are something or are not.
+
+        Parameters
+        ----------
+        counts : ndarray, shape (clusters, k)
+            How many pieces of each cluster are.
+        """
+        return self._wilson(counts, float(len(self.of)))
+
+    def _wilson(self, sums: Floats, most: float) -> Interval:
+        """Wilson's interval with the number of pieces that the variance is worth, at most so many."""
+        p, worth = self._worth(sums, most)
+        spread = p * (1 - p)
+        square = self.factor**2 / np.where(spread > 0, worth, self._at_ends)
+        middle = (p + 0.5 * square) / (1 + square)
+        half = np.sqrt(square * (spread + 0.25 * square)) / (1 + square)
+        return Interval(p, np.clip(middle - half, 0.0, p), np.clip(middle + half, p, 1.0))
+
+    def worths(self, counts: Floats) -> Floats:
+        """Numbers of independent pieces whose shares would have the same variance.
+
+        Parameters
+        ----------
+        counts : ndarray, shape (clusters, k)
+            How many pieces of each cluster are.
+
+        Returns
+        -------
+        ndarray, shape (k,)
+            NaN for shares of 0 and 1.
+        """
+        p, worth = self._worth(counts, float(len(self.of)))
+        return np.where(p * (1 - p) > 0, worth, np.nan)
+
+    @property
+    def _at_ends(self) -> float:
+        """Number of pieces that shares of 0 and 1 are worth."""
+        if self.are_free:
+            return float(len(self.of))
+        return float(self.count) if self.worth is None else self.worth
+
+    def _worth(self, sums: Floats, most: float) -> tuple[Floats, Floats]:
+        """Shares, and the number of pieces that each is worth, at most so many."""
+        p, variance = self._moments(sums, self.sizes)
+        # A mean of ones may be off by rounding.
+        p = np.clip(p, 0.0, 1.0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return p, np.asarray(np.minimum(p * (1 - p) / variance, most))
+
+    def _moments(self, sums: Floats, sizes: Floats) -> tuple[Floats, Floats]:
+        """Mean and its variance."""
+        total, many = sizes.sum(), self.count
+        mean = sums.sum(axis=0) / total
+        apart = sums - np.multiply.outer(sizes, mean)
+        return np.asarray(mean), np.asarray(many / (many - 1) * (apart**2).sum(axis=0) / total**2)

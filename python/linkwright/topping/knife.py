@@ -1,0 +1,299 @@
+r"""The law y(t) by which the knife of a topper goes to and fro across the row.
+
+The mean speed v_h counts the way in both senses, :math:`v_h = 2 S f` for one stroke S to and fro a cycle; so
+a sine of stroke S has :math:`2\pi f = \pi v_h/S` and its greatest speed is :math:`\tfrac{\pi}{2} v_h`. The
+phase is zero in the middle of the stroke, the knife going to the left; that of a knife moved by a mechanism
+is the crank angle. A knife at rest stands in the middle of its stroke, or where a given phase puts it.
+
+Smooth laws are sums of harmonics, all others laws in pieces: those of a mechanism with cams are polynomials
+of degree 5 through position, velocity and acceleration at each degree and at every joint of a cam, which
+leaves rounding of a smooth stretch. The follower of a cam has the lift of its cam.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
+from linkwright.kernel.errors import FindingError
+from linkwright.linkages.closure import require_full_turn
+from linkwright.linkages.kinematics import kinematics_of
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+from linkwright.topping.core import KnifeWay
+from linkwright.topping.model.motion import ConstantKnife, MemberKnife
+from linkwright.topping.model.topper import Topper
+
+Floats = NDArray[np.float64]
+Ends = tuple[float, float, float]
+
+_TURN = 2 * np.pi
+
+# Crank angles at which the motion of a smooth member is sampled, and polynomials that stand for any other.
+_ANGLES, _KNOTS = 1440, 360
+
+# Share of the first harmonic below which harmonics are rounding; a smooth law has no more of them than this.
+_ROUNDING = 1e-14
+_HARMONICS = 180
+
+# Share of the greatest speed by which the speed has to change at once to be a blow.
+_JUMP = 1e-6
+
+# Beside a corner of the motion derivatives are taken from either side of it [rad].
+_BESIDE = 1e-9
+
+# Crank angles at which two turns of a member are compared, and the share of its way that is rounding.
+_PLACES, _AGAIN = np.array([0.1, 1.0, 1.9, 2.9, 3.7, 4.6, 5.5]), 1e-6
+
+
+@dataclass(frozen=True)
+class Knife:
+    """A knife and its law.
+
+    Attributes
+    ----------
+    law : MotionLaw
+        y over its phase from 0 to 2π, zero in the middle of the stroke [m].
+    harmonics : ndarray, shape (k, 2), or None
+        The same as cosines and sines from the constant on [m], for a smooth law.
+    corners : tuple of float
+        Phases at which the law or one of its first two derivatives jumps [rad].
+    rate : float
+        Phase per time [rad/s].
+    drift : float
+        Constant speed across the row of a knife that does not turn back [m/s].
+    """
+
+    law: MotionLaw
+    harmonics: Floats | None
+    corners: tuple[float, ...]
+    rate: float
+    drift: float = 0.0
+
+    @cached_property
+    def stroke(self) -> float:
+        """Distance between the ends [m]."""
+        least, greatest = self.law.extremes()
+        return greatest.value - least.value
+
+    @cached_property
+    def way_per_turn(self) -> float:
+        """Way to and fro in a turn of the phase [m]."""
+        turns = [*self.law.breaks, *self.law.zeros(1)]
+        return float(np.abs(np.diff(self.law.at(np.array(sorted(turns)), 0, "before"))).sum())
+
+    @property
+    def frequency(self) -> float:
+        """Turns of the phase in a second [1/s]."""
+        return self.rate / _TURN
+
+    @cached_property
+    def mean_speed(self) -> float:
+        """Mean of the speed across the row, in both senses [m/s]."""
+        return abs(self.drift) + self.way_per_turn * self.frequency
+
+    @cached_property
+    def speeds(self) -> tuple[float, float]:
+        """Least and greatest velocity across the row [m/s]."""
+        least, greatest = (each.value * self.rate + self.drift for each in self.law.extremes(1))
+        return least, greatest
+
+    @property
+    def speed_max(self) -> float:
+        """Greatest speed across the row [m/s]."""
+        return max(abs(speed) for speed in self.speeds)
+
+    @cached_property
+    def acceleration_max(self) -> float:
+        """Greatest acceleration across the row [m/s²]; infinite for a knife that turns back at once."""
+        if not self.rate:
+            return 0.0
+        jumps = np.append(self.law.jumps(1), self.law.at(0.0, 1) - self.law.at(self.law.end, 1, "before"))
+        slope = abs(self.law.peak(1).value)
+        if np.abs(jumps).max() > _JUMP * slope:
+            return float("inf")
+        return abs(self.law.peak(2).value) * self.rate**2
+
+    def at(self, time: ArrayLike, phase: ArrayLike = 0.0, order: int = 0) -> Floats:
+        """Place, velocity or acceleration across the row.
+
+        Parameters
+        ----------
+        time : array_like, shape (...)
+            [s]
+        phase : array_like, shape (...)
+            At the time zero [rad]; it broadcasts.
+        order : int
+            0, 1 or 2: how often it is differentiated by the time.
+
+        Returns
+        -------
+        ndarray, shape (...)
+            [m, m/s or m/s²]
+        """
+        t = np.asarray(time, dtype=float)
+        value = self.law.at(np.mod(np.asarray(phase) + self.rate * t, _TURN), order) * self.rate**order
+        return value + (self.drift * t, self.drift, 0.0)[order]
+
+    @cached_property
+    def way(self) -> KnifeWay:
+        """The knife in the core's terms."""
+        reach = max(abs(each.value) for each in self.law.extremes())
+        law = self.law if self.harmonics is None else self.harmonics
+        return KnifeWay(law, self.corners, self.rate, self.drift, reach, *self.speeds)
+
+
+def knives(machine: Machine, topper: Topper) -> tuple[Knife, ...]:
+    """The knife of a topper; both of its directions if it does not turn back over a head.
+
+    Parameters
+    ----------
+    machine : Machine
+        What may move it.
+    topper : Topper
+        The topper.
+
+    Returns
+    -------
+    tuple of Knife
+        One or two.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close all round.
+    FindingError
+        The member does not come back with each turn.
+    """
+    motion, speed = topper.motion, topper.knife_speed or 0.0
+    if isinstance(motion, MemberKnife):
+        return (_moved(machine, motion.of),)
+    if not speed and (motion.phase is None or not motion.stroke):
+        return (Knife(_still(), np.zeros((1, 2)), (), 0.0),)
+    if isinstance(motion, ConstantKnife):
+        return (_to_and_fro(motion.stroke, speed),) if motion.stroke else _one_way(speed)
+    half = 0.5 * motion.stroke
+    return (_smooth(np.array([[0.0, 0.0], [0.0, half]]), speed * np.pi / motion.stroke),)
+
+
+def _still() -> MotionLaw:
+    return MotionLaw((0.0, _TURN), (Piece(()),))
+
+
+def _one_way(speed: float) -> tuple[Knife, ...]:
+    """To the left, then to the right."""
+    return tuple(Knife(_still(), np.zeros((1, 2)), (), 0.0, way * speed) for way in (1, -1))
+
+
+def _to_and_fro(stroke: float, speed: float) -> Knife:
+    """At constant speed between two ends."""
+    quarter, half = np.pi / 2, 0.5 * stroke
+    law = MotionLaw.of(
+        0.0, (quarter, Piece((0.0, half))), (np.pi, Piece((half, -stroke))), (quarter, Piece((-half, half)))
+    )
+    return Knife(law, None, (quarter, 3 * quarter), speed * np.pi / stroke)
+
+
+def _smooth(harmonics: Floats, rate: float) -> Knife:
+    waves = tuple(Harmonic(_TURN * k, a, b) for k, (a, b) in enumerate(harmonics.tolist()) if k)
+    law = MotionLaw((0.0, _TURN), (Piece((float(harmonics[0, 0]),), waves),))
+    return Knife(law, harmonics, (), rate)
+
+
+def _moved(machine: Machine, member: str) -> Knife:
+    """A knife on a slide of the mechanism."""
+    compiled = compile_machine(machine)
+    require_full_turn(compiled, machine)
+    rate = machine.drive.speed if machine.drive and machine.drive.speed else 0.0
+
+    def motion(phi: Floats) -> tuple[Floats, Floats, Floats]:
+        slide = kinematics_of(compiled, phi, [("slides", member)]).slides[member]
+        return slide.position, slide.d1, slide.d2
+
+    _require_repeats(motion, member)
+    corners = _joints(machine)
+    if member in machine.mechanism.cams:
+        cam = machine.mechanism.cams[member]
+        return _centred(cam.lift.shifted(cam.phase), corners, rate)
+    found = None if corners else _harmonics(motion(np.linspace(0.0, _TURN, _ANGLES, endpoint=False))[0])
+    if found is not None:
+        least, greatest = _smooth(found, rate).law.extremes()
+        found[0, 0] -= 0.5 * (least.value + greatest.value)
+        return _smooth(found, rate)
+    return _centred(*_in_pieces(motion, corners), rate)
+
+
+def _require_repeats(motion: Callable[[Floats], tuple[Floats, Floats, Floats]], member: str) -> None:
+    """Refuse a member that does not do the same in each turn of the crank."""
+    once, again = (motion(_PLACES + turn)[0] for turn in (0.0, _TURN))
+    missed = float(np.abs(again - once).max())
+    if missed > _AGAIN * max(1e-3, float(np.ptp(once))):
+        raise FindingError(
+            f'the knife\'s member "{member}" does not do the same in each turn of the crank: it is up to '
+            f"{missed:.4g} m elsewhere a turn later; take a member that comes back with each turn"
+        )
+
+
+def _centred(law: MotionLaw, corners: tuple[float, ...], rate: float) -> Knife:
+    """A law in pieces, counted from the middle of its stroke."""
+    least, greatest = law.extremes()
+    return Knife(law.scaled(1.0, -0.5 * (least.value + greatest.value)), None, corners, rate)
+
+
+def _joints(machine: Machine) -> tuple[float, ...]:
+    """Crank angles at which sections of cams meet, increasing from 0 to 2π."""
+    cams = machine.mechanism.cams.values()
+    found = {float(np.mod(at + cam.phase, _TURN)) for cam in cams for at in cam.lift.breaks[:-1]}
+    return tuple(sorted(found))
+
+
+def _harmonics(samples: Floats) -> Floats | None:
+    """Cosines and sines of a motion sampled over a turn; None if it is not smooth."""
+    spectrum = np.fft.rfft(samples) / len(samples)
+    pairs = np.stack([2 * spectrum.real, -2 * spectrum.imag], axis=1)
+    pairs[0] *= 0.5
+    size = np.hypot(*pairs.T)
+    counted = np.flatnonzero(size > _ROUNDING * max(size[1:].max(), np.finfo(float).tiny))
+    last = int(counted[-1]) if len(counted) else 0
+    return np.ascontiguousarray(pairs[: last + 1]) if last <= _HARMONICS else None
+
+
+def _in_pieces(
+    motion: Callable[[Floats], tuple[Floats, Floats, Floats]], corners: tuple[float, ...]
+) -> tuple[MotionLaw, tuple[float, ...]]:
+    """Polynomials through position and two derivatives at even angles and at corners; all corners."""
+    knots: Floats = np.unique(np.concatenate([np.linspace(0.0, _TURN, _KNOTS + 1), corners]))
+    knots = knots[np.concatenate([[True], np.diff(knots) > 2 * _BESIDE])]
+    knots[-1] = _TURN
+    # Where the motion has a corner, each piece has the derivatives of its own side.
+    starts, ends = motion(np.asarray(knots[:-1] + _BESIDE)), motion(np.asarray(knots[1:] - _BESIDE))
+    place = motion(np.asarray(knots[:-1]))[0]
+    value = np.append(place, place[0])
+    leaps = [np.abs(starts[k] - np.roll(ends[k], 1)) > _JUMP * np.abs(starts[k]).max() for k in (1, 2)]
+    corners = tuple(sorted({*corners, *knots[:-1][leaps[0] | leaps[1]].tolist()}))
+    pieces = [
+        _quintic(high - low, (value[i], starts[1][i], starts[2][i]), (value[i + 1], ends[1][i], ends[2][i]))
+        for i, (low, high) in enumerate(pairwise(knots))
+    ]
+    return MotionLaw(tuple(knots.tolist()), tuple(pieces)), corners
+
+
+def _quintic(length: float, start: Ends, end: Ends) -> Piece:
+    """The polynomial of degree 5 over u from 0 to 1 with value and two derivatives at both ends."""
+    s, v, a = start[0], start[1] * length, start[2] * length**2
+    # What a polynomial of degree 2 from the start leaves at the end.
+    rise = end[0] - (s + v + 0.5 * a)
+    slope = end[1] * length - (v + a)
+    bend = end[2] * length**2 - a
+    cubic = (
+        10 * rise - 4 * slope + 0.5 * bend,
+        -15 * rise + 7 * slope - bend,
+        6 * rise - 3 * slope + 0.5 * bend,
+    )
+    return Piece(tuple(float(c) for c in (s, v, 0.5 * a, *cubic)))

@@ -1,0 +1,140 @@
+r"""The working length of the edge by paper 5, and the bound that its own condition gives.
+
+While the machine goes on, the knife has to travel across the head; it must not be done before the head has
+been cut along the row, :math:`t_y \ge t_x` (1). With
+
+.. math:: S_x = b(\cos\alpha + \sin^2\alpha), \qquad S_y = (L - b\sin\alpha)\cos\alpha,
+
+(2), where b = d for a root on the row's axis and b = d + 2Δ for roots up to Δ off it, (8), this is
+:math:`S_y/v_h \ge S_x/v` (3, 4). The paper goes on to
+
+.. math:: L \ge b\left(\frac{v_h}{v}\cos\alpha + \sin\alpha\right),
+
+(5, 9, 10). But (4) divided by cos α has :math:`S_x/\cos\alpha = b(1 + \tan\alpha\sin\alpha)`, not b cos α:
+what follows from it is
+
+.. math:: L \ge b\left(\frac{v_h}{v}(1 + \tan\alpha\sin\alpha) + \sin\alpha\right).
+
+Neither says enough: for a knife at rest across the row both are zero, though its edge must be as long as the
+band of the heads.
+
+The paper's angle has no sign; a knife whose other end leads is its mirror image. Its knife speed is constant.
+
+References
+----------
+.. [1] Paper 5, (1) to (10).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.kernel.result import Result
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PublishedLengths(Result):
+    """Travels and lengths by the paper.
+
+    Attributes
+    ----------
+    travel_along, travel_across : float
+        S_x and S_y [m].
+    time_along, time_across : float
+        t_x and t_y [s]; t_y is infinite for a knife at rest.
+    holds : bool
+        Whether t_y ≥ t_x, condition (1), for the length of the edge.
+    length_published : float
+        Least length by (10) [m].
+    length_consistent : float
+        Least length by (4) [m].
+    """
+
+    travel_along: float
+    travel_across: float
+    time_along: float
+    time_across: float
+    holds: bool
+    length_published: float
+    length_consistent: float
+
+
+def published_lengths(
+    band: float, edge_angle: float, edge_length: float, forward_speed: float, knife_speed: float
+) -> PublishedLengths:
+    """Travels, condition and lengths of the paper.
+
+    Parameters
+    ----------
+    band : float
+        b: diameter d of the head, with offset d + 2Δ [m].
+    edge_angle : float
+        α [rad], between −π/2 and π/2.
+    edge_length : float
+        L [m].
+    forward_speed, knife_speed : float
+        v > 0 and v_h ≥ 0 [m/s].
+
+    Returns
+    -------
+    PublishedLengths
+        By the paper.
+
+    References
+    ----------
+    .. [1] Paper 5, (1) to (10).
+    """
+    sin, cos = abs(np.sin(edge_angle)), np.cos(edge_angle)
+    along, across = band * (cos + sin**2), (edge_length - band * sin) * cos
+    time_along = along / forward_speed
+    at_rest = np.inf if across >= 0 else -np.inf
+    time_across = across / knife_speed if knife_speed > 0 else at_rest
+    return PublishedLengths(
+        travel_along=float(along),
+        travel_across=float(across),
+        time_along=float(time_along),
+        time_across=float(time_across),
+        holds=bool(time_across >= time_along),
+        length_published=float(length_published(band, edge_angle, knife_speed / forward_speed)),
+        length_consistent=float(length_consistent(band, edge_angle, knife_speed / forward_speed)),
+    )
+
+
+def length_published(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -> Floats:
+    """Least length as printed, (5), (9), (10).
+
+    Parameters
+    ----------
+    band, edge_angle, ratio : array_like, shape (...)
+        d + 2Δ [m], α [rad], v_h/v [–]; they broadcast.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        [m]
+    """
+    along = np.asarray(ratio) * np.cos(edge_angle)
+    return np.asarray(np.asarray(band) * (along + np.abs(np.sin(edge_angle))))
+
+
+def length_consistent(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -> Floats:
+    """Least length that follows from (4).
+
+    Parameters
+    ----------
+    band, edge_angle, ratio : array_like, shape (...)
+        d + 2Δ [m], α [rad], v_h/v [–]; they broadcast.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        [m]
+    """
+    sin = np.abs(np.sin(edge_angle))
+    along = np.asarray(ratio) * (1 + sin * np.abs(np.tan(edge_angle)))
+    return np.asarray(np.asarray(band) * (along + sin))

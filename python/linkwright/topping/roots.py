@@ -1,0 +1,197 @@
+r"""The roots of a field, one by one, and in which phases of the knife they stand.
+
+Random numbers depend on the seed alone: the i-th root has the same share of each distribution whatever else
+is changed, so that variants of a knife are compared over the same roots.
+
+With the distance a of neighbours, the phase of the next root follows from the rate ω of the knife's phase and
+the speed v along the row:
+
+.. math:: \theta_{i+1} = \theta_i + \frac{\omega a}{v}.
+
+Equal distances may so lock to the stroke: with :math:`a f/v` a whole number, all roots of a row meet the
+knife in one phase.
+
+References
+----------
+.. [1] Derived here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.result import Result
+from linkwright.topping.head import cap_volume, head_diameter
+from linkwright.topping.model.field import MeasuredField, RandomField, even_offset
+from linkwright.topping.model.scatter import ConstantScatter
+from linkwright.topping.model.topper import Topper
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Roots(Result):
+    """Roots that the knife meets; arrays (n,), a meeting each.
+
+    Attributes
+    ----------
+    root_diameter, cut_height, offset : ndarray, shape (n,)
+        D, h_p, and the axis to the left of the row [m].
+    distance : ndarray, shape (n,)
+        From the first root of the row [m]; zero where phases come as they may.
+    start : ndarray, shape (n,)
+        Share of a turn of the knife's phase at the first root of the row.
+    cluster : ndarray of int, shape (n,)
+        Row of a random root, number of a measured one.
+    n_clusters : int
+        How many there are.
+    are_free : bool
+        Whether roots of a cluster are independent.
+    """
+
+    root_diameter: Floats
+    cut_height: Floats
+    offset: Floats
+    distance: Floats
+    start: Floats
+    cluster: NDArray[np.intp]
+    n_clusters: int
+    are_free: bool
+
+    @property
+    def diameter(self) -> Floats:
+        """d of the disc that is cut [m]."""
+        return head_diameter(self.root_diameter, self.cut_height)
+
+    @property
+    def cap(self) -> Floats:
+        """Volume above the cut [m³]."""
+        return cap_volume(self.root_diameter, self.cut_height)
+
+    @property
+    def volume(self) -> Floats:
+        """Of the whole root [m³]."""
+        return np.asarray(np.pi / 6 * self.root_diameter**3)
+
+    @property
+    def is_missed(self) -> NDArray[np.bool_]:
+        """Whether the knife passes above the root."""
+        return np.asarray(self.cut_height <= 0)
+
+    @property
+    def is_lost(self) -> NDArray[np.bool_]:
+        """Whether it passes below the root."""
+        return np.asarray(self.cut_height >= self.root_diameter)
+
+    def phase(self, rate: float, forward_speed: float) -> Floats:
+        """Phase of the knife when the middle of the edge is abreast of each root.
+
+        Parameters
+        ----------
+        rate : float
+            Phase per time [rad/s].
+        forward_speed : float
+            v [m/s].
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            From 0 to 2π [rad].
+        """
+        turns = self.start + self.distance * (rate / (2 * np.pi * forward_speed))
+        return np.asarray(2 * np.pi * (turns - np.floor(turns)))
+
+
+def field_of(topper: Topper) -> RandomField | MeasuredField:
+    """The field of a topper; without one, roots that differ in their offset alone.
+
+    Parameters
+    ----------
+    topper : Topper
+        The topper.
+    """
+    return topper.field or RandomField(kind="random")
+
+
+def draw_roots(topper: Topper, seed: int | None = None) -> Roots:
+    """Draw the roots of a field.
+
+    Parameters
+    ----------
+    topper : Topper
+        The topper; its own sizes count where the field has none.
+    seed : int, optional
+        In place of the field's.
+
+    Returns
+    -------
+    Roots
+        The same for the same seed.
+
+    Raises
+    ------
+    InputError
+        The seed is negative.
+    """
+    if seed is not None and seed < 0:
+        raise InputError(f"seed: found {seed}, expected a whole number of 0 or more")
+    field = field_of(topper)
+    rng = np.random.default_rng(field.seed if seed is None else seed)
+    fixed = topper.motion.phase
+    if isinstance(field, MeasuredField):
+        return _measured(field, rng, fixed)
+    return _random(field, topper, rng, fixed)
+
+
+def _random(field: RandomField, topper: Topper, rng: np.random.Generator, fixed: float | None) -> Roots:
+    n = field.roots
+    row = np.arange(n) * field.rows // n
+    first = np.searchsorted(row, np.arange(field.rows))
+    diameter = field.root_diameter or _constant(topper.root_diameter)
+    height = field.cut_height or _constant(topper.cut_height)
+    offset = field.offset or even_offset(topper.offset)
+    shares = rng.random((5, n))
+    distance, start = np.zeros(n), shares[4]
+    if field.spacing is not None:
+        along = np.cumsum(field.spacing.values(shares[3]))
+        distance, start = along - along[first][row], start[first][row]
+    return Roots(
+        root_diameter=diameter.values(shares[0]),
+        cut_height=height.values(shares[1]),
+        offset=offset.values(shares[2]),
+        distance=distance,
+        start=start if fixed is None else np.full(n, fixed / (2 * np.pi)),
+        cluster=row,
+        n_clusters=field.rows,
+        are_free=field.spacing is None,
+    )
+
+
+def _constant(value: float) -> ConstantScatter:
+    return ConstantScatter(kind="constant", value=value)
+
+
+def _measured(field: MeasuredField, rng: np.random.Generator, fixed: float | None) -> Roots:
+    """Each root in evenly spread phases, of which the first is random."""
+    n, m = len(field.root_diameter), field.phases if fixed is None else 1
+    number = np.repeat(np.arange(n), m)
+    first = rng.random(n)
+    along = np.zeros(n)
+    if field.spacing is not None:
+        first = np.full(n, first[0])
+        along[1:] = np.cumsum(field.spacing[1:])
+    start = ((first[:, None] + np.arange(m)) / m).ravel()
+    return Roots(
+        root_diameter=np.array(field.root_diameter)[number],
+        cut_height=np.array(field.cut_height)[number],
+        offset=np.array(field.offset)[number],
+        distance=along[number],
+        start=start if fixed is None else np.full(n, fixed / (2 * np.pi)),
+        cluster=number,
+        n_clusters=n,
+        are_free=False,
+    )

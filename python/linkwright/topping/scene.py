@@ -1,0 +1,155 @@
+"""The knife of a topper over the heads of a row, to be moved by the page.
+
+Only what the page cannot know is given: the law of the knife over its phase, the edge, and where the heads
+stand. The machine goes along x; the middle of the edge is at x = v t, y = law(phase + rate t) + drift t.
+
+The head in the middle, at x = 0, is the worst one. Where heads come in any phase, the others stand at a
+distance that lets the knife meet them in other phases; where they come in one phase alone, a whole number of
+strokes apart. A knife that does not turn back over a head is shown over one head: over a row it would go
+away.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.app.study import Study
+from linkwright.topping.edge import Edge, edges_of
+from linkwright.topping.head_pass import worse_edge
+from linkwright.topping.model.topper import Topper
+from linkwright.topping.tables.topper import shown_head
+from linkwright.topping.topper import TopperStudy
+
+Floats = NDArray[np.float64]
+Scene = dict[str, Any]
+
+# Places of the law in a turn of its phase: half a degree, so that ends of strokes at quarters are among them.
+_PLACES = 720
+
+# Least and greatest distance of two heads of a row, over their diameter.
+_APART = 1.9, 2.6
+
+# Where phases are free, the distance keeps so far from whole half strokes, or all heads would be met alike.
+_CLEAR = 0.1
+
+# Heads farther apart than this are not in one picture.
+_FAR = 8.0
+
+# Room before and behind the heads, over the diameter.
+_ROOM = 0.6
+
+# What is farther from the heads than this is not seen, over the diameter.
+_SEEN = 8.0
+
+# Seconds on the page for the way over one head.
+_SECONDS = 2.0
+
+# Last digit of lengths, over the diameter.
+_FINE = 1e-5
+
+
+def topper_scene(study: Study) -> Scene | None:
+    """All that the moving top view needs, ready for JSON.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Returns
+    -------
+    dict or None
+        ``law``, y over one turn of the phase in even steps [m]; ``rate`` [rad/s], ``drift`` [m/s] and
+        ``phase`` at the time zero [rad]; ``angle``, ``length`` and ``speed`` of the edge [rad, m, m/s];
+        ``diameter``, ``offset`` and ``heads``, x and y of centres [m]; ``span``, first and last time [s];
+        ``box``, least and greatest x and y [m]; ``seconds`` that the page takes. None without a topper, or
+        where its edge cannot be followed.
+    """
+    found, described = study.topper, study.machine.topper
+    if found is None or described is None or found.obstacle:
+        return None
+    offset, phase = shown_head(found)
+    edges = edges_of(study.machine, described)
+    edge = worse_edge(edges, found.head_diameter, offset, phase, described.edge_length)
+    places = np.linspace(0.0, 2 * math.pi, (_PLACES if edge.knife.rate else 1) + 1)
+    heads = _row(edge, found, described, offset)
+    reach = _reach(edge, found, described)
+    x = [each[0] for each in heads]
+    ends = (x[0] - reach, x[-1] + reach)
+    d = found.head_diameter
+    return {
+        "law": _rounded(edge.knife.law.at(places), _FINE * d),
+        "rate": edge.knife.rate,
+        "drift": edge.knife.drift,
+        "phase": phase,
+        "angle": described.edge_angle,
+        "length": described.edge_length,
+        "speed": described.forward_speed,
+        "diameter": d,
+        "offset": described.offset,
+        "heads": [_rounded(np.array(each), _FINE * d) for each in heads],
+        "span": [end / described.forward_speed for end in ends],
+        "box": _box(edge, found, described, ends, x),
+        "seconds": _SECONDS * len(heads),
+    }
+
+
+def _row(edge: Edge, found: TopperStudy, described: Topper, offset: float) -> list[tuple[float, float]]:
+    """Centres of heads, the worst in the middle, the others to both sides of the row."""
+    delta, pitch = described.offset, _pitch(edge, found, described)
+    if edge.knife.drift or pitch > _FAR * found.head_diameter:
+        return [(0.0, offset)]
+    other = -math.copysign(delta, offset)
+    sides = [-0.5 * offset, other, offset, other, 0.5 * offset]
+    return [((nth - len(sides) // 2) * pitch, y) for nth, y in enumerate(sides)]
+
+
+def _pitch(edge: Edge, found: TopperStudy, described: Topper) -> float:
+    """Distance of heads along the row."""
+    d = found.head_diameter
+    if not edge.knife.rate:
+        return _APART[0] * d
+    stroke = described.forward_speed / edge.knife.frequency
+    if described.motion.phase is not None:
+        return math.ceil(_APART[0] * d / stroke) * stroke
+    for pitch in np.linspace(*_APART, 41) * d:
+        halves = 2 * float(pitch) / stroke
+        if abs(halves - round(halves)) > _CLEAR:
+            return float(pitch)
+    return _APART[0] * d
+
+
+def _reach(edge: Edge, found: TopperStudy, described: Topper) -> float:
+    """How far before the first head the edge starts, so that it has not met it yet."""
+    half = 0.5 * found.head_diameter
+    aside = 0.5 * edge.knife.stroke + described.offset
+    along = half * (1 + 2 * _ROOM) + aside * abs(math.sin(described.edge_angle))
+    if edge.stands:
+        return 4 * half
+    return along * edge.forward_speed / abs(edge.mean_advance)
+
+
+def _box(
+    edge: Edge, found: TopperStudy, described: Topper, ends: tuple[float, float], heads: list[float]
+) -> list[float]:
+    """Least x, least y, greatest x, greatest y of the edge over its way, and of the heads."""
+    lean, across = (
+        0.5 * described.edge_length * each
+        for each in (abs(math.sin(described.edge_angle)), math.cos(described.edge_angle))
+    )
+    drifts = abs(edge.knife.drift) * ends[1] / described.forward_speed
+    knife = across + 0.5 * edge.knife.stroke + drifts
+    high = max(knife, 0.5 * found.head_diameter + described.offset)
+    far = _SEEN * found.head_diameter
+    least, greatest = max(ends[0] - lean, heads[0] - far), min(ends[1] + lean, heads[-1] + far)
+    return [least, -min(high, far), greatest, min(high, far)]
+
+
+def _rounded(values: Floats, fineness: float) -> list[float]:
+    """Values with no more digits than can be seen."""
+    digits = max(0, math.ceil(-math.log10(fineness)))
+    return [round(float(value), digits) for value in values]

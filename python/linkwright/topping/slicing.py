@@ -1,0 +1,161 @@
+r"""How the edge slices: draw-cut ratio, cutting speed, and which part of the edge cuts how much.
+
+All points of the edge move alike, with u_t along it and u_n normal to it (`edge`). The draw-cut ratio is
+
+.. math:: \frac{|u_t|}{u_n} = |\tan(\alpha + \beta)|, \qquad \tan\beta = \dot y/v.
+
+Heads meet the knife in all phases; a chord of a head is swept the faster the greater u_n, so that over what
+is cut the mean of the ratio is :math:`\langle|u_t|\rangle/\langle u_n\rangle` with means over the time, and
+:math:`\langle u_n\rangle = v\cos\alpha` for a knife that turns back.
+
+References
+----------
+.. [1] V. P. Goryachkin, *Collected Works*, theory of cutting with sliding: the ratio of tangential to normal
+   speed. The mean over heads is derived here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.topping.edge import Edge
+
+Floats = NDArray[np.float64]
+
+# Phases over which means are taken, and times of a pass and places of the edge at which its use is counted.
+_PHASES, _TIMES, _PLACES = 2048, 400, 201
+
+# Phases and offsets of heads over which the use of the edge is averaged; without a stroke, offsets alone.
+_HEADS, _OFFSETS, _OFFSETS_ALONE = 72, 6, 240
+
+
+@dataclass(frozen=True)
+class Slicing:
+    """How an edge slices, heads in all phases.
+
+    Attributes
+    ----------
+    ratio_min, ratio_mean, ratio_max : float
+        Draw-cut ratio [–]; the greatest is infinite where the edge retreats.
+    speed_min, speed_max : float
+        Speed of the edge against the head [m/s].
+    """
+
+    ratio_min: float
+    ratio_mean: float
+    ratio_max: float
+    speed_min: float
+    speed_max: float
+
+
+def slicing(edges: Sequence[Edge]) -> Slicing:
+    """Draw-cut ratio and cutting speed of an edge in one or two directions.
+
+    Parameters
+    ----------
+    edges : sequence of Edge
+        The edge; of its directions each counts for half of the time.
+
+    Returns
+    -------
+    Slicing
+        Extremes and mean.
+    """
+    slow, fast = zip(*(_speeds(edge) for edge in edges), strict=True)
+    least, greatest = zip(*(_ratios(edge) for edge in edges), strict=True)
+    phases = np.asarray((np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES), dtype=np.float64)
+    ways = [np.abs(edge.velocity(0.0, phases)).mean(axis=1) for edge in edges]
+    along, normal = np.sum(ways, axis=0)
+    # An edge that moves along itself has no speed normal to it.
+    mean = np.inf if any(edge.stands for edge in edges) else float(along / normal)
+    return Slicing(min(least), mean, max(greatest), min(slow), max(fast))
+
+
+def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
+    """Draw-cut ratio and cutting speed in each phase of the knife.
+
+    Parameters
+    ----------
+    edge : Edge
+        The edge.
+    phases : ndarray, shape (n,)
+        [rad]
+
+    Returns
+    -------
+    ratio, speed : ndarray, shape (n,)
+        [–], NaN where the edge retreats; speed against the head [m/s].
+    """
+    along, normal = edge.velocity(0.0, phases)
+    ahead = np.where(normal > 0, normal, np.nan)
+    return np.abs(along) / ahead, np.hypot(along, normal)
+
+
+def _ratios(edge: Edge) -> tuple[float, float]:
+    """Least and greatest draw-cut ratio."""
+    leans = edge.leans
+    reaches = [abs(float(np.tan(lean))) for lean in leans]
+    least = 0.0 if leans[0] * leans[1] <= 0 else min(reaches)
+    greatest = np.inf if edge.retreats else max(reaches)
+    return least, float(greatest)
+
+
+def _speeds(edge: Edge) -> tuple[float, float]:
+    """Least and greatest speed of the edge."""
+    low, high = edge.knife.speeds
+    slowest = 0.0 if low <= 0 <= high else min(abs(low), abs(high))
+    speeds = (np.hypot(edge.forward_speed, speed) for speed in (slowest, max(abs(low), abs(high))))
+    least, greatest = speeds
+    return float(least), float(greatest)
+
+
+def edge_use(edges: Sequence[Edge], diameter: float, offset: float) -> tuple[Floats, Floats]:
+    """How much of a head each place of the edge cuts, on average.
+
+    Parameters
+    ----------
+    edges : sequence of Edge
+        The edge; offsets and phases are taken evenly, directions alike.
+    diameter, offset : float
+        d and Δ [m].
+
+    Returns
+    -------
+    place, width : ndarray, shape (n,)
+        Place along the edge from its middle [m], and the way that it goes, normal to the edge, through a head
+        [m]: its integral over all places is the area of the head, but for an edge that retreats.
+    """
+    places, widths = zip(*(_use(edge, diameter, offset) for edge in edges), strict=True)
+    reach = max(float(place[-1]) for place in places)
+    place = np.linspace(-reach, reach, _PLACES)
+    return place, np.mean(
+        [np.interp(place, at, width) for at, width in zip(places, widths, strict=True)], axis=0
+    )
+
+
+def _use(edge: Edge, diameter: float, offset: float) -> tuple[Floats, Floats]:
+    """The same for one direction."""
+    if edge.stands:
+        return np.array([-0.5, 0.5]) * diameter, np.zeros(2)
+    knife, radius = edge.knife, 0.5 * diameter
+    heads, offsets = (_HEADS, _OFFSETS) if knife.rate else (1, _OFFSETS_ALONE)
+    # Amid even steps, so that all count alike.
+    phase = (np.arange(heads) + 0.5)[:, None, None] * (2 * np.pi / heads)
+    delta = offset * ((2 * np.arange(offsets) + 1) / offsets - 1)[:, None]
+    end = edge.half_pass(diameter, offset)
+    step = 2 * end / _TIMES
+    t = -end + (np.arange(_TIMES) + 0.5) * step
+    q, p = edge.place(t, phase, delta)
+    pace = np.abs(edge.velocity(t, phase)[1]) * step / (heads * offsets)
+    chord = np.sqrt(np.clip(radius**2 - p**2, 0.0, None))
+    reach = float((np.abs(q) + chord)[chord > 0].max(initial=radius))
+    place = np.linspace(-reach, reach, _PLACES)
+    # Each chord adds its pace to the places between its ends.
+    weight = np.broadcast_to(pace, chord.shape)[chord > 0]
+    bounds = [np.searchsorted(place, (sign * chord - q)[chord > 0]) for sign in (-1, 1)]
+    ends = [np.bincount(each, weight, _PLACES + 1)[:_PLACES] for each in bounds]
+    return place, np.cumsum(ends[0] - ends[1])

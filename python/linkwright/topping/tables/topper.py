@@ -1,0 +1,249 @@
+"""Results of toppers as tables of text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from linkwright.app.study import Study
+from linkwright.kernel.page.quantities import SHOWN, degrees, number
+from linkwright.kernel.page.table import Row, Table, row, rows_of, with_unit
+from linkwright.topping.model.topper import Topper
+from linkwright.topping.topper import TopperStudy, leaves
+from linkwright.topping.verdict import PAPER, WAYS, Demand, Stroke, length_verdict
+
+_HEADS = ("quantity", "", "value", "remark")
+
+# A length that exceeds the edge by less than this share is the edge's: rounding.
+_SAME = 1e-12
+
+# A draw-cut ratio beyond this is that of an edge that moves along itself, but for rounding.
+_NO_BOUND = 1e9
+
+
+def topper_tables(study: Study) -> Iterator[Table]:
+    """Tables of lengths, of what is left, of the motion of the knife, of slicing, of its drive, and of the
+    published lengths.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Yields
+    ------
+    Table
+        Nothing without a topper.
+    """
+    found, described = study.topper, study.machine.topper
+    if found is None or described is None:
+        return
+    yield _lengths(found, described)
+    yield _head(found, described)
+    yield _motion(found)
+    yield _slicing(found)
+    if found.knife_mass is not None:
+        yield _drive(found)
+    yield _verdict(found, described)
+
+
+def mm(value: float) -> str:
+    """A length in millimetres."""
+    return f"{number(1e3 * value, 4)} mm"
+
+
+def percent(share: float) -> str:
+    """A share in percent."""
+    return f"{number(100 * share, 3)} %"
+
+
+def stroke_of(found: TopperStudy) -> Stroke | None:
+    """The knife's stroke, as lengths for every phase need it; None if it has none, or rests."""
+    if not found.stroke or not found.knife_speed:
+        return None
+    return Stroke(found.stroke, found.knife_speed_max / found.knife_speed)
+
+
+def _lengths(found: TopperStudy, described: Topper) -> Table:
+    """All lengths beside what they mean, and whether the edge has them."""
+    own = described.edge_length
+    steady = found.length_exact_constant_speed
+    listed = [
+        ("printed in paper 5", "(10)", found.length_published, "compares times, not what is covered"),
+        ("what its condition (4) gives", "(4)", found.length_consistent, "step from (4) to (5) put right"),
+        ("knife at rest", "v_h = 0", found.length_at_rest, "(d + 2Δ)/cos α"),
+        ("exact at constant speed", "", steady, "no turn over a head, worse direction"),
+        *(() if found.obstacle else _moved(found, described)),
+    ]
+    rows: list[Row] = [
+        (word, symbol, _length(value), _is_met(own, value), remark) for word, symbol, value, remark in listed
+    ]
+    if found.obstacle:
+        rows.append(("exact", "L", "–", "–", "not computed: too many strokes over a head"))
+    title = f"Length of the edge; it has {mm(own)}"
+    return Table("topper_lengths", title, ("least length", "", "value", "is met", "remark"), rows)
+
+
+def _moved(found: TopperStudy, described: Topper) -> Iterator[tuple[str, str, float, str]]:
+    """Exact lengths for the motion of the knife: word, symbol, value, remark."""
+    if not found.stroke:
+        yield "exact", "L", found.length_exact, "worst offset"
+        return
+    best = f"φ = {degrees(found.best_phase)}"
+    yield "exact, best phase", best, found.length_best_phase, "worst offset"
+    word = "exact, every phase" if described.motion.phase is None else "exact, phase given"
+    yield word, "L", found.length_exact, f"worst offset, phase {degrees(found.worst_phase)}"
+
+
+def _length(value: float) -> str:
+    return mm(value) if math.isfinite(value) else "none does"
+
+
+def _is_met(own: float, value: float) -> str:
+    return "yes" if value <= own * (1 + _SAME) else "no"
+
+
+def shown_head(found: TopperStudy) -> tuple[float, float]:
+    """Offset and phase of the head of which most is left, or else of that which needs most."""
+    if leaves(found):
+        return found.uncut_offset, found.uncut_phase
+    return found.worst_offset, found.worst_phase
+
+
+def _head(found: TopperStudy, described: Topper) -> Table:
+    """The head, and what is left of it."""
+    volume = f"{number(1e6 * found.cap_volume, 4)} cm³"
+    rows: list[Row] = [
+        ("diameter of the head", "d", mm(found.head_diameter), "in the plane of the cut"),
+        ("volume of the slice", "V", volume, "of the root above the cut"),
+        ("band of the heads", "d + 2Δ", mm(found.head_diameter + 2 * described.offset), ""),
+    ]
+    if leaves(found):
+        rows += _left(found, described)
+    elif not found.obstacle:
+        is_free = found.stroke and described.motion.phase is None
+        rows.append(
+            ("left of a head at worst", "", "nothing", "at every offset" + (" and phase" if is_free else ""))
+        )
+        at = f"x = {mm(_settled(found.last_x, found))}, y = {mm(_settled(found.last_y, found))}"
+        rows.append(("point farthest from the edge's middle", "", at, "from the head's centre"))
+    return Table("topper_head", "Head and cut", _HEADS, rows)
+
+
+def _settled(value: float, found: TopperStudy) -> float:
+    """A place without what rounding leaves of zero."""
+    return 0.0 if abs(value) < 1e-6 * found.head_diameter else value
+
+
+def _left(found: TopperStudy, described: Topper) -> Iterator[Row]:
+    """The head of which most is left, on which side of the edge, and the mean."""
+    side = "left" if found.uncut_offset > 0 else "right"
+    at = f"head {mm(abs(found.uncut_offset))} to the {side}" if found.uncut_offset else "head on the row"
+    moves = f", phase {degrees(found.uncut_phase)}" if found.stroke else ""
+    yield "left of a head at worst", "", percent(found.uncut_share), at + moves
+    sides = (
+        ("of that, to the right of the edge", found.uncut_right),
+        ("of that, to the left of the edge", found.uncut_left),
+        ("of that, between two passes of it", found.uncut_between),
+    )
+    # An edge that moves along itself has no sides.
+    for word, share in sides if math.isfinite(found.length_exact) else ():
+        if share > 0:
+            yield word, "", percent(share), "of the head"
+    yield "left of a head on average", "", percent(found.uncut_share_mean), _mean_over(found, described)
+
+
+def _mean_over(found: TopperStudy, described: Topper) -> str:
+    """What a mean is taken over."""
+    if found.stroke:
+        return "over even offsets" + (" and phases" if described.motion.phase is None else "")
+    return "over even offsets" + (" and both directions" if found.knife_speed else "")
+
+
+def _way(found: TopperStudy) -> str:
+    """What a mean speed is a mean of."""
+    if not found.knife_speed:
+        return "at rest"
+    return "over the time" if found.stroke else "one direction over the head"
+
+
+def _motion(found: TopperStudy) -> Table:
+    rows: list[Row] = []
+    if found.stroke:
+        rows.append(("stroke of the knife", "S", mm(found.stroke), ""))
+        rows += rows_of(found, "frequency")
+        rows.append(row(found, "strokes_per_head", "while the edge passes a head on the row"))
+    rows.append(row(found, "knife_speed", _way(found)))
+    if found.stroke:
+        rows += rows_of(found, "knife_speed_max")
+        jumps = not math.isfinite(found.knife_acceleration_max)
+        told = ("greatest acceleration of the knife", "ÿ_max", "no bound", "it turns back at once")
+        rows.append(told if jumps else row(found, "knife_acceleration_max"))
+    holds = "not less than along it: (1) holds" if found.condition_holds else "less than along it: (1) fails"
+    rows += [row(found, name, "paper 5 (2), (8)") for name in ("travel_along", "travel_across")]
+    rows.append(row(found, "time_along"))
+    across = "no bound" if math.isinf(found.time_across) else with_unit(found.time_across, "s")
+    rows.append(("time of the travel across the row", "t_y", across, holds))
+    return Table("topper_motion", "Motion of the knife", _HEADS, rows)
+
+
+def _slicing(found: TopperStudy) -> Table:
+    words = "speed along the edge over speed normal to it"
+    rows = [row(found, "slicing_ratio_min", words), _ratio(found, "slicing_ratio_mean", "over what is cut")]
+    rows.append(_ratio(found, "slicing_ratio_max", ""))
+    rows += rows_of(found, "cutting_speed_min", "cutting_speed_max")
+    rows.append(_advance(found))
+    return Table("topper_slicing", "Slicing", _HEADS, rows)
+
+
+def _advance(found: TopperStudy) -> Row:
+    """Zero but for rounding where the edge moves along itself."""
+    if abs(found.least_advance) * _NO_BOUND < found.cutting_speed_max:
+        return SHOWN["least_advance"].word, SHOWN["least_advance"].symbol, "0 m/s", "it moves along itself"
+    return row(
+        found, "least_advance", "its back meets the head" if found.edge_retreats else "it never retreats"
+    )
+
+
+def _ratio(found: TopperStudy, name: str, remark: str) -> Row:
+    """A ratio that may have no bound."""
+    if getattr(found, name) < _NO_BOUND:
+        return row(found, name, remark)
+    return SHOWN[name].word, "", "no bound", "the edge moves along itself"
+
+
+def _drive(found: TopperStudy) -> Table:
+    rows = rows_of(found, "knife_mass", "inertia_force_max")
+    rows += [row(found, "drive_torque_max", "at the crank"), *rows_of(found, "drive_torque_min")]
+    # Without losses the mean is zero but for rounding.
+    is_lossless = abs(found.drive_torque_mean or 0.0) * _NO_BOUND < abs(found.drive_torque_max or 0.0)
+    for name in ("drive_torque_mean", "drive_power_mean"):
+        shown = SHOWN[name]
+        nothing = (shown.word, shown.symbol, f"0 {shown.unit}", "nothing is lost")
+        rows.append(nothing if is_lossless else row(found, name))
+    return Table("topper_drive", "Drive of the knife at the design speed", _HEADS, rows)
+
+
+def _verdict(found: TopperStudy, described: Topper) -> Table:
+    """The published lengths for the speeds of the paper and the heads of this machine."""
+    verdict = length_verdict(
+        PAPER, described.edge_angle, found.head_diameter, described.offset, stroke_of(found)
+    )
+    rows = [_judged(each) for each in verdict.demands]
+    low, high = PAPER.lengths
+    title = f"Published {low:.2f} to {high:.2f} m, for the paper's speeds and this machine's heads"
+    heads = ("length", "", "over the speeds", "within", "would be for d + 2Δ of")
+    return Table("topper_verdict", title, heads, rows)
+
+
+def _judged(each: Demand) -> Row:
+    word = WAYS[each.way]
+    greatest = mm(each.length_greatest) if math.isfinite(each.length_greatest) else "no bound"
+    spread = f"{mm(each.length_least)} to {greatest}"
+    if not math.isfinite(each.length_least):
+        spread = "none does"
+    elif math.isclose(each.length_least, each.length_greatest, rel_tol=_SAME):
+        spread = mm(each.length_greatest)
+    bands = f"{mm(each.band_low)} to {mm(each.band_high)}" if each.band_high > 0 else "none"
+    holds = "yes" if each.holds_throughout else "longest only" if each.holds else "no"
+    return word, "", spread, holds, bands

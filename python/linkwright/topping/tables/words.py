@@ -1,0 +1,147 @@
+"""What a report says of a topper beside its numbers: headline, formulas, assumptions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from linkwright.app.study import Study
+from linkwright.kernel.page.formulas import Formula, formula
+from linkwright.kernel.page.quantities import degrees, number
+from linkwright.topping.model.topper import Topper
+
+PAPER_5 = (
+    "Paper 5: “Кінематичний аналіз переміщення ножа обрізника по головці коренеплоду” (Kinematic analysis of "
+    "the movement of a topper's knife over the head of a root)"
+)
+
+_DERIVED = "derived for any law of the knife"
+
+_FORMULAS = (
+    formula("Diameter of the head in the plane of the cut", "d = 2 root(h_p ( D − h_p ))", "paper 5"),
+    formula("Condition of a complete cut", "t_y = frac(S_y|v_h) ≥ t_x = frac(S_x|v)", "paper 5 (1), (3)"),
+    formula(
+        "Travels, with the band of the heads",
+        "S_x = ( d + 2 Δ ) ( cos α + sin^2 α ) , S_y = ( L − ( d + 2 Δ ) sin α ) cos α",
+        "paper 5 (2), (8)",
+    ),
+    formula("Length of the edge as printed", "L ≥ ( d + 2 Δ ) ( frac(v_h|v) cos α + sin α )", "paper 5 (10)"),
+    formula(
+        "Length that follows from the condition",
+        "L ≥ ( d + 2 Δ ) [ frac(v_h|v) ( 1 + tan α sin α ) + sin α ]",
+        "paper 5 (4), divided by cos α",
+    ),
+    formula(
+        "Exact length at constant speed, worse direction",
+        "L = frac(d root(v^2 + v_h^2) + 2 Δ v|v cos α − v_h sin ∣α∣)",
+        "derived: width of the swept band",
+    ),
+    formula(
+        "Middle of the edge from the head's centre, along the edge and normal to it",
+        "q = v t sin α + ( y − δ ) cos α , p = v t cos α − ( y − δ ) sin α",
+        _DERIVED,
+    ),
+    formula(
+        "Exact length while p rises: all chords of the head",
+        "L = 2 max [ ∣q∣ + root(frac(d^2|4) − p^2) ]",
+        _DERIVED,
+    ),
+)
+
+_EVERY_PHASE = formula(
+    "The same in every phase of a stroke S, if the edge never retreats",
+    "L = frac(S + d + 2 Δ|cos α)",
+    _DERIVED,
+)
+
+_SLICING = formula(
+    "Draw-cut ratio: speed along the edge over speed normal to it",
+    "frac(∣ v sin α + ẏ cos α ∣|v cos α − ẏ sin α)",
+    "Goryachkin, Collected Works",
+)
+
+
+def topper_headline(study: Study) -> Iterator[tuple[str, str, str]]:
+    """The few numbers that one looks for first: word, value, unit.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Yields
+    ------
+    tuple of str
+        Nothing without a topper.
+    """
+    found, described = study.topper, study.machine.topper
+    if found is None or described is None:
+        return
+    yield "head diameter d", number(1e3 * found.head_diameter, 4), "mm"
+    needed = found.length_exact
+    if not found.obstacle:
+        yield (
+            "edge needed",
+            *((number(1e3 * needed, 4), "mm") if math.isfinite(needed) else ("none does", "")),
+        )
+    yield "edge L", number(1e3 * described.edge_length, 4), "mm"
+    if not found.obstacle:
+        yield "left at worst", number(100 * found.uncut_share, 3), "%"
+    if found.stroke:
+        yield "strokes to and fro", number(found.frequency, 3), "1/s"
+
+
+def topper_formulas(study: Study) -> list[Formula]:
+    """Formulas of the lengths and of slicing.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+
+    Returns
+    -------
+    list of Formula
+        Empty without a topper.
+    """
+    described = study.machine.topper
+    if described is None:
+        return []
+    moves = described.motion.phase is None and study.topper is not None and study.topper.stroke > 0
+    return [*_FORMULAS, *([_EVERY_PHASE] if moves else []), _SLICING]
+
+
+def topper_assumptions(described: Topper) -> Iterator[str]:
+    """What was taken for granted about heads and knife.
+
+    Parameters
+    ----------
+    described : Topper
+        The topper.
+
+    Yields
+    ------
+    str
+        Sentences.
+    """
+    yield (
+        "A root is a sphere, and its slice has the height h_p everywhere: the copier keeps the plane of the "
+        "cut at that height below the top. The head is the disc in which this plane meets the root."
+    )
+    yield (
+        "The edge is a straight line that moves parallel to itself, at constant speed along the row; in the "
+        "middle of its stroke its own middle is over the axis of the row. Roots stand up to Δ beside it."
+    )
+    yield (
+        "A point is cut when the edge crosses it, in whichever sense: roots stand fast, nothing bends away "
+        "before the edge, nothing breaks off beside it."
+    )
+    phase = described.motion.phase
+    if phase is not None:
+        yield f"All heads meet the knife in the phase {degrees(phase)}, and at any offset up to Δ."
+    else:
+        yield "Heads meet the knife in any phase and at any offset up to Δ; means take all of them as alike."
+    yield (
+        "The angle of paper 5 has no sign, and its knife keeps one speed, v_h; for other motions v_h is the "
+        "mean speed. α is positive where the left end of the edge leads."
+    )

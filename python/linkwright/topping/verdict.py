@@ -1,0 +1,273 @@
+r"""Lengths of the edge that are said to do for ranges of speeds: for which heads they do.
+
+The longest edge is needed at one end of the range of :math:`\rho = v_h/v`: all lengths grow with ρ as long as
+the edge advances, and beyond that fall again. In between lies :math:`\rho\tan|\alpha| = 1`, where no edge
+does. At a given angle, and a given share :math:`2\Delta/b` of the offsets in the band b = d + 2Δ of the
+heads, each length is :math:`f b + a`, so that lengths are turned into bands by :math:`b = (L - a)/f`.
+
+References
+----------
+.. [1] Paper 5, its result for L_h.
+.. [2] The rest is derived here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result, finite
+from linkwright.kernel.units import ACUTE, ANGLE, LENGTH, Quantity, positive
+from linkwright.topping.constant_speed import constant_speed_lengths
+from linkwright.topping.every_phase import every_phase_length
+from linkwright.topping.published import length_consistent, length_published
+
+Floats = NDArray[np.float64]
+
+# Ways to a length, and what they are called.
+WAYS = {
+    "published": "printed bound (10)",
+    "consistent": "bound that follows from (4)",
+    "constant_speed": "exact, constant speed",
+    "every_phase": "exact, every phase of the stroke",
+}
+
+
+@dataclass(frozen=True)
+class Claim:
+    """Lengths that are said to do for ranges of speeds.
+
+    Attributes
+    ----------
+    forward_speeds, knife_speeds : tuple of float
+        Least and greatest v and v_h [m/s].
+    lengths : tuple of float
+        Least and greatest L [m].
+    """
+
+    forward_speeds: tuple[float, float]
+    knife_speeds: tuple[float, float]
+    lengths: tuple[float, float]
+
+    @property
+    def ratios(self) -> tuple[float, float]:
+        """Least and greatest v_h/v [–]."""
+        slow, fast = self.forward_speeds
+        return self.knife_speeds[0] / fast, self.knife_speeds[1] / slow
+
+
+# Paper 5, its result.
+PAPER = Claim(forward_speeds=(1.6, 2.2), knife_speeds=(0.3, 0.8), lengths=(0.25, 0.30))
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """The knife's stroke, as far as lengths for every phase ask for it.
+
+    Attributes
+    ----------
+    length : float
+        S [m].
+    peak : float
+        Greatest over mean speed of the knife [–]: 1 for constant speed, π/2 for harmonic motion.
+    """
+
+    length: float
+    peak: float = 1.0
+
+
+@dataclass(frozen=True)
+class Demand(Result):
+    """What one way of computing the length makes of a claim.
+
+    Attributes
+    ----------
+    way : str
+        A key of `WAYS`.
+    length_least, length_greatest : float
+        Over the speeds, for the heads given [m]; infinite where no edge does.
+    band_low, band_high : float
+        Bands d + 2Δ, with the share of Δ of the heads given, whose greatest length lies at the ends of the
+        claim [m]; both zero where no band does.
+    holds : bool
+        Whether the greatest length lies within the claim: what an edge must be made for.
+    holds_throughout : bool
+        Whether the least does as well.
+    """
+
+    way: str
+    length_least: float
+    length_greatest: float
+    band_low: float
+    band_high: float
+    holds: bool
+    holds_throughout: bool
+
+
+@dataclass(frozen=True)
+class LengthVerdict(Result):
+    """For which heads a claim holds, in several ways.
+
+    Attributes
+    ----------
+    edge_angle : float
+        α [rad].
+    band : float
+        d + 2Δ of the heads given [m].
+    demands : tuple of Demand
+        One for each way.
+    ways : tuple of dict
+        The same, ready for JSON.
+    """
+
+    edge_angle: float
+    band: float
+    demands: tuple[Demand, ...]
+
+    @property
+    def ways(self) -> tuple[dict[str, Any], ...]:
+        """The demands, ready for JSON; None for a length without bounds."""
+        return tuple(finite(each.to_dict()) for each in self.demands)
+
+
+@public
+def length_verdict(
+    claim: Claim, edge_angle: float, diameter: float, offset: float, stroke: Stroke | None = None
+) -> LengthVerdict:
+    """For which heads a claim holds.
+
+    Parameters
+    ----------
+    claim : Claim
+        Ranges of speeds, and of the length.
+    edge_angle : float
+        α [rad], between −π/2 and π/2.
+    diameter, offset : float
+        d of the largest head and greatest offset Δ [m].
+    stroke : Stroke, optional
+        Of the knife; without it there is no length for every phase.
+
+    Returns
+    -------
+    LengthVerdict
+        A demand for each way.
+
+    Raises
+    ------
+    InputError
+        An angle or a length that makes no sense.
+    """
+    in_range(
+        edge_angle=(edge_angle, Quantity(ANGLE, ACUTE)),
+        diameter=(diameter, positive(LENGTH)),
+        offset=(offset, Quantity(LENGTH)),
+    )
+    ways = [way for way in WAYS if stroke or way != "every_phase"]
+    found = (_demand(claim, way, edge_angle, diameter, offset, stroke) for way in ways)
+    return LengthVerdict(edge_angle, diameter + 2 * offset, tuple(found))
+
+
+def _demand(
+    claim: Claim, way: str, edge_angle: float, diameter: float, offset: float, stroke: Stroke | None
+) -> Demand:
+    """One way."""
+    band = diameter + 2 * offset
+    share = 2 * offset / band if band > 0 else 0.0
+    least, greatest = lengths_over(claim, way, edge_angle, diameter, offset, stroke).tolist()
+    low, high = bands_of(claim, way, edge_angle, share, stroke).tolist()
+    holds = claim.lengths[0] <= greatest <= claim.lengths[1]
+    throughout = holds and least >= claim.lengths[0]
+    return Demand(way, least, greatest, low, high, holds, throughout)
+
+
+def lengths_over(
+    claim: Claim,
+    way: str,
+    edge_angle: ArrayLike,
+    diameter: ArrayLike,
+    offset: ArrayLike,
+    stroke: Stroke | None = None,
+) -> Floats:
+    """Least and greatest length over the speeds of a claim.
+
+    Parameters
+    ----------
+    claim : Claim
+        Ranges of speeds.
+    way : str
+        A key of `WAYS`.
+    edge_angle, diameter, offset : array_like of any shapes
+        α [rad], d and Δ [m]; they broadcast.
+    stroke : Stroke, optional
+        Of the knife; ``"every_phase"`` needs it.
+
+    Returns
+    -------
+    ndarray, shape (2, ...)
+        [m]; infinite where no edge does, and for ``"every_phase"`` where the edge retreats.
+    """
+    ends = np.stack([_length(way, each, edge_angle, diameter, offset, stroke) for each in claim.ratios])
+    greatest = ends.max(axis=0)
+    if way == "constant_speed":
+        low, high = (each * np.abs(np.tan(edge_angle)) for each in claim.ratios)
+        greatest = np.where((low <= 1) & (high >= 1), np.inf, greatest)
+    return np.stack([ends.min(axis=0), greatest])
+
+
+def bands_of(
+    claim: Claim, way: str, edge_angle: ArrayLike, offset_share: ArrayLike, stroke: Stroke | None = None
+) -> Floats:
+    """Bands of heads whose greatest length over the speeds lies at the ends of a claim.
+
+    Parameters
+    ----------
+    claim : Claim
+        Ranges of speeds, and of the length.
+    way : str
+        A key of `WAYS`.
+    edge_angle, offset_share : array_like of any shapes
+        α [rad], 2Δ/(d + 2Δ) [–]; they broadcast.
+    stroke : Stroke, optional
+        Of the knife; ``"every_phase"`` needs it.
+
+    Returns
+    -------
+    ndarray, shape (2, ...)
+        d + 2Δ [m]; zero where no band does.
+    """
+    share = np.asarray(offset_share, dtype=float)
+    none, unit = (
+        lengths_over(claim, way, edge_angle, each * (1 - share), each * share / 2, stroke)[1]
+        for each in (0.0, 1.0)
+    )
+    does = np.isfinite(unit)
+    start = np.where(does, none, 0.0)
+    per_band = np.where(does, unit, np.inf) - start
+    return np.stack([np.clip((each - start) / per_band, 0.0, None) for each in claim.lengths])
+
+
+def _length(
+    way: str,
+    ratio: float,
+    edge_angle: ArrayLike,
+    diameter: ArrayLike,
+    offset: ArrayLike,
+    stroke: Stroke | None,
+) -> Floats:
+    """Length at a ratio v_h/v, which is all that it depends on."""
+    d, delta = np.asarray(diameter, dtype=float), np.asarray(offset, dtype=float)
+    if way == "published":
+        return length_published(d + 2 * delta, edge_angle, ratio)
+    if way == "consistent":
+        return length_consistent(d + 2 * delta, edge_angle, ratio)
+    if way == "constant_speed":
+        return np.asarray(constant_speed_lengths(d, delta, edge_angle, 1.0, ratio).max(axis=0))
+    if stroke is None:
+        raise ValueError("a length for every phase needs the stroke")
+    advances = stroke.peak * ratio * np.abs(np.tan(edge_angle)) < 1
+    return np.where(advances, every_phase_length(d, delta, edge_angle, stroke.length), np.inf)

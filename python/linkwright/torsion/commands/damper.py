@@ -1,0 +1,114 @@
+"""``linkwright torsion damper FILE``: the best damper for a mode of a train."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
+
+if TYPE_CHECKING:
+    from linkwright.kernel.files.output import OutputFolder
+    from linkwright.torsion.damper.damper_design import DamperDesign
+
+
+class Kind(StrEnum):
+    """What holds the ring."""
+
+    viscous = "viscous"
+    tuned = "tuned"
+    rubber = "rubber"
+
+
+On = Annotated[
+    str, typer.Option("--on", metavar="DISC", help="The disc that carries it.", show_default=False)
+]
+Ring = Annotated[
+    str,
+    typer.Option(
+        "--ring-inertia", metavar="J", help='Of its ring, such as "0.4 kg m^2".', show_default=False
+    ),
+]
+Mode = Annotated[int, typer.Option("--mode", metavar="N", help="Number of the mode, as f_N in the table.")]
+Kinds = Annotated[
+    Kind, typer.Option("--kind", help="Held by a fluid, by a spring and a fluid, or by rubber.")
+]
+Loss = Annotated[
+    float | None,
+    typer.Option("--loss-factor", metavar="ETA", help="Of the rubber at hand.", show_default=False),
+]
+Folder = Annotated[
+    Path | None, out_option("Write damper.json, damper.toml and the response as SVG and PNG there.")
+]
+
+
+def torsion() -> None:
+    """Torsional vibration: `linkwright torsion FILE` looks at a train; or one of these commands.
+
+    FILE gives natural frequencies, shapes and nodes; with torques and [train.run] also critical speeds,
+    torques, stresses, limits, barred speeds, unevenness and heat. Exit code 1 if a limit is exceeded.
+
+    With FILE: --set PATH=VALUE, --json, --holzer HZ, --out DIR (report, drawings, JSON).
+    """
+
+
+def damper(
+    file: File,
+    on: On,
+    ring_inertia: Ring,
+    mode: Mode = 1,
+    kind: Kinds = Kind.viscous,
+    loss_factor: Loss = None,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    json: Json = False,
+    out: Folder = None,
+    force: Force = False,
+) -> None:
+    """The best damper for a mode: damping, and stiffness, that leave least of its resonance."""
+    from linkwright.app.terminal import print_tables
+    from linkwright.kernel.units import INERTIA
+    from linkwright.machine.files.read import read
+    from linkwright.torsion.damper.damper_design import design_damper
+    from linkwright.torsion.tables.damper import damper_lines, damper_table
+
+    folder = output_folder(out, force=force)
+    machine = read(file, set or [], allow_outside=allow_outside)
+    ring = option_value("--ring-inertia", ring_inertia, INERTIA)
+    found = design_damper(machine, on, ring, mode=mode, kind=kind.value, loss_factor=loss_factor)
+    shown = _object(machine.name, found)
+    if json:
+        typer.echo(shown, nl=False)
+    else:
+        print_tables("", [damper_table(found)], ())
+        typer.echo("\n" + damper_lines(found), nl=False)
+    if folder is not None:
+        _write(found, shown, folder, quiet=json)
+
+
+# In the order of the help.
+TORSION = (damper,)
+
+
+def _object(name: str, found: DamperDesign) -> str:
+    """One JSON object."""
+    from json import dumps
+
+    from linkwright.kernel.result import finite
+
+    results: dict[str, Any] = {"damper": found.to_dict(curves=True)}
+    told: dict[str, Any] = {"machine": name, "results": finite(results), "findings": [], "warnings": []}
+    return dumps(told, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def _write(found: DamperDesign, shown: str, folder: OutputFolder, *, quiet: bool) -> None:
+    """Results and figure; says where they are."""
+    from linkwright.torsion.figures.damper import damper_figure
+    from linkwright.torsion.tables.damper import damper_lines
+
+    texts = {"damper.json": shown, "damper.toml": damper_lines(found)}
+    write_folder(folder, texts, {"damper": damper_figure(found)}, quiet=quiet)

@@ -1,0 +1,110 @@
+"""``linkwright torsion diagnose FILE CSV``: which cylinder is weak, from a measured speed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.errors import InputError
+
+if TYPE_CHECKING:
+    from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis
+
+Measured = Annotated[
+    Path,
+    typer.Argument(
+        metavar="CSV",
+        help="Speed over the crank angle, at even steps over whole cycles; head: angle [deg], speed [rpm].",
+        show_default=False,
+    ),
+]
+On = Annotated[
+    str, typer.Option("--on", metavar="DISC", help="The disc that was measured.", show_default=False)
+]
+Noise = Annotated[
+    str | None,
+    typer.Option(
+        "--noise",
+        metavar="SPEED",
+        help='Standard deviation of a sample, such as "0.02 rad/s". Without it, from what is left over.',
+        show_default=False,
+    ),
+]
+Zero = Annotated[
+    int | None,
+    typer.Option(
+        "--zero",
+        metavar="CYLINDER",
+        help="The angle is 0 at the firing dead centre of this cylinder. Without it, where throw 1 points to "
+        "the vertical.",
+        show_default=False,
+    ),
+]
+Level = Annotated[
+    float, typer.Option("--level", metavar="P", help="Probability that the intervals hold the truth.")
+]
+Rigid = Annotated[
+    bool, typer.Option("--rigid", help="Take the train as rigid, to see what neglecting torsion costs.")
+]
+
+
+def diagnose(
+    file: File,
+    measured: Measured,
+    on: On,
+    noise: Noise = None,
+    zero: Zero = None,
+    level: Level = 0.95,
+    rigid: Rigid = False,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    json: Json = False,
+) -> None:
+    """Which cylinder of an engine is weak, from the speed of a disc over the crank angle."""
+    from linkwright.app.terminal import print_tables
+    from linkwright.kernel.files.columns import read_columns
+    from linkwright.kernel.units import ANGLE, SPEED
+    from linkwright.machine.files.read import read
+    from linkwright.torsion.diagnosis.record_diagnosis import record_diagnosis
+    from linkwright.torsion.tables.diagnosis import diagnosis_table, diagnosis_words
+
+    if not 0 < level < 1:
+        raise InputError(f"--level: found {level:g}, expected a probability between 0 and 1")
+    deviation = None if noise is None else option_value("--noise", noise, SPEED)
+    if deviation is not None and deviation <= 0:
+        raise InputError(f"--noise: found {deviation:g} rad/s, expected more than 0")
+    machine = read(file, set or [], allow_outside=allow_outside)
+    columns = read_columns(measured, {"angle": ANGLE, "speed": SPEED})
+    found = record_diagnosis(
+        machine, on, columns["angle"], columns["speed"], noise=deviation, zero=zero, rigid=rigid
+    )
+    if json:
+        typer.echo(_object(machine.name, found, level), nl=False)
+        return
+    print_tables("", [diagnosis_table(found, level)], (), found.warnings)
+    typer.echo("\n" + diagnosis_words(found, level))
+
+
+def _object(name: str, read: RecordDiagnosis, level: float) -> str:
+    """One JSON object."""
+    from json import dumps
+
+    from linkwright.kernel.result import finite
+
+    found = read.found
+    results = {
+        **found.to_dict(curves=True),
+        "disc": read.disc,
+        "speed": read.speed,
+        "half_width": found.half_width(level).tolist(),
+        "weak": list(read.weak(level)),
+        "late": list(read.late(level)),
+        "leaking": list(read.leaking(level)),
+    }
+    results.pop("warnings")
+    told = {"findings": [], "warnings": list(read.warnings)}
+    shown = {"machine": name, "results": {"diagnosis": finite(results)}, **told}
+    return dumps(shown, allow_nan=False, ensure_ascii=False) + "\n"

@@ -1,0 +1,253 @@
+r"""Forced vibration of a train: amplitudes at every order and speed, and what they add up to.
+
+The core takes trees; a train with loops is solved from its matrices,
+
+.. math:: (-\omega^2 J + i\omega C + K + i\,\mathrm{Im}K)\,q = M
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright import _core
+from linkwright.torsion.core.train import HELD, ReferredTrain
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Ints = NDArray[np.int32]
+
+# Numbers in a block of matrices that are solved at once: some 30 MB.
+_BLOCK = 2_000_000
+
+
+@dataclass(frozen=True)
+class Tree:
+    """Masses in an order in which each hangs on an earlier one.
+
+    Attributes
+    ----------
+    order : ndarray of int, shape (masses,)
+        The masses.
+    parent : ndarray of int, shape (masses,)
+        Place in the order of the mass that each hangs on; of the first, its own.
+    row : ndarray of int, shape (shafts,)
+        Place in the order of the mass that each shaft holds; the number of masses if it joins one with
+        itself.
+    """
+
+    order: Ints
+    parent: Ints
+    row: Ints
+
+
+def tree_of(referred: ReferredTrain) -> Tree | None:
+    """The masses as a tree, shafts in parallel taken together; None if there are loops.
+
+    Parameters
+    ----------
+    referred : ReferredTrain
+        The train; fluids count as shafts.
+    """
+    ends = [tuple(sorted(pair)) for pair in referred.ends.tolist()]
+    about: dict[int, list[int]] = {n: [] for n in range(HELD, len(referred.inertia))}
+    for a, b in dict.fromkeys(ends):
+        if a != b:
+            about[a].append(b)
+            about[b].append(a)
+    held = about[HELD]
+    if len(held) > 1 or sum(map(len, about.values())) // 2 - len(held) != len(referred.inertia) - 1:
+        return None
+    root = held[0] if held else 0
+    order, parent, place = [root], [0], {root: 0, HELD: 0}
+    for at in order:
+        for below in about[at]:
+            if below not in place:
+                place[below] = len(order)
+                order.append(below)
+                parent.append(place[at])
+    # Of the two ends of a shaft the one that hangs comes later.
+    row = [max(place[a], place[b]) if a != b else len(order) for a, b in ends]
+    return Tree(np.array(order, np.int32), np.array(parent, np.int32), np.array(row, np.int32))
+
+
+@dataclass(frozen=True)
+class Operating:
+    """What a train is at some speeds, referred to that of its first disc.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (speeds,)
+        Ω of the first disc [rad/s].
+    stiffness : ndarray, shape (shafts, speeds)
+        About the mean torque [N m/rad].
+    disc_damping : ndarray, shape (masses, speeds)
+        Viscous, against the ground, with that of loads [N m s/rad].
+    """
+
+    speeds: Floats
+    stiffness: Floats
+    disc_damping: Floats
+
+
+def respond(referred: ReferredTrain, at: Operating, orders: Floats, torques: Complexes) -> Complexes:
+    """Amplitudes of the masses.
+
+    Parameters
+    ----------
+    referred : ReferredTrain
+        The train.
+    at : Operating
+        Speeds, and what depends on them.
+    orders : ndarray, shape (orders,)
+        Waves a turn of the first disc.
+    torques : ndarray of complex, shape (orders, masses, speeds)
+        Referred [N m].
+
+    Returns
+    -------
+    ndarray of complex, shape (orders, masses, speeds)
+        q [rad]; not finite at a resonance without any damping.
+    """
+    tree = tree_of(referred)
+    if tree is None:
+        return _whole(referred, at, orders, torques)
+    n, speeds = len(referred.inertia), len(at.speeds)
+
+    def table(values: Floats) -> Floats:
+        found = np.zeros((n + 1, speeds))
+        np.add.at(found, tree.row, values)
+        return found[:n].ravel()
+
+    damping = np.broadcast_to(referred.damping[:, None], at.stiffness.shape)
+    loss = referred.loss_factor[:, None] * at.stiffness
+    ground = np.ascontiguousarray(at.disc_damping[tree.order]).ravel()
+    tables = [table(at.stiffness), table(damping), table(loss), ground]
+    q = np.take(torques, tree.order, axis=1)
+    J = np.ascontiguousarray(referred.inertia[tree.order])
+    _core.torsion_forced(tree.parent, J, at.speeds, tables, orders, q.view(np.float64).reshape(-1))
+    return q if (tree.order[1:] > tree.order[:-1]).all() else np.take(q, np.argsort(tree.order), axis=1)
+
+
+def shaft_torques(
+    referred: ReferredTrain, stiffness: Complexes, q: Complexes, forces: Complexes, size: Floats
+) -> Complexes:
+    """Torques of the shafts: stiffness times twist, or, in shafts as good as rigid, by equilibrium.
+
+    Rounding of the amplitudes times the stiffness is a torque, and so is that of the forces on one side of
+    the shaft. Of both ways the one is taken that has less of it.
+
+    Parameters
+    ----------
+    referred : ReferredTrain
+        The train.
+    stiffness : ndarray of complex, shape (orders, shafts, speeds)
+        k(1 + iη) + iωc [N m/rad].
+    q : ndarray of complex, shape (orders, masses, speeds)
+        Amplitudes [rad].
+    forces : ndarray of complex, shape (orders, masses, speeds)
+        On each mass from outside, with those of its inertia and its damping: what its shafts carry on [N m].
+    size : ndarray, shape (orders, masses, speeds)
+        Sum of the sizes of their parts [N m].
+
+    Returns
+    -------
+    ndarray of complex, shape (orders, shafts, speeds)
+        Positive if the first end drives the second, referred [N m].
+    """
+    first, second = referred.ends.T
+    held = np.concatenate([q, np.zeros_like(q[:, :1])], axis=1)
+    # Amplitudes at a resonance without damping are not finite, nor are torques.
+    with np.errstate(invalid="ignore", over="ignore"):
+        twisted: Complexes = stiffness * (held[:, first] - held[:, second])
+        tree = tree_of(referred)
+        if tree is None:
+            return twisted
+        rounding = np.abs(stiffness) * (np.abs(held[:, first]) + np.abs(held[:, second]))
+        balanced = by_equilibrium(referred, tree, stiffness, forces)
+        bound = np.abs(by_equilibrium(referred, tree, stiffness, size.astype(complex)))
+        return np.where(bound < rounding, balanced, twisted)
+
+
+def by_equilibrium(referred: ReferredTrain, tree: Tree, stiffness: Complexes, forces: Complexes) -> Complexes:
+    """Torques of the shafts of a tree from what acts on one side of each; parallel ones share by stiffness.
+
+    Parameters
+    ----------
+    referred : ReferredTrain
+        The train.
+    tree : Tree
+        Its masses.
+    stiffness : ndarray of complex, shape (orders, shafts, speeds)
+        By which shafts between the same two masses share [N m/rad].
+    forces : ndarray of complex, shape (orders, masses, speeds)
+        On each mass but for its shafts [N m].
+
+    Returns
+    -------
+    ndarray of complex, shape (orders, shafts, speeds)
+        Positive if the first end drives the second, referred [N m].
+    """
+    n = len(tree.order)
+    below = np.take(forces, tree.order, axis=1)
+    for row in range(n - 1, 0, -1):
+        below[:, tree.parent[row]] += below[:, row]
+    # Of the two ends of a shaft the one that hangs is that of its row; the ground is no mass.
+    place = np.append(np.argsort(tree.order), HELD)
+    found = np.zeros_like(stiffness)
+    for s, row in enumerate(tree.row.tolist()):
+        if row < n:
+            together = stiffness[:, tree.row == row].sum(axis=1)
+            share = np.divide(stiffness[:, s], together, out=np.zeros_like(together), where=together != 0)
+            sign = 1.0 if place[referred.ends[s, 0]] == row else -1.0
+            found[:, s] = sign * share * below[:, row]
+    return found
+
+
+def _whole(referred: ReferredTrain, at: Operating, orders: Floats, torques: Complexes) -> Complexes:
+    """Amplitudes from the matrices, for trains with loops; not finite where they are singular."""
+    n, speeds = len(referred.inertia), len(at.speeds)
+    found = np.empty((len(orders), n, speeds), complex)
+    step = max(1, _BLOCK // (n * n))
+    for m, order in enumerate(orders):
+        for first in range(0, speeds, step):
+            part = slice(first, first + step)
+            omega = order * at.speeds[part]
+            s = at.stiffness[:, part] * (1 + 1j * referred.loss_factor[:, None])
+            s = s + 1j * omega * referred.damping[:, None]
+            own = -(omega**2) * referred.inertia[:, None] + 1j * omega * at.disc_damping[:, part]
+            matrix = np.einsum("si,sw,sj->wij", referred.joins, s, referred.joins)
+            matrix[:, np.arange(n), np.arange(n)] += own.T
+            found[m, :, part] = _solved(matrix, torques[m, :, part].T).T
+    return found
+
+
+def _solved(matrix: Complexes, torque: Complexes) -> Complexes:
+    """Solutions one by one where one of them has none."""
+    try:
+        found: Complexes = np.linalg.solve(matrix, torque[..., None])[..., 0].astype(complex, copy=False)
+        return found
+    except np.linalg.LinAlgError:
+        if len(matrix) == 1:
+            return np.full(torque.shape, np.inf + 0j)
+        return np.concatenate([_solved(matrix[k : k + 1], torque[k : k + 1]) for k in range(len(matrix))])
+
+
+def extremes(coefficients: Complexes) -> Floats:
+    """Greatest value, its place, least value, its place of sums of harmonics.
+
+    Parameters
+    ----------
+    coefficients : ndarray of complex, shape (harmonics, ...)
+        c_h of Σ Re c_h e^{ihτ}, from h = 0 on.
+
+    Returns
+    -------
+    ndarray, shape (4, ...)
+        Places as τ, 0 to 2π; NaN of a wave that is not finite.
+    """
+    flat = np.ascontiguousarray(coefficients, complex).reshape(-1)
+    waves = coefficients[0].size
+    return _core.torsion_waves(flat.view(np.float64), waves).reshape(4, *coefficients.shape[1:])

@@ -1,0 +1,200 @@
+r"""Torques on the discs of a train from outside, for its motion in time.
+
+.. math:: M = s\,w(t)\,g(\omega, t)\,f(p\theta + \beta)
+
+with θ and ω of the disc: a scale, a weight over time that events switch, a law of speed or time, a shape
+over the angle.
+
+The torque of a generator in a short circuit follows from the flux that stays in its windings. In per unit of
+its apparent power over its speed, without load before, and for the worst instant of switching,
+
+.. math:: M_3 = \frac{1}{x''}\sin\omega t, \qquad
+    M_2 = \frac{1}{x''}\left(\sin\omega t - \tfrac12\sin 2\omega t\right)
+
+for three phases and for two, with the subtransient reactance :math:`x''`, both decaying. The greatest of M_2
+is :math:`\tfrac34\sqrt3/x''`, at a third of a period.
+
+References
+----------
+.. [1] Concordia, Synchronous Machines: Theory and Performance, 1951, chapter 7: torque in short circuits
+from constant flux linkages.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from linkwright.kernel.core.curve import Curve
+from linkwright.kernel.core.periodic_table import PeriodicTable
+
+
+@dataclass(frozen=True)
+class Power:
+    """A power of the speed.
+
+    Attributes
+    ----------
+    speed : float
+        ω₀, at which the law is 1 [rad/s].
+    exponent : float
+        p.
+    is_even : bool
+        (ω/ω₀)ᵖ the same in both senses, or with the sign of the speed, as resistance has it.
+    """
+
+    speed: float
+    exponent: float
+    is_even: bool = False
+
+
+@dataclass(frozen=True)
+class OverSpeed:
+    """A curve over the speed of the disc, such as a motor's characteristic.
+
+    Attributes
+    ----------
+    curve : Curve
+        Torque [N m] over speed [rad/s].
+    """
+
+    curve: Curve
+
+
+@dataclass(frozen=True)
+class Following:
+    """A torque in proportion to what is missing in speed: a governor, or a test bench that leads the speed.
+
+    Attributes
+    ----------
+    gain : float
+        [N m s/rad].
+    curve : Curve
+        Speed wanted [rad/s] over time [s].
+    """
+
+    gain: float
+    curve: Curve
+
+
+@dataclass(frozen=True)
+class Decaying:
+    """A sine that decays.
+
+    Attributes
+    ----------
+    start, end : float
+        Between these times [s].
+    rate : float
+        Of the decay, one over its time constant [1/s].
+    speed, phase : float
+        Angular frequency [rad/s] and phase [rad] of the sine.
+    """
+
+    start: float
+    end: float
+    rate: float
+    speed: float
+    phase: float = 0.0
+
+
+Law = Power | OverSpeed | Following | Decaying
+
+
+@dataclass(frozen=True)
+class TrainTorque:
+    """A torque on a disc, positive if it drives.
+
+    Attributes
+    ----------
+    name : str
+        By which events and results speak of it.
+    on : int
+        Disc.
+    scale : float
+        Torque where the law and the shape are 1 [N m].
+    law : Power, OverSpeed, Following, Decaying or None
+        How it depends on speed or time; None for not at all.
+    shape : PeriodicTable or None
+        How it depends on the angle; None for not at all.
+    pitch, phase : float
+        Angle of the table over that of the disc, and angle of the table where that of the disc is zero [rad].
+    weight : Curve or None
+        Factor over time; None for 1.
+    """
+
+    name: str
+    on: int
+    scale: float = 1.0
+    law: Law | None = None
+    shape: PeriodicTable | None = None
+    pitch: float = 1.0
+    phase: float = 0.0
+    weight: Curve | None = None
+
+    def weighted(self, weight: Curve) -> TrainTorque:
+        """The same torque with a factor over time.
+
+        Parameters
+        ----------
+        weight : Curve
+            In place of the one it has.
+
+        Returns
+        -------
+        TrainTorque
+            A copy.
+        """
+        return replace(self, weight=weight)
+
+
+def short_circuit(
+    name: str,
+    on: int,
+    *,
+    torque: float,
+    reactance: float,
+    speed: float,
+    decay: float,
+    phases: int = 3,
+    start: float = 0.0,
+    end: float = np.inf,
+) -> tuple[TrainTorque, ...]:
+    """Torque of a generator whose terminals are short-circuited.
+
+    Parameters
+    ----------
+    name : str
+        Of the event.
+    on : int
+        Disc of the generator.
+    torque : float
+        Apparent power over its speed [N m].
+    reactance : float
+        Subtransient, per unit [–].
+    speed : float
+        Angular frequency of the current: pole pairs times the speed of the rotor [rad/s].
+    decay : float
+        Time constant of the torque [s].
+    phases : int
+        Two or three.
+    start, end : float
+        When it begins and is cleared [s].
+
+    Returns
+    -------
+    tuple of TrainTorque
+        One for three phases; two, of the simple and of the double frequency, for two.
+
+    Notes
+    -----
+    All of the torque decays with one time constant, that of its part of mains frequency; the part of double
+    frequency lasts longer in truth, but passes most trains unfelt.
+    """
+    size = -torque / reactance
+    first = Decaying(start, end, 1.0 / decay, speed)
+    simple = TrainTorque(name, on, size, first)
+    if phases == 3:
+        return (simple,)
+    return simple, TrainTorque(name, on, -0.5 * size, replace(first, speed=2 * speed))

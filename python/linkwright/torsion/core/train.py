@@ -1,0 +1,221 @@
+r"""A train in the core's terms: referred to one speed, discs behind rigid gears taken together.
+
+Each disc turns n times as fast as the first, θ = n q. With that, inertias and stiffnesses count by n²,
+
+.. math:: J_q = \sum n^2 J, \qquad k_q = n^2 k
+
+and a shaft carries k_q (q_a − q_b) whatever gears lie elsewhere. Discs behind rigid gears share one q: they
+are one *mass*. Shafts in parallel add up. What is left is a tree, which is the core's, or has loops, as a
+shaft held at both ends has; then the matrices are solved as a whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from numbers import Real
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright import _core
+from linkwright.kernel.errors import MachineError, Problem
+from linkwright.torsion.model.train import GROUND, Shaft, Train, TrainGear
+from linkwright.torsion.model.train_speeds import parts_of, speeds
+from linkwright.torsion.model.whole_train import whole_train
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+
+# The mass that is held, in `ReferredTrain.ends`.
+HELD = -1
+
+
+@dataclass(frozen=True)
+class ReferredTrain:
+    """A train referred to the speed of its first disc.
+
+    Attributes
+    ----------
+    discs : tuple of str
+        In the order of the file.
+    shafts : tuple of str
+        What twists: shafts, then elastic meshes, in the order of the file.
+    speed : ndarray, shape (discs,)
+        n, speed of each disc over that of the first, without its sense.
+    mass : ndarray of int, shape (discs,)
+        Mass that each disc belongs to.
+    ends : ndarray of int, shape (shafts, 2)
+        Masses that each shaft joins; `HELD` for the ground.
+    tip : ndarray of int, shape (shafts, 2)
+        Discs that each shaft joins, likewise.
+    inertia : ndarray, shape (masses,)
+        Referred [kg m²].
+    stiffness : ndarray, shape (shafts,)
+        Referred; zero for a fluid [N m/rad].
+    disc_damping : ndarray, shape (masses,)
+        Viscous, against the ground, referred [N m s/rad].
+    damping : ndarray, shape (shafts,)
+        Viscous, referred [N m s/rad].
+    loss_factor : ndarray, shape (shafts,)
+        η of the complex stiffness k (1 + iη).
+    """
+
+    discs: tuple[str, ...]
+    shafts: tuple[str, ...]
+    speed: Floats
+    mass: Ints
+    ends: Ints
+    tip: Ints
+    inertia: Floats
+    stiffness: Floats
+    disc_damping: Floats
+    damping: Floats
+    loss_factor: Floats
+
+    @property
+    def is_free(self) -> bool:
+        """Whether it can turn as a whole."""
+        return not bool((self.ends == HELD).any())
+
+    @cached_property
+    def joins(self) -> Floats:
+        """Connections, shape (shafts, masses): +1 at the first end of each shaft, −1 at the second."""
+        found = np.zeros((len(self.ends), len(self.inertia) + 1))
+        # The last column is that of the ground.
+        for end, sign in zip(self.ends.T, (1.0, -1.0), strict=True):
+            np.add.at(found, (np.arange(len(found)), end), sign)
+        return found[:, :-1]
+
+    @cached_property
+    def stiffness_matrix(self) -> Floats:
+        """K of the masses, shape (masses, masses) [N m/rad]."""
+        return self._matrix(self.stiffness)
+
+    @cached_property
+    def loss_matrix(self) -> Floats:
+        """Hysteresis, the imaginary part of K, shape (masses, masses) [N m/rad]."""
+        return self._matrix(self.loss_factor * self.stiffness)
+
+    @cached_property
+    def damping_matrix(self) -> Floats:
+        """C of the masses, viscous, shape (masses, masses) [N m s/rad]."""
+        return self._matrix(self.damping) + np.diag(self.disc_damping)
+
+    def _matrix(self, between: Floats) -> Floats:
+        """The matrix of what acts between the ends of each shaft."""
+        n = len(self.inertia)
+        found = np.zeros((n + 1, n + 1))
+        # The last row and column are those of the ground.
+        a, b = self.ends.T
+        np.add.at(found, (a, a), between)
+        np.add.at(found, (b, b), between)
+        np.add.at(found, (a, b), -between)
+        np.add.at(found, (b, a), -between)
+        return found[:n, :n]
+
+    def modes(self) -> tuple[Floats, Floats]:
+        """Natural frequencies [rad/s], increasing, and shapes of the masses, a row each, with Σ J q² = 1."""
+        found = _core.torsion_modes(self.inertia, self.ends, self.stiffness)
+        return found if found is not None else self._whole()
+
+    def _whole(self) -> tuple[Floats, Floats]:
+        """Modes from the matrices, for trains with loops: each part by itself, then put in order."""
+        n = len(self.inertia)
+        pairs = self.ends[self.stiffness > 0].tolist()
+        parts = parts_of(range(n), ((a, b) for a, b in pairs if HELD not in (a, b)))
+        held = {end for pair in pairs if HELD in pair for end in pair}
+        omega, shapes, row = np.empty(n), np.zeros((n, n)), 0
+        for part in parts:
+            rows = slice(row, row + len(part))
+            omega[rows], shapes[rows, part] = self._part(part, held.isdisjoint(part))
+            row += len(part)
+        order = np.argsort(omega, kind="stable")
+        return omega[order], shapes[order]
+
+    def _part(self, masses: list[int], is_free: bool) -> tuple[Floats, Floats]:
+        """Modes of masses that hang together."""
+        J = self.inertia[masses]
+        scale = 1.0 / np.sqrt(J)
+        K = self.stiffness_matrix[np.ix_(masses, masses)]
+        square, vectors = np.linalg.eigh(scale[:, None] * K * scale)
+        omega, shapes = np.sqrt(np.maximum(square, 0.0)), (scale[:, None] * vectors).T
+        if is_free:
+            omega[0], shapes[0] = 0.0, 1.0 / np.sqrt(J.sum())
+        return omega, shapes
+
+
+def refer(train: Train) -> ReferredTrain:
+    """A train referred to the speed of its first disc.
+
+    Parameters
+    ----------
+    train : Train
+        Checked: it hangs together, and its loops can turn. Couplings and dampers count as discs and shafts.
+
+    Raises
+    ------
+    MachineError
+        An entry that was exchanged unchecked is no number above zero.
+    """
+    _require_numbers(train)
+    train = whole_train(train)
+    n = {name: abs(speed) for name, speed in speeds(train)[0].items()}
+    rigid = [gear.between for gear in train.gears.values() if gear.stiffness is None]
+    masses = parts_of(train.discs, rigid)
+    place = {name: k for k, part in enumerate(masses) for name in part}
+    elastic = {name: each for name, each in train.gears.items() if each.stiffness is not None}
+    twisting: dict[str, Shaft | TrainGear] = {**train.shafts, **elastic}
+    pairs = [each.between for each in twisting.values()]
+    # What counts is the end of a shaft that turns, and the first disc of a mesh.
+    factor = np.array([n[a if a != GROUND else b] ** 2 for a, b in pairs])
+
+    def summed(entry: str) -> Floats:
+        return np.array([sum(n[a] ** 2 * getattr(train.discs[a], entry) for a in part) for part in masses])
+
+    return ReferredTrain(
+        discs=tuple(train.discs),
+        shafts=tuple(twisting),
+        speed=np.array(list(n.values())),
+        mass=np.array([place[name] for name in train.discs], np.int32),
+        ends=_indices(pairs, place),
+        tip=_indices(pairs, {name: k for k, name in enumerate(train.discs)}),
+        inertia=summed("inertia"),
+        stiffness=factor * np.array([_rate(each) for each in twisting.values()]),
+        disc_damping=summed("damping"),
+        damping=factor * np.array([each.damping for each in twisting.values()]),
+        loss_factor=np.array([each.loss_factor for each in twisting.values()], float),
+    )
+
+
+def _rate(part: Shaft | TrainGear) -> float:
+    """Stiffness of a shaft or of an elastic mesh."""
+    if isinstance(part, Shaft):
+        return part.rate
+    assert part.stiffness is not None
+    return part.stiffness
+
+
+def _require_numbers(train: Train) -> None:
+    """Refuse arrays over many machines, and numbers that no train has."""
+    entries = {f"train.discs.{name}.inertia": each.inertia for name, each in train.discs.items()}
+    entries |= {f"train.shafts.{name}": each.rate for name, each in train.shafts.items()}
+    for name, gear in train.gears.items():
+        ratio = gear.ratio if gear.ratio is not None else abs(gear.speed_ratio)
+        entries |= {f"train.gears.{name}.ratio": ratio}
+        entries |= {f"train.gears.{name}.stiffness": 1.0 if gear.stiffness is None else gear.stiffness}
+    # A fluid alone, of a damper, has no stiffness.
+    fluids = {f"train.shafts.{name}" for name, each in train.shafts.items() if each.damping}
+    wrong = [
+        Problem(key, f"{value!r}", "one finite number above zero")
+        for key, value in entries.items()
+        if not isinstance(value, Real) or not (0 < value < np.inf or (value == 0 and key in fluids))
+    ]
+    if wrong:
+        raise MachineError(wrong)
+
+
+def _indices(pairs: list[tuple[str, str]], place: Mapping[str, int]) -> Ints:
+    """Places of both ends of each shaft."""
+    return np.array([[place.get(end, HELD) for end in pair] for pair in pairs], np.int32).reshape(-1, 2)

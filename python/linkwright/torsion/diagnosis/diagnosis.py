@@ -1,0 +1,249 @@
+r"""Which cylinder is weak: the share of each in a measured speed, by least squares on orders.
+
+The speed of a disc has the harmonics
+
+.. math:: y_\nu = b_\nu + \sum_c x_c H_{c\nu} + e_\nu
+
+with :math:`H_{c\nu}` the response of the train to what the firing of cylinder c adds to its torque,
+:math:`b_\nu` all the rest (inertia, compression, loads) and e noise. :math:`x_c = 1` is healthy, 0 a cylinder
+that does not fire. Real and imaginary parts over their noise are the equations of a linear least-squares
+problem with real x,
+
+.. math:: \hat x = (A^T A)^{-1} A^T y, \qquad \mathrm{cov}\, \hat x = \sigma^2 (A^T A)^{-1}
+
+where σ = 1 for noise that is known, else estimated from what is left over. Cylinders with parallel columns of
+A act alike on this disc at these orders, and only their sum can be told.
+
+H is that of the elastic train. A train taken as rigid has
+:math:`H = i\nu\Omega \sum M/(-(\nu\Omega)^2 \sum J)` in its place, the same at every disc, and gives other
+x: by how much is what neglecting torsion costs.
+
+References
+----------
+.. [1] Taraza, Henein and others, Determination of the gas-pressure torque of a multicylinder engine from
+    measurements of the crankshaft's speed variation, SAE, 1998.
+.. [2] Taraza, Henein and others, Diesel engine diagnosis based on analysis of the crankshaft's speed
+    variation, SAE, 1998.
+.. [3] Golub and Van Loan, Matrix Computations, 4th ed. 2013, section 5.5: least squares by singular values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError, ShapeError
+from linkwright.kernel.numerics.least_squares import Fit, least_squares
+from linkwright.torsion.diagnosis.cylinder_factors import Diagnosis
+from linkwright.torsion.diagnosis.cylinder_response import cylinder_response
+from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
+from linkwright.torsion.response.excited import Excited
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+# Cosine between responses from which on two cylinders are called alike.
+_ALIKE = 0.99
+# Orders that differ by a smaller share are one.
+_EQUAL = 1e-9
+
+
+def diagnosis(
+    at: Excited,
+    sources: Complexes,
+    measured: MeasuredSpeed,
+    cylinders: Sequence[str] | None = None,
+    *,
+    rigid: bool = False,
+) -> Diagnosis:
+    """Factors of the cylinders from a measured speed.
+
+    Parameters
+    ----------
+    at : Excited
+        The train at the speed of the measurement, all cylinders healthy.
+    sources : ndarray of complex, shape (cylinders, orders, discs)
+        Torque that the firing of each healthy cylinder adds, at the orders of the train's torques, which hold
+        it [N m].
+    measured : MeasuredSpeed
+        At one disc.
+    cylinders : sequence of str, optional
+        Their names; without them "1", "2", …
+    rigid : bool
+        Whether the train is taken as rigid, to see what that costs.
+
+    Returns
+    -------
+    Diagnosis
+        Factors with their uncertainty.
+
+    Raises
+    ------
+    ShapeError
+        Arrays do not fit together.
+    InputError
+        The train is at several speeds, a disc or order is not there, a held train taken as rigid, or too few
+        orders.
+
+    References
+    ----------
+    .. [1] Taraza, Henein and others, Diesel engine diagnosis, SAE, 1998.
+    """
+    names = _names(at, sources, cylinders)
+    rest = at.torques.harmonics[:, :, 0] - sources.sum(axis=0)
+    every = cylinder_response(at, np.concatenate([sources, rest[None]]), measured.disc, rigid=rigid)
+    columns = every[:, places(at.torques.orders, measured)]
+    A = equations(columns[:-1], measured).T
+    # What is sought is how far factors are from 1, so that what cannot be told stays healthy.
+    y = equations(measured.harmonics - columns.sum(axis=0), measured)
+    return diagnosed(least_squares(A, y, is_known=measured.noise is not None), A, names, measured)
+
+
+def equations(harmonics: Complexes, measured: MeasuredSpeed) -> Floats:
+    """Real and imaginary parts over their noise.
+
+    Parameters
+    ----------
+    harmonics : ndarray of complex, shape (..., orders)
+        Speeds at the orders measured [rad/s].
+    measured : MeasuredSpeed
+        With the noise; without one it is taken as 1 rad/s.
+
+    Returns
+    -------
+    ndarray, shape (..., 2 orders)
+        Equations for least squares.
+    """
+    scaled = harmonics if measured.noise is None else harmonics / measured.noise
+    found: Floats = np.concatenate([scaled.real, scaled.imag], axis=-1)
+    return found
+
+
+def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpeed) -> Diagnosis:
+    """What a fit says of the cylinders.
+
+    Parameters
+    ----------
+    fit : Fit
+        How far the factors are from 1; behind them, where they are fitted, delays and how far the compression
+        is from 1.
+    A : ndarray, shape (equations, parameters)
+        Its equations.
+    names : tuple of str
+        Of the cylinders.
+    measured : MeasuredSpeed
+        What was fitted.
+
+    Returns
+    -------
+    Diagnosis
+        Factors with their uncertainty.
+
+    Raises
+    ------
+    InputError
+        Noise is neither known nor left over.
+    """
+    is_known = measured.noise is not None
+    if not is_known and fit.freedom < 1:
+        remedy = f"measure more than {len(names) / 2:.4g} orders, or give the noise"
+        raise InputError(
+            f"{len(measured.orders)} orders for {len(names)} cylinders leave nothing to tell noise by: "
+            f"{remedy}"
+        )
+    n, (delay, compression) = len(names), _further(fit, len(names))
+    found = Diagnosis(
+        cylinders=names,
+        factor=np.where(fit.is_open[:n], 1.0, 1 + fit.values[:n]),
+        deviation=fit.deviation[:n],
+        covariance=fit.covariance[:n, :n],
+        condition=fit.condition,
+        misfit=fit.misfit,
+        freedom=fit.freedom,
+        is_noise_known=is_known,
+        warnings=(),
+        delay=delay[0],
+        delay_deviation=delay[1],
+        compression=None if compression[0] is None else 1 + compression[0],
+        compression_deviation=compression[1],
+    )
+    return replace(found, warnings=tuple(_warnings(found, A[:, :n], fit.is_open[:n])))
+
+
+def _further(fit: Fit, n: int) -> list[tuple[Floats, Floats] | tuple[None, None]]:
+    """Values and deviations of delay and compression, if they were fitted."""
+    if len(fit.values) == n:
+        return [(None, None), (None, None)]
+    return [(fit.values[at : at + n], fit.deviation[at : at + n]) for at in (n, 2 * n)]
+
+
+def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list[str]:
+    """What limits a diagnosis."""
+    names = np.array(found.cylinders)
+    listed = []
+    if open_part.any():
+        listed.append(
+            f"cylinders {', '.join(names[open_part])} cannot be told apart by these orders at this disc"
+        )
+    size = np.linalg.norm(A, axis=0)
+    product = np.outer(size, size)
+    cosine = np.abs(A.T @ A) / np.where(product > 0, product, 1.0)
+    for a, b in np.argwhere(np.triu(cosine > _ALIKE, k=1)):
+        if not (open_part[a] and open_part[b]):
+            listed.append(f"cylinders {names[a]} and {names[b]} act alike (cosine {cosine[a, b]:.4f})")
+    blind = ~open_part & (found.half_width() > 1)
+    if blind.any():
+        listed.append(f"cylinders {', '.join(names[blind])}: not even a misfire would show against the noise")
+    if found.is_refuted:
+        listed.append(
+            f"what is left over is {found.misfit:.3g} times the noise: the train or its torques differ"
+        )
+    return listed
+
+
+def _names(at: Excited, sources: Complexes, cylinders: Sequence[str] | None) -> tuple[str, ...]:
+    """Names of the cylinders, of arrays that fit."""
+    if len(at.torques.speeds) != 1:
+        speeds = len(at.torques.speeds)
+        raise InputError(f"a diagnosis is made at one speed, and the train is at {speeds}")
+    wanted = at.torques.harmonics.shape[:2]
+    if sources.ndim != 3 or sources.shape[1:] != wanted or not len(sources):
+        raise ShapeError(
+            f"sources have the shape {sources.shape}, expected (cylinders, {wanted[0]}, {wanted[1]})"
+        )
+    names = tuple(cylinders) if cylinders is not None else tuple(str(n + 1) for n in range(len(sources)))
+    if len(names) != len(sources):
+        raise ShapeError(f"{len(names)} names for {len(sources)} cylinders")
+    return names
+
+
+def places(orders: Floats, measured: MeasuredSpeed) -> NDArray[np.intp]:
+    """Where the measured orders stand among others.
+
+    Parameters
+    ----------
+    orders : ndarray, shape (orders,)
+        Of the torques of a train.
+    measured : MeasuredSpeed
+        Of one of its discs.
+
+    Returns
+    -------
+    ndarray of int
+        One for each measured order.
+
+    Raises
+    ------
+    InputError
+        The train has not got one of them.
+    """
+    place = np.abs(orders[:, None] - measured.orders).argmin(axis=0)
+    apart = np.abs(orders[place] - measured.orders) > _EQUAL * measured.orders
+    if apart.any():
+        order = measured.orders[apart][0]
+        raise InputError(f"nothing in the train has the order {order:.6g}: leave it out of the measurement")
+    found: NDArray[np.intp] = place
+    return found

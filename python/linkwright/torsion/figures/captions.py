@@ -1,0 +1,160 @@
+"""The figures of a study of torsional vibration, with their captions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.kernel.errors import LinkwrightError
+from linkwright.kernel.figure.captioned import Captioned
+from linkwright.torsion.figures.campbell import campbell_figure
+from linkwright.torsion.figures.forced import (
+    heat_figure,
+    orders_figure,
+    shaft_torques_figure,
+    stress_figure,
+    torsion_unevenness_figure,
+)
+from linkwright.torsion.figures.modes import modes_figure
+from linkwright.torsion.figures.scheme import scheme_figure
+from linkwright.torsion.figures.train_row import in_a_row
+from linkwright.torsion.figures.transient import transient_figure, waterfall_figure
+from linkwright.torsion.in_time.transient import TorsionTransient
+from linkwright.torsion.in_time.waterfall import waterfall
+from linkwright.torsion.response.forced import ForcedVibration, angular_deflection
+from linkwright.torsion.response.stress import ShaftStress
+from linkwright.torsion.study import TorsionStudy
+from linkwright.torsion.tables.torsion import service_place
+
+# Share of its highest speed below which a disc stands as good as still.
+_TURNING = 0.02
+
+
+def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
+    """The figures that a study has results for.
+
+    Parameters
+    ----------
+    study : TorsionStudy
+        What to draw.
+
+    Yields
+    ------
+    Captioned
+        In the order of the page.
+    """
+    caption = "Discs with the height of their inertia, shafts with the length of their compliance."
+    yield Captioned("scheme", "Equivalent scheme", caption, scheme_figure(study.scheme))
+    caption = "Amplitudes of the lowest modes that twist the train; the largest is one."
+    yield Captioned("mode_shapes", "Mode shapes", caption, modes_figure(study.free))
+    if study.forced is not None:
+        yield from _forced(study, study.forced)
+    if study.transient is not None:
+        yield from _manoeuvre(study.transient)
+
+
+def _manoeuvre(moved: TorsionTransient) -> Iterator[Captioned]:
+    """Speeds and torques over time, and what orders they hold."""
+    caption = "Speeds of discs and torques of the shafts that swing most; marked are their extremes."
+    yield Captioned("transient", "Manoeuvre", caption, transient_figure(moved))
+    # Orders are told by turns: while the first disc stands there are none.
+    turning = moved.speed[0] > _TURNING * moved.speed[0].max()
+    first = int(np.argmax(turning))
+    angle = moved.angle[0, first:]
+    if not moved.shafts or not turning[first:].all() or not (np.diff(angle) > 0).all():
+        return
+    shaft = int(np.argmax(moved.torque_max - moved.torque_min))
+    try:
+        orders = waterfall(moved.time[first:], angle, moved.torque[shaft, first:])
+    except LinkwrightError:
+        # Too short for turns to tell orders apart.
+        return
+    caption = f"Torque in {moved.shafts[shaft]}, order by order as the speed changes [N m]."
+    figure = waterfall_figure(orders, quantity="torque [N m]")
+    yield Captioned("waterfall", "Waterfall of the manoeuvre", caption, figure)
+
+
+def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]:
+    """What the train does under its torques."""
+    if study.campbell is not None:
+        caption = "Natural frequencies over the speed, rays of the orders, and where they meet."
+        yield Captioned("campbell", "Critical speeds", caption, campbell_figure(study.campbell))
+    if forced.shafts:
+        caption = "Half of greatest less least torque, all orders in phase."
+        yield Captioned("torques", "Torque of the shafts", caption, shaft_torques_figure(forced))
+    if study.stress is not None:
+        caption = "Vibratory shear stress with its concentration; dashed what the shaft bears."
+        barred = () if study.verdict is None else study.verdict.barred
+        caption += " Shaded are speeds to be barred." if barred else ""
+        yield Captioned("stress", "Stress of the shafts", caption, stress_figure(study.stress, barred))
+    if forced.shafts:
+        yield _of_the_worst_shaft(study, forced)
+    yield _of_the_freest_disc(forced)
+    shown = float(forced.speeds[service_place(study, forced)])
+    caption = (
+        f"Along the train at {shown * 30 / math.pi:.5g} rpm, and over the speed. The parts are not in "
+        "phase, so they do not add up."
+    )
+    figure = torsion_unevenness_figure(forced, in_a_row(forced.discs, study.free.joined), shown)
+    yield Captioned("unevenness", "Unevenness of rotation", caption, figure)
+    parts = _heated(study, forced)
+    if parts:
+        yield Captioned("heat", "Heat", "Mean power that damping turns to heat.", heat_figure(forced, parts))
+
+
+def _of_the_worst_shaft(study: TorsionStudy, forced: ForcedVibration) -> Captioned:
+    """Orders of the shaft that is nearest to its limit, or twisted most."""
+    worst = worst_shaft(forced, study.stress)
+    name = forced.shafts[worst]
+    single, total = np.abs(forced.shaft_torques[:, worst]), forced.shaft_torque_vibratory[worst]
+    figure = orders_figure(forced, single, total, "torque [kN m]", 1e-3)
+    return Captioned("orders", f"Orders in {name}", "Amplitude of each order, and all in phase.", figure)
+
+
+def worst_shaft(forced: ForcedVibration, stress: ShaftStress | None) -> int:
+    """The shaft that is nearest to its limit of stress; where none has one, that which is twisted most.
+
+    Parameters
+    ----------
+    forced : ForcedVibration
+        Of a train with shafts.
+    stress : ShaftStress or None
+        Of those with known sections.
+
+    Returns
+    -------
+    int
+        Its place.
+    """
+    if stress is not None:
+        # Limits may say nothing at some speeds.
+        used = np.nan_to_num(stress.utilisation, posinf=np.inf).max(axis=1)
+        if used.max() > 0:
+            return forced.shafts.index(stress.shafts[int(used.argmax())])
+    # Without number is a resonance that nothing damps.
+    size = np.nan_to_num(forced.shaft_torque_vibratory, nan=np.inf, posinf=np.inf).max(axis=1)
+    return int(size.argmax())
+
+
+def _of_the_freest_disc(forced: ForcedVibration) -> Captioned:
+    """Orders of the disc that swings most."""
+    swing = np.nan_to_num(np.abs(forced.amplitudes)).max(axis=(0, 2))
+    name = forced.discs[int(swing.argmax())]
+    single, total = angular_deflection(forced, name)
+    figure = orders_figure(forced, single, total, "angle [°]", 180 / math.pi)
+    caption = (
+        "Vibration beside the steady turning: amplitude of each order, and half the span of all in phase."
+    )
+    return Captioned("amplitude", f"Amplitude of {name}", caption, figure)
+
+
+def _heated(study: TorsionStudy, forced: ForcedVibration) -> list[str]:
+    """Dampers and couplings; without them what gets hottest."""
+    train = study.machine.train
+    named = [] if train is None else [*train.dampers, *train.couplings]
+    if not named:
+        heat = np.nan_to_num(forced.shaft_heat).max(axis=1)
+        named = [forced.shafts[s] for s in np.argsort(-heat)[:4] if heat[s] > 0]
+    return named[:6]

@@ -1,0 +1,247 @@
+"""Forced vibration of a train over its speeds: torques, stresses, amplitudes, unevenness, heat."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.figure.style import (
+    BLUE,
+    INK,
+    LINES,
+    ORANGE,
+    RED,
+    SKY,
+    SOFT,
+    legend_above,
+    named,
+    panels,
+    styled,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from linkwright.torsion.limits.barred_range import BarredRange
+    from linkwright.torsion.response.forced import ForcedVibration
+    from linkwright.torsion.response.stress import ShaftStress
+
+Floats = NDArray[np.float64]
+
+# Lines that can be told apart in one panel.
+_LINES_MAX = len(LINES)
+
+_HEIGHT = 2.7
+
+
+def _rpm(speeds: Floats) -> Floats:
+    """Speeds as turns a minute."""
+    found: Floats = speeds * 30 / math.pi
+    return found
+
+
+def _over_speed(axes: Axes, speeds: Floats, label: str) -> None:
+    """Limits and words of axes over the speed."""
+    rpm = _rpm(speeds)
+    axes.set_xlim(rpm[0], rpm[-1])
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel(label)
+
+
+@styled
+def shaft_torques_figure(found: ForcedVibration) -> Figure:
+    """Draw the vibratory torque of the shafts over the speed.
+
+    Parameters
+    ----------
+    found : ForcedVibration
+        What to draw.
+
+    Returns
+    -------
+    Figure
+        The shafts with the largest torques.
+    """
+    figure, (axes,) = panels(1, height=_HEIGHT)
+    size = found.shaft_torque_vibratory
+    for s, colour in zip(_largest(size), LINES, strict=False):
+        axes.plot(_rpm(found.speeds), size[s] / 1e3, color=colour, label=found.shafts[s])
+    _over_speed(axes, found.speeds, "vibratory torque [kN m]")
+    axes.set_xlabel("speed of the first disc [rpm]")
+    legend_above(axes)
+    return figure
+
+
+@styled
+def stress_figure(stress: ShaftStress, barred: Sequence[BarredRange] = ()) -> Figure:
+    """Draw the vibratory stress of the shafts over the speed, and what they bear.
+
+    Parameters
+    ----------
+    stress : ShaftStress
+        What to draw.
+    barred : sequence of BarredRange
+        Speeds to be barred, which are shaded.
+
+    Returns
+    -------
+    Figure
+        Shafts of one limit share a panel; at most four panels.
+    """
+    groups: dict[bytes, list[int]] = {}
+    for s in _largest(stress.vibratory, len(stress.shafts)):
+        groups.setdefault(stress.continuous[s].tobytes(), []).append(s)
+    shown = list(groups.values())[:4]
+    figure, axes = panels(len(shown), height=0.4 + 2.3 * len(shown))
+    for panel, shafts in zip(axes, shown, strict=True):
+        for s, colour in zip(shafts[:_LINES_MAX], LINES, strict=False):
+            rpm = _rpm(stress.speeds)
+            panel.plot(rpm, stress.vibratory[s] / 1e6, color=colour, label=named(stress.shafts[s]))
+        _limits(panel, stress, shafts[0])
+        _over_speed(panel, stress.speeds, "stress [MPa]")
+        names = [stress.shafts[s] for s in shafts]
+        _bar(panel, [each.barred for each in barred if each.shaft in names])
+        legend_above(panel)
+    axes[-1].set_xlabel("speed of the first disc [rpm]")
+    return figure
+
+
+def _bar(axes: Axes, ranges: Sequence[tuple[float, float]]) -> None:
+    """Shade ranges of speed, as far as they lie in view."""
+    left, right = axes.get_xlim()
+    for n, (low, high) in enumerate(ranges):
+        ends = (max(low * 30 / math.pi, left), min(high * 30 / math.pi, right))
+        axes.axvspan(*ends, color=RED, alpha=0.12, linewidth=0, label="" if n else "barred")
+
+
+def _limits(axes: Axes, stress: ShaftStress, s: int) -> None:
+    """What a shaft bears for ever, and in passing."""
+    for limit, words, dashes in (
+        (stress.continuous[s], "for ever", (5, 3)),
+        (stress.transient[s], "in passing", (2, 2)),
+    ):
+        if np.isfinite(limit).any():
+            rpm = _rpm(stress.speeds)
+            axes.plot(rpm, limit / 1e6, color=SOFT, linewidth=1.2, linestyle=(0, dashes), label=words)
+
+
+@styled
+def orders_figure(
+    found: ForcedVibration, single: Floats, total: Floats, label: str, factor: float = 1.0
+) -> Figure:
+    """Draw a vibration over the speed, order by order and all together.
+
+    Parameters
+    ----------
+    found : ForcedVibration
+        Its speeds and orders.
+    single : ndarray, shape (orders, speeds)
+        Amplitude of each order.
+    total : ndarray, shape (speeds,)
+        All orders in phase.
+    label : str
+        What is drawn, with its unit.
+    factor : float
+        From SI to that unit.
+
+    Returns
+    -------
+    Figure
+        The largest orders by name, the others faint.
+    """
+    figure, (axes,) = panels(1, height=_HEIGHT + 0.2)
+    rpm = _rpm(found.speeds)
+    named = _largest(single)
+    for k in range(len(single)):
+        if k not in named:
+            axes.plot(rpm, single[k] * factor, color="#c3c9d0", linewidth=0.8)
+    for k, colour in zip(named, LINES, strict=False):
+        axes.plot(rpm, single[k] * factor, color=colour, linewidth=1.3, label=f"order {found.orders[k]:.4g}")
+    axes.plot(rpm, total * factor, color=INK, linewidth=2.0, label="all orders")
+    _over_speed(axes, found.speeds, label)
+    axes.set_xlabel("speed of the first disc [rpm]")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.6)
+    return figure
+
+
+@styled
+def torsion_unevenness_figure(found: ForcedVibration, row: list[int], speed: float) -> Figure:
+    """Draw the unevenness of rotation along the train, and over the speed.
+
+    Parameters
+    ----------
+    found : ForcedVibration
+        What to draw.
+    row : list of int
+        Places of the discs, as they stand beside each other.
+    speed : float
+        Of the first disc, at which to look along the train [rad/s].
+
+    Returns
+    -------
+    Figure
+        Above along the train: all, as a whole, torsional; below over the speed at a few discs.
+    """
+    figure, (along, over) = panels(2, height=5.0, shared=False)
+    at = int(np.argmin(np.abs(found.speeds - speed)))
+    x = np.arange(len(found.discs))
+    parts = (
+        (found.unevenness, "in all", BLUE),
+        (found.unevenness_rigid, "train as a whole", ORANGE),
+        (found.unevenness_torsional, "torsional part", SKY),
+    )
+    for n, (values, words, colour) in enumerate(parts):
+        along.bar(x + 0.27 * (n - 1), values[row, at], width=0.25, color=colour, label=words)
+    turned = 30 if len(x) > 6 or max(map(len, found.discs)) > 9 else 0
+    along.set_xticks(x, [found.discs[d] for d in row], rotation=turned, ha="right" if turned else "center")
+    along.set_ylabel(f"δ at {_rpm(found.speeds)[at]:.0f} rpm")
+    along.grid(visible=False, axis="x")
+    legend_above(along)
+    shown = dict.fromkeys([0, int(found.unevenness[:, at].argmax()), int(found.unevenness[:, at].argmin())])
+    for d, colour in zip(shown, (BLUE, RED, LINES[2]), strict=False):
+        over.plot(_rpm(found.speeds), found.unevenness[d], color=colour, label=found.discs[d])
+    rigid = found.unevenness_rigid[0]
+    over.plot(_rpm(found.speeds), rigid, color=SOFT, linestyle=(0, (5, 3)), label="train as a whole")
+    _over_speed(over, found.speeds, "unevenness δ")
+    over.set_xlabel("speed of the first disc [rpm]")
+    legend_above(over)
+    return figure
+
+
+@styled
+def heat_figure(found: ForcedVibration, parts: list[str]) -> Figure:
+    """Draw the heat of dampers and couplings over the speed.
+
+    Parameters
+    ----------
+    found : ForcedVibration
+        What to draw.
+    parts : list of str
+        Shafts to draw, six at most.
+
+    Returns
+    -------
+    Figure
+        A line each.
+    """
+    figure, (axes,) = panels(1, height=_HEIGHT)
+    for name, colour in zip(parts, LINES, strict=False):
+        axes.plot(
+            _rpm(found.speeds), found.shaft_heat[found.shafts.index(name)], color=colour, label=named(name)
+        )
+    _over_speed(axes, found.speeds, "heat [W]")
+    axes.set_xlabel("speed of the first disc [rpm]")
+    legend_above(axes)
+    return figure
+
+
+def _largest(rows: Floats, count: int = _LINES_MAX) -> list[int]:
+    """Rows with the largest values, in their order."""
+    # A row that is nowhere finite has a resonance that nothing damps: it stays.
+    size = np.nan_to_num(rows, nan=0.0, posinf=np.finfo(float).max).max(axis=1)
+    return sorted(np.argsort(-size, kind="stable")[:count].tolist())

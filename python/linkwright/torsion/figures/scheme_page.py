@@ -1,0 +1,218 @@
+"""How large the scheme of a train is drawn: lengths of its shafts, heights of its rows, its note."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from textwrap import wrap
+
+import numpy as np
+
+from linkwright.torsion.figures.scheme_layout import Bridge, Layout, layout
+from linkwright.torsion.figures.scheme_words import LINE, Words, connection_words, disc_words, wide
+from linkwright.torsion.model.train import GROUND
+from linkwright.torsion.modes.scheme import Connection, Scheme
+
+# Height of the highest and of the lowest bar to either side of the shaft, and half of a bar's width [inch].
+HIGH, LOW, HALF = 0.42, 0.05, 0.045
+
+# Between words and lines, and around the drawing [inch].
+GAP, MARGIN = 0.06, 0.25
+
+# Drawn length of a shaft over that of the middle one, at most; what is longer is drawn broken.
+_BROKEN = 2.5
+
+# A picture is not narrower than this, so that its note has room [inch].
+_NARROW = 4.5
+
+# What fits a page [inch].
+_PAGE = (7.0, 9.0)
+
+
+@dataclass(frozen=True)
+class Page:
+    """A scheme with its words and places, in inches.
+
+    Attributes
+    ----------
+    found : Scheme
+        The train.
+    discs, parts : dict of str to Words
+        What is written beside each disc, and each connection.
+    places : Layout
+        Where all is.
+    broken : frozenset of str
+        Shafts that are drawn shorter than their compliance.
+    turned : bool
+        Whether words are written upwards.
+    """
+
+    found: Scheme
+    discs: dict[str, Words]
+    parts: dict[str, Words]
+    places: Layout
+    broken: frozenset[str]
+    turned: bool
+
+    @property
+    def left(self) -> float:
+        """End of the picture on the left, without its margin."""
+        ways = [self.way_round(bridge) for bridge in self.places.bridges if self.is_between_rows(bridge)]
+        return min([0.0, *(x - 1.5 * LINE for x in ways)])
+
+    @property
+    def width(self) -> float:
+        """Of the picture."""
+        ends = [x for x, _ in self.places.discs.values()]
+        ends += [x for span in self.places.spans for x in (span.start, span.stop)]
+        side = 2 * LINE if self.turned else max(words.width for words in self.discs.values()) + GAP
+        return max(max(ends) + side + 2 * MARGIN - self.left, _NARROW)
+
+    @property
+    def oversize(self) -> float:
+        """Size of the picture over that of a page."""
+        return max(self.width / _PAGE[0], -self.levels()[-1][2] / _PAGE[1])
+
+    def levels(self) -> list[tuple[float, float, float]]:
+        """Height of the shafts of each row, of its upper and of its lower end."""
+        rows = [row for _, row in self.places.discs.values()] + [span.row for span in self.places.spans]
+        found, y = [], 0.0
+        for row in range(1 + max(rows)):
+            above, below = self._above(row), self._below(row)
+            found.append((y - above, y, y - above - below))
+            y -= above + below
+        return found
+
+    def bridge_height(self, bridge: Bridge) -> float:
+        """Of a bridge above the shafts of its row."""
+        return self._names(self.row_of(bridge)) + 2.2 * LINE * bridge.nth
+
+    def row_of(self, bridge: Bridge) -> int:
+        """The upper row of its two ends."""
+        return min(self.places.discs[end][1] for end in (bridge.part.first, bridge.part.second))
+
+    def is_between_rows(self, bridge: Bridge) -> bool:
+        """Whether its ends are in different rows."""
+        return len({self.places.discs[end][1] for end in (bridge.part.first, bridge.part.second)}) > 1
+
+    def way_round(self, bridge: Bridge) -> float:
+        """Where a bridge between two rows runs, on the left of both its ends."""
+        ends = (bridge.part.first, bridge.part.second)
+        return min(self.places.discs[end][0] for end in ends) - (bridge.nth + 1) * 3 * LINE
+
+    def note(self) -> list[str]:
+        """What heights and lengths mean, in lines as wide as the picture."""
+        text = (
+            "Height of a disc: fourth root of its referred inertia, as diameters of discs of one thickness. "
+            "Length of a shaft: its compliance, as far as words leave room; in metres, that of a solid steel "
+            f"shaft of {1e3 * self.found.diameter:.4g} mm"
+        )
+        text += ", cut short where it is broken." if self.broken else "."
+        if (np.abs(self.found.speed - 1) > 1e-9).any():
+            text += f" In brackets: referred to the speed of {self.found.discs[0]}."
+        return wrap(text, int((self.width - 2 * MARGIN) / wide("x")))
+
+    def _in_row(self, row: int) -> list[Words]:
+        return [self.discs[name] for name, (_, at) in self.places.discs.items() if at == row]
+
+    def _names(self, row: int) -> float:
+        """What the names of a row take above its shafts."""
+        lines = [line for words in self._in_row(row) for line in words.above]
+        return HIGH + 2 * GAP + (max(map(wide, lines)) if self.turned and lines else LINE)
+
+    def _above(self, row: int) -> float:
+        bridges = sum(
+            self.row_of(bridge) == row and not self.is_between_rows(bridge) for bridge in self.places.bridges
+        )
+        return self._names(row) + 2.2 * LINE * bridges + GAP + self._entering(row, 1)
+
+    def _below(self, row: int) -> float:
+        """What values, words of shafts, and those of the gears below them take."""
+        own = self._in_row(row)
+        spans = [self.parts[span.part.name] for span in self.places.spans if span.row == row]
+        if self.turned:
+            values = max((wide(", ".join(words.below)) for words in own), default=0.0)
+            down = max([HIGH + values, *(wide(in_a_row(words)) for words in spans)])
+        else:
+            down = HIGH + LINE * max((len(words.below) for words in own), default=0)
+        return down + 4 * GAP + self._entering(row, -1)
+
+    def _entering(self, row: int, side: int) -> float:
+        """What the words of gears take that enter a row from above (+1) or from below (−1)."""
+        entering = [each for each in self.places.risers if each.to_row == row and each.side == side]
+        return max((self._beside(each.part) for each in entering), default=0.0)
+
+    def _beside(self, part: Connection) -> float:
+        """What the words beside gears between two rows take; shafts have theirs in a row."""
+        if part.kind not in ("gears", "mesh"):
+            return 0.0
+        words = self.parts[part.name]
+        return wide(in_a_row(words)) if self.turned else LINE * len(words.below)
+
+
+def page(found: Scheme, *, turned: bool) -> Page:
+    """Lay a scheme out.
+
+    Parameters
+    ----------
+    found : Scheme
+        The train.
+    turned : bool
+        Whether words are written upwards, which takes less width.
+
+    Returns
+    -------
+    Page
+        Ready to be drawn.
+    """
+    discs = {name: disc_words(found, n) for n, name in enumerate(found.discs)}
+    parts = {each.name: connection_words(each) for each in found.connections}
+    lengths, broken = _lengths(found, discs, parts, turned)
+    room = 1.5 * LINE if turned else 0.5 * max(words.width for words in discs.values())
+    return Page(found, discs, parts, layout(found.discs, found.connections, lengths, room), broken, turned)
+
+
+def in_a_row(words: Words) -> str:
+    """All words of a part in one line."""
+    return ", ".join((*words.above, *words.below))
+
+
+def _lengths(
+    found: Scheme, discs: dict[str, Words], parts: dict[str, Words], turned: bool
+) -> tuple[dict[str, float], frozenset[str]]:
+    """Drawn length of each part, as its compliance where words leave room; and which parts are broken."""
+    sides = _sides_turned(found) if turned else _sides(found, discs, parts)
+    least = {each.name: _least(each, parts[each.name], sides, turned) for each in found.connections}
+    rows = [each for each in found.connections if each.kind not in ("gears", "mesh")]
+    soft = dict.fromkeys(least, 0.0) | {each.name: each.equivalent_length or 0.0 for each in rows}
+    known = [length for length in soft.values() if length > 0]
+    if not known:
+        return least, frozenset()
+    middle = float(np.median([least[name] for name, length in soft.items() if length > 0]))
+    scale = middle / float(np.median(known))
+    drawn = {name: max(min(scale * soft[name], _BROKEN * middle), room) for name, room in least.items()}
+    return drawn, frozenset(name for name in drawn if scale * soft[name] > 1.001 * drawn[name])
+
+
+def _sides(found: Scheme, discs: dict[str, Words], parts: dict[str, Words]) -> dict[str, float]:
+    """Room of a disc's words to each side: half of them, or all where a line leaves upwards or downwards."""
+    ends = Counter(end for each in found.connections for end in (each.first, each.second))
+    sides = {name: words.width * (1.0 if ends[name] > 2 else 0.5) for name, words in discs.items()}
+    for each in found.connections:
+        if each.kind in ("gears", "mesh"):
+            for end in (each.first, each.second):
+                sides[end] = max(sides[end], discs[end].width + GAP, parts[each.name].width + 3 * GAP)
+    return sides
+
+
+def _sides_turned(found: Scheme) -> dict[str, float]:
+    """The same of words that are written upwards: they step aside by a line."""
+    ends = Counter(end for each in found.connections for end in (each.first, each.second))
+    geared = [end for each in found.connections if each.kind in ("gears", "mesh") for end in each[2:4]]
+    return {name: LINE * (2.2 if ends[name] > 2 or name in geared else 1.0) for name in found.discs}
+
+
+def _least(part: Connection, words: Words, sides: dict[str, float], turned: bool) -> float:
+    """Length that the words of a part and of its ends ask for."""
+    ends = sum(sides[end] for end in (part.first, part.second) if end != GROUND)
+    return max(2.8 * LINE if turned else words.width + 2 * GAP, ends + (LINE if turned else 0.0)) + 2 * HALF

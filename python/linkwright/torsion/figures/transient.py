@@ -1,0 +1,221 @@
+"""Motion of a train in time: speeds of discs, torques in shafts, amplitudes over speed and order."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.figure.style import INK, LINES, SOFT, legend_above, panels, styled, zero_line
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from linkwright.torsion.in_time.transient import TorsionTransient
+    from linkwright.torsion.in_time.waterfall import Waterfall
+
+Floats = NDArray[np.float64]
+
+_RPM = 30 / np.pi
+
+# Columns of a picture in which a motion of more samples is drawn as the band between its extremes.
+_COLUMNS = 1200
+
+# Shafts in one picture where nothing is said.
+_SHAFTS = 4
+
+# Decades of the amplitude that a waterfall shows; below it is paper.
+_DECADES = 3.0
+
+
+@styled
+def transient_figure(
+    found: TorsionTransient,
+    *,
+    shafts: Sequence[str] | None = None,
+    discs: Sequence[str] | None = None,
+    marks: Sequence[tuple[float, str]] = (),
+) -> Figure:
+    """Draw the speeds of discs and the torques in shafts over time.
+
+    Parameters
+    ----------
+    found : TorsionTransient
+        What to draw.
+    shafts : sequence of str, optional
+        Without it, the four whose torque swings most.
+    discs : sequence of str, optional
+        Without it, the first and the last.
+    marks : sequence of tuple
+        Times [s] with words, such as those of events.
+
+    Returns
+    -------
+    Figure
+        A panel for the speeds, and one for each shaft.
+    """
+    shown = _known(shafts, found.shafts, "shafts") if shafts is not None else _loaded(found)
+    turning = _known(discs, found.discs, "discs") if discs is not None else [0, len(found.discs) - 1]
+    figure, axes = panels(1 + len(shown), height=1.9 + 1.35 * len(shown))
+    for disc, colour in zip(dict.fromkeys(turning), LINES, strict=False):
+        _curve(axes[0], found.time, _RPM * found.speed[disc], colour, found.discs[disc])
+    axes[0].set_ylabel("speed [rpm]")
+    for panel, shaft, colour in zip(axes[1:], shown, (*LINES, INK), strict=False):
+        _shaft(panel, found, shaft, colour)
+    for panel in axes:
+        for time, _ in marks:
+            panel.axvline(time, color=INK, linewidth=0.9, linestyle=":")
+    for time, word in marks:
+        axes[0].annotate(
+            word,
+            (time, 1),
+            xycoords=("data", "axes fraction"),
+            xytext=(3, -9),
+            textcoords="offset points",
+            fontsize=8,
+        )
+    legend_above(axes[0])
+    axes[-1].set_xlim(float(found.time[0]), float(found.time[-1]))
+    axes[-1].set_xlabel("time t [s]")
+    return figure
+
+
+@styled
+def waterfall_figure(
+    found: Waterfall, *, quantity: str = "amplitude", frequencies: Sequence[float] = ()
+) -> Figure:
+    """Draw amplitudes over speed and order.
+
+    Parameters
+    ----------
+    found : Waterfall
+        What to draw.
+    quantity : str
+        What the amplitudes are, with its unit.
+    frequencies : sequence of float
+        Natural frequencies, which become curves of constant frequency [Hz].
+
+    Returns
+    -------
+    Figure
+        Orders across, speeds up; where the speed comes and goes, time up.
+    """
+    from matplotlib.colors import LogNorm
+
+    figure, (axes,) = panels(1, height=4.4)
+    rising = bool((np.diff(found.speed) > 0).all())
+    falling = bool((np.diff(found.speed) < 0).all())
+    up = _RPM * found.speed if rising or falling else found.time
+    largest = float(found.amplitudes.max()) or 1.0
+    shade = axes.pcolormesh(
+        found.orders,
+        up,
+        np.clip(found.amplitudes, largest * 10**-_DECADES, None),
+        norm=LogNorm(largest * 10**-_DECADES, largest),
+        cmap="magma_r",
+        shading="nearest",
+        rasterized=True,
+    )
+    figure.colorbar(shade, ax=axes, label=quantity, pad=0.02)
+    crossed = [f for f in frequencies if (2 * np.pi * f / found.speed).min() <= found.orders[-1]]
+    for frequency, colour in zip(crossed, LINES, strict=False):
+        _line_of(axes, found, frequency, up, colour)
+    if crossed:
+        legend_above(axes)
+    step = float(found.orders[0])
+    axes.set_xlim(0.5 * step, float(found.orders[-1]) + 0.5 * step)
+    axes.set_ylim(float(up.min()), float(up.max()))
+    axes.set_xlabel("order ν [–]")
+    axes.set_ylabel("speed [rpm]" if rising or falling else "time t [s]")
+    axes.grid(False)
+    return figure
+
+
+@styled
+def orders_figure(found: Waterfall, orders: Sequence[float], *, quantity: str = "amplitude") -> Figure:
+    """Draw the amplitudes of some orders over the speed.
+
+    Parameters
+    ----------
+    found : Waterfall
+        What to draw.
+    orders : sequence of float
+        Up to six.
+    quantity : str
+        What the amplitudes are, with its unit.
+
+    Returns
+    -------
+    Figure
+        A line for each order.
+    """
+    figure, (axes,) = panels(1, height=3.0)
+    for order, colour in zip(orders, LINES, strict=False):
+        axes.plot(_RPM * found.speed, found.order(order), color=colour, label=f"order {order:g}")
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel("speed [rpm]")
+    axes.set_ylabel(quantity)
+    legend_above(axes)
+    return figure
+
+
+def _known(wanted: Sequence[str], names: Sequence[str], word: str) -> list[int]:
+    """Places of names."""
+    for name in wanted:
+        if name not in names:
+            remedy = suggestion(name, names)
+            raise InputError(
+                f'{word}: found "{name}", expected one of the train' + (f"; {remedy}" if remedy else "")
+            )
+    return [names.index(name) for name in wanted]
+
+
+def _loaded(found: TorsionTransient) -> list[int]:
+    """The shafts that swing most, in the order of the train."""
+    swing = found.torque_max - found.torque_min
+    return sorted(np.argsort(-swing, kind="stable")[:_SHAFTS].tolist())
+
+
+def _curve(axes: Axes, time: Floats, values: Floats, colour: str, label: str | None = None) -> None:
+    """A line; of more samples than the picture has columns, the band between least and largest of each."""
+    fold = len(time) // _COLUMNS
+    if fold < 4:
+        axes.plot(time, values, color=colour, label=label, linewidth=1.1)
+        return
+    n = len(time) // fold
+    parts = values[: n * fold].reshape(n, fold)
+    at = time[: n * fold].reshape(n, fold).mean(axis=1)
+    axes.fill_between(at, parts.min(axis=1), parts.max(axis=1), color=colour, label=label, linewidth=0.6)
+
+
+def _shaft(axes: Axes, found: TorsionTransient, shaft: int, colour: str) -> None:
+    """Torque of one shaft, its extremes marked."""
+    _curve(axes, found.time, 1e-3 * found.torque[shaft], colour)
+    for time, value in (
+        (found.torque_max_time[shaft], found.torque_max[shaft]),
+        (found.torque_min_time[shaft], found.torque_min[shaft]),
+    ):
+        axes.plot([time], [1e-3 * value], "o", color=INK, markersize=3.5)
+    axes.set_ylabel(f"{found.shafts[shaft]}\n[kN m]")
+    axes.annotate(
+        f"{1e-3 * found.torque_min[shaft]:.4g} … {1e-3 * found.torque_max[shaft]:.4g} kN m".replace("-", "−"),
+        (1, 1),
+        xycoords="axes fraction",
+        xytext=(0, 2),
+        textcoords="offset points",
+        ha="right",
+        fontsize=8,
+        color=SOFT,
+    )
+    zero_line(axes)
+
+
+def _line_of(axes: Axes, found: Waterfall, frequency: float, up: Floats, colour: str) -> None:
+    """Where an order has a frequency: ν = 2πf/ω."""
+    orders = 2 * np.pi * frequency / found.speed
+    axes.plot(orders, up, color=colour, linewidth=1.1, linestyle="--", label=f"{frequency:.4g} Hz")

@@ -1,0 +1,181 @@
+r"""A running train starts as in steady running: its mean torques balance.
+
+| the train has | what gives |
+| --- | --- |
+| a motor that drives | the speed: the motor's curve, and the loads over theirs, meet at one |
+| an engine | its combustion, as a governor would have it |
+| neither | the driver: a constant torque, what the loads need |
+
+Loads never change, unless that is asked for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.torsion.core.torque import TrainTorque
+from linkwright.torsion.core.transient import MovingTrain
+from linkwright.torsion.in_time.loaded_start import BEFORE
+from linkwright.torsion.in_time.moving_engine import COMBUSTION
+from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.train_transient import TrainTransient
+
+Floats = NDArray[np.float64]
+
+# Angles of two turns at which mean torques are taken: some twenty a wave of order 24.
+_MEAN_ANGLES = 1024
+
+# Speeds over that given, between which a steady one is sought, how many, and halvings: to rounding.
+_LEAST, _MOST, _SPEEDS, _HALVINGS = 0.2, 2.0, 181, 50
+
+# Share of the torques that is rounding, and no balance to be sought.
+_ROUNDING = 1e-12
+
+
+def mean_torques(train: MovingTrain, speed: float, angle: float = 0.0) -> Floats:
+    """Mean torque on each mass over two turns of the first disc, without twist.
+
+    Parameters
+    ----------
+    train : MovingTrain
+        The train.
+    speed : float
+        Of its first disc [rad/s].
+    angle : float
+        Of its first disc where the two turns begin [rad].
+
+    Returns
+    -------
+    ndarray, shape (masses,)
+        At the speed of the first disc, at the start of the motion [N m].
+    """
+    turns = angle + 4 * np.pi * np.arange(_MEAN_ANGLES) / _MEAN_ANGLES
+    n = train.masses
+    mean: Floats = train.net_torques(BEFORE, np.repeat(turns[:, None], n, axis=1), np.full(n, speed))[0].mean(
+        0
+    )
+    return mean
+
+
+def balanced_start(
+    found: MovingTrain, train: Train, manoeuvre: TrainTransient
+) -> tuple[MovingTrain, float, str]:
+    """A train whose mean torques balance at the start, if they shall.
+
+    Parameters
+    ----------
+    found : MovingTrain
+        Ready for the manoeuvre.
+    train : Train
+        Of the machine file.
+    manoeuvre : TrainTransient
+        Its speed is that of the first disc.
+
+    Returns
+    -------
+    train : MovingTrain
+        With a drive, with another combustion, or with other loads where that is asked for.
+    speed : float
+        At the start [rad/s].
+    told : str
+        What was changed, in words; empty where nothing was.
+    """
+    speed, is_free = manoeuvre.speed, not (found.tip < 0).any()
+    if not (manoeuvre.balanced and speed and is_free):
+        return found, speed, ""
+    left = _left(found, speed, manoeuvre.angle)
+    if abs(left) <= _ROUNDING * _size(found, speed, manoeuvre.angle):
+        return found, speed, ""
+    if manoeuvre.loads_follow:
+        return _with_loads(found, train, speed, left)
+    if any(each.on_at_start for each in manoeuvre.motors.values()):
+        return _at_steady_speed(found, manoeuvre)
+    if train.engine is not None:
+        return _with_combustion(found, manoeuvre, left)
+    if manoeuvre.motors:
+        return found, speed, f"nothing drives at the start: {left:.5g} N m slow the train down"
+    name = train.driver or next(iter(train.discs))
+    driver = found.discs.index(name)
+    drive = TrainTorque("driver", driver, -left / float(found.speed[driver]))
+    told = f"{name} is driven by a constant {drive.scale:.5g} N m, what the loads need at the start"
+    return replace(found, torques=(*found.torques, drive)), speed, told
+
+
+def _left(found: MovingTrain, speed: float, angle: float) -> float:
+    """Sum of the mean torques, at the speed of the first disc [N m]."""
+    return float(mean_torques(found, speed, angle).sum())
+
+
+def _size(found: MovingTrain, speed: float, angle: float) -> float:
+    """Sum of the sizes of the mean torques [N m]."""
+    return float(np.abs(mean_torques(found, speed, angle)).sum())
+
+
+def _at_steady_speed(found: MovingTrain, manoeuvre: TrainTransient) -> tuple[MovingTrain, float, str]:
+    """The speed next to that given at which torques balance, and to which the train comes back."""
+    given, angle = manoeuvre.speed, manoeuvre.angle
+    speeds = given * np.linspace(_LEAST, _MOST, _SPEEDS)
+    left = np.array([_left(found, each, angle) for each in speeds.tolist()])
+    # Above it torques brake, below they drive.
+    stable = np.flatnonzero((left[:-1] > 0) & (left[1:] <= 0))
+    if not len(stable):
+        here = _left(found, given, angle)
+        told = f"no speed near {_rpm(given)} balances the mean torques: {here:+.5g} N m are left at the start"
+        return found, given, told
+    at = stable[np.abs(speeds[stable] - given).argmin()]
+    low, high = float(speeds[at]), float(speeds[at + 1])
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _left(found, middle, angle) > 0 else (low, middle)
+    told = f"the start is at {_rpm(low)}, where motor and loads balance, not at {_rpm(given)}"
+    return found, low, told if abs(low / given - 1) > 5e-5 else ""
+
+
+def _with_combustion(
+    found: MovingTrain, manoeuvre: TrainTransient, left: float
+) -> tuple[MovingTrain, float, str]:
+    """Combustion as much stronger or weaker as balances."""
+    motored = replace(found, torques=tuple(each for each in found.torques if not _burns(each)))
+    given = left - _left(motored, manoeuvre.speed, manoeuvre.angle)
+    factor = 1 - left / given if given > 0 else 0.0
+    if factor <= 0:
+        told = f"no combustion balances the mean torques: {left:+.5g} N m are left over at the start"
+        return found, manoeuvre.speed, told
+    told = f"combustion counts {factor:.5g} times at the start, as the loads ask for"
+    return _scaled(found, [_burns(each) for each in found.torques], factor), manoeuvre.speed, told
+
+
+def _with_loads(
+    found: MovingTrain, train: Train, speed: float, left: float
+) -> tuple[MovingTrain, float, str]:
+    """Loads as much larger or smaller as balances, where that was asked for."""
+    needed = 0.0
+    for load in train.loads.values():
+        turning = float(found.speed[found.discs.index(load.on)])
+        needed += turning * load.resistance(turning * speed)
+    factor = 1.0 + left / needed if needed else 0.0
+    if factor <= 0:
+        return found, speed, f"no loads balance the mean torques: {left:+.5g} N m are left over at the start"
+    told = f"loads were scaled by {factor:.5g} so that the mean torques balance (`loads_follow = true`)"
+    return _scaled(found, [each.name in train.loads for each in found.torques], factor), speed, told
+
+
+def _burns(torque: TrainTorque) -> bool:
+    """Whether a torque is that of a combustion."""
+    return torque.name.startswith(COMBUSTION)
+
+
+def _scaled(found: MovingTrain, which: list[bool], factor: float) -> MovingTrain:
+    """The train with some torques larger by a factor."""
+    torques = tuple(
+        replace(each, scale=each.scale * factor) if chosen else each
+        for each, chosen in zip(found.torques, which, strict=True)
+    )
+    return replace(found, torques=torques)
+
+
+def _rpm(speed: float) -> str:
+    return f"{speed * 30 / np.pi:.5g} rpm"

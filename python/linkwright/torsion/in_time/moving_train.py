@@ -1,0 +1,229 @@
+"""A train of a machine file made ready to move in time: its parts, its torques, and what happens to them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.core.curve import Curve, odd, straight, switched
+from linkwright.kernel.core.periodic_table import PeriodicTable, waves
+from linkwright.kernel.errors import InputError, MachineError, Problem
+from linkwright.torsion.core.motor import motor_curve
+from linkwright.torsion.core.torque import Decaying, Following, OverSpeed, Power, TrainTorque, short_circuit
+from linkwright.torsion.core.train import ReferredTrain, refer
+from linkwright.torsion.core.transient import MovingTrain, moving, viscous
+from linkwright.torsion.in_time.moving_engine import engine_motion_torques, throw_inertias
+from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.train_event import (
+    LoadStep,
+    MotorSwitch,
+    ShortCircuit,
+    SpeedCourse,
+    TorqueCourse,
+    TorqueStep,
+)
+from linkwright.torsion.model.train_torques import Harmonic, LoadHarmonic, TrainLoad
+from linkwright.torsion.model.train_transient import TrainTransient, transient_faults
+from linkwright.torsion.model.whole_train import whole_train
+from linkwright.torsion.modes.free import lead_speeds
+from linkwright.torsion.response.excited import highest_order
+
+Floats = NDArray[np.float64]
+
+# Share of the energy of a mode from which on a shaft counts in it.
+_COUNTS = 0.05
+
+# Turns over which orders may repeat together to share one table.
+_TURNS_MAX = 8
+
+
+def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
+    """A train ready for a manoeuvre.
+
+    Parameters
+    ----------
+    train : Train
+        That of a machine file.
+    manoeuvre : TrainTransient
+        What happens.
+
+    Returns
+    -------
+    MovingTrain
+        With all torques; its notes say what was assumed.
+
+    Raises
+    ------
+    MachineError
+        The manoeuvre speaks of parts that are not there.
+    InputError
+        There is no speed to take gas torques at, or a load grows beyond bounds at rest.
+    """
+    whole, referred = whole_train(train), refer(train)
+    _require_fit(train, manoeuvre, tuple(whole.discs))
+    place = {name: k for k, name in enumerate(whole.discs)}
+    own = np.array([each.inertia for each in whole.discs.values()])
+    inertias = [] if train.engine is None else throw_inertias(train.engine)
+    own[: len(inertias)] = 0.0
+    damping, notes = _shaft_damping(referred, manoeuvre)
+    return moving(
+        referred,
+        own,
+        swing_damping=[each.damping for each in whole.discs.values()],
+        shaft_damping=damping,
+        curves=[_coupling_curve(train, name) for name in referred.shafts],
+        inertias=inertias,
+        torques=[*_engine(train, manoeuvre), *_outside(whole, manoeuvre, place), *_events(manoeuvre, place)],
+        notes=notes,
+    )
+
+
+def _require_fit(train: Train, manoeuvre: TrainTransient, discs: tuple[str, ...]) -> None:
+    """Refuse a manoeuvre that speaks of parts that are not there."""
+    faults = list(transient_faults(train.model_copy(update={"transient": manoeuvre}), discs))
+    if faults:
+        told = ((each["loc"], getattr(each["type"], "context", None) or {}) for each in faults)
+        raise MachineError([Problem(".".join(map(str, place)), **words) for place, words in told])
+
+
+def _shaft_damping(referred: ReferredTrain, manoeuvre: TrainTransient) -> tuple[Floats, list[str]]:
+    """Damping of each shaft at its own speed, with that of its hysteresis, and a note about it."""
+    lead = lead_speeds(referred)
+    own: Floats = referred.damping / lead**2
+    if not referred.loss_factor.any():
+        return own, []
+    omega, where = _loss_frequencies(referred, manoeuvre.loss_mode)
+    lossy = referred.loss_factor > 0
+    low, high = (float(each) / (2 * np.pi) for each in (omega[lossy].min(), omega[lossy].max()))
+    span = f"{low:.4g} Hz" if low == high else f"{low:.4g} to {high:.4g} Hz"
+    note = (
+        f"hysteresis of shafts counts as the viscous damping that loses as much at {span}, {where}: "
+        "it damps less below, more above"
+    )
+    return own + viscous(referred.stiffness / lead**2, referred.loss_factor, omega), [note]
+
+
+def _loss_frequencies(referred: ReferredTrain, mode: int | None) -> tuple[Floats, str]:
+    """Frequency at which each shaft shall lose what its hysteresis does [rad/s], and in words."""
+    omega, shapes = referred.modes()
+    twisting = omega > 1e-6 * omega[-1]
+    omega, shapes = omega[twisting], shapes[twisting]
+    if mode is not None:
+        if mode > len(omega):
+            raise InputError(
+                f"train.transient.loss_mode: found {mode}, expected a mode of vibration, 1 to {len(omega)}"
+            )
+        return np.full(len(referred.shafts), omega[mode - 1]), f"mode {mode}"
+    # The last is the ground, HELD = −1.
+    held = np.column_stack([shapes, np.zeros(len(shapes))])
+    twist = held[:, referred.ends[:, 0]] - held[:, referred.ends[:, 1]]
+    shares = referred.stiffness * twist**2 / omega[:, None] ** 2
+    counts = shares >= _COUNTS
+    chosen = np.where(counts.any(axis=0), counts.argmax(axis=0), shares.argmax(axis=0))
+    return omega[chosen], "of each the lowest mode that twists it much"
+
+
+def _coupling_curve(train: Train, name: str) -> Curve | None:
+    """Torque over twist of a coupling that has a curve."""
+    coupling = train.couplings.get(name)
+    return None if coupling is None or coupling.twist is None else odd(*coupling.curve())
+
+
+def _engine(train: Train, manoeuvre: TrainTransient) -> list[TrainTorque]:
+    """Torques of the engine, if there is one."""
+    if train.engine is None:
+        return []
+    service = None if train.run is None else train.run.service
+    speed = manoeuvre.gas_speed or manoeuvre.speed or service
+    if not speed:
+        raise InputError(
+            "train.transient.gas_speed: found nothing, expected the speed at which gas torques are taken, as "
+            "the motion starts at rest and [train.run] gives no speed of service"
+        )
+    return engine_motion_torques(train.engine, manoeuvre, speed, highest_order(train))
+
+
+def _outside(whole: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainTorque]:
+    """Loads, excitations and motors, as events switch them."""
+    for name, load in whole.loads.items():
+        yield from _load(name, load, manoeuvre, place[load.on])
+    for name, each in whole.excitations.items():
+        law = None if each.speed is None else Power(each.speed, each.exponent, is_even=True)
+        for shape, pitch, phase in _shapes(each.harmonics, 0.0):
+            yield TrainTorque(name, place[each.on], 1.0, law, shape, pitch, phase)
+    for name, motor in manoeuvre.motors.items():
+        changes = [
+            (event.time, float(event.kind == "motor_on"), 0.0)
+            for event in manoeuvre.events
+            if isinstance(event, MotorSwitch) and event.motor == name
+        ]
+        weight = switched(changes, float(motor.on_at_start))
+        torque = OverSpeed(motor_curve(motor.motor))
+        yield TrainTorque(name, place[motor.on], 1.0, torque, weight=weight)
+
+
+def _load(name: str, load: TrainLoad, manoeuvre: TrainTransient, on: int) -> Iterator[TrainTorque]:
+    """A load and its pulsation: one torque, unless its orders do not repeat together."""
+    if load.exponent < 0 and not manoeuvre.speed:
+        raise InputError(
+            f"train.loads.{name}.exponent: found {load.exponent:g}, expected 0 or more in a motion from "
+            "rest, where the load would grow beyond bounds"
+        )
+    steps = [
+        (event.time, event.factor, event.over)
+        for event in manoeuvre.events
+        if isinstance(event, LoadStep) and event.load == name
+    ]
+    weight = switched(steps) if steps else None
+    law = Power(load.speed, load.exponent)
+    first, *others = _shapes(load.harmonics, 1.0) if load.harmonics else [(None, 1.0, 0.0)]
+    for shape, pitch, phase in (first, *others):
+        yield TrainTorque(name, on, -load.torque, law, shape, pitch, phase, weight)
+
+
+def _shapes(
+    harmonics: Sequence[Harmonic] | Sequence[LoadHarmonic], mean: float
+) -> list[tuple[PeriodicTable, float, float]]:
+    """Tables with pitch and phase: one for orders that repeat together within some turns, else one each."""
+    orders = np.array([each.order for each in harmonics])
+    sizes = [each.torque if isinstance(each, Harmonic) else each.share for each in harmonics]
+    phases = [each.phase for each in harmonics]
+    for turns in range(1, _TURNS_MAX + 1):
+        if np.abs(orders * turns - np.round(orders * turns)).max() < 1e-9:
+            whole = np.round(orders * turns) / turns
+            return [(waves(whole.tolist(), sizes, phases, turns, mean), 1.0, 0.0)]
+    # A load's mean goes with its first order.
+    return [
+        (waves([1.0], [size], [0.0], 1, mean if n == 0 else 0.0), float(order), phase)
+        for n, (order, size, phase) in enumerate(zip(orders, sizes, phases, strict=True))
+    ]
+
+
+def _events(manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainTorque]:
+    """Torques that events bring in."""
+    for n, event in enumerate(manoeuvre.events, start=1):
+        name = f"{event.kind}_{n}"
+        match event:
+            case TorqueStep():
+                # A sine that neither swings nor decays is a constant.
+                law = Decaying(event.time, event.end, 0.0, 0.0, np.pi / 2)
+                yield TrainTorque(name, place[event.on], event.torque, law)
+            case TorqueCourse():
+                yield TrainTorque(name, place[event.on], weight=straight(event.times, event.torque))
+            case SpeedCourse():
+                lead = Following(event.gain, straight(event.times, event.speed))
+                yield TrainTorque(name, place[event.on], 1.0, lead)
+            case ShortCircuit():
+                yield from short_circuit(
+                    name,
+                    place[event.on],
+                    torque=event.torque,
+                    reactance=event.reactance,
+                    speed=event.pole_pairs * event.speed,
+                    decay=event.decay,
+                    phases=event.phases,
+                    start=event.time,
+                    end=event.end,
+                )

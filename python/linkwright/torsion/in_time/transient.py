@@ -1,0 +1,382 @@
+r"""Motion of a train in time: start, stop, resonance passed, step of load, misfire, short circuit.
+
+.. math:: J(\theta)\,\ddot\theta + \tfrac12 J'(\theta)\,\dot\theta^2 + \sum M_\mathrm{shaft} = \sum M
+
+with the inertia of every throw and mechanism as it changes with the angle, and couplings of any curve. Steps
+are chosen by their error; none goes over a switch.
+
+References
+----------
+.. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5, and II, IV.8: DOP853 and
+RADAU5.
+.. [2] Eksergian, Dynamical analysis of machines, J. Franklin Inst. 209 (1930): inertia that changes with the
+angle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.kernel.errors import ConvergenceError, InputError
+from linkwright.kernel.limits import SAMPLES
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.torsion.core.transient import Moved, MovingTrain
+from linkwright.torsion.in_time.balanced_start import balanced_start
+from linkwright.torsion.in_time.loaded_start import loaded_angles
+from linkwright.torsion.in_time.moving_drive import moving_drive
+from linkwright.torsion.in_time.moving_train import moving_train
+from linkwright.torsion.limits.peak_judgement import PeakJudgement, judged
+from linkwright.torsion.model.train_transient import TrainTransient
+
+Floats = NDArray[np.float64]
+
+# Samples of a motion where nothing is said, and their greatest distance [s]: order 24 at 2500 rpm is a
+# kilohertz.
+_SAMPLES = 4000
+_SAMPLE_TIME = 5e-4
+
+# Time in which a running train swings in before its manoeuvre [s]: modes of some hundred hertz with a
+# damping of one per cent are down to a thousandth.
+_SETTLE = 1.0
+
+
+@dataclass(frozen=True)
+class TorsionTransient(Result):
+    """Motion of a train in time.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        Of the samples [s].
+    discs : tuple of str
+        In the order of the file.
+    angle, speed : ndarray, shape (discs, n)
+        Of each disc, in its own sense [rad, rad/s].
+    shafts : tuple of str
+        What twists.
+    torque : ndarray, shape (shafts, n)
+        In each shaft at its own speed, with its damping; positive if the first end drives the second [N m].
+    kinetic_energy, potential_energy : ndarray, shape (n,)
+        [J].
+    torque_max, torque_max_time, torque_min, torque_min_time : ndarray, shape (shafts,)
+        Of the whole motion, between the samples as well [N m, s].
+    speed_max, speed_max_time, speed_min, speed_min_time : ndarray, shape (discs,)
+        Likewise [rad/s, s].
+    work : dict of str to float
+        Of each torque from outside [J].
+    loss : dict of str to float
+        In each shaft, and by the damping of the discs together, "discs" [J].
+    energy_error : float
+        What the energy gained less work and losses, over the largest of all these.
+    method : str
+        "explicit" or "implicit".
+    steps, steps_rejected, evaluations : int
+        Work done.
+    frequency_bound : float
+        Bound of the fastest swing at the start [Hz].
+    notes : tuple of str
+        What was assumed.
+    balance : str
+        What was changed so that mean torques balance at the start; empty where nothing was.
+    judgements : tuple of PeakJudgement
+        Limits of shafts and couplings against the largest torques.
+    """
+
+    time: Floats
+    discs: tuple[str, ...]
+    angle: Floats
+    speed: Floats
+    shafts: tuple[str, ...]
+    torque: Floats
+    kinetic_energy: Floats
+    potential_energy: Floats
+    torque_max: Floats
+    torque_max_time: Floats
+    torque_min: Floats
+    torque_min_time: Floats
+    speed_max: Floats
+    speed_max_time: Floats
+    speed_min: Floats
+    speed_min_time: Floats
+    work: dict[str, float]
+    loss: dict[str, float]
+    energy_error: float
+    method: str
+    steps: int
+    steps_rejected: int
+    evaluations: int
+    frequency_bound: float
+    notes: tuple[str, ...]
+    balance: str = ""
+    judgements: tuple[PeakJudgement, ...] = ()
+
+    @property
+    def findings(self) -> list[str]:
+        """Limits that are exceeded, in sentences."""
+        return [f"{each.words}." for each in self.judgements if not each.is_kept]
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Extremes by name of shaft and disc; with ``curves`` also the samples.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether samples are included.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and lists, ready for JSON.
+        """
+        found = super().to_dict(curves=curves) | {"work": self.work, "loss": self.loss}
+        found["judgements"] = [each.to_dict() for each in self.judgements]
+        for names, kind in ((self.shafts, "torque"), (self.discs, "speed")):
+            for end in ("max", "max_time", "min", "min_time"):
+                values = getattr(self, f"{kind}_{end}")
+                found[f"{kind}_{end}"] = dict(zip(names, values.tolist(), strict=True))
+        return found
+
+
+@public
+def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None) -> TorsionTransient:
+    """Follow a manoeuvre of a train in time.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train], or with a drive line that twists.
+    manoeuvre : TrainTransient, optional
+        Without it, that of the file, [train.transient]; a drive line needs one. Speeds are those of the first
+        disc, of a drive line those of the motor.
+
+    Returns
+    -------
+    TorsionTransient
+        Speeds of all discs and torques in all shafts.
+
+    Raises
+    ------
+    InputError
+        There is no train, or no manoeuvre, or it does not fit the train.
+    AssemblyError
+        The mechanism behind the drive line does not close all round.
+    ConvergenceError
+        The accuracy cannot be kept, or needs too many steps.
+    """
+    if manoeuvre is None and machine.train is not None:
+        manoeuvre = machine.train.transient
+    if manoeuvre is None:
+        remedy = 'give [train.transient] with a duration, such as "2 s"'
+        raise InputError(f"{machine.name} has no manoeuvre: {remedy}")
+    if machine.train is None:
+        train, manoeuvre = moving_drive(machine, manoeuvre)
+        speed, balance = manoeuvre.speed, ""
+    else:
+        train, speed, balance = balanced_start(
+            moving_train(machine.train, manoeuvre), machine.train, manoeuvre
+        )
+    moved = follow_train(
+        train,
+        duration=manoeuvre.duration,
+        speed=speed,
+        angle=manoeuvre.angle,
+        loaded=manoeuvre.loaded and manoeuvre.speed > 0,
+        settle=_settle(manoeuvre),
+        sample_time=manoeuvre.sample_time,
+        accuracy=manoeuvre.accuracy,
+        method=manoeuvre.method,
+        steps_max=manoeuvre.steps_max,
+    )
+    return replace(moved, balance=balance, judgements=judged(machine, moved))
+
+
+def follow_train(
+    train: MovingTrain,
+    *,
+    duration: float,
+    speed: ArrayLike = 0.0,
+    angle: ArrayLike = 0.0,
+    loaded: bool = False,
+    settle: float = 0.0,
+    sample_time: float | None = None,
+    accuracy: float = 1e-8,
+    method: Literal["auto", "explicit", "implicit"] = "auto",
+    steps_max: int = 5_000_000,
+) -> TorsionTransient:
+    """Follow any train in time.
+
+    Parameters
+    ----------
+    train : MovingTrain
+        Its parts and torques.
+    duration : float
+        Time that is followed [s].
+    speed, angle : array_like, shape () or (masses,)
+        At the start, at the speed of the first disc [rad/s, rad].
+    loaded : bool
+        Whether shafts are twisted by the mean torques at the start, in addition to the angles given.
+    settle : float
+        Time before the start in which it swings in, unrecorded: laws over time hold what they are at zero
+        [s].
+    sample_time : float, optional
+        Between samples [s].
+    accuracy : float
+        Relative, of a step.
+    method : str
+        "explicit" steps of order 8 follow every swing; "implicit" ones of order 5 let die out those faster
+        than a step; "auto" takes these where stability would ask the others for more than 200 000 steps.
+    steps_max : int
+        Steps after which it is given up.
+
+    Returns
+    -------
+    TorsionTransient
+        The motion.
+
+    Raises
+    ------
+    InputError
+        A number makes no sense, or an inertia is not positive.
+    ConvergenceError
+        The accuracy cannot be kept, or needs too many steps.
+    """
+    _require(duration, accuracy, sample_time, settle)
+    _require_inertia(train)
+    n = train.masses
+    at = np.broadcast_to(np.asarray(angle, dtype=float), n)
+    turning = np.broadcast_to(np.asarray(speed, dtype=float), n)
+    if loaded:
+        at = loaded_angles(train, at, turning)
+    times = _times(duration, sample_time)
+    moved = train.follow(
+        at, turning, times, accuracy=accuracy, start=0.0 - settle, method=method, steps_max=steps_max
+    )
+    if moved.end:
+        raise ConvergenceError(_given_up(train, moved, accuracy), method=moved.method, iterations=moved.steps)
+    return _result(train, times, moved)
+
+
+def _settle(manoeuvre: TrainTransient) -> float:
+    """Time before the start of a manoeuvre in which its train swings in."""
+    if manoeuvre.settle is not None:
+        return manoeuvre.settle
+    return _SETTLE if manoeuvre.speed > 0 and manoeuvre.balanced and manoeuvre.loaded else 0.0
+
+
+def _require(duration: float, accuracy: float, sample_time: float | None, settle: float) -> None:
+    """Refuse numbers that make no sense."""
+    if not 0 < duration < np.inf:
+        raise InputError(f"duration: found {duration:g} s, expected a finite time above 0")
+    if not 0 <= settle < np.inf:
+        raise InputError(f"settle: found {settle:g} s, expected a finite time of 0 or more")
+    if not 1e-14 <= accuracy <= 1e-2:
+        raise InputError(f"accuracy: found {accuracy:g}, expected a number from 1e-14 to 1e-2")
+    if sample_time is not None and not duration / SAMPLES.most <= sample_time < np.inf:
+        least = duration / SAMPLES.most
+        raise InputError(f"sample_time: found {sample_time:g} s, expected at least {least:.3g} s")
+
+
+def _require_inertia(train: MovingTrain) -> None:
+    """Refuse masses whose inertia is not positive all over the turn."""
+    least = np.array(train.inertia, dtype=float)
+    for each in train.inertias:
+        least[each.on] += each.table.value.min()
+    J = np.zeros(train.masses)
+    np.add.at(J, train.mass, train.speed**2 * least)
+    for mass in np.flatnonzero(~(J > 0)):
+        names = [name for name, of in zip(train.discs, train.mass, strict=True) if of == mass]
+        raise InputError(
+            f"inertia of {' with '.join(names)}: found {J[mass]:g} kg m² at its least, expected more than 0"
+        )
+
+
+def _times(duration: float, sample_time: float | None) -> Floats:
+    """Even times from zero to the end."""
+    step = sample_time or min(duration / _SAMPLES, _SAMPLE_TIME)
+    samples = min(max(round(duration / step), 1), SAMPLES.most)
+    return np.linspace(0.0, duration, samples + 1)
+
+
+def _given_up(train: MovingTrain, moved: Moved, accuracy: float) -> str:
+    """One sentence: when, why, and what to do."""
+    when = f"the motion was given up at {moved.time:.6g} s after {moved.steps} steps"
+    if moved.end == 3:
+        return f"{when}: an acceleration is no finite number; look at the torques"
+    frequency, disc = moved.fastest / (2 * np.pi), _fastest_disc(train)
+    stiff = f"{disc} swings on its shafts at up to {frequency:.4g} Hz"
+    if moved.method == "explicit":
+        remedy = 'take method "implicit", or take it together with its neighbour as one disc'
+    else:
+        remedy = "ask for less accuracy, or look for a torque that jumps to and fro"
+    why = "that many are allowed" if moved.end == 1 else f"no step keeps the accuracy {accuracy:g}"
+    return f"{when}: {why}, and {stiff}; {remedy}"
+
+
+def _fastest_disc(train: MovingTrain) -> str:
+    """The disc with the stiffest shafts over its inertia."""
+    about = np.zeros(train.masses + 1)
+    slopes = [0.0 if curve is None else float(np.abs(curve.after).max()) for curve in train.curves]
+    ends = np.append(train.mass, train.masses)[train.tip]
+    stiffness = train.lead**2 * (train.stiffness + slopes)
+    np.add.at(about, ends[:, 0], stiffness)
+    np.add.at(about, ends[:, 1], stiffness)
+    J = np.zeros(train.masses)
+    np.add.at(J, train.mass, train.speed**2 * train.mean_inertia)
+    fastest = int(np.argmax(about[:-1] / J))
+    return train.discs[int(np.flatnonzero(train.mass == fastest)[0])]
+
+
+def _result(train: MovingTrain, times: Floats, moved: Moved) -> TorsionTransient:
+    """The motion in terms of discs."""
+    n, m = train.speed, len(train.shafts)
+    of_shafts, of_masses = moved.extremes[:m].T, moved.extremes[m:][train.mass].T
+    work, loss, error = _energy(train, moved)
+    return TorsionTransient(
+        time=times,
+        discs=train.discs,
+        angle=n[:, None] * moved.angle[train.mass],
+        speed=n[:, None] * moved.speed[train.mass],
+        shafts=train.shafts,
+        torque=moved.torque,
+        kinetic_energy=moved.kinetic,
+        potential_energy=moved.potential,
+        **dict(zip(_named("torque"), of_shafts, strict=True)),
+        **dict(
+            zip(
+                _named("speed"), (n * of_masses[0], of_masses[1], n * of_masses[2], of_masses[3]), strict=True
+            )
+        ),
+        work=work,
+        loss=loss,
+        energy_error=error,
+        method=moved.method,
+        steps=moved.steps,
+        steps_rejected=moved.rejected,
+        evaluations=moved.evaluations,
+        frequency_bound=moved.fastest / (2 * np.pi),
+        notes=train.notes,
+    )
+
+
+def _named(word: str) -> tuple[str, str, str, str]:
+    return f"{word}_max", f"{word}_max_time", f"{word}_min", f"{word}_min_time"
+
+
+def _energy(train: MovingTrain, moved: Moved) -> tuple[dict[str, float], dict[str, float], float]:
+    """Work of each torque, losses, and what is left of the balance."""
+    k, m = len(train.torques), len(train.shafts)
+    work: dict[str, float] = {}
+    for torque, done in zip(train.torques, moved.work[:k].tolist(), strict=True):
+        work[torque.name] = work.get(torque.name, 0.0) + done
+    loss: dict[str, Any] = dict(zip(train.shafts, moved.work[k : k + m].tolist(), strict=True))
+    loss["discs"] = float(moved.work[k + m :].sum())
+    start, end = sum(moved.energies[:2]), sum(moved.energies[2:])
+    size = max(*map(abs, work.values()), *map(abs, loss.values()), abs(start), abs(end))
+    left = end - start - sum(work.values()) + sum(loss.values())
+    return work, loss, left / size if size else 0.0

@@ -1,0 +1,270 @@
+r"""Speeds that shafts do not bear for ever: barred, and passed quickly, or not to be passed at all.
+
+A range is barred where a shaft's vibratory stress is above what is permitted for ever. Its bounds are where
+the two are equal, sought with the response itself. About a critical speed :math:`n_c` classification
+societies ask for at least :math:`16 n_c/(18 - \lambda) \le n \le (18 - \lambda) n_c/16`, λ being its ratio to
+the speed of service. Critical is where the stress peaks: damping, dampers above all, has it beside the
+speed at which an order meets a natural frequency without damping. Where the stress is also above what is
+permitted while passing, the range may not even be passed.
+
+References
+----------
+.. [1] IACS, UR M68, 2021, M68.5: barred speed ranges. The tolerance of the tachometer comes on top.
+.. [2] Korean Register, Rules for the Classification of Steel Ships, part 5, chapter 4, 206.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.torsion.limits.criteria import PASSING_STRESS, VIBRATORY_STRESS, Criterion
+from linkwright.torsion.limits.exceedance import Exceedance, peaks_between
+from linkwright.torsion.model.propulsion_shaft import barred_speeds
+from linkwright.torsion.response.survey import Survey, survey
+
+Floats = NDArray[np.float64]
+
+# Even speeds at which a range is looked at for the peaks in it.
+_POINTS = 100
+
+
+@dataclass(frozen=True)
+class BarredRange(Result):
+    """Speeds at which a shaft is stressed more than it bears for ever.
+
+    Attributes
+    ----------
+    shaft : str
+        The shaft.
+    speed_min, speed_max : float
+        Where the stress passes what is permitted for ever [rad/s].
+    open_min, open_max : bool
+        Whether the range goes on beyond the speeds looked at.
+    worst_speed : float
+        Where stress over permitted stress is largest [rad/s].
+    worst_stress, continuous, transient : float
+        Vibratory stress there, permitted for ever, permitted while passing; NaN if nothing is said [Pa].
+    not_passable : tuple of tuple of float
+        Lowest and highest speed of each part in which the stress is above what is permitted while passing
+        [rad/s].
+    critical_speed, order : float or None
+        Of the peaks of the stress in the range the highest [rad/s], and the order that makes most of it; None
+        where the stress peaks beyond the speeds looked at.
+    class_min, class_max : float or None
+        What is barred about all peaks in it by the formula of the societies [rad/s].
+    service_speed : float
+        That λ = 1 stands for [rad/s].
+    ratio_permitted : float
+        Up to which the rule lets speeds be barred; None without a rule.
+    """
+
+    shaft: str
+    speed_min: float
+    speed_max: float
+    open_min: bool
+    open_max: bool
+    worst_speed: float
+    worst_stress: float
+    continuous: float
+    transient: float | None
+    not_passable: tuple[tuple[float, float], ...]
+    critical_speed: float | None
+    order: float | None
+    class_min: float | None
+    class_max: float | None
+    service_speed: float
+    ratio_permitted: float | None
+
+    @property
+    def is_passable(self) -> bool | None:
+        """Whether it may be passed quickly; None if the limit does not say."""
+        if self.not_passable:
+            return False
+        return None if self.transient is None else True
+
+    @property
+    def may_be_barred(self) -> bool:
+        """Whether it lies where speeds may be barred in normal operation."""
+        highest = self.ratio_permitted
+        return highest is None or self.barred[1] <= highest * self.service_speed
+
+    @property
+    def barred(self) -> tuple[float, float]:
+        """Speeds to be barred: those of too much stress, and those of the formula [rad/s]."""
+        low = self.speed_min if self.class_min is None else min(self.speed_min, self.class_min)
+        high = self.speed_max if self.class_max is None else max(self.speed_max, self.class_max)
+        return low, high
+
+
+@public
+def barred_ranges(machine: Machine) -> tuple[BarredRange, ...]:
+    """Speeds that the shafts of a train do not bear for ever.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a train that something excites, speeds at which to look, and limits of shafts.
+
+    Returns
+    -------
+    tuple of BarredRange
+        By shaft, then by speed. Looked at are the speeds of the run and all resonances between them.
+
+    Raises
+    ------
+    InputError
+        Nothing excites the train, or it has no speeds.
+
+    References
+    ----------
+    .. [1] IACS, UR M68, 2021, M68.5.
+    """
+    return surveyed_ranges(survey(machine))
+
+
+def surveyed_ranges(seen: Survey) -> tuple[BarredRange, ...]:
+    """Barred ranges of a train that has been looked at.
+
+    Parameters
+    ----------
+    seen : Survey
+        The train.
+
+    Returns
+    -------
+    tuple of BarredRange
+        As `barred_ranges`.
+    """
+    rows = [(each.part, each.what) for each in seen.criteria]
+    above = [each for each in seen.exceeded if rows[each.row][1] == VIBRATORY_STRESS]
+    if not above:
+        return ()
+    worst = seen.criteria_at(np.array([each.peak for each in above]))
+    peaks = _peaks(seen, above)
+    found = []
+    for column, each in enumerate(above):
+        row = rows.index((rows[each.row][0], PASSING_STRESS))
+        passing = [other for other in seen.exceeded if other.row == row]
+        found.append(_range(seen, each, column, (worst[each.row], worst[row]), passing, peaks[column]))
+    return tuple(found)
+
+
+def together(ranges: Iterable[BarredRange]) -> list[tuple[float, float]]:
+    """Speeds to be barred for all shafts, ranges that meet taken as one.
+
+    Parameters
+    ----------
+    ranges : iterable of BarredRange
+        Of any shafts.
+
+    Returns
+    -------
+    list of tuple of float
+        Lowest and highest of each, by speed [rad/s].
+    """
+    found: list[tuple[float, float]] = []
+    for low, high in sorted(each.barred for each in ranges):
+        if found and low <= found[-1][1]:
+            found[-1] = (found[-1][0], max(found[-1][1], high))
+        else:
+            found.append((low, high))
+    return found
+
+
+def _range(
+    seen: Survey,
+    above: Exceedance,
+    column: int,
+    worst: tuple[Criterion, Criterion],
+    passing: list[Exceedance],
+    peaks: list[float],
+) -> BarredRange:
+    """One range with its numbers."""
+    for_ever, transient = worst
+    critical, order = _critical(seen, above.row, peaks)
+    formula = [barred_speeds(each, seen.service) for each in peaks]
+    limit = seen.at.train.shafts[for_ever.part].limit
+    return BarredRange(
+        shaft=for_ever.part,
+        speed_min=above.low,
+        speed_max=above.high,
+        open_min=above.open_low,
+        open_max=above.open_high,
+        worst_speed=above.peak,
+        worst_stress=float(for_ever.found[column]),
+        continuous=float(for_ever.permitted[column]),
+        transient=None if np.isnan(transient.permitted[column]) else float(transient.permitted[column]),
+        not_passable=tuple(
+            (max(each.low, above.low), min(each.high, above.high))
+            for each in passing
+            if each.low < above.high and each.high > above.low
+        ),
+        critical_speed=critical,
+        order=order,
+        class_min=min((low for low, _ in formula), default=None),
+        class_max=max((high for _, high in formula), default=None),
+        service_speed=seen.service,
+        ratio_permitted=None if limit is None else limit.barred_ratio_max,
+    )
+
+
+def _peaks(seen: Survey, above: list[Exceedance]) -> list[list[float]]:
+    """Speeds at which the stress peaks in each range; not its ratio to a limit that falls with the speed."""
+
+    def sizes(at: Floats) -> Floats:
+        return np.array([_size(each) for each in seen.criteria_at(at)])
+
+    grids = [_grid(seen, each) for each in above]
+    every = np.split(sizes(np.concatenate(grids)), np.cumsum([len(grid) for grid in grids])[:-1], axis=1)
+    tops = [
+        (n, above[n].row, grid[k - 1 : k + 2], values[above[n].row, k])
+        for n, (grid, values) in enumerate(zip(grids, every, strict=True))
+        for k in _maxima(values[above[n].row])
+    ]
+    found = peaks_between(
+        sizes,
+        [(row, float(about[0]), float(about[2])) for _, row, about, _ in tops],
+        [(float(about[1]), float(value)) for _, _, about, value in tops],
+    )
+    listed: list[list[float]] = [[] for _ in above]
+    for (n, *_), peak in zip(tops, found, strict=True):
+        listed[n].append(peak)
+    return listed
+
+
+def _grid(seen: Survey, each: Exceedance) -> Floats:
+    """Speeds of a range close enough to show its peaks, those of resonances among them."""
+    inside = seen.speeds[(seen.speeds > each.low) & (seen.speeds < each.high)]
+    return np.unique(np.concatenate([np.linspace(each.low, each.high, _POINTS), inside]))
+
+
+def _maxima(values: Floats) -> list[int]:
+    """Places that are no lower than both their neighbours, and higher than one."""
+    here, before, after = values[1:-1], values[:-2], values[2:]
+    found: list[int] = (1 + np.flatnonzero((here > before) & (here >= after))).tolist()
+    return found
+
+
+def _size(each: Criterion) -> Floats:
+    """What was found, infinite at a resonance that nothing damps."""
+    return np.where(np.isfinite(each.found), each.found, np.inf)
+
+
+def _critical(seen: Survey, row: int, peaks: list[float]) -> tuple[float | None, float | None]:
+    """Of the peaks in a range the highest, and the order that is largest there; None without any."""
+    if not peaks:
+        return None, None
+    at = np.array(peaks)
+    highest = int(np.argmax(_size(seen.criteria_at(at)[row])))
+    carried = seen.carried_at(at[[highest]])
+    torque = np.abs(carried.shaft_torques[:, carried.shafts.index(seen.criteria[row].part), 0])
+    # A resonance without damping is infinite, and the largest.
+    order = carried.orders[int(np.argmax(np.nan_to_num(torque, nan=np.inf)))]
+    return peaks[highest], float(order)

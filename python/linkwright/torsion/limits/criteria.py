@@ -1,0 +1,141 @@
+"""What is asked of the parts of a train: found against permitted, at any speeds.
+
+| part | what | permitted by |
+| --- | --- | --- |
+| shaft | vibratory stress for ever and while passing, greatest stress, torques | its `limit` |
+| coupling | torque, vibratory torque, heat | its own entries |
+| damper | heat | `heat_permitted` |
+| gear stage | drop of the torque below its mean | the mean: beyond it teeth part |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.units import POWER, PRESSURE, TORQUE, Kind
+from linkwright.machine.machine import Machine
+from linkwright.torsion.model.coupling import Coupling
+from linkwright.torsion.model.damper import Damper
+from linkwright.torsion.model.shaft_limit import ShaftLimit
+from linkwright.torsion.model.train import Shaft, Train
+from linkwright.torsion.response.carried import Carried
+from linkwright.torsion.response.excited import Excited
+from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
+from linkwright.torsion.response.stress import ShaftStress, shaft_stress
+
+Floats = NDArray[np.float64]
+
+VIBRATORY_STRESS = "vibratory stress"
+PASSING_STRESS = "vibratory stress while passing"
+CONTACT = "drop of torque below its mean"
+
+
+class Criterion(NamedTuple):
+    """One thing that a part bears, over the speeds.
+
+    Attributes
+    ----------
+    part : str
+        Name of the shaft, coupling, damper or gear stage.
+    what : str
+        In words.
+    kind : Kind
+        The quantity.
+    found : ndarray, shape (speeds,)
+        SI.
+    permitted : ndarray, shape (speeds,)
+        SI; NaN where nothing is said.
+    """
+
+    part: str
+    what: str
+    kind: Kind
+    found: Floats
+    permitted: Floats
+
+    @property
+    def ratio(self) -> Floats:
+        """Found over permitted, (speeds,): infinite at resonance without damping, 0 where nothing is said."""
+        size = np.where(np.isfinite(self.found), self.found, np.inf)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = np.where(size > 0, size / self.permitted, 0.0)
+        return np.where(np.isnan(self.permitted), 0.0, ratio)
+
+
+def criteria(machine: Machine, at: Excited, found: Carried, service: float | None = None) -> list[Criterion]:
+    """All that limits of a train ask for.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a train that something excites.
+    at : Excited
+        The train under its torques, at some speeds.
+    found : Carried
+        What its shafts carry there.
+    service : float, optional
+        Speed of the first disc that λ = 1 stands for, as of `service_speed` [rad/s].
+
+    Returns
+    -------
+    list of Criterion
+        Shafts, couplings, dampers, gear stages; the same in number and order at any speeds.
+    """
+    shafts = at.train.shafts
+    stress = shaft_stress(machine, found, service)
+    listed = [*_stresses(stress, shafts), *_torques(machine.train, shafts, found)]
+    listed += _heats(machine.train, found)
+    return [*listed, *_contacts(meshed(at, found))] if at.train.gears else listed
+
+
+def _stresses(stress: ShaftStress, shafts: dict[str, Shaft]) -> Iterator[Criterion]:
+    """Of shafts with a limit."""
+    for row, name in enumerate(stress.shafts):
+        limit, vibratory = shafts[name].limit, stress.vibratory[row]
+        if limit is None:
+            continue
+        if limit.kind != "given" or limit.stress_permitted is not None:
+            yield Criterion(name, VIBRATORY_STRESS, PRESSURE, vibratory, stress.continuous[row])
+            yield Criterion(name, PASSING_STRESS, PRESSURE, vibratory, stress.transient[row])
+        if limit.stress_greatest is not None:
+            permitted = np.full(len(stress.speeds), limit.stress_greatest)
+            yield Criterion(name, "greatest stress", PRESSURE, stress.greatest[row], permitted)
+
+
+def _torques(train: Train | None, shafts: dict[str, Shaft], found: Carried) -> Iterator[Criterion]:
+    """Of shafts and couplings."""
+    limits = {name: shaft.limit for name, shaft in shafts.items() if shaft.limit is not None}
+    bearing: dict[str, ShaftLimit | Coupling] = {**limits, **(train.couplings if train else {})}
+    for name, limit in bearing.items():
+        row = found.shafts.index(name)
+        for what, permitted, torque in (
+            ("torque", limit.torque_permitted, found.shaft_torque_max),
+            ("vibratory torque", limit.vibratory_torque_permitted, found.shaft_torque_vibratory),
+        ):
+            if permitted is not None:
+                yield Criterion(name, what, TORQUE, torque[row], np.full(len(found.speeds), permitted))
+
+
+def _heats(train: Train | None, found: Carried) -> Iterator[Criterion]:
+    """Of couplings and dampers."""
+    heated: dict[str, Coupling | Damper] = {**train.couplings, **train.dampers} if train else {}
+    for name, each in heated.items():
+        if each.heat_permitted is not None:
+            heat = found.shaft_heat[found.shafts.index(name)]
+            yield Criterion(name, "heat", POWER, heat, np.full(len(heat), each.heat_permitted))
+
+
+def _contacts(gears: MeshTorque) -> Iterator[Criterion]:
+    """Of toothed gear stages."""
+    for g, name in enumerate(gears.stages):
+        if gears.toothed[g]:
+            # No mean torque holds teeth together that carry none but by rounding.
+            mean = np.abs(gears.mean[g])
+            mean = np.where(mean > 1e-12 * np.abs(gears.greatest[g]), mean, 0.0)
+            # A stage of a loop has no torque that statics knows.
+            mean = np.where(np.isnan(gears.drop[g]), np.nan, mean)
+            yield Criterion(name, CONTACT, TORQUE, gears.drop[g], mean)

@@ -1,0 +1,156 @@
+r"""Whether shafts and couplings bear a manoeuvre: largest torques and stresses against what is permitted.
+
+| limit | against |
+| --- | --- |
+| `torque_permitted` | largest torque either way |
+| `stress_greatest` | its stress |
+| vibratory stress while passing | half of greatest less least stress within two turns of the first disc |
+
+Limits of what is borne for ever, vibratory torques and heat among them, are those of steady running and not
+judged here. Largest torques are exact between the samples; those within two turns are read from the samples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.units import PRESSURE, TORQUE, Kind
+from linkwright.machine.machine import Machine
+from linkwright.torsion.limits.criteria import PASSING_STRESS
+from linkwright.torsion.modes.free import train_of
+from linkwright.torsion.response.stress import service_speed, stressed
+
+if TYPE_CHECKING:
+    from linkwright.torsion.in_time.transient import TorsionTransient
+
+Floats = NDArray[np.float64]
+
+# Angle of the first disc within which a torque is taken to vibrate about one mean [rad].
+_WINDOW = 4 * np.pi
+
+
+@dataclass(frozen=True)
+class PeakJudgement:
+    """One limit, and whether a manoeuvre keeps it.
+
+    Attributes
+    ----------
+    part : str
+        Name of the shaft or coupling.
+    what : str
+        What is limited, in words.
+    kind : Kind
+        The quantity.
+    found, permitted : float
+        Where found over permitted is largest, SI.
+    time : float
+        When [s].
+    """
+
+    part: str
+    what: str
+    kind: Kind
+    found: float
+    permitted: float
+    time: float
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether the manoeuvre stays within the limit."""
+        return self.found <= self.permitted
+
+    @property
+    def words(self) -> str:
+        """The judgement as a sentence."""
+        scale, unit = (1e6, "MPa") if self.kind is PRESSURE else (1.0, self.kind.unit)
+        found, permitted = self.found / scale, self.permitted / scale
+        verdict = "kept" if self.is_kept else "exceeded"
+        return (
+            f"{self.part}: {self.what} {found:.4g} {unit} in the manoeuvre at {self.time:.4g} s, permitted "
+            f"{permitted:.4g} {unit}: {verdict}"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers and texts, ready for JSON."""
+        state = "ok" if self.is_kept else "exceeds"
+        keys = ("part", "what", "found", "permitted", "time", "words")
+        return {key: getattr(self, key) for key in keys} | {"unit": self.kind.unit, "state": state}
+
+
+def judged(machine: Machine, moved: TorsionTransient) -> tuple[PeakJudgement, ...]:
+    """Limits of a train against a manoeuvre.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a train, or a drive line that twists.
+    moved : TorsionTransient
+        The manoeuvre.
+
+    Returns
+    -------
+    tuple of PeakJudgement
+        Shafts, then couplings; empty where nothing is limited.
+    """
+    return (*_torques(machine, moved), *_stresses(machine, moved))
+
+
+def _torques(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:
+    """Largest torques of shafts and couplings."""
+    shafts = train_of(machine).shafts
+    couplings = {} if machine.train is None else machine.train.couplings
+    bearing = {name: shaft.limit for name, shaft in shafts.items() if shaft.limit is not None} | couplings
+    for name, each in bearing.items():
+        permitted = each.torque_permitted
+        if permitted is not None:
+            torque, time = _largest(moved, name)
+            yield PeakJudgement(name, "torque", TORQUE, torque, permitted, time)
+
+
+def _stresses(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:
+    """Stresses of shafts with a section, largest and while passing."""
+    shafts = train_of(machine).shafts
+    for name, (section, limit) in stressed(shafts).items():
+        if shafts[name].limit is None:
+            continue
+        factor = limit.concentration / section.section_modulus
+        torque, time = _largest(moved, name)
+        if limit.stress_greatest is not None:
+            size = factor * torque
+            yield PeakJudgement(name, "greatest stress", PRESSURE, size, limit.stress_greatest, time)
+        times, speeds, swings = _swings(moved, name)
+        service = service_speed(machine, np.abs(moved.speed[0]))
+        permitted = limit.permitted_stress(speeds / service, section.diameter)[1]
+        known = np.flatnonzero(np.isfinite(permitted))
+        if len(known):
+            worst = known[np.argmax(factor * swings[known] / permitted[known])]
+            found, most = float(factor * swings[worst]), float(permitted[worst])
+            yield PeakJudgement(name, PASSING_STRESS, PRESSURE, found, most, float(times[worst]))
+
+
+def _largest(moved: TorsionTransient, name: str) -> tuple[float, float]:
+    """Largest torque of a shaft either way, and when."""
+    s = moved.shafts.index(name)
+    greatest, least = float(moved.torque_max[s]), float(moved.torque_min[s])
+    if greatest >= -least:
+        return greatest, float(moved.torque_max_time[s])
+    return -least, float(moved.torque_min_time[s])
+
+
+def _swings(moved: TorsionTransient, name: str) -> tuple[Floats, Floats, Floats]:
+    """Time, speed of the first disc and half of greatest less least torque, in turns that overlap."""
+    torque, turned = moved.torque[moved.shafts.index(name)], np.abs(moved.angle[0] - moved.angle[0, 0])
+    # A disc that turns to and fro stays in its window.
+    turned = np.maximum.accumulate(turned)
+    starts = np.arange(0.0, max(turned[-1] - _WINDOW, 0.0) + 1e-9, 0.5 * _WINDOW)
+    first = np.searchsorted(turned, starts)
+    last = np.maximum(np.searchsorted(turned, starts + _WINDOW, side="right"), first + 1)
+    last[-1] = len(turned)
+    swings = [0.5 * float(np.ptp(torque[a:b])) for a, b in zip(first, last, strict=True)]
+    speeds = [float(np.abs(moved.speed[0, a:b]).mean()) for a, b in zip(first, last, strict=True)]
+    return moved.time[first], np.array(speeds), np.array(swings)

@@ -1,0 +1,253 @@
+"""Whether a train bears its vibration: each limit with what was found, where, and what follows.
+
+A state is `ok`, `bar` (speeds are to be barred, and may be passed quickly), or `exceeds`. Speeds may be
+barred for vibratory stresses of shafts; all else that is above its limit exceeds it, with the speeds at which
+it does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import PRESSURE, Kind
+from linkwright.machine.machine import Machine
+from linkwright.torsion.limits.barred_range import BarredRange, surveyed_ranges
+from linkwright.torsion.limits.criteria import CONTACT, PASSING_STRESS, VIBRATORY_STRESS, Criterion
+from linkwright.torsion.limits.exceedance import Exceedance
+from linkwright.torsion.response.survey import Survey, survey
+
+Floats = NDArray[np.float64]
+
+State = Literal["ok", "bar", "exceeds"]
+_RPM = math.pi / 30
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """One limit, and whether it is kept.
+
+    Attributes
+    ----------
+    part : str
+        Name of the shaft, coupling, damper or gear stage.
+    what : str
+        What is limited, in words.
+    kind : Kind
+        The quantity.
+    found, permitted : float
+        Where found over permitted is largest, SI; infinite at a resonance that nothing damps.
+    speed : float
+        There, of the first disc [rad/s].
+    state : {"ok", "bar", "exceeds"}
+        What follows.
+    ranges : tuple of tuple of float
+        Lowest and highest speed of each range in which the limit is exceeded, to be barred where the state
+        is "bar" [rad/s].
+    reason : str
+        Why speeds may not be barred; else empty.
+    """
+
+    part: str
+    what: str
+    kind: Kind
+    found: float
+    permitted: float
+    speed: float
+    state: State
+    ranges: tuple[tuple[float, float], ...] = ()
+    reason: str = ""
+
+    @property
+    def is_ok(self) -> bool:
+        """Whether the limit is kept at all speeds."""
+        return self.state == "ok"
+
+    @property
+    def words(self) -> str:
+        """The judgement as a sentence."""
+        text = f"{self.part}: {self.what} {_shown(self.found, self.kind)} at {_rpm(self.speed)}"
+        text += f", permitted {_shown(self.permitted, self.kind)}"
+        listed = ", ".join(f"{_rpm(low)} to {_rpm(high)}" for low, high in self.ranges)
+        if self.state == "ok":
+            return f"{text}: kept"
+        if self.state == "bar":
+            return f"{text}: bar {listed}, pass quickly"
+        return f"{text}: exceeded from {listed}" + (f"; {self.reason}" if self.reason else "")
+
+
+@dataclass(frozen=True)
+class Verdict(Result):
+    """All limits of a train.
+
+    Attributes
+    ----------
+    judgements : tuple of Judgement
+        Shafts, couplings, dampers, gear stages.
+    barred : tuple of BarredRange
+        Ranges in which shafts are stressed more than they bear for ever.
+    notes : tuple of str
+        What was not judged, and why.
+    """
+
+    judgements: tuple[Judgement, ...]
+    barred: tuple[BarredRange, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def state(self) -> State:
+        """The worst of all."""
+        states: tuple[State, ...] = ("exceeds", "bar")
+        return next((each for each in states if any(row.state == each for row in self.judgements)), "ok")
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Each judgement as a sentence, those not kept first."""
+        order = ("exceeds", "bar", "ok")
+        rows = sorted(self.judgements, key=lambda row: order.index(row.state))
+        return tuple(row.words for row in rows)
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Judgements and barred ranges as tables.
+
+        Parameters
+        ----------
+        curves : bool
+            Nothing more is there.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and lists, ready for JSON.
+        """
+        keys = ("part", "what", "found", "permitted", "speed", "state", "reason", "words")
+        rows = [
+            {key: getattr(row, key) for key in keys} | {"unit": row.kind.unit, "ranges": _lists(row.ranges)}
+            for row in self.judgements
+        ]
+        barred = [each.to_dict() | {"not_passable": _lists(each.not_passable)} for each in self.barred]
+        return {"state": self.state, "judgements": rows, "barred": barred, "notes": list(self.notes)}
+
+
+def verdict(machine: Machine, seen: Survey | None = None) -> Verdict:
+    """Whether a train bears its vibration.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a train that something excites, and speeds at which to look.
+    seen : Survey, optional
+        The train looked at closely, if that is there already.
+
+    Returns
+    -------
+    Verdict
+        Empty where nothing is limited and no teeth mesh. Looked at are the speeds of the run and all
+        resonances between them.
+
+    Raises
+    ------
+    InputError
+        Nothing excites the train, or it has no speeds.
+    """
+    seen = survey(machine) if seen is None else seen
+    barred = surveyed_ranges(seen)
+    peaks = np.array([each.peak for each in seen.exceeded])
+    beside = seen.criteria_at(peaks) if len(peaks) else seen.criteria
+    rows = []
+    for n, each in enumerate(seen.criteria):
+        over = [column for column, one in enumerate(seen.exceeded) if one.row == n]
+        if each.what != PASSING_STRESS and not np.isnan(each.permitted).all():
+            # Peaks lie beside resonances, a little.
+            worst = _worst(each, seen.speeds) if not over else _worst(beside[n], peaks, over)
+            rows.append(_judged(each, worst, [seen.exceeded[column] for column in over], barred))
+    return Verdict(tuple(rows), barred, tuple(_notes(seen)))
+
+
+def _worst(each: Criterion, speeds: Floats, places: list[int] | None = None) -> tuple[float, float, float]:
+    """Found, permitted and speed where found over permitted is largest, of some places."""
+    at = np.arange(len(speeds)) if places is None else np.array(places)
+    n = int(at[np.argmax(each.ratio[at])])
+    # Orders without any bound have no sum either: NaN.
+    found = float(each.found[n]) if math.isfinite(each.found[n]) else math.inf
+    return found, float(each.permitted[n]), float(speeds[n])
+
+
+def _judged(
+    each: Criterion,
+    worst: tuple[float, float, float],
+    over: list[Exceedance],
+    barred: tuple[BarredRange, ...],
+) -> Judgement:
+    """One criterion with what follows."""
+    state: State = "exceeds" if over else "ok"
+    reason = "teeth lose contact" if over and each.what == CONTACT else ""
+    ranges = tuple((one.low, one.high) for one in over)
+    if over and each.what == VIBRATORY_STRESS:
+        mine = [one for one in barred if one.shaft == each.part]
+        reason = next(filter(None, map(_against_barring, mine)), "")
+        if not reason:
+            state, ranges = "bar", tuple(one.barred for one in mine)
+    return Judgement(each.part, each.what, each.kind, *worst, state, ranges, reason)
+
+
+def _against_barring(each: BarredRange) -> str:
+    """Why a range may not be barred and passed; empty if it may."""
+    if each.not_passable:
+        low, high = each.not_passable[0]
+        return f"not to be passed from {_rpm(low)} to {_rpm(high)}"
+    if each.is_passable is None:
+        return "no stress is given that is permitted while passing"
+    if not each.may_be_barred:
+        highest = each.ratio_permitted
+        return f"speeds above {highest:.0%} of the speed of service may not be barred in normal operation"
+    if each.barred[0] <= each.service_speed <= each.barred[1]:
+        return "the speed of service lies in it"
+    return ""
+
+
+def _notes(seen: Survey) -> Iterator[str]:
+    """What was not judged, parts of which the same is said together."""
+    said: dict[str, list[str]] = {}
+    for each in seen.criteria:
+        silent = np.isnan(each.permitted)
+        if each.what == CONTACT and silent.all():
+            text = "in a loop of rigid stages, whose torques statics does not tell"
+        elif each.what == VIBRATORY_STRESS and silent.any():
+            limit = seen.at.train.shafts[each.part].limit
+            rule = "" if limit is None else f" by {limit.kind}"
+            text = f"nothing is said{rule} above {_rpm(float(seen.speeds[silent].min()))}"
+        else:
+            continue
+        said.setdefault(text, []).append(each.part)
+    for name, shaft in seen.at.train.shafts.items():
+        if shaft.limit is not None and shaft.limit.counted_strength != shaft.limit.tensile_strength:
+            counted = (shaft.limit.counted_strength or 0.0) / 1e6
+            text = f"the rule counts the tensile strength as {counted:.4g} MPa"
+            said.setdefault(text, []).append(name)
+    yield from (f"{', '.join(parts)}: {text}" for text, parts in said.items())
+
+
+def _lists(ranges: tuple[tuple[float, float], ...]) -> list[list[float]]:
+    """Ranges for JSON."""
+    return [list(each) for each in ranges]
+
+
+def _shown(value: float, kind: Kind) -> str:
+    """A quantity for people: stresses in MPa, all else SI, four digits."""
+    if math.isinf(value):
+        return "without bound, as nothing damps a resonance,"
+    if kind is PRESSURE:
+        return f"{value / 1e6:.4g} MPa"
+    return f"{value:.4g} {kind.unit}"
+
+
+def _rpm(speed: float) -> str:
+    """A speed for people."""
+    return f"{speed / _RPM:.5g} rpm"

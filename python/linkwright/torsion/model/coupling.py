@@ -1,0 +1,131 @@
+r"""An elastic coupling: linear, or with a torque that grows faster than the twist.
+
+About the mean torque a coupling of a curve acts as one of its slope there, :math:`k = dM/d\Delta`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.curve import curve_faults, not_rising
+from linkwright.kernel.units import POWER, Angles, Torques, positive
+from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveStiffness, PositiveTorque
+
+Floats = NDArray[np.float64]
+
+
+class Coupling(Checked):
+    """An elastic coupling between two discs."""
+
+    between: tuple[str, str] = Field(description="The two discs that it joins.")
+    stiffness: PositiveStiffness | None = Field(None, description="Torque per twist, for vibration.")
+    twist: Angles | None = Field(
+        None, description="Points of its curve, from 0 upwards, in place of the stiffness; odd below."
+    )
+    torque: Torques | None = Field(None, description="Torque at each twist of the curve, from 0 upwards.")
+    damping: Damping = Field(0.0, description="Torque per speed of twisting.")
+    loss_factor: LossFactor = Field(
+        0.0,
+        description="Hysteresis η = ψ/(2π), ψ its relative damping: energy lost in a cycle over the largest.",
+    )
+    torque_permitted: PositiveTorque | None = Field(None, description="Mean and vibratory torque together.")
+    vibratory_torque_permitted: PositiveTorque | None = Field(
+        None, description="Amplitude of the torque that it bears for ever."
+    )
+    heat_permitted: Annotated[float, positive(POWER)] | None = Field(
+        None, description="Heat that it can give off."
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        curve = self.twist is not None or self.torque is not None
+        if (self.stiffness is None) != curve:
+            found = "both" if curve else "neither"
+            yield fault(found=found, expected="either stiffness, or twist and torque")
+        if not curve:
+            return
+        for name, other in (("twist", "torque"), ("torque", "twist")):
+            if getattr(self, name) is None:
+                yield fault(name, expected=f"a list, one value for each {other}")
+                return
+        yield from curve_faults(self, "twist", ("torque",))
+        yield from self._curve_faults()
+
+    def _curve_faults(self) -> Iterator[InitErrorDetails]:
+        """A curve that does not start at zero, or does not rise."""
+        for name in ("twist", "torque"):
+            points = getattr(self, name)
+            if points and points[0] != 0.0:
+                yield fault(name, 0, found=points[0], expected="0, where the coupling is at rest")
+        for n, (before, here) in enumerate(pairwise(self.torque or ()), start=1):
+            if here <= before:
+                yield not_rising(self, "torque", n, before, here)
+
+    def slope(self, torque: Floats | float = 0.0) -> Floats:
+        """Stiffness at a mean torque.
+
+        Parameters
+        ----------
+        torque : ndarray, any shape, or float
+            Mean torque that it carries [N m].
+
+        Returns
+        -------
+        ndarray, of the shape of the torque
+            dM/dΔ of the smooth curve through its points; beyond the last, that at the last [N m/rad].
+        """
+        if self.stiffness is not None:
+            return np.full_like(np.asarray(torque, float), self.stiffness)
+        twist, torques, slopes = self.curve()
+        size = np.minimum(np.abs(torque), torques[-1])
+        n = np.minimum(np.searchsorted(torques, size, side="right") - 1, len(twist) - 2)
+        h, rise = twist[n + 1] - twist[n], torques[n + 1] - torques[n]
+        piece = (rise, h * slopes[n], h * slopes[n + 1])
+        low, high = np.zeros_like(size), np.ones_like(size)
+        # The curve rises everywhere, so that bisection finds the twist to the last digit.
+        for _ in range(54):
+            z = 0.5 * (low + high)
+            below = torques[n] + _hermite(z, *piece)[0] < size
+            low, high = np.where(below, z, low), np.where(below, high, z)
+        found: Floats = _hermite(0.5 * (low + high), *piece)[1] / h
+        return found
+
+    def curve(self) -> tuple[Floats, Floats, Floats]:
+        """Twists, torques and slopes at the points of its curve, from zero upwards.
+
+        Returns
+        -------
+        tuple of ndarray, each of shape (points,)
+            [rad], [N m], [N m/rad]; between the points it is a cubic with these slopes, which rises
+            everywhere (Fritsch and Butland 1984).
+        """
+        assert self.twist is not None
+        assert self.torque is not None
+        x, y = np.array(self.twist), np.array(self.torque)
+        h, s = np.diff(x), np.diff(y) / np.diff(x)
+        slopes = np.empty_like(x)
+        w = (h[:-1] + 2 * h[1:]) / (3 * (h[:-1] + h[1:]))
+        slopes[1:-1] = s[:-1] * s[1:] / (w * s[1:] + (1 - w) * s[:-1])
+        # Odd about zero: the piece before the first is the same again.
+        slopes[0] = s[0] if len(s) < 2 else _end_slope(s[0], slopes[1])
+        slopes[-1] = _end_slope(s[-1], slopes[-2]) if len(s) > 1 else s[-1]
+        return x, y, slopes
+
+
+def _end_slope(chord: float, inside: float) -> float:
+    """Slope at an end for a parabola-like piece, kept where the curve rises."""
+    return float(min(max(1.5 * chord - 0.5 * inside, 0.1 * chord), 3 * chord))
+
+
+def _hermite(z: Floats, rise: Floats, first: Floats, last: Floats) -> tuple[Floats, Floats]:
+    """Cubic on 0…1 from 0 to a rise with slopes at both ends, and its slope."""
+    value = z * (first + z * (3 * rise - 2 * first - last + z * (first + last - 2 * rise)))
+    slope = first + z * (2 * (3 * rise - 2 * first - last) + 3 * z * (first + last - 2 * rise))
+    return value, slope

@@ -1,0 +1,266 @@
+r"""The gas between closing and opening: compression, release of heat, expansion.
+
+For a mass of ideal gas of one temperature the first law is
+
+.. math:: \frac{dp}{dφ} = -γ \frac{V'}{V} p + \frac{γ - 1}{V} \left(Q x' - \frac{h S (T - T_w)}{ω}\right),
+    \qquad T = \frac{p V}{m R}, \qquad m R = \frac{p_r V_r}{T_r}
+
+(Heywood, Internal Combustion Engine Fundamentals, 1988, section 9.2.2). With γ(T) and the conductance hS of
+the last iterate it is linear in p and in the heat Q, p = p_a + Q p_b, and both follow from integrating
+factors over the panels of the mesh for all loads at once; Q then follows from what is asked for without a
+search. A few iterates settle it to rounding.
+
+Where no exponent is given, γ is that of air and of what burns in it (`burnt_gas`). The mass of the fuel and
+the change of the moles by combustion are left out of mR: together some three per cent at full load.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import ConvergenceError, FindingError, MachineError, Problem
+from linkwright.torsion.model.engine.burnt_gas import burnable, heat_ratio
+from linkwright.torsion.model.engine.cycle_mesh import CycleMesh
+from linkwright.torsion.model.engine.wall_heat import GasState, WallHeat
+
+Array = NDArray[np.float64]
+
+# The iterates contract by an order of magnitude each, so what is left is ten times less.
+_TOLERANCE = 1e-8
+_ITERATIONS = 60
+# Rich mixtures burn with up to a quarter more fuel than the air suffices for.
+_RICHEST = 1.25
+# Exponent of the first iterate.
+_FIRST = 1.35
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedGas:
+    """The task: the closed gas at n loads and m crank angles.
+
+    Attributes
+    ----------
+    mesh : CycleMesh
+        Crank angles from closing to opening.
+    volume, volume_d1 : ndarray, shape (m,)
+        V [m³], V′ [m³/rad].
+    released, release : ndarray, shape (m,)
+        Share x of the fuel that is burnt, and its derivative x′ [1/rad].
+    kept : float
+        Share of the heat that stays in the gas as it is released.
+    bore, swept_volume, volume_closing : float
+        Of the cylinder [m], [m³], and its volume at closing [m³].
+    pressure_closing : ndarray, shape (n, 1)
+        p_r [Pa].
+    temperature_closing : float
+        T_r [K].
+    speed, piston_speed : ndarray, shape (n, 1)
+        ω [rad/s], and mean speed of the piston [m/s].
+    exponent : float or None
+        γ; None for that of air and burnt gas.
+    wall : WallHeat or None
+        Loss by convection.
+    """
+
+    mesh: CycleMesh
+    volume: Array
+    volume_d1: Array
+    released: Array
+    release: Array
+    kept: float
+    bore: float
+    swept_volume: float
+    volume_closing: float
+    pressure_closing: Array
+    temperature_closing: float
+    speed: Array
+    piston_speed: Array
+    exponent: float | None
+    wall: WallHeat | None
+
+    @property
+    def charge(self) -> Array:
+        """mR of the gas, shape (n, 1) [J/K]."""
+        return np.asarray(self.pressure_closing * self.volume_closing / self.temperature_closing)
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedTrace:
+    """The closed gas, as it follows from a rule for the heat.
+
+    Attributes
+    ----------
+    pressure, temperature : ndarray, shape (n, m)
+        p [Pa], T [K].
+    opening : ndarray, shape (n, 1)
+        Pressure as the exhaust opens [Pa].
+    heat, wall_heat : ndarray, shape (n, 1)
+        Heat Q of a cycle, and what of it goes to the walls [J].
+    """
+
+    pressure: Array
+    temperature: Array
+    opening: Array
+    heat: Array
+    wall_heat: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Split:
+    """Pressure as a linear function of the heat, p_a + Q p_b.
+
+    Attributes
+    ----------
+    without, per_heat : ndarray, shape (n, m)
+        p_a [Pa], p_b [Pa/J].
+    opening_without, opening_per_heat : ndarray, shape (n, 1)
+        The same as the exhaust opens.
+    last : ndarray, shape (n, m)
+        Pressure of the last iterate [Pa].
+    """
+
+    without: Array
+    per_heat: Array
+    opening_without: Array
+    opening_per_heat: Array
+    last: Array
+
+
+Rule = Callable[[Split], Array]
+
+
+def no_heat(split: Split) -> Array:
+    """The motored cylinder: no heat at any load, shape (n, 1) [J].
+
+    Parameters
+    ----------
+    split : Split
+        Pressure as a function of the heat.
+    """
+    return np.zeros_like(split.opening_without)
+
+
+def closed_trace(gas: ClosedGas, rule: Rule, motored: Array | None = None) -> ClosedTrace:
+    """Pressure from closing to opening.
+
+    Parameters
+    ----------
+    gas : ClosedGas
+        The closed gas.
+    rule : callable
+        The heat of a cycle from a `Split`, shape (n, 1) [J].
+    motored : ndarray, shape (n, m), optional
+        Pressure of the motored cylinder [Pa], which Woschni's coefficient refers to.
+
+    Returns
+    -------
+    ClosedTrace
+        At each load.
+
+    Raises
+    ------
+    ConvergenceError
+        The iterates do not settle.
+    """
+    p = gas.pressure_closing * (gas.volume_closing / gas.volume) ** _FIRST
+    change, Q = np.inf, np.zeros_like(gas.pressure_closing)
+    for _ in range(_ITERATIONS):
+        T = p * gas.volume / gas.charge
+        C = _conductance(gas, p, T, p if motored is None else motored)
+        split = _split(gas, p, _exponent(gas, T, Q), C)
+        Q = rule(split)
+        new = split.without + Q * split.per_heat
+        _check_positive(gas, new)
+        change, p = float(np.abs(new / p - 1).max()), new
+        if change < _TOLERANCE:
+            _check_air(gas, Q)
+            return _trace(gas, split, Q, C)
+    raise ConvergenceError(
+        f"the pressure of the gas does not settle within {_ITERATIONS} iterates (last change {change:.2g} of "
+        "it); check heat, walls and speeds",
+        method="closed cycle",
+        iterations=_ITERATIONS,
+        residual=change,
+    )
+
+
+def _check_positive(gas: ClosedGas, p: Array) -> None:
+    """Refuse a pressure that no gas has."""
+    if not (p > 0).all():
+        load, place = np.unravel_index(int(np.argmin(np.where(p > 0, np.inf, p))), p.shape)
+        angle = math.degrees(float(gas.mesh.angle[place]))
+        raise FindingError(
+            f"the pressure in the cylinder would be {p[load, place]:.4g} Pa at {angle:.4g}° after the top "
+            "dead centre of firing, less than none; check releases of heat, load and charge pressure"
+        )
+
+
+def _exponent(gas: ClosedGas, T: Array, Q: Array) -> Array:
+    """γ, given or of air and burnt gas."""
+    if gas.exponent is not None:
+        return np.full_like(T, gas.exponent)
+    return heat_ratio(T, np.clip(gas.released * (Q / burnable(gas.charge)), 0.0, 1.0))
+
+
+def _check_air(gas: ClosedGas, Q: Array) -> None:
+    """Refuse heat that the air in the cylinder cannot release."""
+    share = Q / burnable(gas.charge)
+    if gas.exponent is None and share.max() > _RICHEST:
+        i = int(share.argmax())
+        found = f"{Q[i, 0]:.6g} J a cycle, for which {share[i, 0]:.3g} times the air would be needed"
+        expected = f"at most {burnable(gas.charge)[i, 0]:.6g} J from the air at the charge pressure"
+        remedy = "raise charge_pressure, lower the load, or give isentropic_exponent for an idealised gas"
+        raise MachineError([Problem("train.engine.gas", found, expected, remedy)])
+
+
+def _conductance(gas: ClosedGas, p: Array, T: Array, motored: Array) -> Array | None:
+    """Conductance of the walls per speed [J/(K rad)]; None without walls."""
+    if gas.wall is None:
+        return None
+    state = GasState(gas.bore, gas.swept_volume, gas.volume, p, T, motored, 1 / gas.charge, gas.piston_speed)
+    return gas.wall.conductance(state) / gas.speed
+
+
+# ln of a change of pressure. Compression alone gives 5; walls that do so much more leave no gas to compute,
+# and twice as much is no number any more.
+_FASTEST = 300.0
+
+
+def _split(gas: ClosedGas, p: Array, gamma: Array, C: Array | None) -> Split:
+    """Pressure as a linear function of the heat, with γ and conductance of an iterate."""
+    V, w = gas.volume, gas.mesh.weight
+    decay = gamma * (gas.volume_d1 / V)
+    source = None
+    if C is not None:
+        assert gas.wall is not None
+        loss = (gamma - 1) * C
+        decay += loss / gas.charge
+        source = loss * gas.wall.wall_temperature / V
+    course, whole = gas.mesh.integrals(decay), (decay @ w)[:, None]
+    if not (np.abs(course) <= _FASTEST).all():
+        raise FindingError(
+            "the walls change the pressure of the gas by a factor of more than e^300 within a cycle; check "
+            "speed, bore, charge pressure and the factor of [train.engine.gas.walls]"
+        )
+    E, E_end = np.exp(course), np.exp(whole)
+    released = (gamma - 1) * (gas.kept * gas.release / V) * E
+    a, a_end = gas.pressure_closing + np.zeros_like(E), gas.pressure_closing
+    if source is not None:
+        a, a_end = a + gas.mesh.integrals(source * E), a_end + ((source * E) @ w)[:, None]
+    return Split(a / E, gas.mesh.integrals(released) / E, a_end / E_end, (released @ w)[:, None] / E_end, p)
+
+
+def _trace(gas: ClosedGas, split: Split, Q: Array, C: Array | None) -> ClosedTrace:
+    """The settled pressure with what belongs to it."""
+    p = split.without + Q * split.per_heat
+    T = p * gas.volume / gas.charge
+    lost = (1.0 - gas.kept) * Q
+    if C is not None:
+        assert gas.wall is not None
+        lost += ((C * (T - gas.wall.wall_temperature)) @ gas.mesh.weight)[:, None]
+    return ClosedTrace(p, T, split.opening_without + Q * split.opening_per_heat, Q, lost)

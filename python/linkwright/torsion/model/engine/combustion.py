@@ -1,0 +1,236 @@
+r"""A working cycle by calculation: compression, release of heat by Wiebe's function, expansion, gas exchange.
+
+`closed_cycle` has the gas while the cylinder is closed, `valves` the pressure while it is open, `wiebe` the
+release, `wall_heat` the losses. The heat of a cycle is given, or follows from the mean effective pressure
+
+.. math:: p_i = \frac{1}{V_h} \oint p \, dV
+
+or from the peak pressure. A load map asks for a mean effective pressure at each speed; the shape of the
+release stays.
+
+Many speeds are not computed one by one: pressures at a few speeds between the corners of the load map are
+computed, and those between them by polynomials through these (`speed_points`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.kernel.description.base import fault
+from linkwright.kernel.units import ENERGY, TEMPERATURE, positive
+from linkwright.torsion.model.engine.closed_cycle import ClosedGas, Rule
+from linkwright.torsion.model.engine.cycle_mesh import CycleMesh, closed_edges, mesh, open_edges
+from linkwright.torsion.model.engine.cycle_pressure import CyclePressure
+from linkwright.torsion.model.engine.cylinder import Cylinder
+from linkwright.torsion.model.engine.gas import Exponent, Gas, below
+from linkwright.torsion.model.engine.gas_load import PositivePressure
+from linkwright.torsion.model.engine.speed_points import speed_points
+from linkwright.torsion.model.engine.valves import Timing, Valves
+from linkwright.torsion.model.engine.wall_heat import AnyWallHeat, HeatShare, WallHeat
+from linkwright.torsion.model.engine.wiebe import Wiebe
+from linkwright.torsion.model.engine.working_cycle import WorkingCycle
+
+Array = NDArray[np.float64]
+
+# Any one of them sets the heat of a cycle.
+_HEATS = ("heat", "mean_effective_pressure", "peak_pressure")
+# Shares of heat are written with a few digits.
+_WHOLE = 1e-6
+# Back pressure where none is given: that of a silencer, and that of a turbine as a share of what the charge
+# has above the air. Its corner lies where charging begins, not within the range of a charged engine.
+_SILENCER = 105e3
+_AIR = 100e3
+_TURBINE = 0.9
+
+
+class Combustion(Gas):
+    """A cycle by Wiebe's function."""
+
+    kind: Literal["wiebe"]
+    charge_pressure: PositivePressure = Field(
+        100e3, description="Absolute pressure in the cylinder as it closes, and while the intake is open."
+    )
+    charge_pressure_unloaded: PositivePressure | None = Field(
+        None,
+        description="The same without load; in between it is linear in the mean effective pressure. "
+        "Without it, the same at any load.",
+    )
+    charge_temperature: Annotated[float, positive(TEMPERATURE)] = Field(
+        340.0, description="Of the gas as the cylinder closes."
+    )
+    exhaust_pressure: PositivePressure | None = Field(
+        None,
+        description="Absolute; without it, 105 kPa and 90 % of what the charge pressure has above 100 kPa.",
+    )
+    heat: Annotated[float, positive(ENERGY)] | None = Field(
+        None, description="Heat of the fuel in a cycle of one cylinder."
+    )
+    mean_effective_pressure: PositivePressure | None = Field(
+        None, description="Indicated mean effective pressure, in place of the heat."
+    )
+    peak_pressure: PositivePressure | None = Field(
+        None, description="Greatest pressure, in place of the heat."
+    )
+    releases: tuple[Wiebe, ...] = Field(
+        (Wiebe(start=-math.radians(5.0), duration=math.radians(60.0), form_factor=1.0),),
+        description="How the heat is released; several functions add up by their shares.",
+    )
+    isentropic_exponent: Exponent | None = Field(
+        None, description="Of the gas; without it, that of air and burnt gas by its temperature."
+    )
+    walls: AnyWallHeat | None = Field(None, description="Loss of heat to the walls. Without it, none.")
+    valves: Valves = Field(Valves(), description="When valves or ports open and close.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from super()._faults()
+        given = [name for name in _HEATS if getattr(self, name) is not None]
+        if self.load is not None and self.load.rated is not None:
+            given.append("a load map with its own mean_effective_pressure")
+        if len(given) != 1:
+            yield fault(
+                found=" and ".join(given) or None,
+                expected="one of heat, mean_effective_pressure, peak_pressure, or a load map",
+            )
+        whole = math.fsum(each.share for each in self.releases)
+        if abs(whole - 1) > _WHOLE:
+            expected = "releases whose shares make 1"
+            yield fault("releases", found=f"shares that make {whole:.6g}", expected=expected)
+
+    def cycle_faults(self, strokes: int) -> Iterator[InitErrorDetails]:
+        wrong = list(self.valves.cycle_faults(strokes))
+        yield from (below(found, "valves") for found in wrong)
+        if wrong:
+            return
+        timing = self.valves.timing(strokes)
+        for i, each in enumerate(self.releases):
+            if each.start <= timing.closes or each.end >= timing.opens:
+                yield fault(
+                    "releases",
+                    i,
+                    found=f"heat from {math.degrees(each.start):.6g} to {math.degrees(each.end):.6g} deg",
+                    expected=f"between {math.degrees(timing.closes):.6g} and "
+                    f"{math.degrees(timing.opens):.6g} deg, while the cylinder is closed",
+                )
+
+    def cycle_pressure(self, cylinder: Cylinder, speeds: Array) -> CyclePressure:
+        speeds = np.asarray(speeds, dtype=float)
+        points, share = self._points(speeds)
+        cycle, wanted = self.operating_points(cylinder, points)
+        motored = cycle.motored()
+        fired = cycle.fired(self._rule(cycle, wanted), motored)
+        none = np.zeros_like(share)
+        return CyclePressure(
+            speeds,
+            cycle.angle,
+            cycle.weight,
+            np.vstack([cycle.pressure(fired), cycle.pressure(motored)]),
+            np.hstack([share, none]),
+            np.hstack([none, share]),
+            self.crankcase_pressure,
+        )
+
+    def _points(self, speeds: Array) -> tuple[Array, Array]:
+        """Speeds to compute at, and the share of each in what is asked for."""
+        if self.load is None and not isinstance(self.walls, WallHeat):
+            # Nothing depends on the speed.
+            return speeds[:1], np.ones((len(speeds), 1))
+        return speed_points(speeds, self.load.kinks() if self.load else ())
+
+    def operating_points(self, cylinder: Cylinder, speeds: Array) -> tuple[WorkingCycle, Array | None]:
+        """The cycle at given speeds, computed for each.
+
+        Parameters
+        ----------
+        cylinder : Cylinder
+            Its bore, strokes and piston's motion.
+        speeds : ndarray, shape (n,)
+            Of the crank [rad/s].
+
+        Returns
+        -------
+        tuple
+            The cycle, and the mean effective pressure that the load map asks for, shape (n, 1) [Pa]; None
+            without one.
+        """
+        charge = np.full((len(speeds), 1), self.charge_pressure)
+        if self.load is None:
+            return self._cycle(cylinder, speeds, charge), None
+        rated = self._rated(cylinder)
+        wanted = self.load.mean_effective(speeds, rated)[:, None]
+        given = self.load.charge(speeds)
+        if given is not None:
+            charge = given[:, None]
+        elif self.charge_pressure_unloaded is not None:
+            least = self.charge_pressure_unloaded
+            charge = least + (self.charge_pressure - least) * wanted / rated
+        return self._cycle(cylinder, speeds, charge), wanted
+
+    def _rated(self, cylinder: Cylinder) -> float:
+        """Mean effective pressure at the rated point [Pa]."""
+        assert self.load is not None
+        if self.load.rated is not None:
+            return self.load.rated
+        if self.mean_effective_pressure is not None:
+            return self.mean_effective_pressure
+        charge = np.full((1, 1), self.charge_pressure)
+        cycle = self._cycle(cylinder, np.array([self.load.rated_speed]), charge)
+        fired = cycle.fired(self._rule(cycle, None), cycle.motored())
+        return float(cycle.mean_effective(fired)[0, 0])
+
+    def _rule(self, cycle: WorkingCycle, wanted: Array | None) -> Rule:
+        """How the heat of a cycle follows."""
+        if wanted is not None:
+            return cycle.heat_for_load(wanted)
+        if self.mean_effective_pressure is not None:
+            return cycle.heat_for_load(np.full_like(cycle.charge_pressure, self.mean_effective_pressure))
+        if self.peak_pressure is not None:
+            return cycle.heat_for_peak(self.peak_pressure)
+        heat = np.full_like(cycle.charge_pressure, self.heat)
+        return lambda split: heat
+
+    def _cycle(self, cylinder: Cylinder, speeds: Array, charge: Array) -> WorkingCycle:
+        """The cycle at speeds with their charge pressures."""
+        timing = self.valves.timing(cylinder.strokes)
+        spans = [(each.start, each.duration) for each in self.releases]
+        closed = mesh(closed_edges(timing.closes, timing.opens, spans))
+        exchange = mesh(open_edges(timing.opens, timing.ends, timing.corners))
+        back = _SILENCER + _TURBINE * np.maximum(charge - _AIR, 0.0)
+        return WorkingCycle(
+            self._closed_gas(cylinder, timing, closed, speeds[:, None], charge),
+            exchange,
+            cylinder.volume(exchange.angle, self.compression_ratio)[1],
+            timing,
+            back if self.exhaust_pressure is None else np.full_like(charge, self.exhaust_pressure),
+            charge,
+        )
+
+    def _closed_gas(
+        self, cylinder: Cylinder, timing: Timing, closed: CycleMesh, speed: Array, charge: Array
+    ) -> ClosedGas:
+        """The gas between closing and opening."""
+        kept = 1.0 - self.walls.share if isinstance(self.walls, HeatShare) else 1.0
+        volume, volume_d1 = cylinder.volume(closed.angle, self.compression_ratio)
+        return ClosedGas(
+            mesh=closed,
+            volume=volume,
+            volume_d1=volume_d1,
+            released=np.sum([each.released(closed.angle) for each in self.releases], axis=0),
+            release=np.sum([each.rate(closed.angle) for each in self.releases], axis=0),
+            kept=kept,
+            bore=cylinder.bore,
+            swept_volume=cylinder.swept_volume,
+            volume_closing=float(cylinder.volume(np.array([timing.closes]), self.compression_ratio)[0][0]),
+            pressure_closing=charge,
+            temperature_closing=self.charge_temperature,
+            speed=speed,
+            piston_speed=speed * cylinder.stroke / math.pi,
+            exponent=self.isentropic_exponent,
+            wall=self.walls if isinstance(self.walls, WallHeat) else None,
+        )

@@ -1,0 +1,105 @@
+"""The pressure in a cylinder over its working cycle, at many speeds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.torsion.model.engine.periodic_cubic import periodic_cubic
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class CyclePressure:
+    """Pressures at n speeds as sums of a few traces over m crank angles.
+
+    Torque is linear in the pressure, so its harmonics are found for the traces alone and then summed.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (n,)
+        Of the crank [rad/s].
+    angle : ndarray, shape (m,)
+        Crank angles from the top dead centre of firing, increasing over one cycle [rad].
+    weight : ndarray, shape (m,)
+        What each angle counts in an integral over the cycle [rad].
+    traces : ndarray, shape (k, m)
+        Absolute pressures [Pa].
+    firing : ndarray, shape (n, k)
+        Share of each trace in the pressure at each speed.
+    motored : ndarray, shape (n, k)
+        The same without combustion.
+    crankcase_pressure : float
+        Under the piston [Pa].
+    """
+
+    speeds: Array
+    angle: Array
+    weight: Array
+    traces: Array
+    firing: Array
+    motored: Array
+    crankcase_pressure: float
+
+    @cached_property
+    def pressure(self) -> Array:
+        """Absolute pressure, shape (n, m) [Pa]."""
+        return self.firing @ self.traces
+
+    @cached_property
+    def pressure_motored(self) -> Array:
+        """The same without combustion, shape (n, m) [Pa]."""
+        return self.motored @ self.traces
+
+    def at(self, angle: Array) -> tuple[Array, Array]:
+        """Pressure at any crank angles, by the monotone cubic through the points.
+
+        Parameters
+        ----------
+        angle : ndarray, shape (j,)
+            Crank angles from the top dead centre of firing [rad].
+
+        Returns
+        -------
+        tuple of ndarray
+            Absolute pressure with combustion and without, shape (n, j) each [Pa].
+        """
+        cycle = float(self.weight.sum())
+        traces = np.array([periodic_cubic(self.angle, each, cycle, angle) for each in self.traces])
+        return self.firing @ traces, self.motored @ traces
+
+    @property
+    def peak_pressure(self) -> Array:
+        """Greatest pressure at each speed, shape (n,) [Pa]."""
+        return np.asarray(peak(self.angle, self.pressure))
+
+
+def peak(angle: Array, pressure: Array) -> Array:
+    """Greatest value of each row, by the parabola through its greatest point and the two beside it.
+
+    Parameters
+    ----------
+    angle : ndarray, shape (m,)
+        Crank angles [rad].
+    pressure : ndarray, shape (n, m)
+        Rows of pressures [Pa].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        The greatest values [Pa].
+    """
+    top = np.clip(np.argmax(pressure, axis=1), 1, len(angle) - 2)
+    row = np.arange(len(pressure))
+    a, b, c = (angle[top + i] for i in (-1, 0, 1))
+    p, q, r = (pressure[row, top + i] for i in (-1, 0, 1))
+    # Divided differences of the parabola: slope at the middle, and half its curvature.
+    left, right = (q - p) / (b - a), (r - q) / (c - b)
+    half = (right - left) / (c - a)
+    slope = left + half * (b - a)
+    rise = -(slope**2) / (4 * np.where(half < 0, half, -np.inf))
+    return np.asarray(q + rise)

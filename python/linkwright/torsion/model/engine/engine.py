@@ -1,0 +1,211 @@
+"""A reciprocating engine: throws, banks, rods, gas, and the order in which its cylinders fire.
+
+It stands for a row of discs ``throw_1``, ``throw_2``, … with shafts ``crank_1``, ``crank_2``, … between
+them; what the engine drives, flywheel, dampers, is joined to them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.limits import THROWS
+from linkwright.kernel.units import INERTIA, MASS, RATIO, Angles, not_negative, positive
+from linkwright.linkages.model.element import PositiveLength
+from linkwright.torsion.model.engine.any_gas import AnyGas
+from linkwright.torsion.model.engine.firing import CylinderPlace, cylinder_places, firing_angles
+from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
+from linkwright.torsion.model.engine.throw import CrankThrow
+from linkwright.torsion.model.shaft_limit import ShaftLimit
+from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveStiffness
+
+# Angles that differ by less are the same but for rounding of what was typed [rad].
+_EQUAL = 1e-6
+
+
+class ReciprocatingEngine(Checked):
+    """An engine with one or more banks of cylinders on one crankshaft."""
+
+    strokes: Literal[2, 4] = Field(4, description="Of a working cycle.")
+    bore: PositiveLength = Field(description="Diameter of the cylinders.")
+    crank_radius: PositiveLength | None = Field(
+        None, description="Half the stroke of a plain crank. Without it, that of the throw."
+    )
+    throws: Angles = Field(
+        description="Angle of each throw from the first, counted in the sense of rotation; the first is 0."
+    )
+    banks: Angles = Field(
+        (0.0,), description="Angle of the cylinders of each bank from the vertical, in the sense of rotation."
+    )
+    numbering: Literal["by_bank", "by_throw"] = Field(
+        "by_bank", description="Whether numbers run along the first bank first, or across the first throw."
+    )
+    firing_order: tuple[int, ...] = Field(description="Numbers of the cylinders, from 1, as they fire.")
+    rods: Literal["side_by_side", "fork_and_blade", "articulated"] = Field(
+        "side_by_side",
+        description="How rods of several banks share a pin. On an articulated pair the first bank has the "
+        "master rod.",
+    )
+    rod: Rod = Field(description="Connecting rod, of articulated ones the master rod.")
+    articulated: ArticulatedRod | None = Field(
+        None, description="Rod of the other banks, where it turns on the master rod."
+    )
+    piston_mass: Annotated[float, positive(MASS)] = Field(description="Piston, pin, rings, of one cylinder.")
+    throw: CrankThrow | None = Field(None, description="Geometry of a throw.")
+    throw_inertia: Annotated[float, positive(INERTIA)] | None = Field(
+        None,
+        description="What turns with the crank, of one throw without rods. Without it, that of the throw.",
+    )
+    stiffness: PositiveStiffness | None = Field(
+        None, description="From throw to throw, measured or computed. Without it, by a formula."
+    )
+    stiffness_formula: Literal["constrained", "free", "carter", "ker_wilson", "zimanenko"] = Field(
+        "constrained", description="For the stiffness of the throw."
+    )
+    damping: Damping = Field(0.0, description="Viscous, of each throw against the frame.")
+    loss_factor: LossFactor = Field(0.0, description="Hysteresis of the crankshaft.")
+    limit: ShaftLimit | None = Field(
+        None,
+        description="What the crankshaft bears; without a diameter of its own, at the crank pin.",
+    )
+    gas: AnyGas = Field(description="Pressure in the cylinders.")
+    factors: dict[str, Annotated[float, not_negative(RATIO)]] = Field(
+        default_factory=dict,
+        description="Share of the combustion in cylinders that are not sound, by number; 0 misfires.",
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from self._angle_faults()
+        yield from self._part_faults()
+        yield from self._limit_fault()
+        if self.n_cylinders:
+            yield from self._number_faults()
+        for each in self.gas.cycle_faults(self.strokes):
+            yield InitErrorDetails(type=each["type"], loc=("gas", *each.get("loc", ())), input=each["input"])
+
+    def _number_faults(self) -> Iterator[InitErrorDetails]:
+        """Numbers of cylinders that it has not, and an order that does not fit its cycle."""
+        wrong = [*self._order_faults()]
+        yield from wrong
+        if not wrong:
+            yield from self._cycle_fault()
+        for number in self.factors:
+            if number not in map(str, range(1, self.n_cylinders + 1)):
+                yield fault("factors", number, found=number, expected=self._numbers())
+
+    def _angle_faults(self) -> Iterator[InitErrorDetails]:
+        """Throws that do not start at zero, or no banks."""
+        if not self.throws:
+            yield fault("throws", found="an empty list", expected="an angle for each throw")
+        elif len(self.throws) > THROWS.most:
+            yield fault("throws", found=f"{len(self.throws)} of them", expected=THROWS.words)
+        elif self.throws[0] != 0.0:
+            yield fault("throws", 0, found=self.throws[0], expected="0, from which the others are counted")
+        if not self.banks:
+            yield fault("banks", found="an empty list", expected="an angle for each bank of cylinders")
+        for name, angles in (("throws", self.throws), ("banks", self.banks)):
+            for n, angle in enumerate(angles):
+                if abs(angle) > 2 * math.pi + _EQUAL:
+                    remedy = f'a number without unit is radians; give degrees as "{angle:.6g} deg"'
+                    yield fault(name, n, found=angle, expected="an angle up to a turn", remedy=remedy)
+
+    def _part_faults(self) -> Iterator[InitErrorDetails]:
+        """Parts that are missing, or contradict each other."""
+        if self.rods == "articulated" and self.articulated is None:
+            expected = "the table of the rods that turn on the master rods"
+            yield fault("articulated", expected=expected, remedy='or give other rods than "articulated"')
+        elif self.rods != "articulated" and self.articulated is not None:
+            expected = f'no such table for rods = "{self.rods}"'
+            remedy = 'make it rods = "articulated", or leave the table out'
+            yield fault("articulated", found="a table", expected=expected, remedy=remedy)
+        if self.rods == "articulated" and len(self.banks) < 2:
+            yield fault("banks", found=f"{len(self.banks)} bank", expected="at least 2 for articulated rods")
+        if self.throw is None:
+            for name, what in (
+                ("crank_radius", "the radius"),
+                ("throw_inertia", "the inertia"),
+                ("stiffness", "the stiffness"),
+            ):
+                if getattr(self, name) is None and (name != "stiffness" or len(self.throws) > 1):
+                    yield fault(name, expected=f"{what} of the throws, or [train.engine.throw]")
+        elif self.crank_radius is not None and abs(self.crank_radius / self.throw.radius - 1) > 1e-9:
+            expected = f"the radius of the throw, {self.throw.radius:.6g} m"
+            yield fault(
+                "crank_radius", found=self.crank_radius, expected=expected, remedy="give one of the two"
+            )
+
+    def _limit_fault(self) -> Iterator[InitErrorDetails]:
+        """A limit of stress without the section where it counts."""
+        limit = self.crank_limit
+        if limit is not None and limit.needs_section and not limit.has_section:
+            expected = "the diameter where the stress counts, or [train.engine.throw] with its pin"
+            yield fault("limit", "diameter", expected=expected)
+
+    def _order_faults(self) -> Iterator[InitErrorDetails]:
+        """A firing order that is no permutation of the cylinders."""
+        numbers, seen = range(1, self.n_cylinders + 1), set()
+        for n, number in enumerate(self.firing_order):
+            if number not in numbers:
+                yield fault("firing_order", n, found=number, expected=self._numbers())
+            elif number in seen:
+                yield fault("firing_order", n, found=number, expected="each cylinder once")
+            seen.add(number)
+        missing = [str(number) for number in numbers if number not in seen]
+        if missing:
+            listed = ", ".join(missing)
+            yield fault("firing_order", found=f"an order without {listed}", expected="each cylinder once")
+
+    def _cycle_fault(self) -> Iterator[InitErrorDetails]:
+        """An order that needs more, or fewer, turns than a cycle has."""
+        found, wanted = firing_angles(self.places, self.firing_order, self.cycle)[1], self.cycle
+        if abs(found - wanted) > _EQUAL:
+            yield fault(
+                "firing_order",
+                found=f"an order that comes round after {found / (2 * math.pi):.6g} turns",
+                expected=f"one of {wanted / (2 * math.pi):.6g}, a cycle of {self.strokes} strokes",
+                remedy="look at the angles of throws and banks, the sense of rotation, and the numbering",
+            )
+
+    def _numbers(self) -> str:
+        return f"the number of a cylinder, 1 to {self.n_cylinders}"
+
+    @property
+    def n_cylinders(self) -> int:
+        """How many cylinders it has."""
+        return len(self.throws) * len(self.banks)
+
+    @property
+    def cycle(self) -> float:
+        """Crank angle of a working cycle [rad]."""
+        return math.pi * self.strokes
+
+    @property
+    def places(self) -> list[CylinderPlace]:
+        """Throw and bank of each cylinder, by number."""
+        return cylinder_places(self.throws, self.banks, self.numbering)
+
+    @property
+    def radius(self) -> float:
+        """Of the crank [m]."""
+        if self.crank_radius is not None:
+            return self.crank_radius
+        assert self.throw is not None
+        return self.throw.radius
+
+    @property
+    def crank_limit(self) -> ShaftLimit | None:
+        """What the crankshaft bears, with the section of its pin where it has none of its own."""
+        limit, throw = self.limit, self.throw
+        if throw is None or (limit is not None and (limit.diameter or limit.section_modulus)):
+            return limit
+        pin = {"diameter": throw.pin.diameter, "inner_diameter": throw.pin.inner_diameter}
+        return (limit or ShaftLimit()).model_copy(update=pin)
+
+    def factor(self, number: int) -> float:
+        """Share of the combustion in a cylinder, 1 if it is sound."""
+        return self.factors.get(str(number), 1.0)

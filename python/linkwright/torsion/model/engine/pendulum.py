@@ -1,0 +1,217 @@
+r"""Moments of inertia of a rod from how fast it swings on a knife edge.
+
+A body of mass m whose centre of mass hangs a distance b below the edge swings with small amplitude like a
+thread pendulum of the length A,
+
+.. math::
+
+    A = \frac{g\,T^2}{4\pi^2} = \frac{g\,(60/\pi)^2}{n^2}, \qquad T = \frac{120}{n}
+
+with n *single* swings (from one side to the other) a minute. The moments of inertia follow about the edge,
+the centre of mass, and an axis at the distance c from the edge, counted towards the centre of mass:
+
+.. math::
+
+    J_e = m b A \quad (13), \qquad J_S = m b (A - b) \quad (14), \qquad J_w = m (A b - 2 b c + c^2) \quad (15)
+
+Swung about both heads, on edges a distance l₁ apart, the centre of mass lies from the edge of the small end
+at
+
+.. math:: b = l_1 \frac{A_1 - l_1}{A_1 + A_2 - 2 l_1}
+
+with A₁ from the swings about the big end. Where J_S = m a b both A are l₁ whatever b is: near that the two
+swings say little about the centre of mass, and it is better found by weighing.
+
+The paper writes weights in kgf, lengths in cm and 358 000 for g (60/π)², which is 357 826 cm/min² with its
+own g = 981 cm/s²: its moments about the edge are too large by 0.05 %.
+
+References
+----------
+.. [1] Paper 3, equations (13) to (15). Its I is J here, G/g is m, L₁ is l₁.
+"""
+
+from __future__ import annotations
+
+import math
+
+from linkwright.kernel.errors import InputError
+
+# The paper's rounding of g (60/π)² [cm/min²], and its g [cm/s²].
+PRINTED_LENGTH = 358000.0
+PRINTED_GRAVITY = 981.0
+
+# Free fall where nothing else is said, as for the loads of a machine [m/s²].
+FREE_FALL = 9.81
+
+
+def swing_period(swings_per_minute: float) -> float:
+    """Time of a full oscillation, to and fro.
+
+    Parameters
+    ----------
+    swings_per_minute : float
+        Single swings n, from one side to the other.
+
+    Returns
+    -------
+    float
+        T = 120/n [s].
+    """
+    return 120.0 / swings_per_minute
+
+
+def pendulum_length(period: float, gravity: float = FREE_FALL) -> float:
+    """Length of the thread pendulum that swings as fast.
+
+    Parameters
+    ----------
+    period : float
+        T of a full oscillation of small amplitude [s].
+    gravity : float
+        Free fall at the place of the test [m/s²].
+
+    Returns
+    -------
+    float
+        A = g T²/4π² [m].
+    """
+    return gravity * (period / (2.0 * math.pi)) ** 2
+
+
+def inertia_about_edge(mass: float, edge: float, length: float) -> float:
+    """Moment of inertia about the knife edge, (13).
+
+    Parameters
+    ----------
+    mass : float
+        Of the body [kg].
+    edge : float
+        b, from the centre of mass to the edge [m].
+    length : float
+        A of the pendulum [m].
+
+    Returns
+    -------
+    float
+        J_e = m b A [kg m²].
+    """
+    return mass * edge * length
+
+
+def inertia_about_centre(mass: float, edge: float, length: float) -> float:
+    """Moment of inertia about the centre of mass, (14).
+
+    Parameters
+    ----------
+    mass, edge, length : float
+        As in `inertia_about_edge`.
+
+    Returns
+    -------
+    float
+        J_S = m b (A − b) [kg m²]; negative if no body swings like that.
+    """
+    return mass * edge * (length - edge)
+
+
+def inertia_about_axis(mass: float, edge: float, length: float, axis: float) -> float:
+    """Moment of inertia about an axis below the edge, such as that of the small end, (15).
+
+    Parameters
+    ----------
+    mass, edge, length : float
+        As in `inertia_about_edge`.
+    axis : float
+        c, from the edge to the axis, counted towards the centre of mass [m].
+
+    Returns
+    -------
+    float
+        J_w = m (A b − 2 b c + c²) [kg m²].
+    """
+    return mass * (length * edge - 2.0 * edge * axis + axis**2)
+
+
+def two_point_centre(length_big_end: float, length_small_end: float, distance: float) -> float:
+    """Place of the centre of mass from swings about both heads.
+
+    Parameters
+    ----------
+    length_big_end, length_small_end : float
+        A₁, A₂ of the pendulums on the edges of big and small end [m].
+    distance : float
+        l₁ between the edges [m].
+
+    Returns
+    -------
+    float
+        b, from the edge of the small end to the centre of mass [m].
+
+    Raises
+    ------
+    InputError
+        Both pendulums are as long as the edges are apart, on average: any centre of mass would do.
+    """
+    excess = length_big_end + length_small_end - 2.0 * distance
+    if excess == 0.0:
+        raise InputError(
+            f"length_small_end: found {length_small_end:.6g} m, which with the other pendulum of "
+            f"{length_big_end:.6g} m makes twice the distance of the edges: any centre of mass would do; "
+            "find it by weighing"
+        )
+    return distance * (length_big_end - distance) / excess
+
+
+def printed_inertia_about_edge(weight: float, edge: float, swings_per_minute: float) -> float:
+    """The paper's (13), with 358 000.
+
+    Parameters
+    ----------
+    weight : float
+        G [kgf].
+    edge : float
+        b, from the centre of mass to the edge [cm].
+    swings_per_minute : float
+        Single swings n.
+
+    Returns
+    -------
+    float
+        [kgf cm s²].
+    """
+    return weight / PRINTED_GRAVITY * edge * PRINTED_LENGTH / swings_per_minute**2
+
+
+def printed_inertia_about_centre(weight: float, edge: float, swings_per_minute: float) -> float:
+    """The paper's (14), with 358 000.
+
+    Parameters
+    ----------
+    weight, edge, swings_per_minute : float
+        As in `printed_inertia_about_edge`.
+
+    Returns
+    -------
+    float
+        [kgf cm s²].
+    """
+    return weight / PRINTED_GRAVITY * edge * (PRINTED_LENGTH / swings_per_minute**2 - edge)
+
+
+def printed_inertia_about_axis(weight: float, edge: float, swings_per_minute: float, axis: float) -> float:
+    """The paper's (15), with 358 000.
+
+    Parameters
+    ----------
+    weight, edge, swings_per_minute : float
+        As in `printed_inertia_about_edge`.
+    axis : float
+        c, from the edge to the axis [cm].
+
+    Returns
+    -------
+    float
+        [kgf cm s²].
+    """
+    swung = PRINTED_LENGTH * edge / swings_per_minute**2
+    return weight / PRINTED_GRAVITY * (swung - 2.0 * edge * axis + axis**2)

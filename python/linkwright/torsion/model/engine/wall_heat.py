@@ -1,0 +1,134 @@
+r"""Heat that the gas loses to the walls of the cylinder.
+
+| kind | heat transfer coefficient [W/(m² K)] |
+| --- | --- |
+| `woschni` | 3.26 B^-0.2 p^0.8 T^-0.55 w^0.8, p in kPa, w = 2.28 c_m + 0.00324 V_h T_r/(p_r V_r) (p - p_0) |
+| `hohenberg` | 130 V^-0.06 p^0.8 T^-0.4 (c_m + 1.4)^0.8, p in bar |
+| `share` | none: a given share of the heat is lost as it is released |
+
+B bore [m], V volume [m³], T temperature of the gas [K], c_m mean speed of the piston [m/s], p_0 pressure of
+the motored cylinder; p_r, V_r, T_r where the cylinder closes. The walls are piston, head and the liner that
+is bare,
+
+.. math:: S = \frac{π}{2} B^2 + \frac{4V}{B}
+
+References
+----------
+.. [1] Woschni, SAE 670931 (1967); in SI by Heywood, Internal Combustion Engine Fundamentals, 1988, equations
+(12.18), (12.19), with the constants of the closed cycle.
+.. [2] Hohenberg, SAE 790825 (1979).
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from linkwright.kernel.description.base import Description
+from linkwright.kernel.units import INSIDE_ONE, RATIO, TEMPERATURE, Quantity, positive
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class GasState:
+    """The gas between closing and opening at n loads and m crank angles.
+
+    Attributes
+    ----------
+    bore, swept_volume : float
+        Of the cylinder [m, m³].
+    volume : ndarray, shape (m,)
+        V [m³].
+    pressure, temperature : ndarray, shape (n, m)
+        p [Pa], T [K].
+    motored : ndarray, shape (n, m)
+        Pressure of the motored cylinder [Pa].
+    closing : ndarray, shape (n, 1)
+        T_r/(p_r V_r) where the cylinder closes [K/J].
+    piston_speed : ndarray, shape (n, 1)
+        Mean speed of the piston [m/s].
+    """
+
+    bore: float
+    swept_volume: float
+    volume: Array
+    pressure: Array
+    temperature: Array
+    motored: Array
+    closing: Array
+    piston_speed: Array
+
+
+class WallHeat(Description):
+    """Loss of heat by convection to walls of one temperature."""
+
+    wall_temperature: Annotated[float, positive(TEMPERATURE)] = Field(
+        450.0, description="Mean of piston, head and liner."
+    )
+    factor: Annotated[float, positive(RATIO)] = Field(
+        1.0, description="On the coefficient of heat transfer, to fit a measurement."
+    )
+
+    @abstractmethod
+    def coefficient(self, gas: GasState) -> Array:
+        """Heat transfer coefficient without the factor, shape (n, m) [W/(m² K)].
+
+        Parameters
+        ----------
+        gas : GasState
+            The gas at n loads and m crank angles.
+        """
+
+    def conductance(self, gas: GasState) -> Array:
+        """Heat flow per temperature difference, shape (n, m) [W/K].
+
+        Parameters
+        ----------
+        gas : GasState
+            The gas at n loads and m crank angles.
+        """
+        walls = math.pi / 2 * gas.bore**2 + 4 / gas.bore * gas.volume
+        return self.factor * walls * self.coefficient(gas)
+
+
+class Woschni(WallHeat):
+    """Woschni's coefficient of heat transfer."""
+
+    kind: Literal["woschni"]
+
+    def coefficient(self, gas: GasState) -> Array:
+        combustion = 3.24e-3 * gas.swept_volume * gas.closing * (gas.pressure - gas.motored)
+        # Below the motored pressure, late in the expansion, nothing is left that stirs the gas.
+        w = 2.28 * gas.piston_speed + np.maximum(combustion, 0.0)
+        p = gas.pressure / 1e3
+        return np.asarray(3.26 * gas.bore**-0.2 * (p * w) ** 0.8 * gas.temperature**-0.55)
+
+
+class Hohenberg(WallHeat):
+    """Hohenberg's coefficient of heat transfer."""
+
+    kind: Literal["hohenberg"]
+
+    def coefficient(self, gas: GasState) -> Array:
+        p = gas.pressure / 1e5
+        w = gas.piston_speed + 1.4
+        return np.asarray(130.0 * gas.volume**-0.06 * (p * w) ** 0.8 * gas.temperature**-0.4)
+
+
+class HeatShare(Description):
+    """A given share of the heat is lost."""
+
+    kind: Literal["share"]
+    share: Annotated[float, Quantity(RATIO, INSIDE_ONE)] = Field(
+        description="Of the heat released that goes into the walls, in proportion to the release."
+    )
+
+
+AnyWallHeat = Annotated[Woschni | Hohenberg | HeatShare, Field(discriminator="kind")]

@@ -1,0 +1,244 @@
+"""What a shaft bears: where its stress counts, and what is permitted there.
+
+| kind | vibratory stress permitted |
+| --- | --- |
+| `given` | as given |
+| `iacs_m68` | propulsion shafts of ships: IACS UR M68 (`propulsion_shaft`) |
+| `kr_crankshaft` | crankshafts of main engines: Korean Register (`crankshaft_limit`) |
+
+Torques and the greatest stress, mean and vibration together, may be limited with each kind.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.units import FRACTION, PRESSURE, RATIO, SECTION_MODULUS, Quantity, positive
+from linkwright.linkages.model.element import PositiveLength
+from linkwright.torsion.model import propulsion_shaft
+from linkwright.torsion.model.crankshaft_limit import (
+    STRENGTH_COUNTED,
+    Firing,
+    crank_stress,
+    crank_transient_stress,
+)
+from linkwright.torsion.model.propulsion_shaft import DESIGN_FACTORS, STRENGTH_MIN, Design, Steel
+from linkwright.torsion.model.shaft_flexibility import polar_moment
+from linkwright.torsion.model.shaft_section import Bore, ShaftSection
+from linkwright.torsion.model.train_base import PositiveTorque
+
+Floats = NDArray[np.float64]
+
+Stress = Annotated[float, positive(PRESSURE)]
+Kind = Literal["given", "iacs_m68", "kr_crankshaft"]
+
+# Keys of one kind or of several; all others may stand with each kind.
+_KINDS: dict[str, tuple[Kind, ...]] = {
+    "stress_permitted": ("given",),
+    "stress_transient": ("given",),
+    "stress_concentration": ("given",),
+    "tensile_strength": ("iacs_m68", "kr_crankshaft"),
+    "yield_strength": ("kr_crankshaft",),
+    "steel": ("iacs_m68", "kr_crankshaft"),
+    "design": ("iacs_m68",),
+    "design_factor": ("iacs_m68",),
+    "firing": ("kr_crankshaft",),
+}
+_STRESSES = ("stress_permitted", "stress_transient", "stress_greatest")
+
+
+class StressedSection(NamedTuple):
+    """Where the stress of a shaft counts.
+
+    Attributes
+    ----------
+    section_modulus : float
+        Torque per nominal shear stress [m³].
+    diameter : float or None
+        Outside [m].
+    """
+
+    section_modulus: float
+    diameter: float | None
+
+
+class ShaftLimit(Checked):
+    """What a shaft bears."""
+
+    kind: Kind = Field("given", description="Where the permitted vibratory stress comes from.")
+    diameter: PositiveLength | None = Field(
+        None, description="Outside, where the stress counts. Without it, that of the weakest section."
+    )
+    inner_diameter: Bore = Field(0.0, description="Of the bore there.")
+    section_modulus: Annotated[float, positive(SECTION_MODULUS)] | None = Field(
+        None, description="Torque per stress there, in place of the diameter."
+    )
+    stress_concentration: Annotated[float, positive(RATIO)] | None = Field(
+        None, description="Greatest over nominal stress, which the stresses given hold for. Without it, 1."
+    )
+    stress_permitted: Stress | None = Field(None, description="Amplitude of the shear stress, for ever.")
+    stress_transient: Stress | None = Field(
+        None, description="The same, while barred speeds are passed quickly."
+    )
+    stress_greatest: Stress | None = Field(None, description="Shear stress of mean and vibration together.")
+    torque_permitted: PositiveTorque | None = Field(None, description="Mean and vibratory torque together.")
+    vibratory_torque_permitted: PositiveTorque | None = Field(
+        None, description="Amplitude of the torque, for ever."
+    )
+    tensile_strength: Stress | None = Field(None, description="σ_B that the steel is specified to have.")
+    yield_strength: Stress | None = Field(None, description="σ_Y of the steel of a crankshaft.")
+    steel: Steel | None = Field(
+        None, description='"carbon" counts carbon-manganese steel too. Without it, carbon.'
+    )
+    design: Design | None = Field(None, description="What the shaft has, for C_K. Without it, flanges.")
+    design_factor: Annotated[float, Quantity(RATIO, FRACTION)] | None = Field(
+        None, description="C_K itself, in place of the design."
+    )
+    firing: Firing | None = Field(
+        None,
+        description='"even" of four-stroke engines in line and V engines that fire every 45° or 60°. Without '
+        "it, other.",
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from self._key_faults()
+        yield from self._section_faults()
+        if self.kind == "iacs_m68" and self.tensile_strength is None:
+            yield fault("tensile_strength", expected="the tensile strength of the steel, for IACS UR M68")
+        if self.tensile_strength is not None and self.tensile_strength < STRENGTH_MIN:
+            expected = "at least 400 MPa, the least for which the rules are made"
+            yield fault("tensile_strength", found=self.tensile_strength, expected=expected)
+        if self.design is not None and self.design_factor is not None:
+            yield fault("design_factor", found=self.design_factor, expected="either design or design_factor")
+        low, high = self.stress_permitted, self.stress_transient
+        if high is not None and (low is None or high < low):
+            expected = (
+                "stress_permitted beside it" if low is None else f"at least stress_permitted, {low:.6g} Pa"
+            )
+            yield fault("stress_transient", found=high, expected=expected)
+
+    def _key_faults(self) -> Iterator[InitErrorDetails]:
+        """Keys that belong to other kinds."""
+        for key, kinds in _KINDS.items():
+            value = getattr(self, key)
+            if value is not None and self.kind not in kinds:
+                expected = f'no such entry for the kind "{self.kind}"'
+                yield fault(key, found=value, expected=expected, remedy=f"it belongs to: {', '.join(kinds)}")
+
+    def _section_faults(self) -> Iterator[InitErrorDetails]:
+        """Sizes that contradict each other."""
+        d, bore = self.diameter, self.inner_diameter
+        if d is None and bore:
+            yield fault("diameter", expected="the diameter outside, beside that of the bore")
+        elif d is not None and bore >= d:
+            yield fault("inner_diameter", found=bore, expected=f"a bore smaller than the diameter, {d:.6g} m")
+        if self.section_modulus is not None and d is not None:
+            yield fault("section_modulus", found=self.section_modulus, expected="either it or the diameter")
+        if self.section_modulus is not None and self.kind == "iacs_m68":
+            expected = "the diameter, which IACS UR M68 asks for"
+            yield fault("section_modulus", found=self.section_modulus, expected=expected)
+        if self.stress_concentration is not None and self.stress_concentration < 1:
+            yield fault("stress_concentration", found=self.stress_concentration, expected="1 or more")
+
+    @property
+    def needs_section(self) -> bool:
+        """Whether a section must be known: a stress is limited."""
+        return self.kind != "given" or any(getattr(self, key) is not None for key in _STRESSES)
+
+    @property
+    def has_section(self) -> bool:
+        """Whether it gives a section itself."""
+        return self.diameter is not None or self.section_modulus is not None
+
+    @property
+    def concentration(self) -> float:
+        """Greatest over nominal stress."""
+        return 1.0 if self.stress_concentration is None else self.stress_concentration
+
+    @property
+    def shape_factor(self) -> float:
+        """C_K."""
+        return DESIGN_FACTORS[self.design or "flange"] if self.design_factor is None else self.design_factor
+
+    @property
+    def counted_strength(self) -> float | None:
+        """Tensile strength as far as the rule counts it [Pa]."""
+        if self.tensile_strength is None:
+            return None
+        steel = self.steel or "carbon"
+        if self.kind == "kr_crankshaft":
+            return min(self.tensile_strength, STRENGTH_COUNTED[steel])
+        return propulsion_shaft.counted_strength(self.tensile_strength, steel, self.design or "flange")
+
+    @property
+    def barred_ratio_max(self) -> float:
+        """Highest λ that speeds may be barred at in normal operation; infinite without a rule."""
+        return math.inf if self.kind == "given" else propulsion_shaft.RATIO_BARRED_MAX
+
+    def permitted_stress(self, speed_ratio: Floats, diameter: float | None) -> tuple[Floats, Floats]:
+        """Amplitudes of the vibratory stress that are permitted for ever, and while passing.
+
+        Parameters
+        ----------
+        speed_ratio : ndarray, shape (n,)
+            λ, speed over that of service.
+        diameter : float or None
+            Outside, where the stress counts [m].
+
+        Returns
+        -------
+        continuous, transient : ndarray, shape (n,)
+            [Pa]; NaN where nothing is said.
+        """
+        if self.kind == "iacs_m68":
+            assert self.counted_strength is not None
+            assert diameter is not None
+            C_K = self.shape_factor
+            found = propulsion_shaft.continuous_stress(self.counted_strength, diameter, C_K, speed_ratio)
+            return found, propulsion_shaft.transient_stress(found, C_K)
+        if self.kind == "kr_crankshaft":
+            firing = self.firing or "other"
+            found = crank_stress(speed_ratio, firing, self.counted_strength)
+            passing = crank_transient_stress(speed_ratio, firing, self.yield_strength)
+            # Where speeds may not be barred, passing permits no more.
+            return found, np.where(np.isnan(passing), found, np.maximum(passing, found))
+        low, high = (
+            np.nan if each is None else each for each in (self.stress_permitted, self.stress_transient)
+        )
+        return np.full_like(speed_ratio, low), np.full_like(speed_ratio, high)
+
+    def _severity(self, section: StressedSection) -> float:
+        """Stress over permitted stress, but for a factor, at a section."""
+        size = 1.0
+        if self.kind == "iacs_m68" and section.diameter is not None:
+            size = propulsion_shaft.size_factor(section.diameter)
+        return 1.0 / (section.section_modulus * size)
+
+    def section(self, sections: Sequence[ShaftSection] | None) -> StressedSection | None:
+        """Where the stress counts: as given, else where it comes closest to what is permitted.
+
+        Parameters
+        ----------
+        sections : sequence of ShaftSection or None
+            Of the shaft.
+
+        Returns
+        -------
+        StressedSection or None
+            None if no section is known.
+        """
+        if self.section_modulus is not None:
+            return StressedSection(self.section_modulus, None)
+        if self.diameter is not None:
+            modulus = polar_moment(self.diameter, self.inner_diameter) / (self.diameter / 2)
+            return StressedSection(modulus, self.diameter)
+        known = [StressedSection(each.section_modulus, min(each.diameters)) for each in sections or ()]
+        return max(known, key=self._severity, default=None)

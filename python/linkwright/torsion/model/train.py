@@ -1,0 +1,175 @@
+r"""A torsional train: discs that turn, elastic shafts between them, gear stages.
+
+A shaft of sections in a row has the compliance of all of them together,
+
+.. math:: \frac1k = \sum \frac{L}{G I_p}, \qquad I_p = \frac{\pi}{32} (d^4 - d_i^4)
+
+Angles of discs are counted in the sense in which each disc turns when the train runs, so that a gear stage
+does not change the sign of an amplitude. Whether a stage reverses the sense counts where stages close a loop.
+
+References
+----------
+.. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 3: stiffness of
+shafts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.kernel.description.base import Checked, Description, Name, fault
+from linkwright.kernel.units import INERTIA, positive
+from linkwright.linkages.model.element import PositiveNumber
+from linkwright.torsion.model.coupling import Coupling
+from linkwright.torsion.model.damper import Damper
+from linkwright.torsion.model.engine.engine import ReciprocatingEngine
+from linkwright.torsion.model.shaft_limit import ShaftLimit
+from linkwright.torsion.model.shaft_row import fillet_faults, flexibilities, place
+from linkwright.torsion.model.shaft_section import Density, Modulus, ShaftSection
+from linkwright.torsion.model.train_base import GROUND, Damping, LossFactor, PositiveStiffness
+from linkwright.torsion.model.train_run import TrainRun
+from linkwright.torsion.model.train_torques import Excitation, TrainLoad
+from linkwright.torsion.model.train_transient import TrainTransient
+
+__all__ = ["GROUND", "Disc", "ElasticShaft", "Shaft", "ShaftSection", "Train", "TrainGear"]
+
+
+class Disc(Description):
+    """A disc: all that turns with one place of the train."""
+
+    inertia: Annotated[float, positive(INERTIA)] = Field(description="About the axis, at its own speed.")
+    damping: Damping = Field(
+        0.0, description="Torque against its vibration per speed, from outside the train."
+    )
+
+
+class ElasticShaft(Checked):
+    """What makes a shaft twist: its stiffness, or its sections."""
+
+    stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
+    sections: tuple[ShaftSection, ...] | None = Field(
+        None, description="Its lengths in a row, from its first end, in place of the stiffness."
+    )
+    shear_modulus: Modulus = Field(79.3e9, description="Of the sections; usually that of steel.")
+    damping: Damping = Field(0.0, description="Torque per speed of twisting.")
+    loss_factor: LossFactor = Field(
+        0.0, description="Hysteresis η: the stiffness is k(1 + iη), a cycle loses 2πη of its largest energy."
+    )
+    limit: ShaftLimit | None = Field(None, description="What it bears.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if (self.stiffness is None) == (self.sections is None):
+            found = "neither" if self.stiffness is None else "both"
+            yield fault(found=found, expected="either stiffness or sections")
+        if self.sections is not None and not self.sections:
+            yield fault("sections", found="an empty list", expected="a list of at least one section")
+        limit = self.limit
+        if limit is not None and limit.needs_section and not limit.has_section and self.sections is None:
+            expected = "the diameter where the stress counts, as the shaft has no sections"
+            yield fault("limit", "diameter", expected=expected)
+        for each in fillet_faults(self.sections or ()):
+            yield InitErrorDetails(type=each["type"], loc=("sections", *each["loc"]), input=each["input"])
+
+    @property
+    def compliances(self) -> tuple[float, ...]:
+        """Twist per torque of each section; of the whole where a stiffness is given [rad/(N m)]."""
+        if self.sections is None:
+            assert self.stiffness is not None
+            return (1.0 / self.stiffness,)
+        return tuple(each / self.shear_modulus for each in flexibilities(self.sections))
+
+    @property
+    def rate(self) -> float:
+        """Torque per twist, given or of the sections [N m/rad]."""
+        return self.stiffness if self.stiffness is not None else 1.0 / math.fsum(self.compliances)
+
+    def distance(self, share: float) -> float | None:
+        """How far from the first end a share of the twist lies [m]; None without sections."""
+        if self.sections is None:
+            return None
+        return place(self.sections, share)
+
+
+class Shaft(ElasticShaft):
+    """An elastic shaft between two discs, or between a disc and the ground."""
+
+    between: tuple[str, str] = Field(
+        description='The two discs that it joins; one end may be "ground", which is held.'
+    )
+    density: Density | None = Field(
+        None,
+        description="Of the sections. With it, their own inertia counts with the discs at the two ends.",
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from super()._faults()
+        if self.density is not None and self.sections is None:
+            expected = "the sections whose inertia it gives"
+            yield fault("density", found=self.density, expected=expected, remedy="leave density out")
+
+
+class TrainGear(Checked):
+    """A gear stage between two discs, rigid, or elastic in its mesh."""
+
+    between: tuple[str, str] = Field(description="The two discs that it joins.")
+    ratio: PositiveNumber | None = Field(None, description="Speed of the first disc over that of the second.")
+    teeth: tuple[PositiveNumber, PositiveNumber] | None = Field(
+        None, description="Of the first and of the second gear, in place of the ratio."
+    )
+    kind: Literal["external", "internal", "belt", "crossed_belt"] = Field(
+        "external",
+        description="External gears and a crossed belt reverse the sense, which matters where stages close a "
+        "loop.",
+    )
+    stiffness: PositiveStiffness | None = Field(
+        None, description="Of the mesh, as torque at the first disc per its angle. Without it, rigid."
+    )
+    damping: Damping = Field(
+        0.0, description="Of an elastic mesh, as torque at the first disc per its speed."
+    )
+    loss_factor: LossFactor = Field(0.0, description="Hysteresis of an elastic mesh.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if (self.ratio is None) == (self.teeth is None):
+            found = "neither" if self.ratio is None else "both"
+            yield fault(found=found, expected="either ratio or teeth")
+        for name in ("damping", "loss_factor"):
+            if self.stiffness is None and getattr(self, name):
+                remedy = "give the stiffness of the mesh, or the damping to its discs"
+                yield fault(name, found=getattr(self, name), expected="none with a rigid mesh", remedy=remedy)
+
+    @property
+    def speed_ratio(self) -> float:
+        """Speed of the first disc over that of the second, negative where the sense is reversed."""
+        size = self.ratio
+        if size is None:
+            assert self.teeth is not None
+            size = self.teeth[1] / self.teeth[0]
+        return -size if self.kind in ("external", "crossed_belt") else size
+
+
+class Train(Description):
+    """Discs, shafts and gear stages by name, what damps them and what excites them."""
+
+    discs: dict[Name, Disc] = Field(default_factory=dict, description="What turns, by name.")
+    shafts: dict[Name, Shaft] = Field(default_factory=dict, description="What twists, by name.")
+    gears: dict[Name, TrainGear] = Field(default_factory=dict, description="Gear stages by name.")
+    couplings: dict[Name, Coupling] = Field(default_factory=dict, description="Elastic couplings by name.")
+    dampers: dict[Name, Damper] = Field(default_factory=dict, description="Torsional dampers by name.")
+    loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="What the train drives, by name.")
+    excitations: dict[Name, Excitation] = Field(
+        default_factory=dict, description="Torques that pulsate, by name."
+    )
+    engine: ReciprocatingEngine | None = Field(
+        None, description="Reciprocating engine, which stands for discs throw_1, throw_2, … and their shafts."
+    )
+    driver: str | None = Field(
+        None, description="Disc that drives the loads, where no engine does. Without it, the first."
+    )
+    run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")
+    transient: TrainTransient | None = Field(None, description="Manoeuvre that is followed in time.")

@@ -1,0 +1,183 @@
+"""What is wrong with a train as a whole: names that mean nothing, parts that do not hang together, loops."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from pydantic_core import InitErrorDetails
+
+from linkwright.kernel.description.base import close_match, fault, suggestion
+from linkwright.kernel.description.plain import keys, look
+from linkwright.kernel.errors import AssemblyError, InputError
+from linkwright.kernel.limits import DISCS
+from linkwright.torsion.model.train import GROUND, Train
+from linkwright.torsion.model.train_speeds import Contradiction, parts_of, speeds
+from linkwright.torsion.model.train_transient import transient_faults
+from linkwright.torsion.model.whole_train import crank_names, throw_names, whole_train
+
+# Tables whose entries join two discs, and those whose entries sit on one.
+_TABLES = ("shafts", "couplings", "gears")
+_NUMBERS = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_ON = ("dampers", "loads", "excitations")
+
+
+def train_faults(train: object) -> Iterator[InitErrorDetails]:
+    """Faults between the parts of a train.
+
+    Parameters
+    ----------
+    train : object
+        A `Train`, or the raw table of a file; None for a machine without a train.
+
+    Yields
+    ------
+    InitErrorDetails
+        Each with its keys from the machine down.
+    """
+    if train is None:
+        return
+    own = keys(look(train, "discs")) if isinstance(look(train, "discs"), dict) else ()
+    throws = _throws(train)
+    discs = (*throw_names(throws), *own)
+    if not discs:
+        remedy = 'describe what turns as [train.discs], NAME = { inertia = "2 kg m^2" }'
+        yield fault("train", "discs", expected="at least one disc", remedy=remedy)
+        return
+    if len(discs) > DISCS.most:
+        yield fault("train", "discs", found=f"{len(discs)} of them", expected=DISCS.words)
+        return
+    if GROUND in discs:
+        remedy = "it is the word for what is held"
+        yield fault("train", "discs", GROUND, found=GROUND, expected="another name", remedy=remedy)
+        return
+    wrong = [*_same_names(train), *_name_faults(train, discs)]
+    yield from wrong
+    if wrong:
+        return
+    yield from _parts_faults(train, discs)
+    if isinstance(train, Train):
+        try:
+            whole = whole_train(train)
+        except AssemblyError as error:
+            yield _short_rod(error)
+            return
+        except (InputError, ArithmeticError) as error:
+            yield _no_throw(error)
+            return
+        yield from map(_loop_fault, speeds(whole)[1])
+        yield from transient_faults(train, (*discs, *train.dampers))
+
+
+def _same_names(train: object) -> Iterator[InitErrorDetails]:
+    """Parts of one name: results name discs with rings, and shafts with couplings and meshes, alike."""
+    throws = _throws(train)
+    for tables, taken in (
+        (("shafts", "couplings", "dampers", "gears"), crank_names(throws)),
+        (("discs", "dampers"), throw_names(throws)),
+    ):
+        seen = dict.fromkeys(taken, "engine")
+        for table in tables:
+            for name in keys(look(train, table)):
+                if name in seen:
+                    expected = f"another name than that of a part in [train.{seen[name]}]"
+                    yield fault("train", table, name, found=name, expected=expected)
+                seen.setdefault(name, table)
+
+
+def _throws(train: object) -> int:
+    """How many throws an engine has, whose angles may still be a text as it was read."""
+    angles = look(look(train, "engine"), "throws")
+    return len(_NUMBERS.findall(angles)) if isinstance(angles, str) else len(keys(angles))
+
+
+def _pairs(train: object, table: str) -> Iterator[tuple[str, Sequence[str]]]:
+    """Name and ends of each connection of a table that has two of them."""
+    node = look(train, table)
+    for name in keys(node):
+        ends = look(look(node, name), "between")
+        if isinstance(ends, list | tuple) and len(ends) == 2 and all(isinstance(end, str) for end in ends):
+            yield name, ends
+
+
+def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
+    """Ends that are no discs, and connections of a disc with itself."""
+    for table in _TABLES:
+        known = (*discs, GROUND) if table == "shafts" else discs
+        for name, ends in _pairs(train, table):
+            place = ("train", table, name, "between")
+            for n, end in enumerate(ends):
+                if end == GROUND and table != "shafts":
+                    remedy = "hold a disc by a shaft to the ground"
+                    yield fault(*place, n, found=end, expected="the name of a disc", remedy=remedy)
+                elif end not in known:
+                    remedy = close_match(end, known) or suggestion(end, discs)
+                    yield fault(*place, n, found=end, expected="the name of a disc", remedy=remedy)
+            if ends[0] == ends[1]:
+                yield fault(*place, 1, found=ends[1], expected="another disc than the first")
+    yield from _seat_faults(train, discs)
+
+
+def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
+    """Dampers, loads and torques on what is no disc, and a driver that is none."""
+    driver = look(train, "driver")
+    if isinstance(driver, str) and look(train, "engine") is not None:
+        remedy = "leave it out; a machine that drives beside the engine is an excitation or a load"
+        yield fault("train", "driver", found=driver, expected="none beside [train.engine]", remedy=remedy)
+    elif isinstance(driver, str) and driver not in discs:
+        remedy = close_match(driver, discs) or suggestion(driver, discs)
+        yield fault("train", "driver", found=driver, expected="the name of a disc", remedy=remedy)
+    for table in _ON:
+        for name in keys(look(train, table)):
+            on = look(look(look(train, table), name), "on")
+            if isinstance(on, str) and on not in discs:
+                remedy = close_match(on, discs) or suggestion(on, discs)
+                yield fault(
+                    "train", table, name, "on", found=on, expected="the name of a disc", remedy=remedy
+                )
+
+
+def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
+    """A train that falls apart; what hangs on the ground alone hangs together with nothing."""
+    pairs = [(a, b) for table in _TABLES for _, (a, b) in _pairs(train, table) if GROUND not in (a, b)]
+    pairs += pairwise(throw_names(_throws(train)))
+    parts = parts_of(discs, pairs)
+    if len(parts) > 1:
+        found = "; ".join(_listed(part) for part in parts[:4]) + ("; …" if len(parts) > 4 else "")
+        remedy = "join them by shafts, couplings or gears, or describe each as a train of its own file"
+        expected = "one train that hangs together"
+        yield fault("train", found=f"{len(parts)} parts: {found}", expected=expected, remedy=remedy)
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Names in a row, not too many."""
+    return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+
+
+def _short_rod(error: AssemblyError) -> InitErrorDetails:
+    """A rod of an engine that does not reach its piston."""
+    found, remedy = str(error).split(": ", 1)
+    expected = "rods that reach their pistons at every crank angle"
+    return fault("train", "engine", "rod", found=found, expected=expected, remedy=remedy)
+
+
+def _no_throw(error: InputError | ArithmeticError) -> InitErrorDetails:
+    """A throw of an engine that has no inertia, or no stiffness."""
+    why = str(error) if isinstance(error, InputError) else "check the units of its sizes"
+    found = "sizes of which no throw can be made"
+    expected = "a throw with inertia and stiffness above 0"
+    return fault("train", "engine", "throw", found=found, expected=expected, remedy=why)
+
+
+def _loop_fault(wrong: Contradiction) -> InitErrorDetails:
+    """A loop that cannot turn."""
+    remedy = "the other way around the loop must give the same ratio, with its sense"
+    return fault(
+        "train",
+        wrong.table,
+        wrong.name,
+        found=f"ratio {wrong.wanted:.6g}, where the rest of the loop gives {wrong.found:.6g}",
+        expected="a loop that can turn",
+        remedy=remedy,
+    )

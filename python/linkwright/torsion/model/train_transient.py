@@ -1,0 +1,158 @@
+"""A manoeuvre of a train, followed in time: from which state, how long, and what happens on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.drive.model.motor import ConstantTorqueMotor, DcMotor, InductionMotor, TableMotor
+from linkwright.kernel.description.base import Checked, Description, Name, close_match, fault, suggestion
+from linkwright.kernel.limits import SAMPLES
+from linkwright.kernel.units import SPEED, TIME, Angle, not_negative, positive
+from linkwright.torsion.model.train_base import PositiveSpeed
+from linkwright.torsion.model.train_event import (
+    AnyTrainEvent,
+    FuelSwitch,
+    Instant,
+    LoadStep,
+    Misfire,
+    MotorSwitch,
+    Share,
+)
+
+if TYPE_CHECKING:
+    from linkwright.torsion.model.train import Train
+
+TrainDrive = Annotated[
+    InductionMotor | DcMotor | TableMotor | ConstantTorqueMotor, Field(discriminator="kind")
+]
+
+
+class TrainMotor(Description):
+    """A motor that drives a disc of a train."""
+
+    on: str = Field(description="The disc, which turns at the speed of the motor.")
+    motor: TrainDrive = Field(
+        description="Its torque over its speed. Its inertia counts with the disc already."
+    )
+    on_at_start: bool = Field(True, description="Whether it drives from the start.")
+
+
+class TrainTransient(Checked):
+    """A manoeuvre: start, stop, change of speed or load, short circuit."""
+
+    duration: Annotated[float, positive(TIME)] = Field(description="Time that is followed.")
+    speed: Annotated[float, not_negative(SPEED)] = Field(
+        0.0, description="Of the first disc at the start; 0 is at rest."
+    )
+    angle: Angle = Field(0.0, description="Of the first disc at the start.")
+    balanced: bool = Field(
+        True,
+        description="Whether mean torques balance at the start, as in steady running. Loads are as given: "
+        "a motor that drives has the speed at which they balance, near that given; the combustion of an "
+        "engine counts as much as they ask for; a train without engine and motor is driven by what they "
+        "need. From rest nothing is balanced.",
+    )
+    loads_follow: bool = Field(
+        False,
+        description="Whether loads are scaled instead, at the speed given, so that mean torques balance.",
+    )
+    loaded: bool = Field(
+        True,
+        description="Whether shafts are twisted by the mean torques at the start. From rest they are not.",
+    )
+    settle: Instant | None = Field(
+        None,
+        description="Time before the start in which it swings in, unrecorded. Without it, 1 s for a motion "
+        "that starts in balance and loaded, else none.",
+    )
+    fuel: Share = Field(1.0, description="Share of the combustion in all cylinders at the start.")
+    gas_speed: PositiveSpeed | None = Field(
+        None,
+        description="At which the gas torques over the crank angle are taken. Without it, the speed of the "
+        "start, or that of service.",
+    )
+    motors: dict[Name, TrainMotor] = Field(default_factory=dict, description="Motors by name.")
+    events: tuple[AnyTrainEvent, ...] = Field((), description="What happens on the way.")
+    sample_time: Annotated[float, positive(TIME)] | None = Field(
+        None, description="Between the samples of the result. Without it, at most 0.5 ms."
+    )
+    loss_mode: Annotated[int, Field(ge=1)] | None = Field(
+        None,
+        description="Mode of vibration in which viscous damping loses what hysteresis would. Without it, for "
+        "each shaft the lowest mode of whose energy it stores a twentieth or more.",
+    )
+    accuracy: Annotated[float, Field(ge=1e-13, le=1e-3)] = Field(1e-8, description="Relative, of a step.")
+    method: Literal["auto", "explicit", "implicit"] = Field(
+        "auto", description="Of integration; implicit steps do not follow the swings of very stiff shafts."
+    )
+    steps_max: int = Field(5_000_000, ge=1, description="Steps after which it is given up.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.sample_time is not None and self.duration / self.sample_time > SAMPLES.most:
+            expected = f"at least {self.duration / SAMPLES.most:.6g} s, for {SAMPLES.most} samples at most"
+            yield fault("sample_time", found=self.sample_time, expected=expected)
+        for n, event in enumerate(self.events):
+            time = getattr(event, "time", 0.0)
+            if time >= self.duration:
+                expected = f"less than the duration, {self.duration:.6g} s"
+                yield fault("events", n, "time", found=time, expected=expected)
+
+
+def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitErrorDetails]:
+    """Faults between a manoeuvre and its train: names that mean nothing.
+
+    Parameters
+    ----------
+    train : Train
+        With a manoeuvre.
+    discs : tuple of str
+        Names of its discs, those of an engine and of dampers as well.
+
+    Yields
+    ------
+    InitErrorDetails
+        Each with its keys from the machine down.
+    """
+    manoeuvre = train.transient
+    if manoeuvre is None:
+        return
+    for name, motor in manoeuvre.motors.items():
+        yield from _unknown(motor.on, discs, "disc", "motors", name, "on")
+    for n, event in enumerate(manoeuvre.events):
+        match event:
+            case LoadStep(load=load):
+                yield from _unknown(load, train.loads, "load", "events", n, "load")
+            case MotorSwitch(motor=name):
+                yield from _unknown(name, manoeuvre.motors, "motor", "events", n, "motor")
+            case Misfire() | FuelSwitch():
+                yield from _engine_faults(train, event, n)
+            case _:
+                yield from _unknown(event.on, discs, "disc", "events", n, "on")
+
+
+def _unknown(name: str, known: Iterable[str], word: str, *place: str | int) -> Iterator[InitErrorDetails]:
+    """The fault of a name that is not known."""
+    listed = tuple(known)
+    if name not in listed:
+        remedy = close_match(name, listed) or suggestion(name, listed) or f"there is no {word}"
+        yield fault("train", "transient", *place, found=name, expected=f"the name of a {word}", remedy=remedy)
+
+
+def _engine_faults(train: Train, event: Misfire | FuelSwitch, n: int) -> Iterator[InitErrorDetails]:
+    """Combustion without an engine, or cylinders that it has not."""
+    place = ("train", "transient", "events", n)
+    if train.engine is None:
+        remedy = "describe it as [train.engine]"
+        yield fault(
+            *place, "kind", found=event.kind, expected="an event of a train with an engine", remedy=remedy
+        )
+    elif isinstance(event, Misfire):
+        cylinders = train.engine.n_cylinders
+        for k, number in enumerate(event.cylinders):
+            if number > cylinders:
+                expected = f"the number of a cylinder, 1 to {cylinders}"
+                yield fault(*place, "cylinders", k, found=number, expected=expected)

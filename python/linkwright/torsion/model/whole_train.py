@@ -1,0 +1,113 @@
+"""A train with all that stands for discs and shafts written out: engine, couplings, dampers, heavy shafts.
+
+An engine is a disc a throw, with the mean of its inertia over the turn, and shafts between them. A coupling
+is a shaft with the slope of its curve without torque; a damper is a disc, its ring, on a shaft without
+stiffness or with that of its spring. A shaft with a density gives its own inertia to the discs at its ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+
+from linkwright.torsion.model.coupling import Coupling
+from linkwright.torsion.model.damper import Damper
+from linkwright.torsion.model.engine.engine import ReciprocatingEngine
+from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, throw_stiffness
+from linkwright.torsion.model.shaft_row import end_inertias
+from linkwright.torsion.model.train import Disc, Shaft, Train
+
+
+def whole_train(train: Train) -> Train:
+    """A train of discs, shafts and gears alone.
+
+    Parameters
+    ----------
+    train : Train
+        With couplings and dampers.
+
+    Returns
+    -------
+    Train
+        Of the same vibration: discs, then rings of dampers; shafts, then couplings, then what holds the
+        rings.
+    """
+    heavy = any(each.density is not None for each in train.shafts.values())
+    if not (train.couplings or train.dampers or train.engine or heavy):
+        return train
+    throws, cranks = ({}, {}) if train.engine is None else _crankshaft(train.engine)
+    rings = {name: Disc(inertia=each.ring_inertia) for name, each in train.dampers.items()}
+    couplings = {name: _coupling(each) for name, each in train.couplings.items()}
+    held = {name: _spring(name, each) for name, each in train.dampers.items()}
+    return train.model_copy(
+        update={
+            "discs": _loaded({**throws, **train.discs, **rings}, train.shafts),
+            "shafts": {**cranks, **_light(train.shafts), **couplings, **held},
+            "engine": None,
+            "couplings": {},
+            "dampers": {},
+        }
+    )
+
+
+def throw_names(throws: int) -> tuple[str, ...]:
+    """Names of the discs that the throws of an engine are."""
+    return tuple(f"throw_{n + 1}" for n in range(throws))
+
+
+def crank_names(throws: int) -> tuple[str, ...]:
+    """Names of the shafts between the throws of an engine."""
+    return tuple(f"crank_{n + 1}" for n in range(throws - 1))
+
+
+def _crankshaft(engine: ReciprocatingEngine) -> tuple[dict[str, Disc], dict[str, Shaft]]:
+    """Throws, and what twists between them."""
+    n = len(engine.throws)
+    disc = Disc(inertia=mean_throw_inertia(engine), damping=engine.damping)
+    names = throw_names(n)
+    stiffness, limit = throw_stiffness(engine) if n > 1 else 0.0, engine.crank_limit
+    shafts = {
+        name: Shaft(between=pair, stiffness=stiffness, loss_factor=engine.loss_factor, limit=limit)
+        for name, pair in zip(crank_names(n), pairwise(names), strict=True)
+    }
+    return dict.fromkeys(names, disc), shafts
+
+
+def _loaded(discs: dict[str, Disc], shafts: Mapping[str, Shaft]) -> dict[str, Disc]:
+    """Discs with the inertia of the shafts between them."""
+    for shaft in shafts.values():
+        if shaft.density is None or shaft.sections is None:
+            continue
+        for name, J in zip(shaft.between, end_inertias(shaft.sections, shaft.density), strict=True):
+            if name in discs:
+                discs[name] = discs[name].model_copy(update={"inertia": discs[name].inertia + J})
+    return discs
+
+
+def _light(shafts: Mapping[str, Shaft]) -> dict[str, Shaft]:
+    """Shafts whose inertia is counted with the discs."""
+    return {
+        name: each if each.density is None else each.model_copy(update={"density": None})
+        for name, each in shafts.items()
+    }
+
+
+def _coupling(coupling: Coupling) -> Shaft:
+    """What a coupling without mean torque does."""
+    return Shaft(
+        between=coupling.between,
+        stiffness=float(coupling.slope()),
+        damping=coupling.damping,
+        loss_factor=coupling.loss_factor,
+    )
+
+
+def _spring(name: str, damper: Damper) -> Shaft:
+    """What joins the ring of a damper with its disc."""
+    # No shaft of a file has the stiffness 0, which a fluid has: unchecked.
+    return Shaft.model_construct(
+        between=(damper.on, name),
+        stiffness=damper.stiffness or 0.0,
+        damping=damper.damping,
+        loss_factor=damper.loss_factor,
+    )

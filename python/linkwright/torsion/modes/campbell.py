@@ -1,0 +1,268 @@
+r"""Campbell's diagram of a train: natural frequencies over the speed, and where orders meet them.
+
+The order ν excites the mode n at the speed
+
+.. math:: \Omega = \omega_n/\nu
+
+which is *critical*. How severe it is follows from the work of the torques in the mode, with θ its shape of
+largest amplitude 1: the vector sum :math:`|\sum M_\nu\theta|`, the amplitude that it would have if it acted
+slowly, and that of resonance, which damping limits,
+
+.. math:: \theta_{st} = \frac{|\sum M_\nu \theta|}{\omega_n^2 \sum J\theta^2}, \qquad
+    \theta_{res} = \frac{\theta_{st}}{2\zeta_n}, \qquad
+    \zeta_n = \frac{\omega_n\,\theta^T C\theta + \theta^T H\theta}{2\,\omega_n^2 \sum J\theta^2}
+
+The ratio :math:`\zeta_n` is that of light damping, and other modes are left out; forced vibration has both.
+
+References
+----------
+.. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963: vector sums, equilibrium
+amplitude.
+.. [2] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.5: work of an engine's torques in a mode.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import COUNT, RATIO, SPEED, not_negative, positive
+from linkwright.machine.machine import Machine
+from linkwright.torsion.modes.free import FreeVibration
+from linkwright.torsion.modes.modes_over_speed import ModesAt, constant, over_speed
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+# Secant steps to a critical speed: from neighbours on a grid, or exact where frequencies do not change.
+_STEPS = 8
+
+# Speeds that differ by a smaller share are one.
+_EQUAL = 1e-12
+
+
+class CriticalSpeed(NamedTuple):
+    """A speed at which an order meets a natural frequency.
+
+    Attributes
+    ----------
+    speed : float
+        Of the first disc [rad/s].
+    order : float
+        Waves a turn of the first disc.
+    mode : int
+        Row of `FreeVibration`.
+    frequency : float
+        [Hz].
+    vector_sum : float or None
+        |Σ Mθ|; None where torques are not known [N m].
+    equilibrium_amplitude : float or None
+        At the disc of largest amplitude [rad].
+    damping_ratio : float or None
+        ζ of the mode; None where it is not known.
+    resonance_amplitude : float or None
+        At the disc of largest amplitude; infinite without damping [rad].
+    """
+
+    speed: float
+    order: float
+    mode: int
+    frequency: float
+    vector_sum: float | None
+    equilibrium_amplitude: float | None
+    damping_ratio: float | None
+    resonance_amplitude: float | None
+
+
+@dataclass(frozen=True)
+class CampbellDiagram(Result):
+    """Natural frequencies over the speed, and critical speeds.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (speeds,)
+        Of the first disc, from the lowest to the highest [rad/s].
+    frequencies : ndarray, shape (modes, speeds)
+        Natural frequencies, one row a mode, also those of zero [Hz].
+    orders : ndarray, shape (orders,)
+        Waves a turn of the first disc.
+    critical : tuple of CriticalSpeed
+        In the range, by speed.
+    """
+
+    speeds: Floats
+    frequencies: Floats
+    orders: Floats
+    critical: tuple[CriticalSpeed, ...]
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Critical speeds by name, with ``curves`` also the arrays as lists.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether arrays are included.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and lists, ready for JSON.
+        """
+        found = super().to_dict(curves=curves)
+        return found | {"critical": [each._asdict() for each in self.critical]}
+
+
+@public
+def campbell(
+    source: Machine | FreeVibration,
+    orders: Sequence[float] | Floats | None = None,
+    speed_range: tuple[float, float] | None = None,
+    *,
+    excitation: Complexes | None = None,
+    damping_ratios: float | Floats | None = None,
+) -> CampbellDiagram:
+    """Critical speeds of a train.
+
+    Parameters
+    ----------
+    source : Machine or FreeVibration
+        A machine with a train, or its free vibration.
+    orders : sequence of float, optional
+        Waves a turn of the first disc; without them, those of the torques of the machine.
+    speed_range : tuple of float, optional
+        Lowest and highest speed of the first disc; without it, that of `[train.run]` [rad/s].
+    excitation : ndarray of complex, shape (orders, discs), optional
+        M_ν on each disc; without it, the torques of the machine at the critical speed [N m].
+    damping_ratios : float or ndarray, shape (modes,), optional
+        ζ; without it, that of the damping of the machine.
+
+    Returns
+    -------
+    CampbellDiagram
+        Frequencies and critical speeds. Of a machine, couplings have the slope at their mean torque, so that
+        frequencies may change with the speed.
+
+    Raises
+    ------
+    InputError
+        Orders or speeds are missing or none above zero, or arrays have another shape.
+    """
+    modes = over_speed(source) if isinstance(source, Machine) else constant(source)
+    speeds = modes.grid(_range(speed_range))
+    omega = modes.frequencies(speeds)
+    listed = _orders(modes.orders(speeds) if orders is None else np.asarray(orders, float))
+    if excitation is not None and np.shape(excitation) != (len(listed), len(modes.discs)):
+        wanted = f"({len(listed)}, {len(modes.discs)}), a row an order, a column a disc"
+        raise InputError(f"excitation: found an array of shape {np.shape(excitation)}, expected {wanted}")
+    at, mode, order = _crossings(modes, speeds, omega, listed)
+    ratios = _ratios(damping_ratios, omega.shape[1])
+    given = None if excitation is None else np.asarray(excitation, complex)[order]
+    critical = _judged(modes, at, mode, listed[order], given, ratios)
+    return CampbellDiagram(
+        speeds=speeds, frequencies=omega.T / (2 * math.pi), orders=listed, critical=tuple(sorted(critical))
+    )
+
+
+def _range(given: tuple[float, float] | None) -> tuple[float, float] | None:
+    """Two speeds, checked."""
+    in_range(speed_range=(given, positive(SPEED)))
+    if given is not None and not given[0] < given[1]:
+        found = f"{given[0]:g} to {given[1]:g} rad/s"
+        raise InputError(f"speed_range: found {found}, expected two speeds above 0, the lower one first")
+    return given
+
+
+def _orders(orders: Floats) -> Floats:
+    """Orders, checked."""
+    in_range(orders=(orders, positive(COUNT)))
+    if orders.ndim != 1 or not len(orders):
+        raise InputError(f"orders: found {orders.tolist()}, expected a list of numbers above 0")
+    return orders
+
+
+def _ratios(given: float | Floats | None, modes: int) -> Floats | None:
+    """A ζ for every mode, checked."""
+    if given is None:
+        return None
+    in_range(damping_ratios=(given, not_negative(RATIO)))
+    ratios = np.asarray(given, float)
+    if ratios.shape not in ((), (modes,)):
+        raise InputError(f"damping_ratios: found {ratios.tolist()}, expected one number, or {modes}")
+    return np.broadcast_to(ratios, modes)
+
+
+def _crossings(
+    modes: ModesAt, speeds: Floats, omega: Floats, orders: Floats
+) -> tuple[Floats, NDArray[np.intp], NDArray[np.intp]]:
+    """Speeds at which ω_n − νΩ is zero, with mode and order."""
+    gap = omega[:, :, None] - speeds[:, None, None] * orders
+    above = np.greater(gap, 0.0)
+    crossed = np.not_equal(above[:-1], above[1:])
+    # A zero at the end of a step belongs to that step, one at the lowest speed to the first.
+    crossed[0] |= gap[0] == 0
+    step, mode, order = np.nonzero(crossed & np.greater(omega.min(axis=0), 0.0)[:, None])
+    low, high = speeds[step], speeds[step + 1]
+    f, g = gap[step, mode, order], gap[step + 1, mode, order]
+    at = low + (high - low) * f / (f - g)
+    rows = np.arange(len(at))
+    for _ in range(_STEPS if len(at) else 0):
+        here = modes.frequencies(at)[rows, mode] - orders[order] * at
+        if (np.abs(here) <= _EQUAL * orders[order] * at).all():
+            break
+        before = (here > 0) == (f > 0)
+        low, f = np.where(before, at, low), np.where(before, here, f)
+        high, g = np.where(before, high, at), np.where(before, g, here)
+        at = low + (high - low) * f / (f - g)
+    return at, mode, order
+
+
+def _judged(
+    modes: ModesAt,
+    at: Floats,
+    mode: NDArray[np.intp],
+    orders: Floats,
+    given: Complexes | None,
+    ratios: Floats | None,
+) -> list[CriticalSpeed]:
+    """Critical speeds with how severe they are, under given torques (n, discs) or those of the machine."""
+    if not len(at):
+        return []
+    found = modes.shapes(at, mode)
+    torques = modes.torques(at, orders) if given is None else given
+    work = None if torques is None else np.abs((torques * found.shapes).sum(axis=1))
+    zeta = found.damping_ratios if ratios is None else ratios[mode]
+    listed = []
+    for n, (speed, ν, k) in enumerate(zip(at.tolist(), orders.tolist(), mode.tolist(), strict=True)):
+        static = None if work is None else float(work[n] / found.stiffness[n])
+        ratio = None if zeta is None else float(zeta[n])
+        listed.append(
+            CriticalSpeed(
+                speed=speed,
+                order=ν,
+                mode=k,
+                frequency=float(found.omega[n]) / (2 * math.pi),
+                vector_sum=None if work is None else float(work[n]),
+                equilibrium_amplitude=static,
+                damping_ratio=ratio,
+                resonance_amplitude=_resonance(static, ratio),
+            )
+        )
+    return listed
+
+
+def _resonance(static: float | None, ratio: float | None) -> float | None:
+    """Amplitude that damping allows."""
+    if static is None or ratio is None:
+        return None
+    if ratio == 0:
+        return math.inf if static else 0.0
+    return static / (2 * ratio)

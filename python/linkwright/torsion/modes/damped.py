@@ -1,0 +1,202 @@
+r"""Free vibration of a train with damping: how fast each mode dies out.
+
+With viscous damping C and hysteresis, the complex stiffness :math:`k (1 + i\eta)` of shafts, all is left to
+itself as :math:`\theta e^{st}` with
+
+.. math:: (s^2 J + s C + K + iH)\,\theta = 0, \qquad s = -\sigma \pm i\omega_d
+
+Hysteresis is defined for vibration alone: H counts with the sign of :math:`\omega_d`, so that of each pair
+the solution with :math:`\omega_d > 0` is taken, and motion without vibration (real s) feels C only. Without
+C this is :math:`(K + iH)\,\theta = \omega^{*2} J\,\theta` with :math:`s = i\omega^*`.
+
+The equation times :math:`\bar\theta^T` says, by its imaginary part, what each part damps,
+
+.. math:: 2\sigma \sum J|\theta|^2 = \sum c|\Delta|^2 + \sum c_0|\theta|^2 + \sum \eta k|\Delta|^2/\omega_d
+
+References
+----------
+.. [1] Friswell, Penny, Garvey and Lees, Dynamics of Rotating Machines, 2010, chapters 5 and 9.
+.. [2] Tisseur and Meerbergen, The quadratic eigenvalue problem, SIAM Review 43 (2001) 235-286.
+.. [3] Ewins, Modal Testing: Theory, Practice and Application, 2nd ed. 2000, chapter 2: hysteretic damping.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import SPEED, positive
+from linkwright.machine.machine import Machine
+from linkwright.torsion.core.train import ReferredTrain, refer
+from linkwright.torsion.modes.damped_modes import damped_modes
+from linkwright.torsion.modes.free import lead_speeds, train_of, twists_of
+from linkwright.torsion.response.excited import prepared
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class DampedVibration(Result):
+    """Free vibration of a train with damping, one row a mode.
+
+    Modes come by their natural frequency: the motions as a whole first; then those that vibrate and, a row
+    each, motions that creep back without vibration.
+
+    Attributes
+    ----------
+    natural_frequencies : ndarray, shape (modes,)
+        |s|/2π; of a motion that creeps σ/2π [Hz].
+    eigenvalues : ndarray of complex, shape (modes,)
+        s with an imaginary part of zero or more [1/s].
+    discs : tuple of str
+        In the order of the file.
+    mode_shapes : ndarray of complex, shape (modes, discs)
+        θ. The largest is 1; of several, the first in the file.
+    shafts : tuple of str
+        Shafts, then elastic meshes, in the order of the file.
+    shaft_shares : ndarray, shape (modes, shafts)
+        Of the damping σ; zero where there is none.
+    disc_shares : ndarray, shape (modes, discs)
+        Likewise of the damping of discs from outside.
+    """
+
+    natural_frequencies: Floats
+    eigenvalues: Complexes
+    discs: tuple[str, ...]
+    mode_shapes: Complexes
+    shafts: tuple[str, ...]
+    shaft_shares: Floats
+    disc_shares: Floats
+
+    @property
+    def damped_frequencies(self) -> Floats:
+        """ω_d/2π, (modes,) [Hz]."""
+        frequencies: Floats = self.eigenvalues.imag / (2 * math.pi)
+        return frequencies
+
+    @property
+    def decay_rates(self) -> Floats:
+        """σ, (modes,) [1/s]."""
+        rates: Floats = -self.eigenvalues.real
+        return rates
+
+    @property
+    def damping_ratios(self) -> Floats:
+        """ζ = σ/|s|, (modes,): 1 without vibration, 0 for a motion as a whole."""
+        size = np.abs(self.eigenvalues)
+        return np.divide(self.decay_rates, size, out=np.zeros_like(size), where=size > 0)
+
+    @property
+    def logarithmic_decrements(self) -> Floats:
+        """2πσ/ω_d, (modes,): of two amplitudes a period apart; infinite without vibration."""
+        omega, sigma = self.eigenvalues.imag, 2 * math.pi * self.decay_rates
+        without = np.where(sigma == 0, 0.0, np.inf)
+        return np.divide(sigma, omega, out=without, where=omega > 0)
+
+    @property
+    def amplitudes(self) -> Floats:
+        """|θ|, (modes, discs)."""
+        return np.abs(self.mode_shapes)
+
+    @property
+    def phases(self) -> Floats:
+        """Lead of each disc before the one of the largest amplitude, (modes, discs), −π to π [rad]."""
+        return np.angle(self.mode_shapes)
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Scalars and tables by name, with ``curves`` also the arrays as lists; complex ones as their parts.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether arrays are included.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and lists, ready for JSON.
+        """
+        found = super().to_dict(curves=curves)
+        return {name: each for name, each in found.items() if name not in ("eigenvalues", "mode_shapes")}
+
+
+@public
+def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibration:
+    """Free vibration of a train with damping.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train], or a [drive] that twists.
+    speed : float, optional
+        Of the first disc, at which the train runs: it sets the damping of loads, and the slope of couplings
+        under their mean torque. Without it, the train stands still without torque [rad/s].
+
+    Returns
+    -------
+    DampedVibration
+        All modes.
+
+    Raises
+    ------
+    InputError
+        The machine has no train, or the speed is none above zero.
+    """
+    in_range(speed=(speed, positive(SPEED)))
+    referred, disc_damping = _at(machine, speed)
+    eigenvalues, masses = damped_modes(referred)
+    shapes = _scaled(referred.speed * masses[:, referred.mass])
+    own = np.array([disc.inertia for disc in train_of(machine).discs.values()])
+    inertia = 2 * (own * np.abs(shapes) ** 2).sum(axis=1)
+    shafts, discs = _damping(referred, disc_damping, shapes, eigenvalues.imag)
+    # Divided by their own sum, which σ is but for rounding.
+    whole = (shafts.sum(axis=1) + discs.sum(axis=1))[:, None]
+    damped = (-eigenvalues.real * inertia)[:, None] > 0
+    whole = np.where(damped & (whole > 0), whole, np.inf)
+    return DampedVibration(
+        natural_frequencies=np.abs(eigenvalues) / (2 * math.pi),
+        eigenvalues=eigenvalues,
+        discs=referred.discs,
+        mode_shapes=shapes,
+        shafts=referred.shafts,
+        shaft_shares=shafts / whole,
+        disc_shares=discs / whole,
+    )
+
+
+def _at(machine: Machine, speed: float | None) -> tuple[ReferredTrain, Floats]:
+    """The train at a speed, and the damping of its discs at their own [N m s/rad]."""
+    if speed is None:
+        train = train_of(machine)
+        return refer(train), np.array([disc.damping for disc in train.discs.values()])
+    at = prepared(machine, np.array([speed]))
+    stiffness, damping = at.operating.stiffness[:, 0], at.operating.disc_damping[:, 0]
+    return replace(at.referred, stiffness=stiffness, disc_damping=damping), at.disc_damping[:, 0]
+
+
+def _damping(
+    referred: ReferredTrain, disc_damping: Floats, shapes: Complexes, omega: Floats
+) -> tuple[Floats, Floats]:
+    """What shafts and discs add to 2σ Σ J|θ|², (modes, shafts) and (modes, discs)."""
+    twists = twists_of(referred, shapes.real) + 1j * twists_of(referred, shapes.imag)
+    square = np.abs(twists) ** 2 / lead_speeds(referred) ** 2
+    loss = referred.loss_factor * referred.stiffness
+    hysteresis = np.divide(loss, omega[:, None], out=np.zeros(square.shape), where=omega[:, None] > 0)
+    return (referred.damping + hysteresis) * square, disc_damping * np.abs(shapes) ** 2
+
+
+def _scaled(shapes: Complexes) -> Complexes:
+    """Rows whose largest entry is 1, without phase."""
+    size = np.abs(shapes)
+    # Of entries that are equal but for rounding the first counts.
+    largest = np.argmax(size > (1 - 1e-9) * size.max(axis=1, keepdims=True), axis=1)
+    scaled: Complexes = shapes / shapes[np.arange(len(shapes)), largest][:, None]
+    return scaled

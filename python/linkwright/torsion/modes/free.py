@@ -1,0 +1,281 @@
+r"""Free vibration of a train without damping: natural frequencies, mode shapes, nodes, energy.
+
+With the angles θ of the discs, J their inertias and K the stiffness of the shafts,
+
+.. math:: (K - \omega^2 J)\,\theta = 0
+
+In a mode, disc d has the share :math:`J_d\theta_d^2/\sum J\theta^2` of the kinetic and shaft s the share
+:math:`k_s\Delta_s^2/\sum k\Delta^2` of the potential energy, Δ its twist. By Rayleigh's quotient these are
+also how much the frequency follows a change of a part,
+
+.. math:: \frac{\partial\ln\omega^2}{\partial\ln k_s} = \frac{k_s\Delta_s^2}{\sum k\Delta^2}, \qquad
+    \frac{\partial\ln\omega^2}{\partial\ln J_d} = -\frac{J_d\theta_d^2}{\sum J\theta^2}
+
+for a frequency that stands alone.
+
+References
+----------
+.. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, sections 4.9 and 5.1 to 5.4.
+.. [2] Fox and Kapoor, Rates of change of eigenvalues and eigenvectors, AIAA J. 6 (1968) 2426-2429.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.torsion.core.train import HELD, ReferredTrain, refer
+from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.whole_train import whole_train
+from linkwright.torsion.response.drive_line import drive_line
+
+Floats = NDArray[np.float64]
+
+# Share of the largest amplitude below which a disc is at rest: rounding of a mode leaves less.
+_AT_REST = 1e-9
+
+
+class Node(NamedTuple):
+    """A place that is at rest in a mode.
+
+    Attributes
+    ----------
+    at : str
+        Shaft, elastic mesh or disc.
+    share : float
+        Of the twist of the shaft from its first end to the node, 0 to 1; 0 for a disc.
+    distance : float or None
+        From the first end of a shaft of sections [m].
+    """
+
+    at: str
+    share: float
+    distance: float | None
+
+
+@dataclass(frozen=True)
+class FreeVibration(Result):
+    """Free vibration of a train, one row a mode.
+
+    Attributes
+    ----------
+    natural_frequencies : ndarray, shape (modes,)
+        Increasing; zero for the motion of a free train as a whole [Hz].
+    discs : tuple of str
+        In the order of the file.
+    mode_shapes : ndarray, shape (modes, discs)
+        Amplitudes. The largest is 1; of several, the first in the file. Each disc counts in the sense in
+        which it turns with the train.
+    shafts : tuple of str
+        Shafts, then elastic meshes, in the order of the file.
+    twists : ndarray, shape (modes, shafts)
+        Angle of the first end less that of the second; of a mesh, as angle of its first disc [rad per unit
+        of amplitude].
+    nodes : tuple of tuple of Node
+        Places at rest, in each mode; the ground is none.
+    kinetic_shares : ndarray, shape (modes, discs)
+        Of the kinetic energy; less their sign the sensitivities of ω² to the inertias.
+    potential_shares : ndarray, shape (modes, shafts)
+        Of the potential energy, which are the sensitivities of ω² to the stiffnesses; zero where ω = 0.
+    modal_inertia : ndarray, shape (modes,)
+        Σ J θ² [kg m²].
+    joined : tuple of tuple of str
+        The two ends of every shaft and gear stage.
+    """
+
+    natural_frequencies: Floats
+    discs: tuple[str, ...]
+    mode_shapes: Floats
+    shafts: tuple[str, ...]
+    twists: Floats
+    nodes: tuple[tuple[Node, ...], ...]
+    kinetic_shares: Floats
+    potential_shares: Floats
+    modal_inertia: Floats
+    joined: tuple[tuple[str, str], ...]
+
+    @property
+    def angular_frequencies(self) -> Floats:
+        """ω [rad/s]."""
+        return 2 * math.pi * self.natural_frequencies
+
+    @property
+    def modal_stiffness(self) -> Floats:
+        """ω² Σ J θ² [N m/rad]."""
+        return self.angular_frequencies**2 * self.modal_inertia
+
+    @property
+    def sensitivity_to_stiffness(self) -> Floats:
+        """∂ln ω²/∂ln k, (modes, shafts)."""
+        return self.potential_shares
+
+    @property
+    def sensitivity_to_inertia(self) -> Floats:
+        """∂ln ω²/∂ln J, (modes, discs); zero where ω = 0."""
+        return np.where(self.natural_frequencies[:, None] > 0, -self.kinetic_shares, 0.0)
+
+
+@public
+def free_vibration(machine: Machine) -> FreeVibration:
+    """Natural frequencies and mode shapes of a train.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train], or a [drive] that twists.
+
+    Returns
+    -------
+    FreeVibration
+        All modes.
+
+    Raises
+    ------
+    InputError
+        The machine has no train.
+    AssemblyError
+        The mechanism behind the drive line does not close all round.
+
+    References
+    ----------
+    .. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, chapter 5.
+    """
+    train = train_of(machine)
+    referred = refer(train)
+    omega, masses = referred.modes()
+    shapes = _scaled(referred.speed * masses[:, referred.mass])
+    J = np.array([disc.inertia for disc in train.discs.values()])
+    twists = twists_of(referred, shapes)
+    kinetic, potential = J * shapes**2, own_stiffness(referred) * twists**2
+    moving = omega[:, None] > 0
+    total = np.where(moving, potential.sum(axis=1, keepdims=True), 1.0)
+    return FreeVibration(
+        natural_frequencies=omega / (2 * math.pi),
+        discs=referred.discs,
+        mode_shapes=shapes,
+        shafts=referred.shafts,
+        twists=twists,
+        nodes=tuple(tuple(_nodes(train, referred, shape)) for shape in shapes),
+        kinetic_shares=kinetic / kinetic.sum(axis=1, keepdims=True),
+        potential_shares=np.where(moving, potential, 0.0) / total,
+        modal_inertia=kinetic.sum(axis=1),
+        joined=tuple(each.between for table in (train.shafts, train.gears) for each in table.values()),
+    )
+
+
+def train_of(machine: Machine) -> Train:
+    """The train of a machine, as discs, shafts and gears: that of its file, or that of its drive line.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    Train
+        Its train, with couplings and dampers as discs and shafts.
+
+    Raises
+    ------
+    InputError
+        It has none, and its drive line does not twist.
+    AssemblyError
+        The mechanism behind the drive line does not close all round.
+    """
+    return whole_train(drive_line(machine) if machine.train is None else machine.train)
+
+
+def twists_of(referred: ReferredTrain, amplitudes: Floats) -> Floats:
+    """Twist of each shaft, counted at its first end, from the amplitudes of the discs.
+
+    Parameters
+    ----------
+    referred : ReferredTrain
+        The train.
+    amplitudes : ndarray, shape (n, discs)
+        Angles of the discs [rad].
+
+    Returns
+    -------
+    ndarray, shape (n, shafts)
+        Angle of the first end less that of the second [rad].
+    """
+    first, second = _at_ends(referred, amplitudes)
+    twists: Floats = first - second
+    return twists
+
+
+def own_stiffness(referred: ReferredTrain) -> Floats:
+    """Stiffness of each shaft at its own speed, of a mesh at its first disc.
+
+    Parameters
+    ----------
+    referred : ReferredTrain
+        The train.
+
+    Returns
+    -------
+    ndarray, shape (shafts,)
+        As in the file [N m/rad].
+    """
+    own: Floats = referred.stiffness / lead_speeds(referred) ** 2
+    return own
+
+
+def lead_speeds(referred: ReferredTrain) -> Floats:
+    """Speed of the end of each shaft where its twist counts.
+
+    Parameters
+    ----------
+    referred : ReferredTrain
+        The train.
+
+    Returns
+    -------
+    ndarray, shape (shafts,)
+        Over that of the first disc.
+    """
+    first, second = referred.tip.T
+    speed: Floats = referred.speed[np.where(first == HELD, second, first)]
+    return speed
+
+
+def _at_ends(referred: ReferredTrain, amplitudes: Floats) -> tuple[Floats, Floats]:
+    """Angles of both ends of each shaft, that of the second disc of a mesh as seen from the first."""
+    # The ground is a last disc that stands still, HELD = −1.
+    angles = np.concatenate([amplitudes, np.zeros((*amplitudes.shape[:-1], 1))], axis=-1)
+    speed = np.append(referred.speed, 1.0)
+    first, second = referred.tip.T
+    lead = lead_speeds(referred)
+    return angles[..., first], angles[..., second] * np.where(second == HELD, 1.0, lead / speed[second])
+
+
+def _scaled(shapes: Floats) -> Floats:
+    """Rows whose largest entry is 1."""
+    size = np.abs(shapes)
+    # Of entries that are equal but for rounding the first counts.
+    largest = np.argmax(size > (1 - 1e-9) * size.max(axis=1, keepdims=True), axis=1)
+    scaled: Floats = shapes / shapes[np.arange(len(shapes)), largest][:, None]
+    return scaled
+
+
+def _nodes(train: Train, referred: ReferredTrain, shape: Floats) -> Iterator[Node]:
+    """Places at rest: discs, and places between ends that swing against each other."""
+    for name, amplitude in zip(referred.discs, shape, strict=True):
+        if abs(amplitude) < _AT_REST:
+            yield Node(name, 0.0, None)
+    first, second = _at_ends(referred, shape)
+    for name, a, b in zip(referred.shafts, first.tolist(), second.tolist(), strict=True):
+        if a * b < 0 and min(abs(a), abs(b)) >= _AT_REST:
+            share = a / (a - b)
+            shaft = train.shafts.get(name)
+            yield Node(name, share, shaft.distance(share) if shaft is not None else None)

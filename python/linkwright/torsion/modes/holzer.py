@@ -1,0 +1,169 @@
+r"""Holzer's table of a train at any frequency.
+
+Every disc is carried through the angle θ at the frequency ω; all are in equilibrium but one, which needs an
+external torque, the *residual*:
+
+.. math:: (K - \omega^2 J)\,\theta = -e_r M_r, \qquad \theta_1 = 1
+
+For a free chain that is the sum of all :math:`J\omega^2\theta` at its end. A natural frequency is where it is
+zero.
+
+References
+----------
+.. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.4.
+.. [2] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 4: branched
+trains.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import FREQUENCY, not_negative
+from linkwright.machine.machine import Machine
+from linkwright.torsion.core.train import ReferredTrain, refer
+from linkwright.torsion.model.train import Train
+from linkwright.torsion.modes.free import own_stiffness, train_of, twists_of
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class HolzerTable(Result):
+    """The state of a train that swings at one frequency.
+
+    Attributes
+    ----------
+    frequency : float
+        [Hz].
+    discs : tuple of str
+        In the order of the file.
+    inertia : ndarray, shape (discs,)
+        J [kg m²].
+    inertia_squared : ndarray, shape (discs,)
+        J ω² [N m/rad].
+    amplitude : ndarray, shape (discs,)
+        θ, 1 at the first disc [rad].
+    torque : ndarray, shape (discs,)
+        J ω² θ, at the speed of the disc [N m].
+    shafts : tuple of str
+        Shafts, then elastic meshes.
+    stiffness : ndarray, shape (shafts,)
+        k [N m/rad].
+    twist : ndarray, shape (shafts,)
+        Angle of the first end less that of the second [rad].
+    shaft_torque : ndarray, shape (shafts,)
+        k times the twist: in a chain the sum of all torques before it [N m].
+    end : str
+        Disc that is not in equilibrium.
+    residual_torque : float
+        What is left over there: zero at a natural frequency [N m].
+    """
+
+    frequency: float
+    discs: tuple[str, ...]
+    inertia: Floats
+    inertia_squared: Floats
+    amplitude: Floats
+    torque: Floats
+    shafts: tuple[str, ...]
+    stiffness: Floats
+    twist: Floats
+    shaft_torque: Floats
+    end: str
+    residual_torque: float
+
+
+@public
+def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) -> HolzerTable:
+    """Holzer's table of a train.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train].
+    frequency : float
+        At which it swings [Hz].
+    end : str, optional
+        Disc where the residual is; without it, the last of the file.
+
+    Returns
+    -------
+    HolzerTable
+        Amplitudes and torques.
+
+    Raises
+    ------
+    InputError
+        The machine has no train, the frequency is negative, or there is no such disc.
+    FindingError
+        The first disc is at rest at this frequency whatever acts on the end.
+
+    References
+    ----------
+    .. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.4.
+    """
+    train = train_of(machine)
+    in_range(frequency=(frequency, not_negative(FREQUENCY)))
+    end = _last(train) if end is None else end
+    if end not in train.discs:
+        remedy = suggestion(end, train.discs)
+        raise InputError(
+            f'end: found "{end}", expected the name of a disc' + (f"; {remedy}" if remedy else "")
+        )
+    referred, omega = refer(train), 2 * math.pi * frequency
+    last = referred.discs.index(end)
+    q, residual = _state(referred, omega**2, int(referred.mass[last]))
+    theta = referred.speed * q[referred.mass]
+    J = np.array([disc.inertia for disc in train.discs.values()])
+    k, twist = own_stiffness(referred), twists_of(referred, theta)
+    return HolzerTable(
+        frequency=float(frequency),
+        discs=referred.discs,
+        inertia=J,
+        inertia_squared=J * omega**2,
+        amplitude=theta,
+        torque=J * omega**2 * theta,
+        shafts=referred.shafts,
+        stiffness=k,
+        twist=twist,
+        shaft_torque=k * twist,
+        end=end,
+        residual_torque=residual / float(referred.speed[last]),
+    )
+
+
+def _last(train: Train) -> str:
+    """The last disc of a file; rings that only a fluid holds do not count, none follows from them."""
+    loose = {end for shaft in train.shafts.values() if shaft.stiffness == 0 for end in shaft.between[1:]}
+    return [name for name in train.discs if name not in loose][-1]
+
+
+def _state(referred: ReferredTrain, square: float, end: int) -> tuple[Floats, float]:
+    """Angles of the masses, 1 at the first, and the residual torque at one of them."""
+    dynamic = referred.stiffness_matrix - square * np.diag(referred.inertia)
+    # The first angle is known, and the residual takes its column.
+    system = dynamic.copy()
+    scale = float(np.abs(dynamic).max()) or 1.0
+    system[:, 0] = 0.0
+    system[end, 0] = scale
+    # Rows are brought to one size, so that what is solved does not depend on units.
+    size = np.abs(system).max(axis=1)
+    if not size.all() or 1 / np.linalg.cond(system / size[:, None]) < 1e-13:
+        raise FindingError(
+            f"at {math.sqrt(square) / (2 * math.pi):.6g} Hz the first disc is at rest whatever acts on the "
+            "end; take another end"
+        )
+    found: Floats = np.asarray(np.linalg.solve(system, -dynamic[:, 0]), dtype=float)
+    residual = float(found[0]) * scale
+    found[0] = 1.0
+    return found, residual

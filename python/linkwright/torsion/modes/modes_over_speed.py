@@ -1,0 +1,205 @@
+"""Modes of a train at any speed: those of a machine, whose couplings stiffen under torque, or given ones."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.machine.machine import Machine
+from linkwright.torsion.core.train import ReferredTrain
+from linkwright.torsion.modes.free import FreeVibration, train_of
+from linkwright.torsion.response.excited import Excited, prepared
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Indices = NDArray[np.intp]
+
+# Orders that differ by a smaller share are one but for rounding of ratios.
+_EQUAL = 1e-9
+
+
+@dataclass(frozen=True)
+class Shapes:
+    """Modes, each at a speed of its own.
+
+    Attributes
+    ----------
+    omega : ndarray, shape (n,)
+        ω [rad/s].
+    shapes : ndarray, shape (n, discs)
+        θ, the largest 1 or −1.
+    stiffness : ndarray, shape (n,)
+        ω² Σ J θ² [N m/rad].
+    damping_ratios : ndarray, shape (n,), or None
+        ζ of light damping; None where damping is not known.
+    """
+
+    omega: Floats
+    shapes: Floats
+    stiffness: Floats
+    damping_ratios: Floats | None
+
+
+class ModesAt(ABC):
+    """Modes of a train at any speed."""
+
+    @property
+    @abstractmethod
+    def discs(self) -> tuple[str, ...]:
+        """In the order of the file."""
+
+    @abstractmethod
+    def grid(self, ends: tuple[float, float] | None) -> Floats:
+        """Speeds between which frequencies are nearly straight, in a range or that of the file [rad/s]."""
+
+    @abstractmethod
+    def frequencies(self, speeds: Floats) -> Floats:
+        """ω of all modes, (speeds, modes) [rad/s]."""
+
+    @abstractmethod
+    def shapes(self, speeds: Floats, modes: Indices) -> Shapes:
+        """A mode at each speed."""
+
+    @abstractmethod
+    def orders(self, speeds: Floats) -> Floats:
+        """Orders of the torques, (orders,)."""
+
+    @abstractmethod
+    def torques(self, speeds: Floats, orders: Floats) -> Complexes | None:
+        """M of an order at each speed, (speeds, discs) [N m]; None where they are not known."""
+
+
+def constant(free: FreeVibration) -> ModesAt:
+    """The same modes at all speeds.
+
+    Parameters
+    ----------
+    free : FreeVibration
+        The modes.
+    """
+    return _Constant(free)
+
+
+def over_speed(machine: Machine) -> ModesAt:
+    """Modes of a machine.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train], or a [drive] that twists.
+    """
+    return _OfMachine(machine)
+
+
+@dataclass(frozen=True)
+class _Constant(ModesAt):
+    """Given modes."""
+
+    free: FreeVibration
+
+    @property
+    def discs(self) -> tuple[str, ...]:
+        return self.free.discs
+
+    def grid(self, ends: tuple[float, float] | None) -> Floats:
+        if ends is None:
+            raise InputError(
+                "speed_range: expected the lowest and the highest speed of the first disc, in rad/s"
+            )
+        return np.array(ends)
+
+    def frequencies(self, speeds: Floats) -> Floats:
+        return np.tile(self.free.angular_frequencies, (len(speeds), 1))
+
+    def shapes(self, speeds: Floats, modes: Indices) -> Shapes:
+        free = self.free
+        return Shapes(
+            free.angular_frequencies[modes], free.mode_shapes[modes], free.modal_stiffness[modes], None
+        )
+
+    def orders(self, speeds: Floats) -> Floats:
+        raise InputError("orders: expected a list of orders, waves a turn of the first disc")
+
+    def torques(self, speeds: Floats, orders: Floats) -> Complexes | None:
+        return None
+
+
+class _OfMachine(ModesAt):
+    """Modes of a machine."""
+
+    def __init__(self, machine: Machine) -> None:
+        self.machine = machine
+        # At the speeds that were asked for last: frequencies, shapes and torques of the same follow.
+        self._last: Excited | None = None
+
+    @cached_property
+    def _curved(self) -> bool:
+        """Whether couplings change their stiffness under torque."""
+        train = self.machine.train
+        return train is not None and any(each.twist is not None for each in train.couplings.values())
+
+    @cached_property
+    def discs(self) -> tuple[str, ...]:
+        return tuple(train_of(self.machine).discs)
+
+    def grid(self, ends: tuple[float, float] | None) -> Floats:
+        every = prepared(self.machine).torques.speeds if ends is None else np.linspace(*ends, 200)
+        every = np.sort(every)
+        return every if self._curved else every[[0, -1]]
+
+    def frequencies(self, speeds: Floats) -> Floats:
+        at = self._at(speeds)
+        columns, place = np.unique(at.operating.stiffness, axis=1, return_inverse=True)
+        omega = [_train(at, column).modes()[0] for column in columns.T]
+        return np.array(omega)[place.ravel()]
+
+    def shapes(self, speeds: Floats, modes: Indices) -> Shapes:
+        at = self._at(speeds)
+        each = [self._shape(at, n, mode) for n, mode in enumerate(modes.tolist())]
+        omega, shapes, stiffness, ratios = (np.array(column) for column in zip(*each, strict=True))
+        return Shapes(omega, shapes, stiffness, ratios)
+
+    def _shape(self, at: Excited, n: int, mode: int) -> tuple[float, Floats, float, float]:
+        """ω, θ, modal stiffness and ζ of a mode at a speed."""
+        train = _train(at, at.operating.stiffness[:, n], at.operating.disc_damping[:, n])
+        omega, masses = train.modes()
+        q, ω = masses[mode], float(omega[mode])
+        # Σ J q² = 1.
+        ratio = (ω * (q @ train.damping_matrix @ q) + q @ train.loss_matrix @ q) / (2 * ω**2)
+        θ = train.speed * q[train.mass]
+        size = np.abs(θ).max()
+        return ω, θ / size, float(ω**2 / size**2), float(ratio)
+
+    def orders(self, speeds: Floats) -> Floats:
+        orders = self._at(speeds).torques.orders
+        if not len(orders):
+            remedy = "give orders, or [train.excitations], harmonics of [train.loads], or a [train.engine]"
+            raise InputError(f"nothing excites the train of {self.machine.name}: {remedy}")
+        return orders
+
+    def torques(self, speeds: Floats, orders: Floats) -> Complexes | None:
+        torques = self._at(speeds).torques
+        if not len(torques.orders):
+            return None
+        found = np.zeros((len(speeds), torques.harmonics.shape[1]), complex)
+        for n, order in enumerate(orders.tolist()):
+            same = np.abs(torques.orders - order) <= _EQUAL * order
+            found[n] = torques.harmonics[same, :, n].sum(axis=0)
+        return found
+
+    def _at(self, speeds: Floats) -> Excited:
+        """The machine at some speeds."""
+        if self._last is None or not np.array_equal(self._last.torques.speeds, speeds):
+            self._last = prepared(self.machine, speeds)
+        return self._last
+
+
+def _train(at: Excited, stiffness: Floats, damping: Floats | None = None) -> ReferredTrain:
+    """The train with the stiffness and damping that it has at a speed."""
+    damping = at.referred.disc_damping if damping is None else damping
+    return replace(at.referred, stiffness=np.ascontiguousarray(stiffness), disc_damping=damping)

@@ -1,0 +1,184 @@
+r"""The equivalent scheme of a train: inertias and stiffnesses as they are, and referred to its first disc.
+
+With n the speed of a disc over that of the first, inertias and stiffnesses count by n². A shaft of stiffness
+k twists like a solid one of one diameter d and the *equivalent length*
+
+.. math:: L_e = \frac{G\,\pi d^4}{32\,n^2 k}
+
+so that a scheme drawn with these lengths shows where a train is soft.
+
+References
+----------
+.. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapters 2 and 3.
+.. [2] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.3.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import LENGTH, positive
+from linkwright.machine.machine import Machine
+from linkwright.torsion.core.train import HELD, ReferredTrain, refer
+from linkwright.torsion.model.train import GROUND, Train
+from linkwright.torsion.modes.free import own_stiffness, train_of
+
+Floats = NDArray[np.float64]
+
+Kind = Literal["shaft", "coupling", "mesh", "gears", "damper"]
+
+# Shear modulus of the shaft of equivalent lengths: steel.
+_SHEAR_MODULUS = 79.3e9
+
+
+class Connection(NamedTuple):
+    """What joins two discs, or a disc with the ground.
+
+    Attributes
+    ----------
+    name : str
+        Of the shaft, the gear stage, the coupling or the damper.
+    kind : str
+        ``"shaft"``, ``"coupling"``, ``"mesh"`` (elastic gears), ``"gears"`` (rigid) or ``"damper"``.
+    first, second : str
+        Discs, or ``"ground"``.
+    ratio : float
+        Speed of the first over that of the second.
+    stiffness, stiffness_referred : float or None
+        At its own speed, of a mesh at its first disc; referred. None of rigid gears, and of a fluid
+        [N m/rad].
+    equivalent_length : float or None
+        Of the shaft of the scheme's diameter [m].
+    """
+
+    name: str
+    kind: Kind
+    first: str
+    second: str
+    ratio: float
+    stiffness: float | None = None
+    stiffness_referred: float | None = None
+    equivalent_length: float | None = None
+
+
+@dataclass(frozen=True)
+class Scheme(Result):
+    """A train referred to the speed of its first disc.
+
+    Attributes
+    ----------
+    discs : tuple of str
+        In the order of the file; rings of dampers last.
+    speed : ndarray, shape (discs,)
+        n, over that of the first disc.
+    inertia, inertia_referred : ndarray, shape (discs,)
+        At its own speed; referred [kg m²].
+    connections : tuple of Connection
+        Shafts, couplings and dampers, then gear stages.
+    diameter : float
+        Of the solid steel shaft of the equivalent lengths [m].
+    """
+
+    discs: tuple[str, ...]
+    speed: Floats
+    inertia: Floats
+    inertia_referred: Floats
+    connections: tuple[Connection, ...]
+    diameter: float
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """As of any result, each connection by the names of its entries.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether arrays are included.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and lists, ready for JSON.
+        """
+        found = super().to_dict(curves=curves)
+        return found | {"connections": [each._asdict() for each in self.connections]}
+
+
+@public
+def scheme(machine: Machine, *, diameter: float = 0.1) -> Scheme:
+    """The equivalent scheme of a train.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train], or a [drive] that twists.
+    diameter : float
+        Of the shaft of the equivalent lengths [m].
+
+    Returns
+    -------
+    Scheme
+        Own and referred numbers.
+
+    Raises
+    ------
+    InputError
+        The machine has no train, or the diameter is not greater than 0.
+    AssemblyError
+        The mechanism behind a drive line does not close all round.
+    """
+    in_range(diameter=(diameter, positive(LENGTH)))
+    train = train_of(machine)
+    referred = refer(train)
+    inertia = np.array([disc.inertia for disc in train.discs.values()])
+    return Scheme(
+        discs=referred.discs,
+        speed=referred.speed,
+        inertia=inertia,
+        inertia_referred=referred.speed**2 * inertia,
+        connections=(*_twisting(machine, train, referred, diameter), *_rigid(train)),
+        diameter=float(diameter),
+    )
+
+
+def _twisting(
+    machine: Machine, train: Train, referred: ReferredTrain, diameter: float
+) -> Iterator[Connection]:
+    """Shafts, couplings, dampers and elastic meshes."""
+    own = own_stiffness(referred)
+    GI = _SHEAR_MODULUS * math.pi * diameter**4 / 32
+    for n, name in enumerate(referred.shafts):
+        first, second = (GROUND if end == HELD else referred.discs[end] for end in referred.tip[n])
+        gear = train.gears.get(name)
+        ratio = 1.0 if gear is None else abs(gear.speed_ratio)
+        kind = _kind(machine, train, name)
+        if referred.stiffness[n] > 0:
+            k = float(referred.stiffness[n])
+            yield Connection(name, kind, first, second, ratio, float(own[n]), k, GI / k)
+        else:
+            yield Connection(name, kind, first, second, ratio)
+
+
+def _kind(machine: Machine, train: Train, name: str) -> Kind:
+    """What a part that twists is in the file."""
+    if name in train.gears:
+        return "mesh"
+    described = machine.train
+    if described is not None and name in described.couplings:
+        return "coupling"
+    return "damper" if described is not None and name in described.dampers else "shaft"
+
+
+def _rigid(train: Train) -> Iterator[Connection]:
+    """Gear stages that do not twist."""
+    for name, gear in train.gears.items():
+        if gear.stiffness is None:
+            yield Connection(name, "gears", *gear.between, abs(gear.speed_ratio))

@@ -1,0 +1,135 @@
+"""The page of a study of torsional vibration, from the template of all reports."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+import linkwright
+from linkwright.app.report.machine_table import machine_parts
+from linkwright.app.report.page import environment, grouped, picture
+from linkwright.kernel.page.formulas import Formula, formula
+from linkwright.kernel.page.quantities import number
+from linkwright.machine.files.write import dumps
+from linkwright.torsion.figures.captions import torsion_figures
+from linkwright.torsion.response.peaks import TorquePeaks
+from linkwright.torsion.study import TorsionStudy
+from linkwright.torsion.tables.torsion import study_tables
+
+_SOURCES = (
+    "Den Hartog, Mechanical Vibrations, 4th ed. 1956; Ker Wilson, Practical Solution of Torsional Vibration "
+    "Problems, 1956–1968; Paper 3: “Динаміка крутильних коливань V-подібних двигунів авіаційної наземної "
+    "техніки” (Dynamics of torsional vibration of V-type engines of aviation ground equipment)"
+)
+
+
+def torsion_html(study: TorsionStudy, *, command: str = "") -> str:
+    """The report of a study of torsional vibration as one HTML page that needs nothing else.
+
+    Parameters
+    ----------
+    study : TorsionStudy
+        The study.
+    command : str
+        Command line that made the study.
+
+    Returns
+    -------
+    str
+        The page; the same study gives the same page.
+    """
+    drawn = [(each, picture(each.figure, each.name, each.title)) for each in torsion_figures(study)]
+    context: dict[str, Any] = {
+        "study": study,
+        "machine": study.machine,
+        "balance": study.balance,
+        "headline": list(_headline(study)),
+        "groups": grouped(machine_parts(study.machine)),
+        "tables": list(study_tables(study)),
+        "figures": drawn,
+        "scene": "null",
+        "topper_scene": "null",
+        "formulas": list(_formulas(study)),
+        "paper": _SOURCES,
+        "assumptions": list(_assumptions(study)),
+        "file": dumps(study.machine),
+        "command": command or "linkwright torsion machine.toml --out report",
+        "version": linkwright.__version__,
+    }
+    return environment().get_template("report.html").render(context)
+
+
+def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
+    """The few numbers that one looks for first."""
+    twisting = [f for f in study.free.natural_frequencies.tolist() if f > 0]
+    if twisting:
+        yield "lowest natural frequency", number(twisting[0], 4), "Hz"
+        yield "which is a speed of", number(60 * twisting[0], 4), "1/min"
+    forced = study.forced
+    if forced is not None:
+        if study.peaks is not None and forced.shafts:
+            yield from _largest_torque(study.peaks)
+        run = study.machine.train.run if study.machine.train is not None else None
+        if run is not None:
+            at = int(np.argmin(np.abs(forced.speeds - run.service)))
+            yield "unevenness in service, least", number(float(forced.unevenness[:, at].min()), 3), ""
+            yield "unevenness in service, most", number(float(forced.unevenness[:, at].max()), 3), ""
+    steady = () if study.verdict is None else study.verdict.judgements
+    moved = () if study.transient is None else study.transient.judgements
+    if steady or moved:
+        state = "ok" if study.verdict is None else study.verdict.state
+        words = {"ok": "all limits kept", "bar": "speeds to be barred", "exceeds": "limits exceeded"}
+        yield "verdict", words["exceeds" if study.findings else state], ""
+
+
+def _largest_torque(peaks: TorquePeaks) -> Iterator[tuple[str, str, str]]:
+    """Of all shafts, over all speeds."""
+    worst = int(peaks.vibratory.argmax())
+    value, rpm = float(peaks.vibratory[worst]), float(peaks.speed[worst]) * 30 / np.pi
+    words = f"largest vibratory torque, {peaks.shafts[worst]} at {rpm:.5g} rpm"
+    if np.isfinite(value):
+        yield words, number(value, 4), "N m"
+    else:
+        yield words, "without bound", ""
+
+
+def _formulas(study: TorsionStudy) -> Iterator[Formula]:
+    """What the numbers rest on."""
+    den_hartog = "Den Hartog, chapter 5"
+    yield formula("Free vibration", "( K − ω^2 J ) θ = 0", den_hartog)
+    if study.forced is None:
+        return
+    yield formula("Forced vibration at order ν and speed Ω", "ω = ν Ω", den_hartog)
+    yield formula("", "( K ( 1 + i η ) + i ω C − ω^2 J ) θ_ν = M_ν", "Ker Wilson, vol. 4")
+    yield formula("Orders in phase", "θ ( t ) = Σ Re θ_ν e^iνΩt", "Ker Wilson, vol. 2")
+    yield formula("Unevenness of rotation", "δ = frac(ω_max − ω_min|ω_m)", "Paper 3")
+    yield formula("Heat", "P = frac(1|2) Σ ( ω^2 c + ω η k ) Δ^2", den_hartog)
+    if study.machine.train is not None and study.machine.train.engine is not None:
+        yield formula(
+            "Inertia torque of a throw", "M = − frac(1|2) J′ ( φ ) Ω^2", "Biezeno and Grammel, vol. 4"
+        )
+
+
+def _assumptions(study: TorsionStudy) -> Iterator[str]:
+    """What was taken for granted."""
+    yield "Discs are rigid, shafts have no inertia but what is given as discs."
+    if study.forced is None:
+        yield "Free vibration is without damping."
+        return
+    yield "The vibration is steady and small: torques follow the mean angle, not the vibration."
+    yield "Loss factors η do not depend on the frequency."
+    train = study.machine.train
+    if train is None:
+        yield "The mechanism is a disc with the mean of its inertia; what its change does acts as a torque."
+        return
+    if train.engine is not None:
+        yield "A throw is a disc with the mean of its inertia; what its change does acts as a torque."
+        yield "Gas pressure is that of steady running; cylinders differ by their factors alone."
+    if train.loads:
+        balanced = "what the engine gives" if train.engine is not None else "what the driver is asked for"
+        yield f"Mean torques balance: the loads take {balanced}; their slope over the speed damps."
+    for name, coupling in train.couplings.items():
+        if coupling.twist is not None:
+            yield f"Coupling {name} has the stiffness of its curve at the mean torque of each speed."

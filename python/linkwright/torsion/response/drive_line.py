@@ -1,0 +1,244 @@
+r"""A drive line whose shafts twist: its train, and the torque of the mechanism that excites it.
+
+In a train a mechanism is a disc, and what it asks of the crank at constant speed acts on that disc as a
+torque over the turn,
+
+.. math:: M(\varphi) = -M_r(\varphi, \omega) - \tfrac12 J'(\varphi)\,\omega^2
+    = \operatorname{Re} \sum_\nu M_\nu e^{i\nu\varphi}, \qquad \varphi = \omega t
+
+The disc has the mean of the reduced inertia over the turn. This is the motion's linear part: what J(φ) − J̄
+does to the swinging itself is left out, and is small as long as either is small against its mean.
+
+Where torques follow the speed, they damp: :math:`c = -\partial M/\partial\omega`.
+
+References
+----------
+.. [1] Biezeno and Grammel, Engineering Dynamics, vol. 4, 1954: mean inertia of a crank drive, excitation by
+   its variable part.
+.. [2] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963: inertia torque of
+   reciprocating masses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.reduction import law_harmonics, mean_laws, mean_over_turn
+from linkwright.drive.sound_loads import require_same_turns, require_sound_loads
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.public import public
+from linkwright.linkages.closure import require_full_turn, require_one_turn
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.torsion.model.drive_train import CRANK, MOTOR, STIFFNESS_KEYS, drive_train
+from linkwright.torsion.model.train import Train
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# Relative step of a central difference: its error is of second order, 1e-10, rounding over it likewise.
+_STEP = 1e-5
+
+
+@public
+def drive_line(machine: Machine) -> Train:
+    """The train of a machine's drive line, from the motor to the crank.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a mechanism, and a [drive] of which something twists.
+
+    Returns
+    -------
+    Train
+        Discs ``"motor"``, ``"gearbox"``, ``"wheel"``, ``"crank"``, as far as they turn on their own.
+
+    Raises
+    ------
+    InputError
+        Nothing of the drive twists, or a disc has no inertia.
+    AssemblyError
+        The mechanism does not close all round.
+    """
+    if machine.drive is None or not machine.drive.twists:
+        raise InputError(
+            f"{machine.name} has no [train], and its drive line does not twist: expected [train.discs] and "
+            f"[train.shafts], or one of {', '.join(STIFFNESS_KEYS)}"
+        )
+    return drive_train(machine.drive, mean_inertia(machine))
+
+
+def mean_inertia(machine: Machine) -> float:
+    """Mean over the turn of the mechanism's reduced inertia, without that of the drive.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    float
+        At the crank [kg m²].
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close all round.
+    """
+    compiled = mechanism_alone(machine)
+    turn = turn_curve(lambda phi: compiled.reductions(phi)[:1], compiled.kinks(), "reduced inertia")
+    return float(turn.mean()[0])
+
+
+@public
+def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -> Complex:
+    r"""Harmonics of the torque with which a mechanism acts on its crank at constant speed.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its drive does not count.
+    speed : array_like, shape () or (speeds,)
+        Of the crank [rad/s].
+    orders : array_like, shape (n,)
+        Per turn of the crank, multiples of ½. Halves of a turn are not in a motion that repeats every turn:
+        their harmonics are zero.
+
+    Returns
+    -------
+    ndarray of complex, shape (n,) or (n, speeds)
+        M_ν, positive where the torque drives [N m]; of order 0 the mean.
+
+    Raises
+    ------
+    InputError
+        An order is negative or no multiple of ½, or a speed is not positive.
+    AssemblyError
+        The mechanism does not close all round, or does not repeat every turn.
+
+    Notes
+    -----
+    The torque is a series between the dead centres of its frictions, and its harmonics are integrals of that
+    series, so that no sample is lost to a jump.
+    """
+    nu, omega = _orders(orders), _positive(speed)
+    compiled = mechanism_alone(machine)
+    size = np.where(nu == 0, 1.0, 2.0) * (nu == np.round(nu))
+    found: Complex = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
+    found[nu == 0] -= compiled.speed_load(omega)
+    return found[:, 0] if np.ndim(speed) == 0 else found
+
+
+@public
+def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
+    r"""How much motor and mechanism damp where their torques follow the speed.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, shape () or (speeds,)
+        Of the crank [rad/s].
+
+    Returns
+    -------
+    dict of str to ndarray, shape () or (speeds,)
+        −∂M/∂ω of ``"motor"`` at its own speed, and of ``"crank"``, mean over the turn [N m s/rad]. Negative
+        where a torque grows with the speed it drives. That of the motor holds the gearbox's efficiency, by
+        which its torque reaches the crank.
+
+    Raises
+    ------
+    InputError
+        A speed is not positive.
+    AssemblyError
+        The mechanism does not close all round.
+    """
+    omega = _positive(speed)
+    compiled = mechanism_alone(machine)
+    damping = {CRANK: mean_over_turn(compiled)[1] + _slope(lambda at: _resistance(compiled, at), omega)}
+    motor = None if machine.drive is None else machine.drive.motor
+    if machine.drive is not None and motor is not None and not isinstance(motor, ConstantSpeedMotor):
+        driven = compile_machine(machine)
+        slope = _slope(lambda at: driven.motor_torques(at)[1], omega)
+        damping[MOTOR] = -slope / machine.drive.gearbox.ratio**2
+    return {station: c.reshape(np.shape(speed)) for station, c in damping.items()}
+
+
+def mechanism_alone(machine: Machine) -> Compiled:
+    """The mechanism without its drive, if its turns can be told.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    Compiled
+        In the core's terms.
+
+    Raises
+    ------
+    AssemblyError
+        It does not close all round, or does not repeat every turn.
+    FindingError
+        A load has no value at some angle, or changes with time itself.
+    """
+    alone = machine.with_entries({"drive": None})
+    compiled = compile_machine(alone)
+    require_same_turns(alone)
+    require_full_turn(compiled, alone)
+    require_one_turn(compiled)
+    require_sound_loads(compiled, alone)
+    return compiled
+
+
+def _resistance_harmonics(compiled: Compiled, nu: Floats, omega: Floats) -> Complex:
+    """Mean of what resists at constant speeds, inertia included, times e^{−iνφ}, (orders, speeds) [N m]."""
+    turn = turn_curve(lambda phi: _parts(compiled, phi), compiled.kinks(), "torque of the mechanism")
+    # Each part has its power of the speed.
+    found: Complex = turn.harmonics(nu).T @ np.array([omega**0, omega, omega**2])
+    found += law_harmonics(compiled, omega, nu).T
+    return found
+
+
+def _parts(compiled: Compiled, phi: Floats) -> Floats:
+    """Torques at speed 0, per speed and per square of the speed, (3, n)."""
+    _, J_d1, load, dry, viscous = compiled.reductions(phi)
+    return np.stack([load + dry, viscous, 0.5 * J_d1])
+
+
+def _resistance(compiled: Compiled, omega: Floats) -> Floats:
+    """Mean torque of all loads over the speed but the viscous ones [N m]."""
+    return mean_laws(compiled, omega) + compiled.speed_load(omega)
+
+
+def _slope(torque: Callable[[Floats], Floats], omega: Floats) -> Floats:
+    """Derivative by the speed, (speeds,) [N m s/rad]."""
+    low, high = omega * (1 - _STEP), omega * (1 + _STEP)
+    slope: Floats = (torque(high) - torque(low)) / (high - low)
+    return slope
+
+
+def _orders(orders: ArrayLike) -> Floats:
+    """Orders that are multiples of a half."""
+    nu = np.atleast_1d(np.asarray(orders, dtype=np.float64))
+    if nu.ndim != 1 or not np.isfinite(nu).all() or (nu < 0).any() or (2 * nu != np.round(2 * nu)).any():
+        raise InputError(f"orders: found {nu.tolist()}, expected multiples of 0.5 of 0 or more")
+    return nu
+
+
+def _positive(speed: ArrayLike) -> Floats:
+    """Speeds at which a machine turns."""
+    omega = np.atleast_1d(np.asarray(speed, dtype=np.float64))
+    if omega.ndim != 1 or not (np.isfinite(omega) & (omega > 0)).all():
+        raise InputError(f"speed: found {omega.tolist()} rad/s, expected numbers greater than 0")
+    return omega

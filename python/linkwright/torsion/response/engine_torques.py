@@ -1,0 +1,185 @@
+r"""Torques of an engine on its throws: gas, inertia, weight.
+
+With ψ the angle of a throw from where it points along a cylinder at its firing, the gas gives
+:math:`M_g(\psi)`; all moving parts of a throw together give about constant speed
+
+.. math:: M = -\tfrac12 J'(\varphi)\,\Omega^2 - V'(\varphi)
+
+with the inertia J and the potential energy V of the true mechanism. A throw at the angle α, a cylinder that
+fires at :math:`\varphi_f`, turn the harmonics by :math:`e^{i\nu\alpha}` and :math:`e^{-i\nu\varphi_f}`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.torsion.model.engine.cylinder import Cylinder
+from linkwright.torsion.model.engine.engine import ReciprocatingEngine
+from linkwright.torsion.model.engine.engine_motion import piston_positions, reduced_throw
+from linkwright.torsion.model.engine.firing import firing_angles
+from linkwright.torsion.model.engine.gas_torque import GasTorque, gas_torque
+from linkwright.torsion.response.torques import Source
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class CylinderTorques:
+    """Gas torques of all cylinders.
+
+    Attributes
+    ----------
+    orders : ndarray, shape (orders,)
+        Waves a turn, from 0.
+    firing, motored : ndarray of complex, shape (cylinders, orders, speeds)
+        M_ν of each cylinder on its throw, sound and without combustion [N m].
+    banks : tuple of GasTorque
+        Of one sound cylinder of each bank, before its phase.
+    """
+
+    orders: Floats
+    firing: Complexes
+    motored: Complexes
+    banks: tuple[GasTorque, ...]
+
+
+@dataclass(frozen=True)
+class CylinderStates:
+    r"""How cylinders work, in some states of an engine.
+
+    .. math:: M_\nu = \kappa M_\nu^\mathrm{motored}
+        + x\,e^{-i\nu\delta}\left(M_\nu^\mathrm{firing} - M_\nu^\mathrm{motored}\right)
+
+    Attributes
+    ----------
+    combustion : ndarray, shape (cylinders, states)
+        x: 1 healthy, 0 without combustion.
+    delay : ndarray, shape (cylinders, states), or float
+        δ, crank angle by which the torque of the combustion is late [rad].
+    compression : ndarray, shape (cylinders, states), or float
+        κ: 1 tight, less where the cylinder leaks.
+    """
+
+    combustion: Floats
+    delay: Floats | float = 0.0
+    compression: Floats | float = 1.0
+
+    def torque(self, gas: CylinderTorques) -> Complexes:
+        """Gas torques of the cylinders.
+
+        Parameters
+        ----------
+        gas : CylinderTorques
+            Of healthy cylinders.
+
+        Returns
+        -------
+        ndarray of complex, shape (cylinders, orders, states)
+            M_ν [N m].
+        """
+        combustion, delay, compression = (
+            each[:, None]
+            for each in np.broadcast_arrays(self.combustion, np.asarray(self.delay), self.compression)
+        )
+        late = np.exp(-1j * gas.orders[:, None] * delay)
+        found: Complexes = compression * gas.motored + combustion * late * (gas.firing - gas.motored)
+        return found
+
+
+def cylinder_torques(engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0) -> CylinderTorques:
+    """Gas torques of the cylinders of an engine, each with its phase.
+
+    Parameters
+    ----------
+    engine : ReciprocatingEngine
+        The engine.
+    speeds : ndarray, shape (speeds,)
+        Of its crank [rad/s].
+    highest : float
+        Last order.
+
+    Returns
+    -------
+    CylinderTorques
+        By number of the cylinder.
+    """
+    banks = []
+    for positions in piston_positions(engine):
+        cylinder = Cylinder(engine.bore, engine.strokes, positions)
+        banks.append(gas_torque(engine.gas.cycle_pressure(cylinder, speeds), cylinder, highest))
+    orders = banks[0].orders
+    fires, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
+    phase = np.exp(-1j * np.outer(fires, orders))[:, :, None]
+    of_bank = [place.bank for place in engine.places]
+    firing = np.stack([each.firing.T for each in banks])[of_bank] * phase
+    motored = np.stack([each.motored.T for each in banks])[of_bank] * phase
+    return CylinderTorques(orders, firing, motored, tuple(banks))
+
+
+def engine_sources(engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0) -> list[Source]:
+    """Torques on the throws of an engine, with their mean.
+
+    Parameters
+    ----------
+    engine : ReciprocatingEngine
+        The engine.
+    speeds : ndarray, shape (speeds,)
+        Of its crank, which is the first disc of the train [rad/s].
+    highest : float
+        Last order.
+
+    Returns
+    -------
+    list of Source
+        One a throw, in order.
+    """
+    factors = np.array([engine.factor(n + 1) for n in range(engine.n_cylinders)])
+    return throw_sources(engine, cylinder_torques(engine, speeds, highest), CylinderStates(factors[:, None]))
+
+
+def throw_sources(engine: ReciprocatingEngine, gas: CylinderTorques, states: CylinderStates) -> list[Source]:
+    """Torques on the throws of an engine whose cylinders work more or less.
+
+    Parameters
+    ----------
+    engine : ReciprocatingEngine
+        The engine.
+    gas : CylinderTorques
+        Of its cylinders, at some speeds.
+    states : CylinderStates
+        Of the cylinders at each speed; one column stands for all speeds, and many columns with one speed of
+        the gas are as many states of the engine at that speed.
+
+    Returns
+    -------
+    list of Source
+        One a throw, in order, with a column for each speed or state.
+    """
+    torque = states.torque(gas)
+    moving = _moving_parts(engine, gas.banks[0].speeds, gas.orders)
+    found = []
+    for n, angle in enumerate(engine.throws):
+        own = sum(torque[c] for c, place in enumerate(engine.places) if place.throw == n)
+        total = own + moving * np.exp(1j * gas.orders * angle)[:, None]
+        found.append(Source(n, gas.orders[1:], total[1:], total[0].real))
+    return found
+
+
+def _moving_parts(engine: ReciprocatingEngine, speeds: Floats, orders: Floats) -> Complexes:
+    """Harmonics of inertia and weight of the first throw, (orders, speeds)."""
+    samples = max(256, 8 * int(np.ceil(orders[-1])))
+    phi = 2 * np.pi * np.arange(samples) / samples
+    throw = reduced_throw(engine, phi)
+    curves = (throw.inertia_torque(1.0), throw.weight_torque)
+    inertia, weight = (np.fft.rfft(curve) * 2 / samples for curve in curves)
+    found = np.zeros((len(orders), len(speeds)), complex)
+    # A motion that repeats every turn has whole orders alone.
+    whole = np.flatnonzero(orders == np.round(orders))
+    nu = orders[whole].astype(int)
+    found[whole] = inertia[nu, None] * speeds**2 + weight[nu, None]
+    found[0] *= 0.5
+    return found

@@ -1,0 +1,306 @@
+"""A train made ready for forced vibration: its torques, and what it is at each speed.
+
+Mean torques go through the shafts as statics has it, and set couplings to the slope of their curve there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError, require_within
+from linkwright.kernel.limits import RESPONSE
+from linkwright.machine.machine import Machine
+from linkwright.torsion.core.response import Operating, by_equilibrium, tree_of
+from linkwright.torsion.core.train import ReferredTrain, refer
+from linkwright.torsion.model.drive_train import CRANK
+from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.train_run import TrainRun
+from linkwright.torsion.modes.free import lead_speeds, train_of
+from linkwright.torsion.response.engine_torques import engine_sources
+from linkwright.torsion.response.mechanism_torques import mechanism_sources, steady_speed
+from linkwright.torsion.response.torques import Source, Torques, torques_of
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+# Speeds of a drive line over its steady speed, and how many: where a motor works, not where it runs up.
+_ABOUT = (0.8, 1.2)
+_POINTS = 200
+
+# Share of the largest torque on a mass below which a shaft carries rounding.
+_ROUNDING = 1e-11
+
+
+@dataclass(frozen=True)
+class Excited:
+    """A train with its torques at some speeds.
+
+    Attributes
+    ----------
+    train : Train
+        Of discs, shafts and gears.
+    referred : ReferredTrain
+        The same, referred to its first disc.
+    torques : Torques
+        On the discs.
+    mean_torques : ndarray, shape (shafts, speeds)
+        In the shafts at their own speed [N m].
+    operating : Operating
+        Stiffness and damping at each speed.
+    """
+
+    train: Train
+    referred: ReferredTrain
+    torques: Torques
+    mean_torques: Floats
+    operating: Operating
+
+    @cached_property
+    def disc_damping(self) -> Floats:
+        """Of each disc at its own speed, (discs, speeds) [N m s/rad]."""
+        own = np.array([each.damping for each in self.train.discs.values()])
+        damping: Floats = own[:, None] + self.torques.damping
+        return damping
+
+    def referred_harmonics(self) -> Complexes:
+        """Torques on the masses, (orders, masses, speeds) [N m]."""
+        return _onto_masses(self.referred, self.torques.harmonics)
+
+
+def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
+    """Make a train ready for forced vibration.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train] that something excites.
+    speeds : ndarray, shape (speeds,), optional
+        Of the first disc; without them those of `[train.run]` [rad/s].
+
+    Returns
+    -------
+    Excited
+        All that the response needs.
+
+    Raises
+    ------
+    InputError
+        Nothing excites the train, or it has no speeds.
+    """
+    at = prepared(machine, speeds)
+    if not len(at.torques.orders):
+        remedy = "give [train.excitations], harmonics of [train.loads], or a [train.engine]"
+        raise InputError(f"nothing excites the train of {machine.name}: {remedy}")
+    return at
+
+
+def prepared(machine: Machine, speeds: Floats | None = None) -> Excited:
+    """As `excited`, also for a train that nothing excites.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train], or with a drive line that twists.
+    speeds : ndarray, shape (speeds,), optional
+        Of the first disc; without them those of `[train.run]` [rad/s].
+
+    Returns
+    -------
+    Excited
+        What the train is at each speed.
+
+    Raises
+    ------
+    InputError
+        The machine has no train, or the train no speeds.
+    """
+    train = train_of(machine)
+    referred = refer(train)
+    place = {name: k for k, name in enumerate(train.discs)}
+    speeds = _speeds(machine, referred.speed, place) if speeds is None else np.atleast_1d(speeds) * 1.0
+    sources, damping = _sources(machine, referred.speed, place, speeds)
+    return under(machine, train, referred, speeds, sources, damping)
+
+
+def under(
+    machine: Machine,
+    train: Train,
+    referred: ReferredTrain,
+    speeds: Floats,
+    sources: Iterable[Source],
+    damping: Floats | None = None,
+) -> Excited:
+    """A train under torques of its engine or mechanism, and those of its file.
+
+    Parameters
+    ----------
+    machine : Machine
+        That has the train.
+    train : Train
+        Of discs, shafts and gears.
+    referred : ReferredTrain
+        The same, referred to its first disc.
+    speeds : ndarray, shape (speeds,)
+        Of the first disc; a speed may stand there more than once, with other torques [rad/s].
+    sources : iterable of Source
+        Torques of the engine or of the mechanism, with their mean.
+    damping : ndarray, shape (discs, speeds), optional
+        Of motor and mechanism [N m s/rad].
+
+    Returns
+    -------
+    Excited
+        What the train is under each column of torques: loads follow the engine, and couplings have the slope
+        at the mean torque.
+    """
+    listed = list(sources)
+    _require_room(train, listed, len(speeds))
+    torques = torques_of(
+        train,
+        referred.speed,
+        speeds,
+        listed,
+        damping,
+        is_free=referred.is_free,
+        has_engine=machine.train is not None and machine.train.engine is not None,
+    )
+    return loaded(machine, train, referred, torques)
+
+
+def _require_room(train: Train, sources: Sequence[Source], speeds: int) -> None:
+    """Refuse more orders, discs and speeds than there is memory for."""
+    own = [each for part in (train.excitations, train.loads) for each in part.values()]
+    orders = sum(len(each.harmonics) for each in own) + sum(len(each.orders) for each in sources)
+    remedy = "take fewer train.run.points, or fewer orders"
+    require_within(RESPONSE, orders * len(train.discs) * speeds, "train", remedy)
+
+
+def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Torques) -> Excited:
+    """A train under torques: mean torques of its shafts, stiffness and damping.
+
+    Parameters
+    ----------
+    machine : Machine
+        That has the train.
+    train : Train
+        Of discs, shafts and gears.
+    referred : ReferredTrain
+        The same, referred to its first disc.
+    torques : Torques
+        On the discs.
+
+    Returns
+    -------
+    Excited
+        At the speeds of the torques.
+    """
+    mean = _mean_torques(referred, torques.mean)
+    return Excited(train, referred, torques, mean, _operating(machine.train, referred, torques, mean))
+
+
+def is_excited(machine: Machine) -> bool:
+    """Whether a machine has a train with something that excites it, and the speeds at which to look.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    """
+    train = machine.train
+    if train is None:
+        drive = machine.drive
+        return drive is not None and drive.twists and not (drive.motor is None and drive.speed is None)
+    return train.run is not None and pulsates(train)
+
+
+def pulsates(train: Train) -> bool:
+    """Whether a train has torques that pulsate.
+
+    Parameters
+    ----------
+    train : Train
+        As its file describes it.
+    """
+    waves = any(each.harmonics for each in train.loads.values())
+    return bool(train.excitations) or waves or train.engine is not None
+
+
+def highest_order(train: Train) -> float:
+    """Last order of an engine's torques.
+
+    Parameters
+    ----------
+    train : Train
+        As its file describes it.
+    """
+    return float(TrainRun.model_fields["orders_max"].default if train.run is None else train.run.orders_max)
+
+
+def _sources(
+    machine: Machine, turning: Floats, place: dict[str, int], speeds: Floats
+) -> tuple[list[Source], Floats | None]:
+    """Torques of the engine or of the mechanism, and their damping (discs, speeds)."""
+    if machine.train is None:
+        return mechanism_sources(machine, turning, place, speeds)
+    if machine.train.engine is None:
+        return [], None
+    return engine_sources(machine.train.engine, speeds, highest_order(machine.train)), None
+
+
+def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:
+    """Those at which the file looks at its train; of a drive line those about its steady speed."""
+    if machine.train is None:
+        of_crank: Floats = np.linspace(*_ABOUT, _POINTS) * steady_speed(machine)
+        return of_crank / float(turning[place[CRANK]])
+    run = machine.train.run
+    if run is None:
+        remedy = 'give [train.run] speed_min and speed_max, such as "500 rpm" and "2000 rpm"'
+        raise InputError(f"{machine.name} has no speeds for forced vibration: {remedy}")
+    return run.speeds
+
+
+def _onto_masses(referred: ReferredTrain, torques: Complexes) -> Complexes:
+    """Torques on discs as torques on masses, (…, masses, speeds)."""
+    found = np.zeros((len(torques), len(referred.inertia), torques.shape[-1]), torques.dtype)
+    for disc, (mass, n) in enumerate(zip(referred.mass, referred.speed, strict=True)):
+        found[:, mass] += n * torques[:, disc]
+    return found
+
+
+def _mean_torques(referred: ReferredTrain, mean: Floats) -> Floats:
+    """Torque of each shaft at its own speed under torques that do not pulsate."""
+    M = _onto_masses(referred, mean[None].astype(complex))[0].real
+    if referred.is_free:
+        # What is left over speeds the train up as a whole.
+        M = M - referred.inertia[:, None] * (M.sum(axis=0) / referred.inertia.sum())
+    # The ring of a fluid hangs on nothing else, so that any stiffness tells what takes it along.
+    k = np.where(referred.stiffness > 0, referred.stiffness, referred.stiffness.max(initial=0.0) or 1.0)
+    tree = tree_of(referred)
+    if tree is None:
+        # Of all torques that balance those of least energy, Σ T²/k: so ways in parallel share by stiffness.
+        scale = np.sqrt(k)[:, None]
+        carried: Floats = scale * (np.linalg.pinv((scale * referred.joins).T, rcond=1e-13) @ M)
+    else:
+        stiffness = np.repeat(k[None, :, None].astype(complex), M.shape[1], axis=2)
+        carried = by_equilibrium(referred, tree, stiffness, M[None].astype(complex))[0].real
+    # What is left of the rounding of large torques is none.
+    carried[np.abs(carried) < _ROUNDING * np.abs(M).max(initial=0.0)] = 0.0
+    return carried / lead_speeds(referred)[:, None]
+
+
+def _operating(train: Train | None, referred: ReferredTrain, torques: Torques, mean: Floats) -> Operating:
+    """Stiffness about the mean torques, damping with that of the loads."""
+    stiffness = np.repeat(referred.stiffness[:, None], len(torques.speeds), axis=1)
+    lead = lead_speeds(referred)
+    for name, coupling in ({} if train is None else train.couplings).items():
+        if coupling.twist is not None:
+            s = referred.shafts.index(name)
+            stiffness[s] = lead[s] ** 2 * coupling.slope(mean[s])
+    damping = np.repeat(referred.disc_damping[:, None], len(torques.speeds), axis=1)
+    np.add.at(damping, referred.mass, referred.speed[:, None] ** 2 * torques.damping)
+    return Operating(torques.speeds, stiffness, damping)

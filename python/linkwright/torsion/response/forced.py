@@ -1,0 +1,205 @@
+r"""Forced vibration of a train: amplitudes, shaft torques and unevenness at every speed.
+
+At each speed Ω and order ν, with ω = νΩ,
+
+.. math:: (-\omega^2 J + i\omega C + K)\,\theta_\nu = M_\nu
+
+is solved directly, not by modes. The torque in a shaft is :math:`(k(1 + i\eta) + i\omega c)\,\Delta_\nu`, of
+which kΔ twists the steel. All orders are added up in phase before their extremes are taken.
+
+The unevenness of rotation of a disc is :math:`\delta = (\omega_{max} - \omega_{min})/\omega_m`. Its motion
+has a part in which the train turns as a whole, :math:`q_r = \sum J q/\sum J`, and the torsional rest; both
+have a δ of their own, and since they are not in phase the two do not add up.
+
+References
+----------
+.. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963, on phase-correct sums of
+orders. .. [2] Den Hartog, Mechanical Vibrations, 4th ed. 1956, sections 5.4 to 5.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.public import public
+from linkwright.machine.machine import Machine
+from linkwright.torsion.response.carried import Carried, carried_by, responses
+from linkwright.torsion.response.excited import Excited, excited
+from linkwright.torsion.response.synthesis import Orders, span
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class ForcedVibration(Carried):
+    """Forced vibration of a train over its speeds, with all that its shafts carry.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (speeds,)
+        Of the first disc [rad/s].
+    orders : ndarray, shape (orders,)
+        Waves a turn of the first disc.
+    discs, shafts : tuple of str
+        As in `FreeVibration`.
+    amplitudes : ndarray of complex, shape (orders, discs, speeds)
+        θ of each disc beside its steady turning [rad].
+    shaft_torques : ndarray of complex, shape (orders, shafts, speeds)
+        At the first end, elastic and damping part together [N m].
+    mean_torques : ndarray, shape (shafts, speeds)
+        What the shafts carry [N m].
+    torque_greatest, torque_least : ndarray, shape (shafts, speeds)
+        Of mean and vibration together [N m].
+    shaft_heat : ndarray, shape (shafts, speeds)
+        Mean power that each shaft, coupling or damper turns to heat [W].
+    unevenness, unevenness_rigid, unevenness_torsional : ndarray, shape (discs, speeds)
+        δ; of the train as a whole; of the rest.
+    disc_heat : ndarray, shape (discs, speeds)
+        Mean power that damping of the discs takes [W].
+    power : ndarray, shape (speeds,)
+        Mean power of the pulsating torques, which is the sum of all heat [W].
+    """
+
+    unevenness: Floats
+    unevenness_rigid: Floats
+    unevenness_torsional: Floats
+    disc_heat: Floats
+    power: Floats
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Curves over the speeds by name of shaft and disc.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether heat, and the parts of the unevenness, are included.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and lists, ready for JSON.
+        """
+        shafts: dict[str, Floats] = {
+            "shaft_torque_max": self.shaft_torque_max,
+            "shaft_torque_vibratory": self.shaft_torque_vibratory,
+        }
+        discs: dict[str, Floats] = {"unevenness": self.unevenness}
+        if curves:
+            shafts |= {"shaft_torque_mean": self.mean_torques, "shaft_heat": self.shaft_heat}
+            discs |= {
+                "unevenness_rigid": self.unevenness_rigid,
+                "unevenness_torsional": self.unevenness_torsional,
+            }
+        return {
+            "speeds": self.speeds.tolist(),
+            "orders": self.orders.tolist(),
+            **{name: _by_name(self.shafts, rows) for name, rows in shafts.items()},
+            **{name: _by_name(self.discs, rows) for name, rows in discs.items()},
+        }
+
+
+def _by_name(names: tuple[str, ...], rows: Floats) -> Mapping[str, list[float]]:
+    """A list for every name."""
+    return dict(zip(names, rows.tolist(), strict=True))
+
+
+@public
+def forced_vibration(machine: Machine, speeds: Floats | None = None) -> ForcedVibration:
+    """Steady vibration of a train under its pulsating torques.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train] that something excites.
+    speeds : ndarray, shape (speeds,), optional
+        Of the first disc; without them those of `[train.run]` [rad/s].
+
+    Returns
+    -------
+    ForcedVibration
+        Amplitudes are infinite or NaN at a resonance without any damping.
+
+    Raises
+    ------
+    InputError
+        Nothing excites the train, or it has no speeds.
+
+    References
+    ----------
+    .. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963.
+    """
+    return responded(excited(machine, speeds))
+
+
+def responded(at: Excited) -> ForcedVibration:
+    """Steady vibration of a train that has been prepared.
+
+    Parameters
+    ----------
+    at : Excited
+        The train, its torques, and what it is at each speed.
+
+    Returns
+    -------
+    ForcedVibration
+        As `forced_vibration`.
+    """
+    q = responses(at)
+    shafts = carried_by(at, q)
+    total, rigid, torsional = _unevenness(at, shafts.together, q)
+    omega = shafts.orders[:, None, None] * shafts.speeds
+    theta = shafts.amplitudes
+    return ForcedVibration(
+        **vars(shafts),
+        unevenness=total,
+        unevenness_rigid=rigid,
+        unevenness_torsional=torsional,
+        disc_heat=0.5 * (omega**2 * at.disc_damping * np.abs(theta) ** 2).sum(axis=0),
+        power=0.5 * (at.torques.harmonics * (1j * omega * theta).conj()).real.sum(axis=(0, 1)),
+    )
+
+
+def _unevenness(at: Excited, orders: Orders, q: Complexes) -> tuple[Floats, Floats, Floats]:
+    """δ of every disc: in all, as a whole, and torsional."""
+    referred = at.referred
+    J = referred.inertia
+    # Referred, δ of a mass is that of its discs: speed and mean speed both count n times.
+    speed = 1j * orders.values[:, None, None] * q
+    whole = np.einsum("m,omw->ow", J, speed)[:, None] / J.sum()
+    if not referred.is_free:
+        whole = np.zeros_like(whole)
+    found = []
+    for part in (speed, np.broadcast_to(whole, speed[:, :1].shape), speed - whole):
+        greatest, least = span(orders, part)
+        found.append(greatest - least)
+    total, rigid, torsional = found
+    mass = referred.mass
+    return total[mass], np.repeat(rigid, len(mass), axis=0), torsional[mass]
+
+
+def angular_deflection(found: ForcedVibration, disc: str) -> tuple[Floats, Floats]:
+    """Vibration of a disc at every speed, each order and all together.
+
+    Parameters
+    ----------
+    found : ForcedVibration
+        The result.
+    disc : str
+        Name of the disc.
+
+    Returns
+    -------
+    single : ndarray, shape (orders, speeds)
+        Amplitude of each order [rad].
+    total : ndarray, shape (speeds,)
+        Half of greatest less least angle of all orders [rad].
+    """
+    theta = found.amplitudes[:, found.discs.index(disc)]
+    greatest, least = span(found.together, theta)
+    return np.abs(theta), 0.5 * (greatest - least)

@@ -1,0 +1,192 @@
+r"""Torque in the gear stages of a train, and where their teeth lose contact.
+
+An elastic mesh carries what its twist says. A rigid stage has no twist; what it carries follows from the
+discs behind it: with the torques from outside, inertia, damping and shafts of each disc, referred to the
+first,
+
+.. math:: f_d = n_d\,(M_d + \omega^2 J_d \theta_d - i\omega c_d \theta_d) + \sum_s \pm n_s T_s, \qquad
+    \sum_{g} B_{dg}\, n_g T_g = f_d
+
+B having +1 for the first and −1 for the second disc of a stage. Where rigid stages close a loop, statics does
+not say how they share the torque.
+
+Teeth lose contact, and hammer, where the torque comes to be against its mean: the drop below the mean is
+larger than the mean.
+
+References
+----------
+.. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.3: geared systems.
+.. [2] Korean Register, Rules for the Classification of Steel Ships, part 5, chapter 4, 206: gears that
+    chatter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.torsion.modes.free import lead_speeds
+from linkwright.torsion.response.carried import Carried, carried
+from linkwright.torsion.response.excited import Excited, excited
+from linkwright.torsion.response.synthesis import span
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+# Share of a stage's torque that statics leaves open before it is called undetermined.
+_OPEN = 1e-9
+
+_TOOTHED = ("external", "internal")
+
+
+@dataclass(frozen=True)
+class MeshTorque(Result):
+    """Torques of gear stages at their first discs, positive where the first drives in its sense.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (speeds,)
+        Of the first disc of the train [rad/s].
+    stages : tuple of str
+        Gear stages in the order of the file.
+    toothed : tuple of bool
+        Whether a stage can lose contact; belts are taken to be tight.
+    orders : ndarray, shape (orders,)
+        Waves a turn of the first disc.
+    torques : ndarray of complex, shape (orders, stages, speeds)
+        [N m]; NaN where rigid stages close a loop.
+    mean, greatest, least : ndarray, shape (stages, speeds)
+        Of mean and vibration together [N m].
+    """
+
+    speeds: Floats
+    stages: tuple[str, ...]
+    toothed: tuple[bool, ...]
+    orders: Floats
+    torques: Complexes
+    mean: Floats
+    greatest: Floats
+    least: Floats
+
+    @property
+    def drop(self) -> Floats:
+        """How far the torque falls below its mean, seen in the sense of the mean, (stages, speeds) [N m]."""
+        return np.where(self.mean >= 0, self.mean - self.least, self.greatest - self.mean)
+
+    @property
+    def contact_lost(self) -> NDArray[np.bool_]:
+        """Where teeth part, shape (stages, speeds)."""
+        # Rounding of torques that cancel is no vibration.
+        size = np.maximum(np.abs(self.greatest), np.abs(self.least))
+        parted: NDArray[np.bool_] = self.drop > np.abs(self.mean) + 1e-12 * size
+        parted &= np.array(self.toothed, bool)[:, None]
+        return parted
+
+
+@public
+def mesh_torques(machine: Machine, speeds: Floats | None = None) -> MeshTorque:
+    """Torques of the gear stages of a train over its speeds.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train] that something excites.
+    speeds : ndarray, shape (speeds,), optional
+        Of the first disc; without them those of `[train.run]` [rad/s].
+
+    Returns
+    -------
+    MeshTorque
+        Of all stages, rigid and elastic.
+
+    Raises
+    ------
+    InputError
+        Nothing excites the train, or it has no speeds.
+    """
+    at = excited(machine, speeds)
+    return meshed(at, carried(at))
+
+
+def meshed(at: Excited, found: Carried) -> MeshTorque:
+    """Torques of the gear stages of a train of which the vibration is there.
+
+    Parameters
+    ----------
+    at : Excited
+        The train.
+    found : Carried
+        Its vibration.
+
+    Returns
+    -------
+    MeshTorque
+        As `mesh_torques`.
+    """
+    gears = at.train.gears
+    omega = found.orders[:, None, None] * found.speeds
+    J = np.array([disc.inertia for disc in at.train.discs.values()])[:, None]
+    theta = found.amplitudes
+    outside = at.torques.harmonics + (omega**2 * J - 1j * omega * at.disc_damping) * theta
+    waves = _stage_torques(at, outside, found.shaft_torques)
+    mean = _stage_torques(at, _mean_outside(at, J)[None], at.mean_torques[None].astype(complex))[0].real
+    greatest, least = span(found.together, waves, mean)
+    return MeshTorque(
+        speeds=found.speeds,
+        stages=tuple(gears),
+        toothed=tuple(each.kind in _TOOTHED for each in gears.values()),
+        orders=found.orders,
+        torques=waves,
+        mean=mean,
+        greatest=greatest,
+        least=least,
+    )
+
+
+def _mean_outside(at: Excited, J: Floats) -> Floats:
+    """Mean torques on the discs, less what speeds the train up if they do not balance."""
+    mean, n = at.torques.mean, at.referred.speed[:, None]
+    if at.referred.is_free:
+        mean = mean - J * n * (n * mean).sum(axis=0) / at.referred.inertia.sum()
+    return mean
+
+
+def _stage_torques(at: Excited, outside: Complexes | Floats, shafts: Complexes) -> Complexes:
+    """Torque of each stage at its first disc, (…, stages, speeds)."""
+    referred, gears = at.referred, at.train.gears
+    flow = lead_speeds(referred)[:, None] * shafts
+    # The ground is a last disc.
+    net = np.zeros((len(outside), len(referred.discs) + 1, outside.shape[-1]), complex)
+    net[:, :-1] = referred.speed[:, None] * outside
+    for s, (first, second) in enumerate(referred.tip.tolist()):
+        net[:, first] -= flow[:, s]
+        net[:, second] += flow[:, s]
+    found = np.empty((len(outside), len(gears), outside.shape[-1]), complex)
+    rigid = [name for name, each in gears.items() if each.stiffness is None]
+    passed = _passed(at, rigid, net[:, :-1])
+    for g, name in enumerate(gears):
+        first_speed = referred.speed[referred.discs.index(gears[name].between[0])]
+        if name in rigid:
+            found[:, g] = passed[:, rigid.index(name)] / first_speed
+        else:
+            found[:, g] = shafts[:, referred.shafts.index(name)]
+    return found
+
+
+def _passed(at: Excited, rigid: list[str], net: Complexes) -> Complexes:
+    """What rigid stages pass on from what is left over at each disc; NaN in loops."""
+    joins = np.zeros((len(at.referred.discs), len(rigid)))
+    for g, name in enumerate(rigid):
+        first, second = at.train.gears[name].between
+        joins[at.referred.discs.index(first), g] += 1.0
+        joins[at.referred.discs.index(second), g] -= 1.0
+    inverse = np.linalg.pinv(joins)
+    passed: Complexes = np.einsum("gd,odw->ogw", inverse, net)
+    known = np.abs(np.diag(inverse @ joins) - 1.0) < _OPEN
+    passed[:, ~known] = np.nan
+    return passed

@@ -1,0 +1,166 @@
+r"""Shear stress in the shafts of a train, and what is permitted there.
+
+With the torque T of a shaft, mean :math:`T_m`, and its section modulus :math:`W_p`,
+
+.. math:: \tau_m = K \frac{|T_m|}{W_p}, \qquad \tau_v = K \frac{T_{max} - T_{min}}{2 W_p}, \qquad
+    \tau_{max} = K \frac{\max|T|}{W_p}
+
+where all orders have been added up in phase and K is the stress concentration that limits ask for, 1 for the
+nominal stresses of rules. The torque is all that the shaft carries, elastic and damping part: hysteresis is
+in the steel.
+
+References
+----------
+.. [1] IACS, UR M68, 2021: half of greatest less least stress.
+.. [2] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963: stresses in shafts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import SPEED, positive
+from linkwright.machine.machine import Machine
+from linkwright.torsion.model.drive_train import CRANK
+from linkwright.torsion.model.shaft_limit import ShaftLimit, StressedSection
+from linkwright.torsion.model.train import Shaft
+from linkwright.torsion.model.train_speeds import speeds as turning
+from linkwright.torsion.modes.free import train_of
+from linkwright.torsion.response.carried import Carried, carried
+from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.mechanism_torques import steady_speed
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ShaftStress(Result):
+    """Stresses in those shafts of which a section is known.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (speeds,)
+        Of the first disc [rad/s].
+    shafts : tuple of str
+        Shafts with sections, or with a section in their limit.
+    section_modulus : ndarray, shape (shafts,)
+        Torque per nominal stress [m³].
+    concentration : ndarray, shape (shafts,)
+        K.
+    mean, vibratory, greatest : ndarray, shape (shafts, speeds)
+        Of the torque's mean, of half its range, of its largest value [Pa].
+    continuous, transient : ndarray, shape (shafts, speeds)
+        Vibratory stress permitted for ever, and while speeds are passed [Pa]; NaN where nothing is said.
+    """
+
+    speeds: Floats
+    shafts: tuple[str, ...]
+    section_modulus: Floats
+    concentration: Floats
+    mean: Floats
+    vibratory: Floats
+    greatest: Floats
+    continuous: Floats
+    transient: Floats
+
+    @property
+    def utilisation(self) -> Floats:
+        """Vibratory stress over that permitted for ever, shape (shafts, speeds)."""
+        return self.vibratory / self.continuous
+
+
+@public
+def shaft_stress(machine: Machine, found: Carried | None = None, service: float | None = None) -> ShaftStress:
+    """Stresses in the shafts of a train over its speeds.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train] that something excites.
+    found : Carried, optional
+        What its shafts carry, as `forced_vibration` tells, if that is there already.
+    service : float, optional
+        Speed of the first disc that λ = 1 stands for; without it that of `service_speed` [rad/s].
+
+    Returns
+    -------
+    ShaftStress
+        Without shafts of which no section is known.
+
+    Raises
+    ------
+    InputError
+        Nothing excites the train, or it has no speeds.
+
+    References
+    ----------
+    .. [1] IACS, UR M68, 2021, M68.5.
+    """
+    in_range(service=(service, positive(SPEED)))
+    found = carried(excited(machine)) if found is None else found
+    known = stressed(train_of(machine).shafts)
+    rows = [found.shafts.index(name) for name in known]
+    W = np.array([section.section_modulus for section, _ in known.values()])
+    K = np.array([limit.concentration for _, limit in known.values()])
+    factor = (K / W)[:, None]
+    ratio = found.speeds / (service_speed(machine, found.speeds) if service is None else service)
+    permitted = [limit.permitted_stress(ratio, section.diameter) for section, limit in known.values()]
+    both = np.array(permitted).reshape(len(known), 2, len(ratio))
+    return ShaftStress(
+        speeds=found.speeds,
+        shafts=tuple(known),
+        section_modulus=W,
+        concentration=K,
+        mean=factor * np.abs(found.mean_torques[rows]),
+        vibratory=factor * found.shaft_torque_vibratory[rows],
+        greatest=factor * found.shaft_torque_max[rows],
+        continuous=both[:, 0],
+        transient=both[:, 1],
+    )
+
+
+def stressed(shafts: dict[str, Shaft]) -> dict[str, tuple[StressedSection, ShaftLimit]]:
+    """Where the stress of each shaft counts, and what it bears, for shafts of which a section is known.
+
+    Parameters
+    ----------
+    shafts : dict of str to Shaft
+        Of a train.
+
+    Returns
+    -------
+    dict of str to tuple
+        Section and limit; a limit without entries where the file has none.
+    """
+    limits = {name: shaft.limit or ShaftLimit() for name, shaft in shafts.items()}
+    sections = {name: limits[name].section(shaft.sections) for name, shaft in shafts.items()}
+    return {name: (each, limits[name]) for name, each in sections.items() if each is not None}
+
+
+def service_speed(machine: Machine, speeds: Floats) -> float:
+    """The speed that λ = 1 stands for.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a train, or a drive line that twists.
+    speeds : ndarray, shape (speeds,)
+        At which it is looked at [rad/s].
+
+    Returns
+    -------
+    float
+        Of the first disc: `speed_rated` of [train.run]; of a drive line its steady speed; else the highest
+        speed [rad/s].
+    """
+    if machine.train is None:
+        train = train_of(machine)
+        return steady_speed(machine) / abs(turning(train)[0][CRANK])
+    run = machine.train.run
+    return float(speeds.max()) if run is None else run.service

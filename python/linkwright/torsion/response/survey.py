@@ -1,0 +1,237 @@
+"""A train looked at closely: at the speeds of its run, at its resonances and peaks, and at any speed between.
+
+Torques of an engine or of a mechanism take long to find and change little from speed to speed. Between the
+speeds of the run they are interpolated, by cubics through the four speeds about; the response to them is that
+of the speed itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.machine.machine import Machine
+from linkwright.torsion.limits.criteria import Criterion, criteria
+from linkwright.torsion.limits.exceedance import Exceedance, exceedances, peaks_between
+from linkwright.torsion.modes.resonance import Resonance, resonances
+from linkwright.torsion.response.carried import Carried, carried
+from linkwright.torsion.response.excited import Excited, excited, loaded
+from linkwright.torsion.response.stress import service_speed
+
+Floats = NDArray[np.float64]
+Values = TypeVar("Values", NDArray[np.float64], NDArray[np.complex128])
+
+# Speeds that differ by a smaller share are one.
+_EQUAL = 1e-9
+
+# Share of a limit from which on a peak between the speeds might be above it.
+_NEAR = 0.8
+
+# Speeds about a speed, through which a cubic goes.
+_ABOUT = 4
+
+
+@dataclass(frozen=True)
+class Survey:
+    """A train at its speeds and between them.
+
+    Attributes
+    ----------
+    machine : Machine
+        With a train that something excites.
+    at : Excited
+        At the speeds of its run, increasing.
+    found : Carried
+        What its shafts carry there.
+    """
+
+    machine: Machine
+    at: Excited
+    found: Carried
+
+    @cached_property
+    def resonances(self) -> tuple[Resonance, ...]:
+        """Resonances between the lowest and the highest speed."""
+        return resonances(self.at)
+
+    @cached_property
+    def service(self) -> float:
+        """Speed of the first disc that λ = 1 stands for [rad/s]."""
+        return service_speed(self.machine, self.at.torques.speeds)
+
+    @cached_property
+    def speeds(self) -> Floats:
+        """Those of the run, of the resonances and of peaks of what limits ask for, shape (n,) [rad/s]."""
+        return self._with_peaks[0]
+
+    @cached_property
+    def criteria(self) -> list[Criterion]:
+        """All limits at these speeds."""
+        return self._with_peaks[1]
+
+    @cached_property
+    def _with_peaks(self) -> tuple[Floats, list[Criterion]]:
+        """Speeds and limits, once peaks are found: damping has them beside the resonances."""
+        speeds, limits = self._joined(
+            self.at.torques.speeds, criteria(self.machine, self.at, self.found, self.service), self._further
+        )
+        places = [(n, k) for n, each in enumerate(limits) for k in _highest(each.ratio)]
+        peaks = peaks_between(
+            self._ratios,
+            [(n, speeds[max(k - 1, 0)], speeds[min(k + 1, len(speeds) - 1)]) for n, k in places],
+            [(speeds[k], limits[n].ratio[k]) for n, k in places],
+        )
+        return self._joined(speeds, limits, np.setdiff1d(peaks, speeds))
+
+    def _joined(
+        self, speeds: Floats, limits: list[Criterion], further: Floats
+    ) -> tuple[Floats, list[Criterion]]:
+        """Speeds and limits with those at further speeds."""
+        if not len(limits) or not len(further):
+            return np.sort(np.concatenate([speeds, further])), limits
+        every = np.concatenate([speeds, further])
+        order = np.argsort(every)
+        return every[order], [
+            one._replace(
+                found=np.append(one.found, other.found)[order],
+                permitted=np.append(one.permitted, other.permitted)[order],
+            )
+            for one, other in zip(limits, self.criteria_at(further), strict=True)
+        ]
+
+    def _ratios(self, speeds: Floats) -> Floats:
+        """Found over permitted at any speeds, (limits, speeds)."""
+        return np.array([each.ratio for each in self.criteria_at(speeds)])
+
+    @cached_property
+    def exceeded(self) -> list[Exceedance]:
+        """Ranges in which limits are not kept, by their place among the criteria."""
+        ratios = np.array([each.ratio for each in self.criteria]).reshape(-1, len(self.speeds))
+        return exceedances(self._ratios, self.speeds, ratios)
+
+    def criteria_at(self, speeds: Floats) -> list[Criterion]:
+        """All limits at any speeds between the lowest and the highest.
+
+        Parameters
+        ----------
+        speeds : ndarray, shape (n,)
+            Of the first disc [rad/s].
+
+        Returns
+        -------
+        list of Criterion
+            In the same order at any speeds.
+        """
+        at = between(self.machine, self.at, speeds)
+        return criteria(self.machine, at, carried(at), self.service)
+
+    def carried_at(self, speeds: Floats) -> Carried:
+        """What the shafts carry at any speeds between the lowest and the highest.
+
+        Parameters
+        ----------
+        speeds : ndarray, shape (n,)
+            Of the first disc [rad/s].
+
+        Returns
+        -------
+        Carried
+            At these.
+        """
+        return carried(between(self.machine, self.at, speeds))
+
+    @cached_property
+    def _further(self) -> Floats:
+        """Speeds of resonances that the run does not have."""
+        run = self.at.torques.speeds
+        every = np.unique([each.speed for each in self.resonances])
+        every = every[np.diff(every, prepend=-1.0) > _EQUAL * every]
+        apart = np.abs(every[:, None] - run).min(axis=1, initial=np.inf) > _EQUAL * every
+        found: Floats = every[apart]
+        return found
+
+
+def _highest(ratio: Floats) -> list[int]:
+    """Places of the highest value, and of all maxima that might pass the limit between the speeds."""
+    inside = np.concatenate([[False], (ratio[1:-1] >= ratio[:-2]) & (ratio[1:-1] >= ratio[2:]), [False]])
+    near = np.flatnonzero(inside & (ratio > _NEAR)).tolist()
+    return sorted({int(np.argmax(ratio)), *near}) if ratio.max(initial=0.0) > 0 else []
+
+
+def survey(machine: Machine, at: Excited | None = None, found: Carried | None = None) -> Survey:
+    """Look at a train closely.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a train that something excites, and the speeds at which to look.
+    at : Excited, optional
+        The train at these, if that is there already.
+    found : Carried, optional
+        What its shafts carry there, likewise.
+
+    Returns
+    -------
+    Survey
+        Nothing of it is computed before it is asked for.
+
+    Raises
+    ------
+    InputError
+        Nothing excites the train, or it has no speeds.
+    """
+    at = excited(machine) if at is None else at
+    return Survey(machine, at, carried(at) if found is None else found)
+
+
+def between(machine: Machine, at: Excited, speeds: Floats) -> Excited:
+    """A train at other speeds between those at which it has been prepared.
+
+    Parameters
+    ----------
+    machine : Machine
+        With the train.
+    at : Excited
+        Prepared at some speeds, increasing.
+    speeds : ndarray, shape (n,)
+        Between them [rad/s].
+
+    Returns
+    -------
+    Excited
+        At these. Torques of the file itself are exact, as are all where fewer than four speeds are known.
+    """
+    exact = machine.train is not None and machine.train.engine is None
+    if exact or len(at.torques.speeds) < _ABOUT:
+        return excited(machine, speeds)
+    about, weights = _about(at.torques.speeds, speeds)
+
+    def there(values: Values) -> Values:
+        found: Values = sum(w * values[..., n] for n, w in zip(about, weights, strict=True))
+        return found
+
+    torques = replace(
+        at.torques,
+        speeds=speeds,
+        harmonics=there(at.torques.harmonics),
+        mean=there(at.torques.mean),
+        damping=there(at.torques.damping),
+    )
+    return loaded(machine, at.train, at.referred, torques)
+
+
+def _about(known: Floats, wanted: Floats) -> tuple[NDArray[np.intp], Floats]:
+    """Places of four known speeds about each wanted one, and what they count, (4, wanted): Lagrange's."""
+    first = np.clip(np.searchsorted(known, wanted) - _ABOUT // 2, 0, len(known) - _ABOUT)
+    about = first + np.arange(_ABOUT)[:, None]
+    x = known[about]
+    weights = np.ones_like(x)
+    for n in range(_ABOUT):
+        for k in range(_ABOUT):
+            if k != n:
+                weights[n] *= (wanted - x[k]) / (x[n] - x[k])
+    return about, weights

@@ -1,0 +1,176 @@
+r"""Torques on the discs of a train as harmonics of the angle of its first disc.
+
+.. math:: M(t) = \bar M + \mathrm{Re} \sum_\nu M_\nu e^{i\nu\Omega t}
+
+An order of a disc that turns n times as fast as the first is the order nν of the train.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.torsion.model.train import Train
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+# Orders that differ by a smaller share are one but for rounding of ratios.
+_EQUAL = 1e-9
+
+
+@dataclass(frozen=True)
+class Torques:
+    """Torques on the discs.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (speeds,)
+        Of the first disc [rad/s].
+    orders : ndarray, shape (orders,)
+        Waves a turn of the first disc, increasing.
+    harmonics : ndarray of complex, shape (orders, discs, speeds)
+        M_ν on each disc [N m].
+    mean : ndarray, shape (discs, speeds)
+        Driving positive; they balance unless nothing takes them off [N m].
+    damping : ndarray, shape (discs, speeds)
+        Of the loads [N m s/rad].
+    load_factor : ndarray, shape (speeds,)
+        Loads as they count over those given: not 1 where they follow an engine.
+    """
+
+    speeds: Floats
+    orders: Floats
+    harmonics: Complexes
+    mean: Floats
+    damping: Floats
+    load_factor: Floats
+
+
+@dataclass(frozen=True)
+class Source:
+    """Harmonics of one origin.
+
+    Attributes
+    ----------
+    disc : int
+        Place of the disc.
+    orders : ndarray, shape (orders,)
+        Waves a turn of the first disc.
+    harmonics : ndarray of complex, shape (orders, speeds)
+        [N m].
+    mean : ndarray, shape (speeds,) or None
+        Driving positive [N m].
+    """
+
+    disc: int
+    orders: Floats
+    harmonics: Complexes
+    mean: Floats | None = None
+
+
+def torques_of(
+    train: Train,
+    turning: Floats,
+    speeds: Floats,
+    sources: Iterable[Source] = (),
+    damping: Floats | None = None,
+    *,
+    is_free: bool = True,
+    has_engine: bool = False,
+) -> Torques:
+    """All torques on the discs of a train.
+
+    Parameters
+    ----------
+    train : Train
+        Of discs, shafts and gears, with its loads and excitations.
+    turning : ndarray, shape (discs,)
+        Speed of each disc over that of the first.
+    speeds : ndarray, shape (speeds,)
+        Of the first disc [rad/s].
+    sources : iterable of Source
+        Torques of an engine or of a mechanism, with their mean.
+    damping : ndarray, shape (discs, speeds), optional
+        Of motor and mechanism [N m s/rad].
+    is_free : bool
+        Whether the train can turn as a whole. A held one leaves its mean torque to the ground.
+    has_engine : bool
+        Whether the sources drive, so that the loads follow them.
+
+    Returns
+    -------
+    Torques
+        Mean torques of a free train balance: loads take off what an engine gives, in proportion to their
+        laws; without an engine the driver gives what is needed. An engine without loads speeds the train up.
+    """
+    place = {name: k for k, name in enumerate(train.discs)}
+    found = [*sources, *_excitations(train, place, turning, speeds)]
+    mean = np.zeros((len(place), len(speeds)))
+    for each in found:
+        if each.mean is not None:
+            mean[each.disc] += each.mean
+    resistance, of_loads = _loads(train, place, turning, speeds)
+    factor = np.ones(len(speeds))
+    if is_free:
+        # Power balances: what turns n times as fast counts n times.
+        drive, needed = turning @ mean, turning @ resistance
+        if has_engine:
+            factor = np.divide(drive, needed, out=factor, where=needed > 0)
+            resistance, of_loads = factor * resistance, np.maximum(factor, 0.0) * of_loads
+        else:
+            driver = place[train.driver or next(iter(place))]
+            mean[driver] += (needed - drive) / turning[driver]
+    found += _load_harmonics(train, place, turning, resistance)
+    orders = _orders(each.orders for each in found)
+    harmonics = np.zeros((len(orders), len(place), len(speeds)), complex)
+    for each in found:
+        at = np.abs(orders[:, None] - each.orders).argmin(axis=0)
+        np.add.at(harmonics, (at, each.disc), each.harmonics)
+    own = of_loads if damping is None else of_loads + damping
+    return Torques(speeds, orders, harmonics, mean - resistance, own, factor)
+
+
+def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> list[Source]:
+    """Torques that the file gives by themselves."""
+    found = []
+    for each in train.excitations.values():
+        n = turning[place[each.on]]
+        size = np.array([wave.torque * np.exp(1j * wave.phase) for wave in each.harmonics])
+        factor = np.array([each.factor(n * speed) for speed in speeds.tolist()])
+        orders = n * np.array([wave.order for wave in each.harmonics])
+        found.append(Source(place[each.on], orders, size[:, None] * factor))
+    return found
+
+
+def _loads(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> tuple[Floats, Floats]:
+    """Mean resistance and damping of the loads, (discs, speeds) each."""
+    resistance = np.zeros((len(place), len(speeds)))
+    damping = np.zeros_like(resistance)
+    for each in train.loads.values():
+        n, disc = turning[place[each.on]], place[each.on]
+        resistance[disc] += [each.resistance(n * speed) for speed in speeds.tolist()]
+        damping[disc] += [each.damping(n * speed) for speed in speeds.tolist()]
+    return resistance, damping
+
+
+def _load_harmonics(train: Train, place: dict[str, int], turning: Floats, resistance: Floats) -> list[Source]:
+    """Pulsation of the loads: shares of what they resist."""
+    found = []
+    for each in train.loads.values():
+        if each.harmonics:
+            disc = place[each.on]
+            size = np.array([-wave.share * np.exp(1j * wave.phase) for wave in each.harmonics])
+            orders = turning[disc] * np.array([wave.order for wave in each.harmonics])
+            found.append(Source(disc, orders, size[:, None] * resistance[disc]))
+    return found
+
+
+def _orders(listed: Iterable[Floats]) -> Floats:
+    """All orders, those equal but for rounding once."""
+    every = np.sort(np.concatenate([np.empty(0), *listed]))
+    apart = np.diff(every, prepend=-1.0) > _EQUAL * every
+    return every[apart]

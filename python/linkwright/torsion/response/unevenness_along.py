@@ -1,0 +1,204 @@
+r"""Unevenness of rotation along the shaft: the measure N over the cylinders, at every disc.
+
+From the firing of one cylinder at :math:`\varphi_i` to that of the next at :math:`\varphi_{i+1}` the speed of
+a disc rises and falls by
+
+.. math:: N_i = \frac{\max \omega - \min \omega}{\omega_m}, \qquad
+    N = \frac1z \sum_{i=1}^z N_i, \qquad s = \max_i N_i - \min_i N_i
+
+N is how unevenly the disc turns within the share of a cylinder, on average over all of them; s is how
+differently they work. A healthy engine that fires evenly has one :math:`N_i` for all cylinders as long as it
+is rigid. Torsional vibration makes N another number at every disc, so that cylinders cannot be judged by it
+alone. As δ, N has a part of the train turning as a whole, :math:`q_r = \sum J q/\sum J`, and a torsional
+rest, which do not add up.
+
+The diagnostic literature uses N without one definition of it; this one is ours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.result import Result
+from linkwright.torsion.response.excited import Excited
+from linkwright.torsion.response.forced import ForcedVibration
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+# Points a wave of the highest order; Newton refines extremes from them.
+_POINTS = 12
+_NEWTON = 4
+
+# How close waves in a cycle must be to a whole number.
+_EQUAL = 1e-9
+
+
+@dataclass(frozen=True)
+class UnevennessAlong(Result):
+    """Unevenness over the cylinders at each disc, at one speed.
+
+    Attributes
+    ----------
+    speed : float
+        Of the first disc [rad/s].
+    discs : tuple of str
+        As in `ForcedVibration`.
+    cylinders : tuple of str
+        In the order in which they fire.
+    firing : ndarray, shape (cylinders,)
+        Angle of the first disc at which each fires, increasing within a cycle [rad].
+    share, share_rigid, share_torsional : ndarray, shape (discs, cylinders)
+        N_i from each firing to the next: in all, of the train as a whole, of the rest.
+    """
+
+    speed: float
+    discs: tuple[str, ...]
+    cylinders: tuple[str, ...]
+    firing: Floats
+    share: Floats
+    share_rigid: Floats
+    share_torsional: Floats
+
+    @property
+    def unevenness(self) -> Floats:
+        """N, shape (discs,)."""
+        return _mean(self.share)
+
+    @property
+    def unevenness_rigid(self) -> Floats:
+        """N of the train turning as a whole, shape (discs,)."""
+        return _mean(self.share_rigid)
+
+    @property
+    def unevenness_torsional(self) -> Floats:
+        """N of the rest, shape (discs,)."""
+        return _mean(self.share_torsional)
+
+    @property
+    def spread(self) -> Floats:
+        """s, largest less least N_i, shape (discs,)."""
+        found: Floats = np.ptp(self.share, axis=1)
+        return found
+
+
+def unevenness_along(
+    at: Excited, found: ForcedVibration, firing: Mapping[str, float], turns: int, speed: float
+) -> UnevennessAlong:
+    """N at every disc.
+
+    Parameters
+    ----------
+    at : Excited
+        The train.
+    found : ForcedVibration
+        Its vibration.
+    firing : mapping of str to float
+        Angle of the first disc at which each cylinder fires, at any turn of the cycle [rad].
+    turns : int
+        Turns of a cycle: 2 of a four-stroke, 1 of a two-stroke engine.
+    speed : float
+        At which to look; the nearest of those of the vibration is taken [rad/s].
+
+    Returns
+    -------
+    UnevennessAlong
+        Of the orders that repeat with the cycle; others have no place in it.
+
+    Raises
+    ------
+    InputError
+        Two cylinders fire at once, or there are none.
+    """
+    names, angles = _fired(firing, turns)
+    column = int(np.argmin(np.abs(found.speeds - speed)))
+    waves = found.orders * turns
+    fits = np.abs(waves - np.rint(waves)) <= _EQUAL * np.maximum(waves, 1.0)
+    orders = found.orders[fits]
+    # Speed over mean speed: iν θ/n, n being that of the disc.
+    relative = 1j * orders[:, None] * found.amplitudes[fits, :, column] / at.referred.speed
+    whole = _as_a_whole(at, relative)
+    parts = [_shares(orders, each, angles, turns) for each in (relative, whole, relative - whole)]
+    return UnevennessAlong(float(found.speeds[column]), found.discs, names, angles, *parts)
+
+
+def _mean(shares: Floats) -> Floats:
+    """Mean over the cylinders."""
+    found: Floats = shares.mean(axis=1)
+    return found
+
+
+def _fired(firing: Mapping[str, float], turns: int) -> tuple[tuple[str, ...], Floats]:
+    """Cylinders and angles in the order of firing."""
+    if not firing:
+        raise InputError("no cylinder fires: expected the firing angle of each cylinder")
+    cycle = 2 * np.pi * turns
+    angles = {name: float(angle) % cycle for name, angle in firing.items()}
+    names = sorted(angles, key=angles.__getitem__)
+    for a, b in pairwise(names):
+        if angles[b] - angles[a] < 1e-6:
+            where = np.degrees(angles[a])
+            raise InputError(
+                f"cylinders {a} and {b} fire at once, at {where:.6g}°: N has no interval between"
+            )
+    return tuple(names), np.array([angles[name] for name in names])
+
+
+def _as_a_whole(at: Excited, relative: Complexes) -> Complexes:
+    """The same for all discs: mean of the masses by their inertia; nothing for a train that is held."""
+    referred = at.referred
+    if not referred.is_free:
+        return np.zeros_like(relative)
+    first = [int(np.argmax(referred.mass == mass)) for mass in range(len(referred.inertia))]
+    mean = relative[:, first] @ referred.inertia / referred.inertia.sum()
+    return np.broadcast_to(mean[:, None], relative.shape)
+
+
+def _shares(orders: Floats, waves: Complexes, firing: Floats, turns: int) -> Floats:
+    """Largest less least value in each interval, (discs, cylinders)."""
+    ends = np.append(firing[1:], firing[0] + 2 * np.pi * turns)
+    found = [_span(orders, waves, *interval) for interval in zip(firing, ends, strict=True)]
+    return np.array(found).reshape(len(firing), -1).T
+
+
+def _span(orders: Floats, waves: Complexes, start: float, end: float) -> Floats:
+    """Largest less least value of sums of harmonics on an interval, ends included, (discs,)."""
+    if not len(orders):
+        return np.zeros(waves.shape[1])
+    points = max(int(np.ceil((end - start) * orders.max() / (2 * np.pi) * _POINTS)), 2) + 1
+    angle = np.linspace(start, end, points)
+    values = _wave(orders, waves[:, :, None], angle)
+    found = []
+    for sign in (1.0, -1.0):
+        best = np.argmax(sign * values, axis=1)
+        top = sign * values[np.arange(len(best)), best]
+        # A wave that fits the interval is as high at both its ends: the extreme may be beside either.
+        for start_at in (best, np.zeros_like(best), np.full_like(best, points - 1)):
+            low, high = angle[np.maximum(start_at - 1, 0)], angle[np.minimum(start_at + 1, points - 1)]
+            at = _flat(orders, waves, angle[start_at], low, high)
+            top = np.maximum(top, sign * _wave(orders, waves, at))
+        found.append(top)
+    span: Floats = found[0] + found[1]
+    return span
+
+
+def _flat(orders: Floats, waves: Complexes, x: Floats, low: Floats, high: Floats) -> Floats:
+    """Where the slope is zero next to an angle, (discs,), by Newton between two bounds."""
+    for _ in range(_NEWTON):
+        slope, bend = (_wave(orders, (1j * orders[:, None]) ** k * waves, x) for k in (1, 2))
+        step = np.divide(slope, bend, out=np.zeros_like(slope), where=bend != 0)
+        x = np.clip(x - step, low, high)
+    return x
+
+
+def _wave(orders: Floats, waves: Complexes, angle: Floats) -> Floats:
+    """Σ Re c e^{iνφ}: of (orders, discs) at an angle each, or of (orders, discs, 1) at all angles."""
+    phase = np.exp(1j * orders.reshape(-1, *[1] * (waves.ndim - 1)) * angle)
+    found: Floats = (waves * phase).real.sum(axis=0)
+    return found

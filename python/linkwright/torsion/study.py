@@ -1,0 +1,311 @@
+"""Everything about the torsional vibration of a train, for a report or as one object."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.units import FREQUENCY, not_negative
+from linkwright.machine.machine import Machine
+from linkwright.torsion.in_time.transient import TorsionTransient, torsion_transient
+from linkwright.torsion.limits.verdict import Verdict, verdict
+from linkwright.torsion.model.engine.engine import ReciprocatingEngine
+from linkwright.torsion.model.engine.firing import firing_angles
+from linkwright.torsion.model.train import Train
+from linkwright.torsion.modes.campbell import CampbellDiagram, campbell
+from linkwright.torsion.modes.damped import DampedVibration, damped_vibration
+from linkwright.torsion.modes.free import FreeVibration, free_vibration, train_of
+from linkwright.torsion.modes.holzer import HolzerTable, holzer_table
+from linkwright.torsion.modes.scheme import Scheme, scheme
+from linkwright.torsion.response.engine_data import EngineData, engine_data
+from linkwright.torsion.response.excited import Excited, excited, is_excited, pulsates
+from linkwright.torsion.response.forced import ForcedVibration, responded
+from linkwright.torsion.response.peaks import TorquePeaks, torque_peaks
+from linkwright.torsion.response.stress import ShaftStress, shaft_stress
+from linkwright.torsion.response.survey import survey
+from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
+
+# Share by which loads may be off what the engine gives without a word.
+_FITS = 0.1
+
+# Share by which loads that follow an engine are as they are given.
+_BALANCED = 1e-3
+
+# Share of a limit from which on it matters that more may be asked for beyond the speeds.
+_NEAR = 0.8
+
+
+@dataclass(frozen=True)
+class TorsionStudy:
+    """Torsional vibration of a machine, as far as it has any.
+
+    Attributes
+    ----------
+    machine : Machine
+        The machine.
+    scheme : Scheme
+        Its equivalent scheme, referred to one speed.
+    free : FreeVibration
+        Natural frequencies and shapes.
+    holzer : tuple of HolzerTable
+        At the frequencies asked for.
+    damped : DampedVibration or None
+        The same with damping; None where nothing damps it.
+    excited : Excited or None
+        Its torques; None where nothing excites it.
+    forced : ForcedVibration or None
+        Its vibration under them.
+    stress : ShaftStress or None
+        Of the shafts with known sections.
+    verdict : Verdict or None
+        Whether all limits are kept.
+    along : UnevennessAlong or None
+        Unevenness over the cylinders of an engine at its speed of service.
+    engine : EngineData or None
+        What an engine is in the train.
+    campbell : CampbellDiagram or None
+        Critical speeds.
+    peaks : TorquePeaks or None
+        Largest torques of the shafts, resonances between the speeds among them.
+    transient : TorsionTransient or None
+        The manoeuvre of [train.transient].
+    """
+
+    machine: Machine
+    scheme: Scheme
+    free: FreeVibration
+    holzer: tuple[HolzerTable, ...]
+    damped: DampedVibration | None = None
+    excited: Excited | None = None
+    forced: ForcedVibration | None = None
+    stress: ShaftStress | None = None
+    verdict: Verdict | None = None
+    along: UnevennessAlong | None = None
+    engine: EngineData | None = None
+    campbell: CampbellDiagram | None = None
+    peaks: TorquePeaks | None = None
+    transient: TorsionTransient | None = None
+
+    @property
+    def findings(self) -> list[str]:
+        """What the machine does not bear, in sentences."""
+        found = [] if self.verdict is None else self.verdict.judgements
+        steady = [f"{each.words}." for each in found if each.state == "exceeds"]
+        return steady + ([] if self.transient is None else self.transient.findings)
+
+    @property
+    def balance(self) -> str:
+        """What counts other than the file says so that mean torques balance; empty where nothing does."""
+        return " ".join(_balance(self))
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the numbers leave out, in sentences."""
+        return list(_warnings(self))
+
+    def results(self) -> dict[str, Any]:
+        """Results by name, ready for JSON but for numbers that it does not know."""
+        free = self.free.to_dict(curves=True)
+        free["nodes"] = [[node._asdict() for node in nodes] for nodes in self.free.nodes]
+        found: dict[str, Any] = {"free": free}
+        if self.holzer:
+            found["holzer"] = [each.to_dict(curves=True) for each in self.holzer]
+        if self.damped is not None:
+            found["damped"] = self.damped.to_dict(curves=True)
+        parts = {"forced": self.forced, "peaks": self.peaks, "stress": self.stress, "verdict": self.verdict}
+        found |= {name: part.to_dict(curves=True) for name, part in parts.items() if part is not None}
+        if self.transient is not None:
+            found["transient"] = self.transient.to_dict()
+        if self.campbell is not None:
+            found["campbell"] = self.campbell.to_dict()
+        if self.engine is not None:
+            found["engine"] = self.engine.to_dict()
+        if self.along is not None:
+            found["unevenness_along"] = self.along.to_dict(curves=True)
+        return found | {"scheme": self.scheme.to_dict(curves=True)}
+
+
+@public
+def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionStudy:
+    """Study the torsional vibration of a train or of a drive line.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a [train], or with a drive line that twists.
+    holzer : sequence of float
+        Frequencies of Holzer's tables [Hz].
+
+    Returns
+    -------
+    TorsionStudy
+        Free vibration; where something excites the train, forced vibration, stresses and the verdict.
+
+    Raises
+    ------
+    InputError
+        The machine has no train; a frequency that makes no sense.
+    """
+    in_range(holzer=(holzer, not_negative(FREQUENCY)))
+    free = free_vibration(machine)
+    tables = tuple(holzer_table(machine, frequency) for frequency in holzer)
+    damped = damped_vibration(machine, _service(machine)) if _is_damped(machine) else None
+    moved = None
+    if machine.train is not None and machine.train.transient is not None:
+        moved = torsion_transient(machine)
+    if not is_excited(machine):
+        return TorsionStudy(machine, scheme(machine), free, tables, damped, transient=moved)
+    at = excited(machine)
+    forced = responded(at)
+    stress, seen = shaft_stress(machine, forced), survey(machine, at, forced)
+    return TorsionStudy(
+        machine,
+        scheme(machine),
+        free,
+        tables,
+        damped,
+        at,
+        forced,
+        stress if stress.shafts else None,
+        verdict(machine, seen),
+        _along(machine, at, forced),
+        _engine(machine),
+        campbell(machine, speed_range=(at.torques.speeds[0], at.torques.speeds[-1])),
+        torque_peaks(seen),
+        moved,
+    )
+
+
+def _service(machine: Machine) -> float | None:
+    """Speed of service of a train, at which loads damp it and couplings carry their mean torque."""
+    run = machine.train.run if machine.train is not None else None
+    return None if run is None or not pulsates(machine.train) else run.service  # type: ignore[arg-type]
+
+
+def _is_damped(machine: Machine) -> bool:
+    """Whether anything of a train damps its vibration."""
+    train = train_of(machine)
+    loads = any(load.exponent > 0 and load.damping_factor > 0 for load in train.loads.values())
+    shafts = any(each.damping or each.loss_factor for each in train.shafts.values())
+    gears = any(each.damping or each.loss_factor for each in train.gears.values())
+    return loads or shafts or gears or any(each.damping for each in train.discs.values())
+
+
+def _engine(machine: Machine) -> EngineData | None:
+    """What an engine is, at its speed of service."""
+    train = machine.train
+    if train is None or train.engine is None or train.run is None:
+        return None
+    return engine_data(train.engine, train.run.service)
+
+
+def _along(machine: Machine, at: Excited, forced: ForcedVibration) -> UnevennessAlong | None:
+    """Unevenness over the cylinders, where there is an engine whose cylinders fire one after another."""
+    train = machine.train
+    if train is None or train.engine is None or train.run is None:
+        return None
+    angles, cycle = firing_angles(train.engine.places, train.engine.firing_order, train.engine.cycle)
+    # Two that fire at once share one rise of the speed, which then is none of either.
+    if len(np.unique(np.round(np.remainder(angles, cycle), 6))) < len(angles):
+        return None
+    firing = {str(n + 1): angle for n, angle in enumerate(angles)}
+    return unevenness_along(at, forced, firing, train.engine.strokes // 2, train.run.service)
+
+
+def _balance(study: TorsionStudy) -> Iterator[str]:
+    """Torques of the file that count other than they are given."""
+    if study.transient is not None and study.transient.balance:
+        yield f"Manoeuvre: {study.transient.balance}."
+    at, train = study.excited, study.machine.train
+    if at is None or train is None or train.engine is None or not train.loads:
+        return
+    least, most = float(at.torques.load_factor.min()), float(at.torques.load_factor.max())
+    if abs(least - 1) > _BALANCED or abs(most - 1) > _BALANCED:
+        count = f"{least:.4g} to {most:.4g} times over the speeds"
+        yield f"Steady running: loads follow the engine, and count {count}."
+
+
+def _warnings(study: TorsionStudy) -> Iterator[str]:
+    """What one should know beside the numbers."""
+    forced, at, train = study.forced, study.excited, study.machine.train
+    yield from () if study.transient is None else (f"Manoeuvre: {note}." for note in study.transient.notes)
+    if forced is None or at is None:
+        if train is not None and pulsates(train):
+            yield "Torques pulsate, but no speeds are given: forced vibration needs [train.run]."
+        return
+    yield from () if study.verdict is None else (f"{note}." for note in study.verdict.notes)
+    if not np.isfinite(forced.shaft_torque_max).all():
+        rows = ~np.isfinite(forced.shaft_torque_max).all(axis=0)
+        rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in forced.speeds[rows][:4])
+        yield f"Nothing damps a resonance that is met exactly, at {rpm} rpm: no amplitude there."
+    run = None if train is None else train.run
+    if run is not None and not run.speed_min <= run.service <= run.speed_max:
+        near = min(max(run.service, run.speed_min), run.speed_max) * 30 / np.pi
+        yield f"The speed of service is not among those looked at: what is told of it is at {near:.5g} rpm."
+    if train is not None and train.engine is not None and at.referred.is_free:
+        yield from _balance_warnings(train.engine, train, at)
+    yield from _about_loads(study, at)
+    yield from _about_couplings(study, forced)
+    yield from _about_the_ends(study, forced)
+    rest = forced.orders[~forced.together.together]
+    if len(rest):
+        listed = ", ".join(f"{order:.5g}" for order in rest[:4])
+        yield f"Orders {listed} have no common base with the others: their amplitudes are added up."
+
+
+def _balance_warnings(engine: ReciprocatingEngine, train: Train, at: Excited) -> Iterator[str]:
+    """Loads that do not take what an engine gives."""
+    if not train.loads:
+        yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
+        return
+    # Behind the throws there are loads alone, and all of them drive if one does.
+    behind = slice(len(engine.throws), None)
+    driven = at.referred.speed[behind] @ at.torques.mean[behind] > 0
+    if driven.any():
+        rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in at.torques.speeds[driven][:4])
+        yield f"The engine gives no torque in the mean, at {rpm} rpm: the loads are taken to drive it there."
+
+
+def _about_loads(study: TorsionStudy, at: Excited) -> Iterator[str]:
+    """Loads that the engine does not fit."""
+    speeds, run = at.torques.speeds, study.machine.train.run if study.machine.train is not None else None
+    service = speeds[-1] if run is None else run.service
+    factor = float(at.torques.load_factor[np.abs(speeds - service).argmin()])
+    # Loads that drive the engine are told by themselves.
+    if at.train.loads and factor > 0 and abs(factor - 1) > _FITS:
+        yield (
+            f"At the speed of service the loads count {factor:.3g} times, to take what the engine gives. "
+            "Check torque and speed of [train.loads], or the mean effective pressure of the gas."
+        )
+
+
+def _about_couplings(study: TorsionStudy, forced: ForcedVibration) -> Iterator[str]:
+    """Couplings that carry more than their curve says."""
+    couplings = {} if study.machine.train is None else study.machine.train.couplings
+    for name, each in couplings.items():
+        if each.torque is None:
+            continue
+        carried = float(np.abs(forced.mean_torques[forced.shafts.index(name)]).max())
+        if carried > each.torque[-1]:
+            yield (
+                f"Coupling {name} carries {carried:.4g} N m, its curve ends at {each.torque[-1]:.4g} N m: "
+                "its last slope is taken beyond."
+            )
+
+
+def _about_the_ends(study: TorsionStudy, forced: ForcedVibration) -> Iterator[str]:
+    """Limits that are nearest to being broken at an end of the speeds."""
+    rows = () if study.verdict is None else study.verdict.judgements
+    ends = (forced.speeds[0], forced.speeds[-1])
+    near = [each for each in rows if each.speed in ends and each.found > _NEAR * each.permitted > 0]
+    if near:
+        parts = ", ".join(dict.fromkeys(each.part for each in near))
+        yield (
+            f"{parts}: most is asked for at an end of the speeds, and more may be beyond it; widen "
+            "[train.run] to see."
+        )

@@ -1,0 +1,377 @@
+"""Tables of the torsional vibration of a train."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.table import Row, Table, with_unit
+from linkwright.torsion.in_time.transient import TorsionTransient
+from linkwright.torsion.limits.verdict import Verdict
+from linkwright.torsion.modes.campbell import CampbellDiagram
+from linkwright.torsion.modes.damped import DampedVibration
+from linkwright.torsion.modes.free import FreeVibration, Node
+from linkwright.torsion.modes.holzer import HolzerTable
+from linkwright.torsion.response.engine_data import EngineData
+from linkwright.torsion.response.forced import ForcedVibration
+from linkwright.torsion.study import TorsionStudy
+
+Floats = NDArray[np.float64]
+
+# Parts that share most of the energy, as far as they have a twentieth of it.
+_NAMED, _SHARE = 2, 0.05
+
+# Nodes of a mode in a row of its table.
+_NODES = 3
+
+# Critical speeds in a table.
+_CRITICAL = 12
+
+# Columns of shapes beside each other on a terminal.
+_SHAPES = 5
+
+
+def study_tables(study: TorsionStudy) -> Iterator[Table]:
+    """All tables of a study of torsional vibration.
+
+    Parameters
+    ----------
+    study : TorsionStudy
+        What to write.
+
+    Yields
+    ------
+    Table
+        For terminal and report.
+    """
+    if study.verdict is not None and study.verdict.judgements:
+        yield _judgements(study.verdict)
+    if study.transient is not None and study.transient.judgements:
+        yield _peak_judgements(study.transient)
+    if study.engine is not None:
+        yield _engine(study.engine)
+    yield from torsion_tables(study.free)
+    if study.damped is not None:
+        yield _damped(study, study.damped)
+    if study.campbell is not None and study.campbell.critical:
+        yield _critical(study.campbell)
+    if study.forced is not None:
+        yield _shafts(study, study.forced)
+        yield _discs(study, study.forced)
+    if study.transient is not None:
+        yield _manoeuvre(study.transient)
+    for each in study.holzer:
+        yield from holzer_tables(each)
+
+
+_STATES = {"ok": "kept", "bar": "bar the speeds", "exceeds": "exceeded"}
+
+
+def _judgements(found: Verdict) -> Table:
+    """Each limit and whether it is kept."""
+    rows: list[Row] = [
+        (
+            f"{each.part}: {each.what}",
+            "",
+            _shown(each.found, each.kind.unit),
+            _shown(each.permitted, each.kind.unit),
+            _rpm(each.speed),
+            _STATES[each.state],
+        )
+        for each in found.judgements
+    ]
+    return Table("limits", "Limits", ("limit", "", "found", "permitted", "at rpm", "verdict"), rows)
+
+
+def _peak_judgements(moved: TorsionTransient) -> Table:
+    """Each limit and whether the manoeuvre keeps it."""
+    rows: list[Row] = [
+        (
+            f"{each.part}: {each.what}",
+            "",
+            _shown(each.found, each.kind.unit),
+            _shown(each.permitted, each.kind.unit),
+            f"{each.time:.5g}",
+            _STATES["ok" if each.is_kept else "exceeds"],
+        )
+        for each in moved.judgements
+    ]
+    heads = ("limit", "", "found", "permitted", "at s", "verdict")
+    return Table("manoeuvre_limits", "Limits in the manoeuvre", heads, rows)
+
+
+def _engine(data: EngineData) -> Table:
+    """Discs and stiffness of throws by every formula, and the gas."""
+    rows: list[Row] = [
+        ("what turns with a throw", "J_k", with_unit(data.own_inertia, "kg m²"), ""),
+        ("disc of a throw, mean of the exact inertia", "J", with_unit(data.throw_inertia, "kg m²"), "used"),
+        _beside(
+            "disc of a throw as printed in paper 3, (7) and (12)",
+            data.throw_inertia_published,
+            data.throw_inertia,
+            "kg m²",
+        ),
+    ]
+    if data.stiffness is not None:
+        if data.stiffness_by == "given":
+            rows.append(("stiffness from throw to throw", "k", with_unit(data.stiffness, "N m/rad"), "given"))
+        for name, stiffness in data.stiffness_formulas.items():
+            word = f"stiffness by formula {name}"
+            if name == data.stiffness_by:
+                rows.append((word, "k", with_unit(stiffness, "N m/rad"), "used"))
+            else:
+                rows.append(_beside(word, stiffness, data.stiffness, "N m/rad"))
+    rows += [
+        (f"{word}, bank {n + 1}", "", with_unit(value / 1e5, "bar"), "")
+        for word, values in (
+            ("indicated mean pressure", data.mean_effective_pressure),
+            ("peak pressure", data.peak_pressure),
+        )
+        for n, value in enumerate(values)
+    ]
+    rows.append(("cylinders fire", "", "-".join(data.firing), ""))
+    steps = sorted({f"{np.degrees(each):.5g}°" for each in data.intervals})
+    rows.append(("one after another by", "", ", ".join(steps) or "a cycle", ""))
+    return Table("engine", f"Engine, gas at {_rpm(data.speed)} rpm", ("quantity", "", "value", ""), rows)
+
+
+def _beside(word: str, value: float, used: float, unit: str) -> Row:
+    """A value that is not used, and how far it is from the one that is."""
+    return word, "", with_unit(value, unit), f"{100 * (value / used - 1):+.3g} %"
+
+
+def _shown(value: float, unit: str) -> str:
+    """A quantity for people: stresses in MPa."""
+    if np.isinf(value):
+        return "no bound"
+    return with_unit(value / 1e6, "MPa") if unit == "Pa" else with_unit(value, unit)
+
+
+def _manoeuvre(moved: TorsionTransient) -> Table:
+    """Extremes of the torques in a manoeuvre, and when they come."""
+    columns = (moved.torque_max, moved.torque_max_time, moved.torque_min, moved.torque_min_time)
+    rows: list[Row] = [
+        (name, "", *(_finite(value) for value in values))
+        for name, values in zip(
+            moved.shafts, zip(*(each.tolist() for each in columns), strict=True), strict=True
+        )
+    ]
+    heads = ("shaft", "", "greatest N m", "at s", "least N m", "at s")
+    title = f"Manoeuvre of {moved.time[-1]:.4g} s: torques of the shafts"
+    return Table("manoeuvre", title, heads, rows)
+
+
+def _damped(study: TorsionStudy, found: DampedVibration) -> Table:
+    """Natural frequencies with their damping."""
+    columns = (
+        found.natural_frequencies,
+        found.damped_frequencies,
+        found.damping_ratios,
+        found.logarithmic_decrements,
+    )
+    rows: list[Row] = [
+        (_kind(values[0], values[1]), "", *(_finite(value) for value in values))
+        for values in zip(*(each.tolist() for each in columns), strict=True)
+    ]
+    heads = ("motion", "", "Hz", "damped Hz", "ζ", "log. decrement")
+    run = study.machine.train.run if study.machine.train is not None else None
+    at = f" at {_rpm(run.service)} rpm, loads and mean torques counted" if run and study.forced else ""
+    return Table("damped", f"Modes with damping{at}", heads, rows)
+
+
+def _kind(natural: float, damped: float) -> str:
+    """What a mode with damping does."""
+    return "turns as a whole" if natural == 0 else "vibrates" if damped > 0 else "creeps back"
+
+
+def _critical(found: CampbellDiagram) -> Table:
+    """The most severe critical speeds, by speed."""
+    by_severity = sorted(found.critical, key=lambda each: each.resonance_amplitude or 0.0, reverse=True)
+    kept = set(by_severity[:_CRITICAL])
+    rows: list[Row] = [
+        (
+            f"order {each.order:.4g}",
+            "",
+            str(each.mode),
+            f"{each.frequency:.5g}",
+            _rpm(each.speed),
+            _amplitude(each.resonance_amplitude),
+        )
+        for each in found.critical
+        if each in kept
+    ]
+    heads = ("order", "", "mode", "Hz", "rpm", "amplitude [°]")
+    more = len(found.critical) - len(rows)
+    title = "Critical speeds" + (f", the most severe of {len(found.critical)}" if more else "")
+    return Table("critical_speeds", title, heads, rows)
+
+
+def _amplitude(theta: float | None) -> str:
+    """Degrees, where an amplitude was found."""
+    if theta is None:
+        return "–"
+    return number(np.degrees(theta), 3) if np.isfinite(theta) else "∞"
+
+
+def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
+    """Torques of every shaft at their worst, and in service."""
+    at, peaks = service_place(study, forced), study.peaks
+    assert peaks is not None
+    rows: list[Row] = []
+    for s, name in enumerate(forced.shafts):
+        numbers = (
+            float(peaks.vibratory[s]),
+            forced.mean_torques[s, at],
+            forced.shaft_torque_vibratory[s, at],
+            forced.shaft_torque_max[s, at],
+            forced.shaft_heat[s, at],
+        )
+        cells = [_finite(value) for value in numbers]
+        rows.append((name, "", cells[0], _rpm(float(peaks.speed[s])), *cells[1:]))
+    service = _rpm(forced.speeds[at])
+    heads = ("shaft", "", "vibratory", "at rpm", "mean", "vibratory", "greatest", "heat")
+    title = f"Torques [N m]: largest over speeds and resonances; then at {service} rpm, with heat [W]"
+    return Table("shaft_torques", title, heads, rows)
+
+
+def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
+    """Unevenness along the train in service."""
+    at = service_place(study, forced)
+    parts = [forced.unevenness, forced.unevenness_rigid, forced.unevenness_torsional]
+    columns = [[_finite(value, 3) for value in part[:, at].tolist()] for part in parts]
+    heads = ["disc", "", "δ", "as a whole", "torsional"]
+    if study.along is not None:
+        heads += ["N", "spread of N"]
+        columns += [
+            [_finite(v, 3) for v in each.tolist()] for each in (study.along.unevenness, study.along.spread)
+        ]
+    rows: list[Row] = [(name, "", *cells) for name, *cells in zip(forced.discs, *columns, strict=True)]
+    title = f"Unevenness of rotation at {_rpm(forced.speeds[at])} rpm"
+    return Table("unevenness", title, tuple(heads), rows)
+
+
+def service_place(study: TorsionStudy, forced: ForcedVibration) -> int:
+    """Where tables and figures look at the train in service.
+
+    Parameters
+    ----------
+    study : TorsionStudy
+        The study.
+    forced : ForcedVibration
+        Its vibration.
+
+    Returns
+    -------
+    int
+        Place of the speed next to that of service; of a drive line the middle of its speeds.
+    """
+    run = study.machine.train.run if study.machine.train is not None else None
+    if run is None:
+        return len(forced.speeds) // 2
+    return int(np.argmin(np.abs(forced.speeds - run.service)))
+
+
+def _rpm(speed: float) -> str:
+    return f"{speed * 30 / np.pi:.5g}"
+
+
+def _finite(value: float, digits: int = 4) -> str:
+    """A number, or a dash at a resonance that nothing damps."""
+    return number(value, digits) if np.isfinite(value) else "–"
+
+
+def torsion_tables(found: FreeVibration) -> Iterator[Table]:
+    """Frequencies with nodes and energy; then the shapes.
+
+    Parameters
+    ----------
+    found : FreeVibration
+        What to write.
+
+    Yields
+    ------
+    Table
+        For terminal and report.
+    """
+    yield _frequencies(found)
+    for start in range(0, len(found.natural_frequencies), _SHAPES):
+        yield _shapes(found, range(start, min(start + _SHAPES, len(found.natural_frequencies))))
+
+
+def _frequencies(found: FreeVibration) -> Table:
+    rows: list[Row] = [
+        (
+            _energy(found, k),
+            f"f_{k}",
+            f"{f:.6g}",
+            f"{60 * f:.6g}",
+            _nodes(found.nodes[k]) if f > 0 else "–",
+        )
+        for k, f in enumerate(found.natural_frequencies.tolist())
+    ]
+    heads = ("most energy in", "", "Hz", "1/min", "nodes")
+    return Table("natural_frequencies", "Natural frequencies", heads, rows)
+
+
+def _nodes(nodes: Sequence[Node]) -> str:
+    """The first nodes of a mode; results.json has them all."""
+    told = ", ".join(map(_node, nodes[:_NODES])) or "–"
+    return f"{told}, {len(nodes)} in all" if len(nodes) > _NODES else told
+
+
+def _node(node: Node) -> str:
+    """Where a node is: a disc, or a shaft and the share of its twist."""
+    return node.at if node.share == 0 else f"{node.at} {node.share:.3f}"
+
+
+def _energy(found: FreeVibration, k: int) -> str:
+    """The shafts that twist most and the discs that swing most."""
+    if found.natural_frequencies[k] == 0:
+        moving = [name for name, q in zip(found.discs, found.mode_shapes[k], strict=True) if q]
+        return "turns as a whole" if len(moving) > 1 else f"{moving[0]} turns by itself"
+    parts = (
+        _most(found.shafts, found.potential_shares[k]),
+        _most(found.discs, found.kinetic_shares[k]),
+    )
+    return "; ".join(parts)
+
+
+def _most(names: tuple[str, ...], shares: Floats) -> str:
+    order = np.argsort(-shares, kind="stable")[:_NAMED]
+    return ", ".join(f"{names[n]} {100 * shares[n]:.0f} %" for n in order if shares[n] >= _SHARE)
+
+
+def _shapes(found: FreeVibration, modes: range) -> Table:
+    rows: list[Row] = [
+        (name, "", *(f"{found.mode_shapes[k, n]:.6f}" for k in modes)) for n, name in enumerate(found.discs)
+    ]
+    heads = ("disc", "", *(f"mode {k}" for k in modes))
+    return Table("mode_shapes", "Mode shapes, largest amplitude 1", heads, rows)
+
+
+def holzer_tables(found: HolzerTable) -> Iterator[Table]:
+    """Holzer's table: discs, then shafts.
+
+    Parameters
+    ----------
+    found : HolzerTable
+        What to write.
+
+    Yields
+    ------
+    Table
+        For terminal and report.
+    """
+    columns = (found.inertia, found.inertia_squared, found.amplitude, found.torque)
+    rows: list[Row] = [
+        (name, "", *(f"{column[n]:.6g}" for column in columns)) for n, name in enumerate(found.discs)
+    ]
+    rows.append(("left over at " + found.end, "", "", "", "", f"{found.residual_torque:.6g}"))
+    heads: Row = ("disc", "", "J [kg m²]", "J ω² [N m/rad]", "amplitude θ", "J ω² θ [N m]")
+    yield Table("holzer_discs", f"Holzer's table at {found.frequency:.6g} Hz", heads, rows)
+    of_shafts = (found.stiffness, found.twist, found.shaft_torque)
+    rows = [(name, "", *(f"{column[n]:.6g}" for column in of_shafts)) for n, name in enumerate(found.shafts)]
+    yield Table("holzer_shafts", "Its shafts", ("shaft", "", "k [N m/rad]", "twist", "torque [N m]"), rows)
