@@ -9,7 +9,7 @@ from common import Row, seconds
 from peers import topper as peer
 
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 from linkwright.topping.coverage import COARSE, coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.knife import knives

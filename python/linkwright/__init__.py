@@ -22,9 +22,9 @@ _HOME = {
     "motors": "drive.model.catalogue",
     "pumping_units": "pumping.model.unit_catalogue",
     "replace": "machine.address",
-    "read": "machine.files.read",
-    "loads": "machine.files.read",
-    "write": "machine.files.write",
+    "read": "machine.read",
+    "loads": "machine.read",
+    "write": "machine.write",
     "closure": "linkages.closure",
     "kinematics": "linkages.kinematics",
     "motions": "linkages.kinematics",
@@ -189,10 +189,10 @@ if TYPE_CHECKING:
     from linkwright.machine.address import addresses as addresses
     from linkwright.machine.address import get as get
     from linkwright.machine.address import replace as replace
-    from linkwright.machine.files.read import loads as loads
-    from linkwright.machine.files.read import read as read
-    from linkwright.machine.files.write import write as write
     from linkwright.machine.machine import Machine as Machine
+    from linkwright.machine.read import loads as loads
+    from linkwright.machine.read import read as read
+    from linkwright.machine.write import write as write
     from linkwright.pumping.model.unit_catalogue import pumping_units as pumping_units
     from linkwright.pumping.rod_rotator import rod_rotator as rod_rotator
     from linkwright.pumping.unit import pumping_unit as pumping_unit

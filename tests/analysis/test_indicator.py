@@ -16,7 +16,7 @@ from scipy.interpolate import PchipInterpolator
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.errors import MachineError
-from linkwright.machine.files.read import read_as
+from linkwright.machine.read import read_as
 from linkwright.torsion.model.engine.any_gas import AnyGas
 from linkwright.torsion.model.engine.gas_torque import GasTorque, gas_torque
 from linkwright.torsion.model.engine.indicator import Indicator

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 from linkwright.torsion.model.engine.combustion import Combustion
 from linkwright.torsion.model.engine.dead_centres import dead_centres
 from linkwright.torsion.model.engine.engine_motion import running_gears

@@ -10,8 +10,8 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import AssemblyError
 from linkwright.linkages.closure import require_one_turn
-from linkwright.machine.files.read import loads
 from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.read import loads
 
 HEAD = 'format = 1\nname = "linkage"\n'
 FOUR_BAR = """

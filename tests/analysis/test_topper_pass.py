@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from linkwright.machine.files.read import read
 from linkwright.machine.machine import Machine
+from linkwright.machine.read import read
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge, edges_of
 from linkwright.topping.head_pass import HeadPass, head_pass, worse_edge

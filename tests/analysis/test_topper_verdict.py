@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkwright.machine.files.read import loads
+from linkwright.machine.read import loads
 from linkwright.topping.constant_speed import constant_speed_lengths
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge

@@ -17,7 +17,7 @@ from linkwright.app.application import application
 from linkwright.kernel.command.common import reports_errors
 from linkwright.kernel.errors import StartError
 from linkwright.kernel.files.templates import templates
-from linkwright.machine.files.read import loads
+from linkwright.machine.read import loads
 
 ROOT = Path(__file__).parents[2]
 TWO_CARTS = ROOT / "machines" / "roller_two_carts.toml"

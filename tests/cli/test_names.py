@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from linkwright.app.application import application
 from linkwright.kernel.errors import MachineFileError
 from linkwright.kernel.files.csv_text import csv_text
-from linkwright.machine.files.read import loads
+from linkwright.machine.read import loads
 
 # What each would do where it is taken for more than a name.
 NASTY = [

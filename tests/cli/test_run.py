@@ -14,7 +14,7 @@ from typer.testing import CliRunner, Result
 from linkwright.app.application import application
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.files.templates import template, templates
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 
 ROOT = Path(__file__).parents[2]
 TWO_CARTS = ROOT / "machines" / "roller_two_carts.toml"

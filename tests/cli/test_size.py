@@ -11,7 +11,7 @@ from typer.testing import CliRunner, Result
 from linkwright.app.application import application
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 
 TWO_CARTS = library_path("roller_two_carts")
 

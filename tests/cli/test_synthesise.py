@@ -10,7 +10,7 @@ from typer.testing import CliRunner, Result
 
 from linkwright.app.application import application
 from linkwright.linkages.kinematics import kinematics
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 
 POSES = """
 [poses]

@@ -10,8 +10,8 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from linkwright.app.application import application
-from linkwright.machine.files.read import loads
-from linkwright.machine.files.write import dumps
+from linkwright.machine.read import loads
+from linkwright.machine.write import dumps
 
 TRAIN = """
 format = 1
@@ -130,7 +130,7 @@ def test_drive_study_without_motor(tmp_path: Path, speed: str, parts: set[str]) 
 
 
 def discs_of(path: Path) -> list[dict[str, float]]:
-    from linkwright.machine.files.read import read
+    from linkwright.machine.read import read
     from linkwright.torsion.response.drive_line import drive_line
 
     return [{"inertia": disc.inertia} for disc in drive_line(read(path)).discs.values()]

@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from linkwright.app.application import application
-from linkwright.machine.files.read import loads
+from linkwright.machine.read import loads
 from linkwright.pumping.model.unit_catalogue import pumping_units
 
 MACHINES = Path(__file__).parents[2] / "machines"

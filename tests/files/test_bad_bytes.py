@@ -15,7 +15,7 @@ from linkwright.kernel.errors import InputError, MachineFileError
 from linkwright.kernel.files.columns import read_columns
 from linkwright.kernel.units import ANGLE, TIME
 from linkwright.linkages.law_table import read_law_table
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 
 HEAD = "time [s], angle [rad]\n"
 ROWS = "0,0\n1,1\n2,3\n"

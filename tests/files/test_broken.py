@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from linkwright.kernel.errors import MachineFileError
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 
 BROKEN = sorted((Path(__file__).parent / "broken").glob("*.toml"))
 

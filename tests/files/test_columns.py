@@ -10,7 +10,7 @@ import pytest
 from linkwright.kernel.errors import MachineFileError
 from linkwright.kernel.files.columns import read_columns
 from linkwright.kernel.units import ANGLE, SPEED
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 
 KINDS = {"angle": ANGLE, "speed": SPEED}
 

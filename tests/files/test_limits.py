@@ -26,8 +26,8 @@ from linkwright.kernel.limits import (
     ROWS,
 )
 from linkwright.kernel.units import ANGLE, LENGTH, MASS, SPEED, Kind, parse
-from linkwright.machine.files.read import loads, read
-from linkwright.machine.files.write import dumps
+from linkwright.machine.read import loads, read
+from linkwright.machine.write import dumps
 
 SLIDER = """format = 1
 name = "S"

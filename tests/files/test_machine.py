@@ -18,8 +18,8 @@ from linkwright.kernel.files.templates import template
 from linkwright.kernel.units import ANGLE, LENGTH
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.address import addresses, get, kind, replace
-from linkwright.machine.files.read import loads
 from linkwright.machine.machine import Machine
+from linkwright.machine.read import loads
 
 RATED: dict[str, Any] = {
     "kind": "induction",

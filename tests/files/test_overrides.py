@@ -9,7 +9,7 @@ import pytest
 
 from linkwright.kernel.errors import InputError, MachineFileError
 from linkwright.machine.address import get
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

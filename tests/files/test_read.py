@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.kernel.errors import InputError, MachineFileError
 from linkwright.kernel.files.templates import template, templates
-from linkwright.machine.files.read import loads, read
+from linkwright.machine.read import loads, read
 
 MACHINES = sorted((Path(__file__).parents[2] / "machines").glob("*.toml"))
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"

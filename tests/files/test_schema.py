@@ -10,7 +10,7 @@ import jsonschema
 import pytest
 
 from linkwright.kernel.files.templates import template, templates
-from linkwright.machine.files.schema import schema
+from linkwright.machine.schema import schema
 
 MACHINES = sorted((Path(__file__).parents[2] / "machines").glob("*.toml"))
 TEXTS = {path.stem: path.read_text(encoding="utf-8") for path in MACHINES} | {

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.templates import template, templates
 from linkwright.machine.address import replace
-from linkwright.machine.files.read import loads, read
-from linkwright.machine.files.write import dumps, write
 from linkwright.machine.machine import Machine
+from linkwright.machine.read import loads, read
+from linkwright.machine.write import dumps, write
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

@@ -16,9 +16,9 @@ from steady_laws import violations
 import linkwright as lw
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.kernel.errors import FindingError
-from linkwright.machine.files.read import read
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.read import read
 
 Floats = NDArray[np.float64]
 

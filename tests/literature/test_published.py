@@ -10,8 +10,8 @@ from linkwright.drive.constant_energy import constant_energy
 from linkwright.drive.reduction import reduction
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.files.read import read
 from linkwright.machine.machine import Machine
+from linkwright.machine.read import read
 from linkwright.papers.paper1.conclusions import load_at_degrees
 from linkwright.papers.paper1.scheme import published_scheme, turns_to_steady
 from linkwright.papers.published import published

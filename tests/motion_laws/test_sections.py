@@ -18,7 +18,7 @@ from linkwright.cam.model.section_faults import section_faults
 from linkwright.kernel.description.base import Checked, Description
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.errors import MachineError, MachineFileError, Problem
-from linkwright.machine.files.read import loads_as, read_as
+from linkwright.machine.read import loads_as, read_as
 
 
 class SomeCam(Checked):

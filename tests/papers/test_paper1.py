@@ -9,7 +9,7 @@ from linkwright.drive.model.motor import InductionMotor
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.files.library import library, library_path
 from linkwright.machine.address import replace
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 from linkwright.papers.cell import Cell
 from linkwright.papers.paper1.conclusions import conclusions
 from linkwright.papers.paper1.limit import limit_curves, scaled_to

@@ -9,7 +9,7 @@ import pytest
 
 from linkwright.kernel.files.library import library_path
 from linkwright.linkages.closure import closure
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 from linkwright.papers.paper4.conclusions import conclusions
 from linkwright.papers.paper4.figures import figures
 from linkwright.papers.paper4.formulas import LeverFormula

@@ -16,7 +16,7 @@ from linkwright.drive.figures.reduction import reduction_figure
 from linkwright.drive.figures.run_up import run_up_figure
 from linkwright.kernel.figure.svg import svg
 from linkwright.kernel.files.templates import template
-from linkwright.machine.files.read import loads, read
+from linkwright.machine.read import loads, read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

@@ -13,7 +13,7 @@ import pytest
 from linkwright.app.report.scene import scene
 from linkwright.app.study import study
 from linkwright.kernel.files.templates import template, templates
-from linkwright.machine.files.read import loads, read
+from linkwright.machine.read import loads, read
 
 # A torsional train, and a knife that follows a law, have no mechanism to be drawn.
 GALLERY = [

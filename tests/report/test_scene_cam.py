@@ -9,7 +9,7 @@ import pytest
 
 from linkwright.app.report.scene import scene
 from linkwright.app.study import study
-from linkwright.machine.files.read import loads
+from linkwright.machine.read import loads
 
 SECTIONS = """
 sections = [

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from linkwright.app.report.page import knife_scene
 from linkwright.app.study import study
 from linkwright.kernel.files.templates import template
-from linkwright.machine.files.read import loads, read
+from linkwright.machine.read import loads, read
 from linkwright.topping.edge import edges_of
-from linkwright.topping.scene import topper_scene
 
 MACHINES = Path(__file__).parents[2] / "machines"
 ONE_WAY = 'topper.motion={kind="constant"}'
@@ -35,7 +35,7 @@ CASES: dict[str, tuple[str, tuple[str, ...]]] = {
 @cache
 def drawn(case: str) -> dict[str, Any]:
     name, overrides = CASES[case]
-    found = topper_scene(study(read(MACHINES / f"{name}.toml", list(overrides))))
+    found = knife_scene(study(read(MACHINES / f"{name}.toml", list(overrides))))
     assert found is not None
     return found
 
@@ -95,7 +95,7 @@ def test_head_in_the_middle_is_the_worst() -> None:
     assert scene["heads"][2] == pytest.approx([0, found.uncut_offset], abs=1e-6)
     enough = study(read(MACHINES / "topper.toml")).topper
     assert enough is not None
-    kept = topper_scene(study(read(MACHINES / "topper.toml")))
+    kept = knife_scene(study(read(MACHINES / "topper.toml")))
     assert kept is not None
     assert kept["phase"] == enough.worst_phase
 
@@ -126,4 +126,4 @@ def test_data_are_small(case: str) -> None:
 
 
 def test_there_is_nothing_without_a_topper() -> None:
-    assert topper_scene(study(loads(template("slider-crank")))) is None
+    assert knife_scene(study(loads(template("slider-crank")))) is None

@@ -16,7 +16,7 @@ from linkwright.drive.characteristic import characteristic
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.templates import template
-from linkwright.machine.files.read import loads, read
+from linkwright.machine.read import loads, read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 ALONE = 'format = 1\nname = "alone"\n[mechanism.cranks.A]\nradius = 0.1\n[bodies]\nA = { mass = 1 }\n'

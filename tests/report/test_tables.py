@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from linkwright.app.report.machine_table import machine_parts
 from linkwright.app.report.tables import tables
 from linkwright.app.study import study
 from linkwright.kernel.files.templates import template
 from linkwright.kernel.page.csv import curves_csv
 from linkwright.kernel.page.quantities import number
-from linkwright.machine.files.read import loads, read
+from linkwright.machine.read import loads, read
+from linkwright.machine.table import machine_parts
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

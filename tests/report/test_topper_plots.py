@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 from linkwright.topping.constant_speed import constant_speed_lengths
 from linkwright.topping.edge import edges_of
 from linkwright.topping.figures.lengths import length_chart_figure, verdict_figure

@@ -15,14 +15,15 @@ from typer.testing import CliRunner
 
 from linkwright.app.application import application
 from linkwright.app.commands.check import summary
-from linkwright.app.report.machine_table import machine_parts
 from linkwright.app.report.page import report_html
 from linkwright.app.report.tables import tables
 from linkwright.app.study import Study, study
-from linkwright.kernel.page.csv import curves_csv, edge_csv
+from linkwright.kernel.page.csv import curves_csv
 from linkwright.kernel.page.quantities import number
 from linkwright.kernel.page.table import Table
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
+from linkwright.machine.table import machine_parts
+from linkwright.topping.tables.topper import edge_csv
 
 MACHINES = Path(__file__).parents[2] / "machines"
 

@@ -9,9 +9,9 @@ from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.library import library_path
 from linkwright.machine.address import replace
-from linkwright.machine.files.read import loads, read
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.read import loads, read
 from linkwright.sizing.fit import with_flywheel
 from linkwright.sizing.flywheel import choose_flywheel, classical_flywheel, constant_inertia
 

@@ -12,9 +12,9 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.library import library_path
 from linkwright.kernel.files.templates import template
 from linkwright.machine.address import replace
-from linkwright.machine.files.read import loads, read
-from linkwright.machine.files.write import dumps
 from linkwright.machine.machine import Machine
+from linkwright.machine.read import loads, read
+from linkwright.machine.write import dumps
 from linkwright.sizing.checks import PEAK_SHARE
 from linkwright.sizing.inertia import estimated_inertia, rotor_inertia
 from linkwright.sizing.motor import MotorChoice, choose_motor

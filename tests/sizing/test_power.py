@@ -8,7 +8,7 @@ import pytest
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.library import library_path
 from linkwright.machine.address import replace
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 from linkwright.sizing.power import required_power
 
 

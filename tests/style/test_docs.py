@@ -18,7 +18,7 @@ from linkwright import machine
 from linkwright.app.application import application
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.files.templates import template
-from linkwright.machine.files.read import loads
+from linkwright.machine.read import loads
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"

@@ -7,8 +7,8 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, SynthesisError
-from linkwright.machine.files.read import loads
-from linkwright.machine.files.write import dumps
+from linkwright.machine.read import loads
+from linkwright.machine.write import dumps
 from linkwright.synthesis.line_kinds import KINDS
 from linkwright.synthesis.straight_line import narrowest_strip
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 import linkwright as lw
 from linkwright.kernel.errors import MachineError, SynthesisError
-from linkwright.machine.files.read import loads
-from linkwright.machine.files.write import dumps
+from linkwright.machine.read import loads
+from linkwright.machine.write import dumps
 from linkwright.synthesis.four_bar import FourBar
 from linkwright.synthesis.slider_pose import circle_of_sliders
 from linkwright.synthesis.task import MovingPoint, Poses, PoseTask

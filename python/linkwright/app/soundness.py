@@ -18,11 +18,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.cam.profile.faults import cam_faults
-from linkwright.cam.profile.profile import CamProfile, cam_profile
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.run_up import start_of
 from linkwright.drive.sound_loads import require_same_turns, require_turn
@@ -31,14 +30,9 @@ from linkwright.kernel.findings import Findings
 from linkwright.linkages.closure import require_one_turn
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled
-from linkwright.pumping.rod_rotator import rod_rotator
-from linkwright.pumping.unit import PolishedRod
-from linkwright.topping.cautions import topper_findings
-from linkwright.topping.edge import edges_of
-from linkwright.topping.passes import require_advance
-from linkwright.topping.roots import draw_roots
-from linkwright.topping.topper import topper
-from linkwright.torsion.modes.free import FreeVibration, free_vibration
+
+if TYPE_CHECKING:
+    from linkwright.torsion.modes.free import FreeVibration
 
 # Speeds at which a motor's characteristic is looked at, up to one and a half times its speed without load.
 _SPEEDS = 200
@@ -78,31 +72,16 @@ def soundness(machine: Machine) -> Soundness:
     return Soundness(tuple(looked), found.findings)
 
 
-def sound_cams(machine: Machine, found: Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:
-    """All cams, and those that can be made; what makes one impossible is a finding.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    found : Findings
-        Where it is collected.
-
-    Returns
-    -------
-    tuple
-        Cams with a profile, and those of them without faults.
-    """
-    looked = [found.of(cam_profile, machine, name) for name in machine.mechanism.cams]
-    told = [(each, cam_faults(each)) for each in looked if each is not None]
-    found.add(text for _, faults in told for text in faults)
-    return tuple(each for each, _ in told), tuple(each for each, faults in told if not faults)
-
-
 def _knife(machine: Machine, found: Findings) -> Iterator[str]:
     described = machine.topper
     if described is None:
         return
+    from linkwright.topping.cautions import topper_findings
+    from linkwright.topping.edge import edges_of
+    from linkwright.topping.passes import require_advance
+    from linkwright.topping.roots import draw_roots
+    from linkwright.topping.topper import topper
+
     cut = found.of(topper, machine, charts=False)
     found.add(topper_findings(described, cut) if cut else ())
     if cut and described.field is not None:
@@ -114,12 +93,18 @@ def _mechanism(machine: Machine, found: Findings) -> Iterator[str]:
     if machine.is_train_alone or machine.is_topper_alone:
         return
     if machine.pumping_unit is not None:
+        from linkwright.pumping.unit import PolishedRod
+
         found.of(PolishedRod.of, machine, machine.pumping_unit)
         yield "pumping unit: its crank turns all round"
     if machine.rod_rotator is not None:
+        from linkwright.pumping.rod_rotator import rod_rotator
+
         found.of(rod_rotator, machine)
         yield "rod rotator: lengths, and the motion that its regime asks for"
     if machine.mechanism.cams:
+        from linkwright.cam.study import sound_cams
+
         sound_cams(machine, found)
         yield "cams: undercut, crossings, pressure angle of 90°, hollows, second followers"
     compiled = found.of(require_turn, machine)
@@ -150,6 +135,8 @@ def _require_drive(machine: Machine, compiled: Compiled) -> None:
 def _train(machine: Machine, found: Findings) -> Iterator[str]:
     if machine.train is None and (machine.drive is None or not machine.drive.twists):
         return
+    from linkwright.torsion.modes.free import free_vibration
+
     free = found.of(free_vibration, machine)
     found.add(_not_definite(free) if free else ())
     yield "train: connected, natural frequencies"

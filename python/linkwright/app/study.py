@@ -2,42 +2,26 @@
 
 | order | analysis | needs |
 | --- | --- | --- |
-| 1 | `reduction`, `constant_energy` | a mechanism that closes all round |
-| 2 | `steady_state` | a motor |
-| 3 | `run_up` | steady motion to settle to |
-| 4 | `run_down` | a brake, and steady motion to begin with |
-| 5 | `forces` | steady motion to act in |
-| 6 | `linkage` | a linkage that closes somewhere |
-| 7 | `pumping_unit`, `rod_rotator` | such a unit, such a rotator; nothing of the above |
-| 8 | `topper` | a topper; a mechanism that closes if that moves its knife |
+| 1 | `topper` | a topper; a mechanism that closes if that moves its knife |
+| 2 | `pumping_unit`, `rod_rotator` | such a unit, such a rotator |
+| 3 | `linkage` | a linkage that closes somewhere |
+| 4 | cams | cams |
+| 5 | drive | bodies, loads or a motor |
+| 6 | `forces` | steady motion to act in |
 
-What fails becomes a finding, and the study goes on with what does not depend on it.
+What fails becomes a finding, and the study goes on with what does not depend on it. A subject is imported when
+the machine has its table.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from linkwright.app.soundness import sound_cams
-from linkwright.cam.dynamics.follower_vibration import FollowerVibration, follower_vibration
-from linkwright.cam.dynamics.loaded import LoadedCam, loaded_cam
-from linkwright.cam.dynamics.one_mass import one_mass
-from linkwright.cam.profile.faults import cam_cautions
-from linkwright.cam.profile.least_sizes import LeastSizes, least_sizes
-from linkwright.cam.profile.profile import CamProfile
-from linkwright.drive.cautions import cautions, has_inertia
-from linkwright.drive.constant_energy import ConstantEnergy, constant_energy_of
-from linkwright.drive.model.motor import ConstantSpeedMotor
-from linkwright.drive.reduction import Reduction, reduction
-from linkwright.drive.run_down import RunDown, run_down
-from linkwright.drive.run_up import RunUp, run_up, start_of
 from linkwright.drive.sound_loads import require_turn
-from linkwright.drive.steady_state import SteadyState, steady_state
-from linkwright.drive.step_method import StepMotion, step_method
-from linkwright.drive.transient import Transient, transient
-from linkwright.kernel.findings import Findings, sentence
+from linkwright.drive.steady_state import SteadyState
+from linkwright.drive.study import INTERVALS, DriveStudy, drive_study, has_motor
+from linkwright.kernel.findings import Findings
 from linkwright.kernel.public import public
 from linkwright.kernel.result import Result, finite
 from linkwright.kinetostatics.forces import forces
@@ -46,35 +30,30 @@ from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.cycle import Linkage, linkage
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import drive_inertia
-from linkwright.pumping.cautions import unit_cautions
-from linkwright.pumping.gear_torque import GearTorque
-from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator
-from linkwright.pumping.unit import PumpingUnitMotion, pumping_unit
-from linkwright.topping.cautions import topper_cautions, topper_findings
-from linkwright.topping.topper import TopperStudy, topper
 
-# Intervals of the turn for all curves, a quarter of a degree: what the constant-energy limit and the run-up
-# ask of the curves that they are given.
-_INTERVALS = 1440
+if TYPE_CHECKING:
+    from linkwright.cam.dynamics.follower_vibration import FollowerVibration
+    from linkwright.cam.dynamics.loaded import LoadedCam
+    from linkwright.cam.profile.least_sizes import LeastSizes
+    from linkwright.cam.profile.profile import CamProfile
+    from linkwright.pumping.gear_torque import GearTorque
+    from linkwright.pumping.rod_rotator import RodRotatorMotion
+    from linkwright.pumping.unit import PumpingUnitMotion
+    from linkwright.topping.topper import TopperStudy
 
 # Intervals of the turn for forces, a degree: no line shows more, and four times as many take as much time as
 # all the rest.
 _INTERVALS_OF_FORCES = 360
 
-# A run-up that failed is followed again for its curve alone: no line shows more than this.
-_ATTEMPT_ACCURACY = 1e-6
-
 
 @dataclass(frozen=True)
-class Study:
-    """All that is known about a machine.
+class Study(DriveStudy):
+    """All that is known about a machine, its drive first.
 
     Attributes
     ----------
-    machine : Machine
-        The machine.
-    reduction, constant_energy, steady_state, run_up, run_down, step_method, forces : Result or None
-        Results by analysis; None where there is none.
+    forces : Forces or None
+        Forces along the steady motion.
     pumping_unit, rotator : Result or None
         Motion of the polished rod and of its rotator.
     topper : TopperStudy or None
@@ -89,22 +68,10 @@ class Study:
         The same under load, ``"cam_force"``.
     cam_vibrations : tuple of str and FollowerVibration
         Names of the cams whose follower vibrates, and how at the design speed, ``"cam_vibration"``.
-    attempt : Transient or None
-        The motion from the start to the stall, where the run-up fails on the way.
     findings : tuple of str
         What the machine cannot do, in sentences.
-    warnings : tuple of str
-        What its designer should know, in sentences.
     """
 
-    machine: Machine
-    reduction: Reduction | None = None
-    constant_energy: ConstantEnergy | None = None
-    steady_state: SteadyState | None = None
-    run_up: RunUp | None = None
-    run_down: RunDown | None = None
-    step_method: StepMotion | None = None
-    attempt: Transient | None = None
     forces: Forces | None = None
     pumping_unit: PumpingUnitMotion | None = None
     rotator: RodRotatorMotion | None = None
@@ -115,7 +82,6 @@ class Study:
     loaded_cams: tuple[LoadedCam, ...] = ()
     cam_vibrations: tuple[tuple[str, FollowerVibration], ...] = ()
     findings: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
 
     @property
     def gear_torque(self) -> GearTorque | None:
@@ -183,34 +149,30 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         The accuracy or the step makes no sense.
     """
     found = Findings()
-    cut = found.of(topper, machine) if machine.topper else None
+    cut = _cut(machine, found)
     if machine.is_topper_alone:
         return _topped(Study(machine, findings=found.findings), cut)
-    unit = found.of(pumping_unit, machine, n=_INTERVALS) if machine.pumping_unit else None
-    rotator = found.of(rod_rotator, machine, n=_INTERVALS) if machine.rod_rotator else None
+    unit, rotator = _pumped(machine, found)
     moved = found.of(linkage, machine)
-    cams, sound = sound_cams(machine, found)
-    driven = _moved(machine, found) if _is_motion_alone(machine) else _driven(machine, found, accuracy, step)
-    loaded = _loaded(machine, sound, driven.forces, found)
-    shaken = tuple(each for cam in cams for each in _vibration(cam, found))
+    whole = _turned(machine, found, accuracy, step)
     whole = replace(
-        driven,
+        whole,
         pumping_unit=unit,
         rotator=rotator,
         linkage=moved if moved is not None and moved.elements else None,
-        cams=cams,
-        cam_sizes=tuple(least_sizes(each) for each in cams),
-        loaded_cams=loaded,
-        cam_vibrations=shaken,
-        findings=found.findings,
-        warnings=(
-            *unit_cautions(machine, unit, rotator),
-            *_cam_warnings(cams),
-            *driven.warnings,
-            *found.warnings,
-        ),
     )
-    return _topped(whole, cut)
+    whole = _with_cams(whole, found)
+    warnings = (*_of_units(whole), *whole.warnings, *found.warnings)
+    return _topped(replace(whole, findings=found.findings, warnings=warnings), cut)
+
+
+def _cut(machine: Machine, found: Findings) -> TopperStudy | None:
+    """What the knife of a topper cuts."""
+    if machine.topper is None:
+        return None
+    from linkwright.topping.topper import topper
+
+    return found.of(topper, machine)
 
 
 def _topped(known: Study, cut: TopperStudy | None) -> Study:
@@ -218,118 +180,76 @@ def _topped(known: Study, cut: TopperStudy | None) -> Study:
     described = known.machine.topper
     if described is None or cut is None:
         return known
-    findings = (*known.findings, *topper_findings(described, cut))
+    from linkwright.topping.cautions import topper_cautions, topper_findings
+
     return replace(
-        known, topper=cut, findings=findings, warnings=(*topper_cautions(described, cut), *known.warnings)
+        known,
+        topper=cut,
+        findings=(*known.findings, *topper_findings(described, cut)),
+        warnings=(*topper_cautions(described, cut), *known.warnings),
     )
 
 
-def _loaded(
-    machine: Machine, cams: tuple[CamProfile, ...], borne: Forces | None, found: Findings
-) -> tuple[LoadedCam, ...]:
-    """The cams that can be made under load; a follower that leaves its cam is a finding."""
-    speed = None if machine.drive is None else machine.drive.speed
-    if not (machine.bodies or machine.loads) or (borne is None and speed is None):
+def _pumped(machine: Machine, found: Findings) -> tuple[PumpingUnitMotion | None, RodRotatorMotion | None]:
+    """The polished rod and the rotator of a pumping unit."""
+    if machine.pumping_unit is None:
+        return None, None
+    from linkwright.pumping.rod_rotator import rod_rotator
+    from linkwright.pumping.unit import pumping_unit
+
+    unit = found.of(pumping_unit, machine, n=INTERVALS)
+    return unit, found.of(rod_rotator, machine, n=INTERVALS) if machine.rod_rotator else None
+
+
+def _of_units(known: Study) -> tuple[str, ...]:
+    """What the user of a pumping unit or of a rotator should know."""
+    if known.machine.pumping_unit is None:
         return ()
-    along = None if borne is not None else speed
-    loaded = [found.of(loaded_cam, machine, each, along) for each in cams]
-    return tuple(each for each in loaded if each is not None)
+    from linkwright.pumping.cautions import unit_cautions
+
+    return unit_cautions(known.machine, known.pumping_unit, known.rotator)
 
 
-def _vibration(profile: CamProfile, found: Findings) -> Iterator[tuple[str, FollowerVibration]]:
-    """Vibration of a follower at the design speed; strikes and loss of contact are findings."""
-    train, speed = profile.cam.train, profile.speed
-    leaps = any(joint.order < 0 for joint in profile.cam.motion.joints)
-    if train is None or not speed or leaps:
-        return
-    about = found.about(f"cam {profile.name}: ")
-    shaken = about.of(follower_vibration, profile.cam.lift, one_mass(train), abs(speed))
-    if shaken is not None:
-        yield profile.name, shaken
+def _with_cams(known: Study, found: Findings) -> Study:
+    """A study with what is known of its cams."""
+    machine = known.machine
+    if not machine.mechanism.cams:
+        return known
+    from linkwright.cam.profile.least_sizes import least_sizes
+    from linkwright.cam.study import cam_vibrations, cam_warnings, loaded_cams, sound_cams
+
+    cams, sound = sound_cams(machine, found)
+    return replace(
+        known,
+        cams=cams,
+        cam_sizes=tuple(least_sizes(each) for each in cams),
+        loaded_cams=loaded_cams(machine, sound, known.forces, found),
+        cam_vibrations=cam_vibrations(cams, found),
+        warnings=(*cam_warnings(cams), *known.warnings),
+    )
 
 
-def _cam_warnings(cams: tuple[CamProfile, ...]) -> tuple[str, ...]:
-    return tuple(sentence(text) for each in cams for text in cam_cautions(each))
+def _turned(machine: Machine, found: Findings, accuracy: float, step: float | None) -> Study:
+    """A linkage by its dimensions alone, or what follows from bodies, loads and drive."""
+    if _is_motion_alone(machine):
+        found.of(require_turn, machine)
+        alone = "The machine has no masses, loads or motor: its motion alone is computed."
+        return Study(machine, warnings=() if machine.pumping_unit else (alone,))
+    driven = drive_study(machine, found, accuracy, step)
+    steady = driven.steady_state
+    # Angles without an answer for forces are no fault of the motion: they are said as warnings.
+    borne = found.beside_of(_forces, machine, steady) if steady else None
+    return Study(**vars(driven), forces=borne)
 
 
 def _is_motion_alone(machine: Machine) -> bool:
     """Whether there is nothing but motion to compute: no masses, no loads, no motor."""
     inertia = 0.0 if machine.drive is None else drive_inertia(machine.drive)
-    return not (machine.bodies or machine.loads or _has_motor(machine) or inertia)
-
-
-def _moved(machine: Machine, found: Findings) -> Study:
-    """A linkage by its dimensions alone."""
-    found.of(require_turn, machine)
-    alone = "The machine has no masses, loads or motor: its motion alone is computed."
-    return Study(machine, warnings=() if machine.pumping_unit else (alone,))
-
-
-def _driven(machine: Machine, found: Findings, accuracy: float, step: float | None) -> Study:
-    """What follows from bodies, loads and drive."""
-    reduced = found.of(reduction, machine, n=_INTERVALS)
-    if reduced is None:
-        return Study(machine)
-    # Without inertia at some angle there is no energy to stay constant.
-    limit = constant_energy_of(reduced) if has_inertia(reduced) else None
-    if not _has_motor(machine):
-        return Study(machine, reduced, limit, warnings=cautions(machine, reduced, None))
-    steady = found.of(steady_state, machine, accuracy=accuracy, n=_INTERVALS)
-    started, attempt = _run_up(machine, steady, found)
-    stopped = found.of(run_down, machine, steady=steady) if steady and _has_brake(machine) else None
-    stepped = found.of(step_method, machine, step=step) if step is not None else None
-    # Angles without an answer for forces are no fault of the motion: they are said as warnings.
-    borne = found.beside_of(_forces, machine, steady) if steady else None
-    return Study(
-        machine,
-        reduced,
-        limit,
-        steady,
-        started,
-        stopped,
-        stepped,
-        attempt,
-        borne,
-        warnings=cautions(machine, reduced, steady),
-    )
+    return not (machine.bodies or machine.loads or has_motor(machine) or inertia)
 
 
 def _forces(machine: Machine, steady: SteadyState) -> Forces:
     """Forces along the steady motion, at some of its angles."""
-    some = slice(None, None, _INTERVALS // _INTERVALS_OF_FORCES)
+    some = slice(None, None, INTERVALS // _INTERVALS_OF_FORCES)
     curves = (steady.crank_angle, steady.speed, steady.acceleration, steady.time)
     return forces(machine, Motion(*(curve[some] for curve in curves)))
-
-
-def _run_up(
-    machine: Machine, steady: SteadyState | None, found: Findings
-) -> tuple[RunUp | None, Transient | None]:
-    """The run-up, or how far it comes."""
-    if _keeps_speed(machine):
-        return None, None
-    if steady is None:
-        # Without steady motion nothing says when it has run up, but it may be that it cannot even start.
-        found.of(start_of, machine)
-        return None, _attempt(machine, found)
-    started = found.of(run_up, machine, steady=steady)
-    return started, None if started else _attempt(machine, found)
-
-
-def _attempt(machine: Machine, found: Findings) -> Transient | None:
-    """The motion from the start to the stall; None if it never moves or cannot be followed."""
-    options = machine.run_up
-    start = {"angle": options.angle_start, "speed": options.speed_start, "turns": options.turns_max}
-    motion = found.of(transient, machine, accuracy=_ATTEMPT_ACCURACY, **start)
-    return motion if motion is not None and motion.turns > 0 else None
-
-
-def _has_motor(machine: Machine) -> bool:
-    return machine.drive is not None and machine.drive.motor is not None
-
-
-def _has_brake(machine: Machine) -> bool:
-    return machine.drive is not None and machine.drive.brake is not None
-
-
-def _keeps_speed(machine: Machine) -> bool:
-    return machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor)

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright import _core
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.model.follower import Sizes
-from linkwright.kernel.core.numbers import encoded
+from linkwright.machine.program.numbers import encoded
 
 Floats = NDArray[np.float64]
 

@@ -73,6 +73,10 @@ class Result:
         length = len(next(iter(arrays.values()))) if arrays else 0
         return {name: value for name, value in arrays.items() if value.shape == (length,)}
 
+    def columns(self) -> dict[str, np.ndarray]:
+        """Curves of the result's parts, each under a name with its unit such as ``A_x [N]``; none for most."""
+        return {}
+
     def _entries(self) -> dict[str, Any]:
         """Fields and properties in the order of their definition."""
         names = [field.name for field in fields(self)]  # type: ignore[arg-type]

@@ -149,6 +149,14 @@ class Forces(Result):
         """Greatest size of the force on the frame [N]."""
         return float(np.nanmax(np.hypot(self.shaking_force[:, 0], self.shaking_force[:, 1])))
 
+    def columns(self) -> dict[str, Floats]:
+        """Components of the forces by name and unit: the frame, each pair with its moment, each driver."""
+        found = {f"shaking_force_{axis} [N]": self.shaking_force[:, k] for k, axis in enumerate("xy")}
+        for name, pair in self.pairs.items():
+            found |= {f"{name}_{axis} [N]": pair.force[:, k] for k, axis in enumerate("xy")}
+            found[f"{name}_moment [N m]"] = pair.moment
+        return found | {f"{name}_drive [N m or N]": values for name, values in self.drives.items()}
+
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Scalars and greatest forces by name, with ``curves`` also all forces as lists.
 

@@ -74,7 +74,7 @@ def motion(
 
     One pose with --at, under a law of time with --law, else a turn of the crank at constant speed.
     """
-    from linkwright.machine.files.read import read
+    from linkwright.machine.read import read
 
     if steps < 1:
         raise InputError(f"--steps: found {steps}, expected 1 or more")

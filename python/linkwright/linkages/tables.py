@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from linkwright.app.study import Study
 from linkwright.kernel.page.quantities import degrees, number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.cycle import ElementMotion, Linkage
@@ -11,22 +10,8 @@ from linkwright.linkages.cycle import ElementMotion, Linkage
 _DEAD_POINTS_MAX = 24
 
 
-def linkage_tables(study: Study) -> list[Table]:
-    """The tables of a linkage.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-
-    Returns
-    -------
-    list of Table
-        Empty without a linkage.
-    """
-    found = study.linkage
-    if found is None:
-        return []
+def linkage_tables(found: Linkage) -> list[Table]:
+    """The tables of a linkage over its cycle: those that have rows."""
     return [
         table for table in (_travel(found), _transmission(found), _loops(found), _dead(found)) if table.rows
     ]

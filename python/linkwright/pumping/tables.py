@@ -4,31 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.app.study import Study
 from linkwright.kernel.page.quantities import degrees, number
 from linkwright.kernel.page.table import Row, Table, row, rows_of, with_unit
+from linkwright.pumping.gear_torque import GearTorque
+from linkwright.pumping.rod_rotator import RodRotatorMotion
+from linkwright.pumping.unit import PumpingUnitMotion
 
 
-def unit_tables(study: Study) -> Iterator[Table]:
-    """Tables of the polished rod, of the torque factors, of the gearbox, and of the rotator.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-
-    Yields
-    ------
-    Table
-        Those that the study has results for.
-    """
-    if study.pumping_unit is not None:
-        yield _polished_rod(study)
-        yield _torque_factors(study)
-    if study.gear_torque is not None:
-        yield _gear(study)
-    if study.rotator is not None:
-        yield _rotator(study)
+def unit_tables(unit: PumpingUnitMotion | None, rotator: RodRotatorMotion | None) -> Iterator[Table]:
+    """Tables of the polished rod, of the torque factors, of the gearbox, and of the rotator."""
+    if unit is not None:
+        yield _polished_rod(unit)
+        yield _torque_factors(unit)
+        if unit.gear is not None:
+            yield _gear(unit.gear)
+    if rotator is not None:
+        yield _rotator(rotator)
 
 
 _HEADS = ("quantity", "", "value", "where")
@@ -38,9 +29,7 @@ def _angle(word: str, symbol: str, angle: float) -> Row:
     return word, symbol, degrees(angle), ""
 
 
-def _polished_rod(study: Study) -> Table:
-    unit = study.pumping_unit
-    assert unit is not None
+def _polished_rod(unit: PumpingUnitMotion) -> Table:
     rows = rows_of(unit, "stroke")
     rows += rows_of(unit, "stroke_nominal") if unit.stroke_nominal is not None else []
     rows += [
@@ -57,10 +46,8 @@ def _polished_rod(study: Study) -> Table:
     return Table("pumping_unit", "Polished rod", _HEADS, rows)
 
 
-def _torque_factors(study: Study) -> Table:
+def _torque_factors(unit: PumpingUnitMotion) -> Table:
     """As API tabulates them."""
-    unit = study.pumping_unit
-    assert unit is not None
     n = len(unit.torque_factors)
     rows: list[Row] = [
         (f"{360 * k / n:g}°", "", number(unit.rod_positions[k], 4), with_unit(unit.torque_factors[k], "m"))
@@ -71,9 +58,7 @@ def _torque_factors(study: Study) -> Table:
     )
 
 
-def _gear(study: Study) -> Table:
-    gear = study.gear_torque
-    assert gear is not None
+def _gear(gear: GearTorque) -> Table:
     balance = "counterbalance" if gear.counterbalance is not None else "counterbalance_effect"
     rated, structure = (
         with_unit(value, unit) for value, unit in ((gear.torque_rated, "N m"), (gear.load_rated, "N"))
@@ -87,9 +72,7 @@ def _gear(study: Study) -> Table:
     return Table("gear_torque", "Torque of the gearbox", ("quantity", "", "value", "rating"), rows)
 
 
-def _rotator(study: Study) -> Table:
-    rotator = study.rotator
-    assert rotator is not None
+def _rotator(rotator: RodRotatorMotion) -> Table:
     rows = rows_of(rotator, "link_length", "lever_length", "lever_turns_per_cycle")
     rows.append(_angle("range of the lever's angle", "", rotator.lever_swing))
     rows += rows_of(rotator, "transfer_min", "transfer_max", "worm_turns_per_cycle")

@@ -81,7 +81,7 @@ def size(
     The smallest motor of the catalogue that passes every check, then the flywheel on the crankshaft, both
     verified by analysing the machine again. Exit code 1 if no motor suffices.
     """
-    from linkwright.machine.files.read import read
+    from linkwright.machine.read import read
     from linkwright.sizing.flywheel import choose_flywheel
     from linkwright.sizing.motor import choose_motor
 
@@ -142,7 +142,7 @@ def _file_text(machine: Machine, chosen: Candidate) -> str:
     """The machine file, with a remark where a number is an estimate."""
     import tomlkit
 
-    from linkwright.machine.files.write import dumps
+    from linkwright.machine.write import dumps
     from linkwright.sizing.motor import ESTIMATE
 
     document: Any = tomlkit.parse(dumps(machine))

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.kernel.core.numbers import encoded
+from linkwright.machine.program.numbers import encoded
 
 Floats = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.app.study import Study
+from linkwright.machine.machine import Machine
 from linkwright.topping.edge import Edge, edges_of
 from linkwright.topping.head_pass import worse_edge
 from linkwright.topping.model.topper import Topper
@@ -52,13 +52,17 @@ _SECONDS = 2.0
 _FINE = 1e-5
 
 
-def topper_scene(study: Study) -> Scene | None:
+def topper_scene(machine: Machine, described: Topper, found: TopperStudy) -> Scene | None:
     """All that the moving top view needs, ready for JSON.
 
     Parameters
     ----------
-    study : Study
-        The study.
+    machine : Machine
+        The machine.
+    described : Topper
+        Its topper.
+    found : TopperStudy
+        What that cuts.
 
     Returns
     -------
@@ -66,14 +70,13 @@ def topper_scene(study: Study) -> Scene | None:
         ``law``, y over one turn of the phase in even steps [m]; ``rate`` [rad/s], ``drift`` [m/s] and
         ``phase`` at the time zero [rad]; ``angle``, ``length`` and ``speed`` of the edge [rad, m, m/s];
         ``diameter``, ``offset`` and ``heads``, x and y of centres [m]; ``span``, first and last time [s];
-        ``box``, least and greatest x and y [m]; ``seconds`` that the page takes. None without a topper, or
-        where its edge cannot be followed.
+        ``box``, least and greatest x and y [m]; ``seconds`` that the page takes. None
+        where the edge cannot be followed.
     """
-    found, described = study.topper, study.machine.topper
-    if found is None or described is None or found.obstacle:
+    if found.obstacle:
         return None
     offset, phase = shown_head(found)
-    edges = edges_of(study.machine, described)
+    edges = edges_of(machine, described)
     edge = worse_edge(edges, found.head_diameter, offset, phase, described.edge_length)
     places = np.linspace(0.0, 2 * math.pi, (_PLACES if edge.knife.rate else 1) + 1)
     heads = _row(edge, found, described, offset)

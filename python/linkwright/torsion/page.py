@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 import linkwright
-from linkwright.app.report.machine_table import machine_parts
-from linkwright.app.report.page import environment, grouped, picture
 from linkwright.kernel.page.formulas import Formula, formula
+from linkwright.kernel.page.html import environment, picture
 from linkwright.kernel.page.quantities import number
-from linkwright.machine.files.write import dumps
+from linkwright.machine.table import grouped, machine_parts
+from linkwright.machine.write import dumps
 from linkwright.torsion.figures.captions import torsion_figures
 from linkwright.torsion.response.peaks import TorquePeaks
 from linkwright.torsion.study import TorsionStudy

@@ -22,7 +22,7 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False) -> None:
     be seen at once. Exit code 1 if the machine cannot do something, 2 if the file is wrong.
     """
     from linkwright.app.soundness import soundness
-    from linkwright.machine.files.read import read
+    from linkwright.machine.read import read
 
     machine = read(file, set or (), allow_outside=allow_outside)
     found = soundness(machine)

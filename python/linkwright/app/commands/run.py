@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
-from linkwright.kernel.command.out import Force, out_option, output_folder, say_written
+from linkwright.kernel.command.out import Force, command_line, out_option, output_folder, say_written
 
 if TYPE_CHECKING:
     from linkwright.app.study import Study
@@ -65,7 +65,7 @@ def _studied(file: Path, sets: list[str], accuracy: float, step: str | None, *, 
     try:
         from linkwright.app.study import study
         from linkwright.kernel.units import ANGLE
-        from linkwright.machine.files.read import read
+        from linkwright.machine.read import read
 
         angle = None if step is None else option_value("--step", step, ANGLE)
         return study(read(file, sets, allow_outside=allow_outside), accuracy=accuracy, step=angle)
@@ -75,11 +75,13 @@ def _studied(file: Path, sets: list[str], accuracy: float, step: str | None, *, 
 
 def _shown(file: Path, sets: list[str], accuracy: float, step: str | None, *, allow_outside: bool) -> Study:
     """Study the machine and print tables for people."""
-    from linkwright.app.terminal import print_study, progress
+    from linkwright.app.commands.check import summary
+    from linkwright.app.report.tables import tables
+    from linkwright.kernel.command.terminal import print_tables, progress
 
     with progress("computing"):
         result = _studied(file, sets, accuracy, step, allow_outside=allow_outside)
-    print_study(result)
+    print_tables(summary(result.machine), tables(result), result.findings, result.warnings)
     return result
 
 
@@ -92,7 +94,7 @@ def _print_json(study: Study, *, curves: bool) -> None:
 
 def _write(study: Study, folder: OutputFolder, *, quiet: bool) -> None:
     """All files of a study; says where they are, on standard error where the output is JSON."""
-    from linkwright.app.terminal import progress
+    from linkwright.kernel.command.terminal import progress
 
     with progress("writing the report"):
         paths = folder.write(_files(study))
@@ -105,22 +107,15 @@ def _files(study: Study) -> dict[str, str]:
 
     from linkwright.app.report.page import report_html
     from linkwright.kernel.files.output import file_names
-    from linkwright.kernel.page.csv import curves_csv, edge_csv
+    from linkwright.kernel.page.csv import curves_csv
 
     texts = {"results.json": dumps(study.to_dict(curves=True), allow_nan=False, ensure_ascii=False) + "\n"}
     names = file_names(dict.fromkeys(study.results(), ".csv"))
     tables = {names[name]: curves_csv(result) for name, result in study.results().items()}
     texts |= {name: text for name, text in tables.items() if text}
     if study.topper is not None and not study.topper.obstacle:
+        from linkwright.topping.tables.topper import edge_csv
+
         texts["topper_edge.csv"] = edge_csv(study.topper)
     texts["report.html"] = report_html(study, command=command_line())
     return texts
-
-
-def command_line() -> str:
-    """The command line as it was given, to be repeated."""
-    import shlex
-    import sys
-
-    # A name of a file may be bytes that are no UTF-8; a report is.
-    return shlex.join(["linkwright", *sys.argv[1:]]).encode("utf-8", "backslashreplace").decode()

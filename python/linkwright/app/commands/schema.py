@@ -12,6 +12,6 @@ def schema(out: Out = None, force: Force = False) -> None:
     """
     import json
 
-    from linkwright.machine.files.schema import schema as made
+    from linkwright.machine.schema import schema as made
 
     put(json.dumps(made(), indent=2) + "\n", out, force=force)

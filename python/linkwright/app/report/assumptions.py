@@ -22,7 +22,6 @@ from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFr
 from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import drive_inertia, reverse_factor
-from linkwright.topping.tables.words import topper_assumptions
 
 # Meshes that agree better than this agree to rounding.
 _FINEST = 1e-15
@@ -61,13 +60,21 @@ def assumptions(study: Study) -> list[str]:
         Sentences, from the mechanism to the methods.
     """
     machine = study.machine
-    cut = [] if machine.topper is None else list(topper_assumptions(machine.topper))
+    cut = _topper(machine)
     if machine.is_topper_alone:
         return cut
     found = [*cut, *_mechanism(), *_bodies(machine), *_loads(machine)]
     if machine.drive is not None:
         found += [*_drive(machine.drive), *_motor(machine.drive)]
     return [*found, *_methods(study)]
+
+
+def _topper(machine: Machine) -> list[str]:
+    if machine.topper is None:
+        return []
+    from linkwright.topping.tables.words import topper_assumptions
+
+    return list(topper_assumptions(machine.topper))
 
 
 def _mechanism() -> Iterator[str]:

@@ -5,148 +5,33 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.app.study import Study
-from linkwright.cam.figures.captions import cam_figures
-from linkwright.drive.characteristic import characteristic
-from linkwright.drive.figures.motor import motor_figure
-from linkwright.drive.figures.reduction import reduction_figure
-from linkwright.drive.figures.run_up import attempt_figure, run_up_figure
-from linkwright.drive.figures.steady import speed_figure, time_figure, torque_figure
-from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.figures.captions import drive_figures
 from linkwright.kernel.figure.captioned import Captioned
-from linkwright.kernel.page.quantities import degrees, number
-from linkwright.kinetostatics.figures import forces_figure, hodograph_figure, polar_figure
+from linkwright.kinetostatics.figures.captions import captioned_forces
 from linkwright.linkages.figures.captions import linkage_figures
-from linkwright.pumping.figures import gear_torque_figure, polished_rod_figure, rotator_figure
-from linkwright.topping.figures.captions import topper_figures
-
-# The motor's curve is drawn beyond the fastest instant of the turn by this share of it, and half the range of
-# speeds: as far as the detail beside it looks.
-_BEYOND = 0.012
 
 
 def figures(study: Study) -> Iterator[Captioned]:
-    """The figures that a study has results for.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-
-    Yields
-    ------
-    Captioned
-        In the order of the page.
-    """
-    yield from topper_figures(study)
-    yield from cam_figures(study)
-    yield from _unit(study)
-    yield from _rotator(study)
-    yield from _steady(study)
-    yield from _motor(study)
-    yield from _run_up(study)
-    yield from _reduction(study)
-    yield from linkage_figures(study)
-    yield from _forces(study)
+    """The figures that a study has results for, in the order of the page."""
+    yield from _slices(study)
+    yield from drive_figures(study)
+    if study.linkage is not None:
+        yield from linkage_figures(study.machine, study.linkage)
+    if study.forces is not None:
+        yield from captioned_forces(study.forces)
 
 
-def _forces(study: Study) -> Iterator[Captioned]:
-    forces = study.forces
-    if forces is None:
-        return
-    pins = forces.reaction_max
-    largest = max(pins, key=lambda name: pins[name])
-    caption = (
-        f"What pins and guides bear along the steady motion: {largest} at most {number(pins[largest])} N. "
-        f"The drive gives up to {number(forces.torque_drive_max)} N m at the crank."
-    )
-    yield Captioned("forces", "Forces in the pairs", caption, forces_figure(forces))
-    caption = (
-        f"Ends of the force vectors over a turn, a mark at φ = 0; the frame feels up to "
-        f"{number(forces.shaking_force_max)} N."
-    )
-    yield Captioned("hodographs", "Hodographs of forces", caption, hodograph_figure(forces))
-    caption = "Size of the largest reactions over the crank angle: where a journal is loaded, and when."
-    yield Captioned("reactions", "Reactions, polar", caption, polar_figure(forces))
+def _slices(study: Study) -> Iterator[Captioned]:
+    """Those of topper, cams and pumping unit, where the machine has such."""
+    if study.topper is not None and study.machine.topper is not None:
+        from linkwright.topping.figures.captions import topper_figures
 
+        yield from topper_figures(study.machine, study.machine.topper, study.topper)
+    if study.cams:
+        from linkwright.cam.figures.captions import cam_figures
 
-def _unit(study: Study) -> Iterator[Captioned]:
-    unit, gear = study.pumping_unit, study.gear_torque
-    if unit is None:
-        return
-    caption = (
-        f"The polished rod rises {number(unit.stroke)} m while the crank turns "
-        f"{degrees(unit.upstroke_angle)}. The torque factor runs from {number(unit.torque_factor_min)} to "
-        f"{number(unit.torque_factor_max)} m."
-    )
-    yield Captioned("polished_rod", "Polished rod over a turn", caption, polished_rod_figure(unit))
-    if gear is not None:
-        caption = (
-            "Torque at the crank by the polished rod and by its counterbalance; their sum peaks at "
-            f"{number(max(gear.torque_net_up, gear.torque_net_down))} N m."
-        )
-        yield Captioned("gear_torque", "Torque of the gearbox", caption, gear_torque_figure(gear))
+        yield from cam_figures(study.cams, study.loaded_cams)
+    if study.pumping_unit is not None or study.rotator is not None:
+        from linkwright.pumping.figures.captions import unit_figures
 
-
-def _rotator(study: Study) -> Iterator[Captioned]:
-    rotator = study.rotator
-    if rotator is None:
-        return
-    caption = f"The lever {rotator.verdict}."
-    yield Captioned("rotator", "Lever of the rotator", caption, rotator_figure(rotator))
-
-
-def _reduction(study: Study) -> Iterator[Captioned]:
-    reduced = study.reduction
-    if reduced is None:
-        return
-    low, high, mean = reduced.inertia_min, reduced.inertia_max, reduced.torque_load_mean
-    caption = (
-        f"Inertia that the crank feels, from {number(low)} to {number(high)} kg m², and torque that the "
-        f"loads ask of it, {number(mean)} N m on average."
-    )
-    yield Captioned("reduction", "Reduced inertia and torque", caption, reduction_figure(reduced))
-
-
-def _steady(study: Study) -> Iterator[Captioned]:
-    steady = study.steady_state
-    if steady is None:
-        return
-    low, high = number(steady.speed_min), number(steady.speed_max)
-    caption = (
-        f"The crank turns at {low} to {high} rad/s, δ = {number(steady.unevenness)}; a turn takes "
-        f"{number(steady.period)} s."
-    )
-    yield Captioned("speed", "Speed and acceleration over a turn", caption, speed_figure(steady))
-    caption = (
-        "Where the driving torque lies above the resisting one, the machine does not simply speed up: the "
-        f"reduced inertia changes too. The motor works {number(steady.energy_motor)} J in a turn."
-    )
-    yield Captioned("torque", "Torque and power over a turn", caption, torque_figure(steady))
-    caption = "The same motion against time: what a tachometer and the motor's winding feel."
-    yield Captioned("time", "Speed and motor torque over time", caption, time_figure(steady))
-
-
-def _motor(study: Study) -> Iterator[Captioned]:
-    drive, steady, reduced = study.machine.drive, study.steady_state, study.reduction
-    if drive is None or drive.motor is None or reduced is None or isinstance(drive.motor, ConstantSpeedMotor):
-        return
-    reach = (1.5 + _BEYOND) * steady.speed_max - 0.5 * steady.speed_min if steady else 0.0
-    curve = characteristic(study.machine, reduced=reduced, speed_max=reach * drive.gearbox.ratio)
-    caption = "Torque over speed at the motor's shaft, against the mean load of a turn."
-    if steady is not None:
-        slow, fast = (number(speed * drive.gearbox.ratio) for speed in (steady.speed_min, steady.speed_max))
-        caption += f" Shaded: the speeds of steady motion, {slow} to {fast} rad/s."
-    yield Captioned("motor", "Motor and working range", caption, motor_figure(curve, steady))
-
-
-def _run_up(study: Study) -> Iterator[Captioned]:
-    if study.run_up is not None:
-        run_up = study.run_up
-        caption = (
-            f"Steady motion, to within {100 * run_up.settled:.3g} %, is reached after {number(run_up.time)} "
-            f"s and {number(run_up.turns)} turns."
-        )
-        yield Captioned("run_up", "Run-up", caption, run_up_figure(run_up, study.steady_state))
-    elif study.attempt is not None and len(study.attempt.time) > 1:
-        caption = f"The motion ends after {number(study.attempt.turns)} turns."
-        yield Captioned("run_up", "Run-up that fails", caption, attempt_figure(study.attempt))
+        yield from unit_figures(study.pumping_unit, study.rotator)

@@ -2,39 +2,23 @@
 
 from __future__ import annotations
 
-import json
 import os
-import re
 from collections.abc import Iterator
-from itertools import groupby
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import linkwright
 from linkwright.app.report.assumptions import assumptions
 from linkwright.app.report.figures import figures
-from linkwright.app.report.machine_table import Part, machine_parts
 from linkwright.app.report.scene import scene
 from linkwright.app.report.tables import tables
 from linkwright.app.study import Study
 from linkwright.drive.model.motor import InductionMotor
-from linkwright.kernel.figure.inline import inline_svg
 from linkwright.kernel.files.output import write_file
 from linkwright.kernel.page.formulas import PAPER_1, Formula, formulas
+from linkwright.kernel.page.html import embedded, environment, picture
 from linkwright.kernel.page.quantities import number
-from linkwright.kernel.result import finite
-from linkwright.machine.files.write import dumps
-from linkwright.topping.scene import topper_scene
-from linkwright.topping.tables.words import PAPER_5, topper_formulas, topper_headline
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
-    from markupsafe import Markup
-
-_FOLDER = Path(__file__).with_name("templates")
-
-# A symbol of one letter and its index.
-_INDEX = re.compile(r"\b([^\W\d_])_(\w+(?:,\w+)?)")
+from linkwright.machine.table import grouped, machine_parts
+from linkwright.machine.write import dumps
 
 
 def write_report(study: Study, path: str | os.PathLike[str], *, command: str = "") -> None:
@@ -85,8 +69,8 @@ def _context(study: Study, command: str) -> dict[str, Any]:
         "groups": grouped(machine_parts(study.machine)),
         "tables": tables(study),
         "figures": drawn,
-        "scene": _embedded(scene(study)),
-        "topper_scene": _embedded(topper_scene(study)),
+        "scene": embedded(scene(study)),
+        "topper_scene": embedded(knife_scene(study)),
         "formulas": _formulas(study),
         "paper": _papers(study),
         "assumptions": assumptions(study),
@@ -96,25 +80,33 @@ def _context(study: Study, command: str) -> dict[str, Any]:
     }
 
 
-def picture(figure: Any, name: str, title: str) -> Markup:
-    """A figure as markup inside the page."""
-    from markupsafe import Markup
+def knife_scene(study: Study) -> dict[str, Any] | None:
+    """Data of the moving view of a topper from above; None without one."""
+    if study.machine.topper is None or study.topper is None:
+        return None
+    from linkwright.topping.scene import topper_scene
 
-    return Markup(inline_svg(figure, name, title))
-
-
-def _embedded(scene: dict[str, Any] | None) -> str:
-    """Data for a script element: nothing in it may end that element."""
-    return json.dumps(finite(scene), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    return topper_scene(study.machine, study.machine.topper, study.topper)
 
 
-def grouped(parts: list[Part]) -> list[tuple[str, list[Part]]]:
-    """Parts of a machine with the heading of each group."""
-    return [(group, list(found)) for group, found in groupby(parts, key=lambda part: part.group)]
+def _topper_formulas(study: Study) -> list[Formula]:
+    if study.machine.topper is None:
+        return []
+    from linkwright.topping.tables.words import topper_formulas
+
+    return topper_formulas(study.machine.topper, study.topper)
+
+
+def _topper_headline(study: Study) -> Iterator[tuple[str, str, str]]:
+    if study.machine.topper is None or study.topper is None:
+        return
+    from linkwright.topping.tables.words import topper_headline
+
+    yield from topper_headline(study.machine.topper, study.topper)
 
 
 def _formulas(study: Study) -> list[Formula]:
-    cut = topper_formulas(study)
+    cut = _topper_formulas(study)
     if study.machine.is_topper_alone:
         return cut
     motor = study.machine.drive.motor if study.machine.drive else None
@@ -127,12 +119,14 @@ def _papers(study: Study) -> str:
     """The papers that formulas are from."""
     if study.machine.topper is None:
         return PAPER_1
+    from linkwright.topping.tables.words import PAPER_5
+
     return PAPER_5 if study.machine.is_topper_alone else f"{PAPER_1}. {PAPER_5}"
 
 
 def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
     """The few numbers that one looks for first: symbol and word, value, unit."""
-    yield from topper_headline(study)
+    yield from _topper_headline(study)
     steady, run_up, reduced = study.steady_state, study.run_up, study.reduction
     if steady is not None:
         yield "mean speed", number(steady.speed_mean_time, 4), "rad/s"
@@ -147,39 +141,3 @@ def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
         yield "least reduced inertia", number(reduced.inertia_min, 4), "kg m²"
         yield "greatest reduced inertia", number(reduced.inertia_max, 4), "kg m²"
         yield "mean resisting torque", number(reduced.torque_load_mean, 4), "N m"
-
-
-def environment() -> Environment:
-    """Jinja2 with the templates and filters of all pages."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    environment = Environment(
-        loader=FileSystemLoader(_FOLDER),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["index"] = _with_index
-    environment.filters["safe_math"] = _as_markup
-    environment.globals["include_raw"] = _raw
-    return environment
-
-
-def _with_index(text: str) -> Markup:
-    """A text in which the index of each symbol is lowered."""
-    from markupsafe import Markup, escape
-
-    return Markup(_INDEX.sub(r"\1<sub>\2</sub>", str(escape(text))))
-
-
-def _as_markup(text: str) -> Markup:
-    """Text that is markup already: formulas of this package, never words of a file."""
-    from markupsafe import Markup
-
-    return Markup(text)
-
-
-def _raw(name: str) -> Markup:
-    """A file of the templates, as it is."""
-    return _as_markup((_FOLDER / name).read_text(encoding="utf-8"))

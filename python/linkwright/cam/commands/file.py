@@ -59,7 +59,7 @@ def cam_file(
     Lift, pressure angle, curvature, forces, what is wrong and what would mend it; with --out a report with
     figures, and drawings for manufacture, each read back and compared with the profile.
     """
-    from linkwright.app.terminal import progress
+    from linkwright.kernel.command.terminal import progress
 
     folder = output_folder(out, force=force)
     options = _options(tolerance, step, by, form, formats)
@@ -105,7 +105,7 @@ def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dic
 def _studied(file: Path, sets: list[str], *, allow_outside: bool) -> Study:
     """Everything about a machine that has cams."""
     from linkwright.app.study import study
-    from linkwright.machine.files.read import read
+    from linkwright.machine.read import read
 
     machine = read(file, sets, allow_outside=allow_outside)
     if not machine.mechanism.cams:
@@ -187,10 +187,12 @@ def _print_json(shown: dict[str, Any]) -> None:
 
 def _print(study: Study, findings: list[str]) -> None:
     """Tables for people."""
-    from linkwright.app.terminal import print_tables
     from linkwright.cam.tables.cam import cam_tables
+    from linkwright.kernel.command.terminal import print_tables
 
-    print_tables("", list(cam_tables(study)), findings, study.warnings)
+    print_tables(
+        "", list(cam_tables(study.cams, study.cam_sizes, study.loaded_cams)), findings, study.warnings
+    )
 
 
 def _write(
@@ -199,8 +201,8 @@ def _write(
     """Report and results; says where everything is, and what was measured in the drawings."""
     from json import dumps
 
-    from linkwright.app.commands.run import command_line
     from linkwright.app.report.page import report_html
+    from linkwright.kernel.command.out import command_line
 
     contents: dict[str, str | bytes] = {
         "results.json": dumps(shown, allow_nan=False, ensure_ascii=False) + "\n",

@@ -38,9 +38,9 @@ def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force
     Greatest velocity, acceleration, jerk, and velocity times acceleration, and the integrals of the squares,
     with what no law can go below.
     """
-    from linkwright.app.terminal import print_tables
     from linkwright.cam.law_factors import cam_laws
     from linkwright.cam.tables.laws import bound_table, law_table
+    from linkwright.kernel.command.terminal import print_tables
 
     folder = output_folder(out, force=force)
     everything = cam_laws()

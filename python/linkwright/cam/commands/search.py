@@ -79,7 +79,7 @@ def search(
     from linkwright.cam.profile.profile import the_cam
     from linkwright.cam.search import search_cams
     from linkwright.kernel.units import ANGLE, LENGTH
-    from linkwright.machine.files.read import read
+    from linkwright.machine.read import read
 
     require_within(SHOWN, count, "--count", "show fewer")
     machine = read(file, set or [], allow_outside=allow_outside)

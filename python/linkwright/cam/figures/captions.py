@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from linkwright.app.study import Study
+from linkwright.cam.dynamics.loaded import LoadedCam
 from linkwright.cam.figures.cam import (
     cam_figure,
     cam_force_figure,
@@ -18,21 +18,23 @@ from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kernel.page.quantities import degrees, number
 
 
-def cam_figures(study: Study) -> Iterator[Captioned]:
+def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) -> Iterator[Captioned]:
     """The figures of all cams.
 
     Parameters
     ----------
-    study : Study
-        The study.
+    cams : sequence of CamProfile
+        The cams.
+    loaded : sequence of LoadedCam
+        Those that are known under load.
 
     Yields
     ------
     Captioned
         Nothing without a cam.
     """
-    loaded = {each.name: each for each in study.loaded_cams}
-    for profile in study.cams:
+    borne = {each.name: each for each in loaded}
+    for profile in cams:
         name = profile.name
         yield Captioned(f"cam_{name}", f"Cam {name}", _cam_words(profile), cam_figure(profile))
         yield Captioned(
@@ -46,11 +48,11 @@ def cam_figures(study: Study) -> Iterator[Captioned]:
         yield Captioned(f"cam_{name}_pressure_angle", f"Pressure angle of cam {name}", words, figure)
         figure, words = curvature_figure(profile), _curvature_words(profile)
         yield Captioned(f"cam_{name}_curvature", f"Curvature of cam {name}", words, figure)
-        if name in loaded:
-            words = f"The contact bears up to {number(loaded[name].force_size)} N."
-            if loaded[name].side_changes:
+        if name in borne:
+            words = f"The contact bears up to {number(borne[name].force_size)} N."
+            if borne[name].side_changes:
                 words += " Where the force is negative, the other side carries."
-            figure = cam_force_figure(loaded[name])
+            figure = cam_force_figure(borne[name])
             yield Captioned(f"cam_{name}_force", f"Contact force of cam {name}", words, figure)
 
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from linkwright.app.study import Study
 from linkwright.cam.dynamics.loaded import LoadedCam
 from linkwright.cam.law_factors import LawFactors, law_factors
 from linkwright.cam.laws.catalogue import LAWS
@@ -29,28 +28,34 @@ _COMPARED = (
 _REST = 1e-9
 
 
-def cam_tables(study: Study) -> Iterator[Table]:
-    """The tables of all cams of a study.
+def cam_tables(
+    cams: Sequence[CamProfile], sizes: Sequence[LeastSizes] = (), loaded: Sequence[LoadedCam] = ()
+) -> Iterator[Table]:
+    """The tables of all cams of a machine.
 
     Parameters
     ----------
-    study : Study
-        The study.
+    cams : sequence of CamProfile
+        The cams.
+    sizes : sequence of LeastSizes
+        How small they might be.
+    loaded : sequence of LoadedCam
+        Those that are known under load.
 
     Yields
     ------
     Table
         Of each cam: what it is, its joints, its forces; then the laws.
     """
-    loaded = {each.name: each for each in study.loaded_cams}
-    sizes = {each.name: each for each in study.cam_sizes}
-    for profile in study.cams:
+    borne = {each.name: each for each in loaded}
+    least = {each.name: each for each in sizes}
+    for profile in cams:
         yield profile_table(profile)
-        if profile.name in sizes:
-            yield size_table(sizes[profile.name])
+        if profile.name in least:
+            yield size_table(least[profile.name])
         yield joint_table(profile)
-        if profile.name in loaded:
-            yield force_table(loaded[profile.name])
+        if profile.name in borne:
+            yield force_table(borne[profile.name])
         table = comparison_table(profile)
         if table.rows:
             yield table

@@ -132,3 +132,12 @@ def put(text: str, out: Path | None, *, force: bool = False) -> None:
     from linkwright.kernel.files.output import write_file
 
     write_file(out, text, replace=force)
+
+
+def command_line() -> str:
+    """The command line as it was given, to be repeated."""
+    import shlex
+    import sys
+
+    # A name of a file may be bytes that are no UTF-8; a report is.
+    return shlex.join(["linkwright", *sys.argv[1:]]).encode("utf-8", "backslashreplace").decode()

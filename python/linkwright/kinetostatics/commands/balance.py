@@ -68,10 +68,10 @@ def balance(
     Those on given links that make the force of inertia on the frame least, or one on the crank against a
     share of a slider's mass; and what they change.
     """
-    from linkwright.app.terminal import print_tables
+    from linkwright.kernel.command.terminal import print_tables
     from linkwright.kinetostatics.tables import balance_tables
-    from linkwright.machine.files.read import read
-    from linkwright.machine.files.write import dumps
+    from linkwright.machine.read import read
+    from linkwright.machine.write import dumps
 
     machine = read(file, set or (), allow_outside=allow_outside)
     found = _found(machine, links, slider, share, radius, speed)

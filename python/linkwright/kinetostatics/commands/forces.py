@@ -85,9 +85,9 @@ def forces(
     Forces in all pins, guides, slots, teeth and cables, driving torque, force and moment on the frame;
     along the steady motion, or at a constant speed.
     """
-    from linkwright.app.terminal import print_tables
+    from linkwright.kernel.command.terminal import print_tables
     from linkwright.kinetostatics.tables import cases_table, contribution_table, envelope_table
-    from linkwright.machine.files.read import read
+    from linkwright.machine.read import read
 
     folder = output_folder(out, force=force)
 
@@ -230,8 +230,13 @@ def _write(
     from json import dumps
 
     from linkwright.kernel.figure.svg import svg
-    from linkwright.kernel.page.csv import forces_csv
-    from linkwright.kinetostatics.figures import cases_figure, forces_figure, hodograph_figure, polar_figure
+    from linkwright.kernel.page.csv import curves_csv
+    from linkwright.kinetostatics.figures.forces import (
+        cases_figure,
+        forces_figure,
+        hodograph_figure,
+        polar_figure,
+    )
 
     texts = {
         "results.json": dumps(
@@ -241,7 +246,7 @@ def _write(
     }
     for number, result in enumerate(cases.values(), start=1):
         end = "" if len(cases) == 1 else f"_{number}"
-        texts[f"forces{end}.csv"] = forces_csv(result)
+        texts[f"forces{end}.csv"] = curves_csv(result)
         texts[f"forces{end}.svg"] = svg(forces_figure(result))
         texts[f"hodograph{end}.svg"] = svg(hodograph_figure(result))
         texts[f"polar{end}.svg"] = svg(polar_figure(result))

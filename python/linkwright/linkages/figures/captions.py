@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.app.study import Study
 from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kernel.page.quantities import degrees, number
 from linkwright.linkages.coupler_curve import CouplerCurve, coupler_curve
+from linkwright.linkages.cycle import Linkage
 from linkwright.linkages.figures.linkage import coupler_figure, transmission_figure
 from linkwright.linkages.pose import pose
 from linkwright.machine.machine import Machine
@@ -18,22 +18,8 @@ from linkwright.machine.machine import Machine
 _PATHS_MAX = 6
 
 
-def linkage_figures(study: Study) -> Iterator[Captioned]:
-    """The figures of a linkage.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-
-    Yields
-    ------
-    Captioned
-        Nothing without a linkage.
-    """
-    found = study.linkage
-    if found is None:
-        return
+def linkage_figures(machine: Machine, found: Linkage) -> Iterator[Captioned]:
+    """The figures of a machine's linkage over its cycle."""
     worst = [each for each in found.elements if each.transmission_angle_worst is not None]
     if worst:
         least = min(worst, key=lambda each: each.transmission_angle_worst or 0.0)
@@ -42,11 +28,11 @@ def linkage_figures(study: Study) -> Iterator[Captioned]:
             f"{least.element}, {degrees(least.transmission_angle_worst or 0.0)} from being in line."
         )
         yield Captioned("transmission", "Transmission angles", caption, transmission_figure(found))
-    mechanism = study.machine.linkage
-    points = [name for name in mechanism.rigid_points if name not in _on_ground(study.machine)]
+    mechanism = machine.linkage
+    points = [name for name in mechanism.rigid_points if name not in _on_ground(machine)]
     if points and found.closure.change_point is None:
-        curves = [coupler_curve(study.machine, name) for name in points[:_PATHS_MAX]]
-        links = _links(study.machine, float(found.crank_angle[len(found.crank_angle) // 8]))
+        curves = [coupler_curve(machine, name) for name in points[:_PATHS_MAX]]
+        links = _links(machine, float(found.crank_angle[len(found.crank_angle) // 8]))
         yield Captioned("coupler_curves", "Paths of points", _words(curves), coupler_figure(curves, links))
 
 

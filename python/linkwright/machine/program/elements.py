@@ -15,7 +15,6 @@ import numpy as np
 
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.model.follower import OscillatingFollower, TranslatingFollower
-from linkwright.kernel.core.numbers import Numbers
 from linkwright.kernel.description import formula
 from linkwright.linkages.model.assembly import Step
 from linkwright.linkages.model.element import (
@@ -32,6 +31,7 @@ from linkwright.linkages.model.element import (
     Yoke,
 )
 from linkwright.linkages.model.mechanism import Mechanism
+from linkwright.machine.program.numbers import Numbers
 
 _RADIAN = 2 * np.pi
 

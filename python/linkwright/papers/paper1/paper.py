@@ -22,9 +22,9 @@ from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.step_method import StepMotion
 from linkwright.kernel.files.library import library_path
 from linkwright.machine.address import replace as with_entries
-from linkwright.machine.files.read import read
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import drive_inertia
+from linkwright.machine.read import read
 from linkwright.papers.cell import Cell
 from linkwright.papers.paper1.conclusions import conclusions
 from linkwright.papers.paper1.limit import Fit, fitted_inertia, scaled_to

@@ -22,8 +22,8 @@ from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.kernel.files.library import library_path
 from linkwright.kinetostatics.model.loads.friction import DryFriction
 from linkwright.linkages.kinematics import SlideMotion, kinematics
-from linkwright.machine.files.read import read
 from linkwright.machine.machine import Machine
+from linkwright.machine.read import read
 from linkwright.papers.paper2.formulas import Formulas
 
 Floats = NDArray[np.float64]

@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.kernel.files.library import library_path
 from linkwright.kinetostatics.forces import forces
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 from linkwright.papers.paper2.alternatives import design_speed
 
 # Angles of the turn, every quarter of a degree, off the joints of the law.

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from linkwright.cam.profile.least_base import base_for_pressure_angle, largest_roller
 from linkwright.cam.profile.profile import CamProfile, cam_profile
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 
 Floats = NDArray[np.float64]
 

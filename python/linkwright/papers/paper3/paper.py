@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 from linkwright.papers.paper3.conclusions import conclusions
 from linkwright.papers.paper3.engine import Shift, TrialEngine
 from linkwright.papers.paper3.inertia import InertiaChecks, inertia_checks

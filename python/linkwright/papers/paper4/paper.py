@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.files.read import read
+from linkwright.machine.read import read
 from linkwright.papers.paper4.conclusions import conclusions
 from linkwright.papers.paper4.formulas import LeverFormula, Unit
 from linkwright.papers.paper4.rows import rows_of

@@ -127,7 +127,7 @@ def function(
     force: Force = False,
 ) -> None:
     """Four-bar whose rocker follows a function of the crank angle, by Freudenstein's equation."""
-    from linkwright.machine.files.read import read_as
+    from linkwright.machine.read import read_as
     from linkwright.synthesis.function_generator import function_generator
     from linkwright.synthesis.task import FunctionTask
 
@@ -145,7 +145,7 @@ def path(
     force: Force = False,
 ) -> None:
     """Four-bar whose coupler point passes given points, by global search."""
-    from linkwright.machine.files.read import read_as
+    from linkwright.machine.read import read_as
     from linkwright.synthesis.path import path_generator
     from linkwright.synthesis.task import PathTask
 
@@ -165,7 +165,7 @@ def motion(
     force: Force = False,
 ) -> None:
     """Four-bar or slider-crank whose coupler passes two or three poses."""
-    from linkwright.machine.files.read import read_as
+    from linkwright.machine.read import read_as
     from linkwright.synthesis.pose import pose_guide
     from linkwright.synthesis.task import PoseTask
 
@@ -240,7 +240,7 @@ def _finish(
     what: str, found: Result, json: bool, out: Path | None, force: bool, *, curves: bool = False
 ) -> None:
     """Write the machine and print the result."""
-    from linkwright.machine.files.write import dumps
+    from linkwright.machine.write import dumps
 
     machine: Machine = found.machine  # type: ignore[attr-defined]
     entries = found.to_dict(curves=curves)

@@ -48,7 +48,7 @@ def best(
     What is found is looked at over other roots, and more finely. Exit code 1 if no knife keeps the limits.
     """
     from linkwright.kernel.command.bar import bar
-    from linkwright.machine.files.read import read
+    from linkwright.machine.read import read
     from linkwright.topping.best.best_knife import best_knife
 
     folder = output_folder(out, force=force)
@@ -96,7 +96,7 @@ def _object(name: str, found: KnifeSearch, findings: list[str], warnings: list[s
 
 def _print(name: str, found: KnifeSearch, findings: list[str], warnings: list[str]) -> None:
     """A table, and the knife as lines of a machine file."""
-    from linkwright.app.terminal import print_tables
+    from linkwright.kernel.command.terminal import print_tables
     from linkwright.topping.tables.best import best_lines, best_table
 
     tables = [] if found.best is None else [best_table(found, found.best)]

@@ -65,7 +65,7 @@ def field(
     Exit code 1 if the file has [topper.limits] that are not kept.
     """
     from linkwright.kernel.command.bar import bar
-    from linkwright.machine.files.read import read
+    from linkwright.machine.read import read
     from linkwright.topping.edge import edges_of, require_topper
     from linkwright.topping.field import topper_field
     from linkwright.topping.field_verdict import field_cautions, field_findings
@@ -150,7 +150,7 @@ def _print(
     warnings: list[str],
 ) -> None:
     """Tables for people."""
-    from linkwright.app.terminal import print_tables
+    from linkwright.kernel.command.terminal import print_tables
     from linkwright.topping.tables.field import field_tables, sweep_table
 
     tables = list(field_tables(found))

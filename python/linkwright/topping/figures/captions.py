@@ -9,9 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.app.study import Study
 from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kernel.page.quantities import degrees, number
+from linkwright.machine.machine import Machine
 from linkwright.topping.edge import Edge, edges_of
 from linkwright.topping.figures.lengths import length_chart_figure, verdict_figure
 from linkwright.topping.figures.phase import edge_use_figure, phase_figure, slicing_figure
@@ -31,15 +31,15 @@ _PHASES = 361
 
 @dataclass(frozen=True)
 class _Cut:
-    """A study with its topper."""
+    """A machine with its topper and what that cuts."""
 
-    study: Study
+    machine: Machine
     described: Topper
     found: TopperStudy
 
     @cached_property
     def edges(self) -> list[Edge]:
-        return edges_of(self.study.machine, self.described)
+        return edges_of(self.machine, self.described)
 
     @property
     def leaves(self) -> bool:
@@ -51,22 +51,9 @@ class _Cut:
         return shown_head(self.found)
 
 
-def topper_figures(study: Study) -> Iterator[Captioned]:
-    """The figures of the knife over heads.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-
-    Yields
-    ------
-    Captioned
-        Nothing without a topper.
-    """
-    if study.topper is None or study.machine.topper is None:
-        return
-    cut = _Cut(study, study.machine.topper, study.topper)
+def topper_figures(machine: Machine, described: Topper, found: TopperStudy) -> Iterator[Captioned]:
+    """The figures of the knife over heads."""
+    cut = _Cut(machine, described, found)
     moves = cut.edges[0].knife.rate > 0
     if not cut.found.obstacle:
         yield _view(cut)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from linkwright.app.study import Study
+from linkwright.kernel.page.csv import columns_csv, head
 from linkwright.kernel.page.quantities import SHOWN, degrees, number
 from linkwright.kernel.page.table import Row, Table, row, rows_of, with_unit
 from linkwright.topping.model.topper import Topper
@@ -21,23 +21,10 @@ _SAME = 1e-12
 _NO_BOUND = 1e9
 
 
-def topper_tables(study: Study) -> Iterator[Table]:
+def topper_tables(described: Topper, found: TopperStudy) -> Iterator[Table]:
     """Tables of lengths, of what is left, of the motion of the knife, of slicing, of its drive, and of the
     published lengths.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-
-    Yields
-    ------
-    Table
-        Nothing without a topper.
     """
-    found, described = study.topper, study.machine.topper
-    if found is None or described is None:
-        return
     yield _lengths(found, described)
     yield _head(found, described)
     yield _motion(found)
@@ -45,6 +32,22 @@ def topper_tables(study: Study) -> Iterator[Table]:
     if found.knife_mass is not None:
         yield _drive(found)
     yield _verdict(found, described)
+
+
+def edge_csv(found: TopperStudy) -> str:
+    """The use of a topper's edge along its length as CSV: a curve of its own length.
+
+    Parameters
+    ----------
+    found : TopperStudy
+        The study of the topper.
+
+    Returns
+    -------
+    str
+        Two columns.
+    """
+    return columns_csv({head(name): getattr(found, name) for name in ("edge_place", "edge_use")})
 
 
 def mm(value: float) -> str:

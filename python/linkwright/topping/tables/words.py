@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from linkwright.app.study import Study
 from linkwright.kernel.page.formulas import Formula, formula
 from linkwright.kernel.page.quantities import degrees, number
 from linkwright.topping.model.topper import Topper
+from linkwright.topping.topper import TopperStudy
 
 PAPER_5 = (
     "Paper 5: “Кінематичний аналіз переміщення ножа обрізника по головці коренеплоду” (Kinematic analysis of "
@@ -61,22 +61,8 @@ _SLICING = formula(
 )
 
 
-def topper_headline(study: Study) -> Iterator[tuple[str, str, str]]:
-    """The few numbers that one looks for first: word, value, unit.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-
-    Yields
-    ------
-    tuple of str
-        Nothing without a topper.
-    """
-    found, described = study.topper, study.machine.topper
-    if found is None or described is None:
-        return
+def topper_headline(described: Topper, found: TopperStudy) -> Iterator[tuple[str, str, str]]:
+    """The few numbers that one looks for first: word, value, unit."""
     yield "head diameter d", number(1e3 * found.head_diameter, 4), "mm"
     needed = found.length_exact
     if not found.obstacle:
@@ -91,23 +77,9 @@ def topper_headline(study: Study) -> Iterator[tuple[str, str, str]]:
         yield "strokes to and fro", number(found.frequency, 3), "1/s"
 
 
-def topper_formulas(study: Study) -> list[Formula]:
-    """Formulas of the lengths and of slicing.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-
-    Returns
-    -------
-    list of Formula
-        Empty without a topper.
-    """
-    described = study.machine.topper
-    if described is None:
-        return []
-    moves = described.motion.phase is None and study.topper is not None and study.topper.stroke > 0
+def topper_formulas(described: Topper, found: TopperStudy | None) -> list[Formula]:
+    """Formulas of the lengths and of slicing."""
+    moves = described.motion.phase is None and found is not None and found.stroke > 0
     return [*_FORMULAS, *([_EVERY_PHASE] if moves else []), _SLICING]
 
 

@@ -70,9 +70,9 @@ def damper(
     force: Force = False,
 ) -> None:
     """The best damper for a mode: damping, and stiffness, that leave least of its resonance."""
-    from linkwright.app.terminal import print_tables
+    from linkwright.kernel.command.terminal import print_tables
     from linkwright.kernel.units import INERTIA
-    from linkwright.machine.files.read import read
+    from linkwright.machine.read import read
     from linkwright.torsion.damper.damper_design import design_damper
     from linkwright.torsion.tables.damper import damper_lines, damper_table
 

@@ -64,10 +64,10 @@ def diagnose(
     json: Json = False,
 ) -> None:
     """Which cylinder of an engine is weak, from the speed of a disc over the crank angle."""
-    from linkwright.app.terminal import print_tables
+    from linkwright.kernel.command.terminal import print_tables
     from linkwright.kernel.files.columns import read_columns
     from linkwright.kernel.units import ANGLE, SPEED
-    from linkwright.machine.files.read import read
+    from linkwright.machine.read import read
     from linkwright.torsion.diagnosis.record_diagnosis import record_diagnosis
     from linkwright.torsion.tables.diagnosis import diagnosis_table, diagnosis_words
 

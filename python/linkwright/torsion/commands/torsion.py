@@ -43,8 +43,8 @@ def torsion(
     Natural frequencies, shapes and nodes; with torques and [train.run] in the file also critical speeds,
     torques, stresses, limits, barred speeds, unevenness and heat. Exit code 1 if a limit is exceeded.
     """
-    from linkwright.app.terminal import progress
-    from linkwright.machine.files.read import read
+    from linkwright.kernel.command.terminal import progress
+    from linkwright.machine.read import read
     from linkwright.torsion.study import torsion_study
 
     folder = output_folder(out, force=force)
@@ -76,7 +76,7 @@ def _object(study: TorsionStudy) -> str:
 
 def _print(study: TorsionStudy) -> None:
     """Tables for people."""
-    from linkwright.app.terminal import print_tables
+    from linkwright.kernel.command.terminal import print_tables
     from linkwright.torsion.tables.torsion import study_tables
 
     print_tables(study.balance, list(study_tables(study)), study.findings, study.warnings)
@@ -84,8 +84,8 @@ def _print(study: TorsionStudy) -> None:
 
 def _write(study: TorsionStudy, shown: str, folder: OutputFolder, *, quiet: bool) -> None:
     """Report, results and drawings; says where they are."""
-    from linkwright.app.commands.run import command_line
-    from linkwright.app.terminal import progress
+    from linkwright.kernel.command.out import command_line
+    from linkwright.kernel.command.terminal import progress
     from linkwright.torsion.figures.modes import modes_figure
     from linkwright.torsion.figures.scheme import scheme_figure
     from linkwright.torsion.page import torsion_html

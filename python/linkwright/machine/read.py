@@ -20,8 +20,8 @@ from linkwright.kernel.files.points import Column, with_points
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import DEPTH, FILE_BYTES
 from linkwright.kernel.units import show
-from linkwright.machine.files.overrides import Override, apply, parse_all
 from linkwright.machine.machine import FORMAT, Machine
+from linkwright.machine.overrides import Override, apply, parse_all
 
 Model = TypeVar("Model", bound=BaseModel)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import groupby
 from typing import Any, NamedTuple
 
 from pydantic import BaseModel
@@ -219,3 +220,8 @@ def _list(machine: Machine, place: Place, values: tuple[float, ...]) -> str:
     texts = [degrees(each) if unit == "rad" else number(each, 6) for each in shown]
     more = ["…"] if len(values) > len(shown) else []
     return f"{', '.join(texts + more)} {'' if unit == 'rad' else pretty_unit(unit)}".rstrip()
+
+
+def grouped(parts: list[Part]) -> list[tuple[str, list[Part]]]:
+    """Parts of a machine with the heading of each group."""
+    return [(group, list(found)) for group, found in groupby(parts, key=lambda part: part.group)]

@@ -1,4 +1,4 @@
-"""A study on the terminal: tables, findings in red, warnings in yellow; by rich."""
+"""An answer on the terminal: tables, findings in red, warnings in yellow; by rich."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ from contextlib import AbstractContextManager, nullcontext
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
-from linkwright.app.commands.check import summary
-from linkwright.app.report.tables import tables
 from linkwright.kernel.command.console import console, styled
 from linkwright.kernel.limits import SENTENCES, TABLE_ROWS, TABLES, grouped
 from linkwright.kernel.page.table import Table
@@ -16,21 +14,8 @@ from linkwright.kernel.page.table import Table
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-    from linkwright.app.study import Study
-
 # Letters in a line of a column's head.
 _HEAD = 12
-
-
-def print_study(study: Study) -> None:
-    """Print the tables, the findings and the warnings of a study.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-    """
-    print_tables(summary(study.machine), tables(study), study.findings, study.warnings)
 
 
 def print_tables(
