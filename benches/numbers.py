@@ -28,10 +28,8 @@ TOLERANCE = 1e-12
 
 # Commands of one process: it starts once for all of them.
 _RUN = """
-import contextlib, io, json, sys
-from importlib.metadata import entry_points
-point, = entry_points(group="console_scripts", name="linkwright")
-application = __import__("importlib").import_module(point.module).application
+import json, sys
+from linkwright.app import application
 from typer.testing import CliRunner
 app, runner = application(), CliRunner()
 for command in json.loads(sys.argv[2]):

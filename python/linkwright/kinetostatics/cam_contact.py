@@ -20,10 +20,11 @@ from linkwright.linkages.model.structure import FRAME
 Follower = TranslatingFollower | OscillatingFollower
 
 
-def follower_at(scene: Scene, name: str) -> Follower | None:
-    """The follower of a cam that drives a member; None if something else does."""
-    found = scene.mechanism.linear_drivers.get(name) or scene.mechanism.cranks.get(name)
-    return found if isinstance(found, Follower) else None
+def follower_at(scene: Scene, name: str) -> Follower:
+    """The follower of a cam that drives a member."""
+    found = scene.mechanism.linear_drivers.get(name) or scene.mechanism.cranks[name]
+    assert isinstance(found, Follower)
+    return found
 
 
 @dataclass

@@ -17,16 +17,19 @@ relation of their speeds, and the carrier takes what is left over.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kinetostatics.cam_contact import Follower, Push, follower_at, pushes
 from linkwright.kinetostatics.friction import Friction
 from linkwright.kinetostatics.places import Scene, dot, left
 from linkwright.kinetostatics.wrench import Wrenches
 from linkwright.linkages.model.element import Gear
 from linkwright.linkages.model.structure import FRAME, Drive, Pair
+
+if TYPE_CHECKING:
+    from linkwright.kinetostatics.cam_contact import Push
 
 Floats = NDArray[np.float64]
 
@@ -198,9 +201,9 @@ def _cable(scene: Scene, pair: Pair) -> PairModel:
 
 
 def _drive(scene: Scene, drive: Drive) -> PairModel:
-    follower = follower_at(scene, drive.name)
-    if follower is not None:
-        return _cam_contact(scene, drive, follower)
+    driver = scene.mechanism.linear_drivers.get(drive.name) or scene.mechanism.cranks.get(drive.name)
+    if driver is not None and driver.follows() is not None:
+        return _cam_contact(scene, drive)
     if drive.guide is None:
         one = np.ones(scene.n)
         torque = Wrenches(scene).couple(drive.member, one).couple(FRAME, -one)
@@ -212,7 +215,10 @@ def _drive(scene: Scene, drive: Drive) -> PairModel:
     return _without_friction(scene, drive.name, "force", drive.member, push)
 
 
-def _cam_contact(scene: Scene, drive: Drive, follower: Follower) -> PairModel:
+def _cam_contact(scene: Scene, drive: Drive) -> PairModel:
+    from linkwright.kinetostatics.cam_contact import follower_at, pushes
+
+    follower = follower_at(scene, drive.name)
     push, pull = pushes(scene, follower, drive.name)
     found = _without_friction(scene, drive.name, "contact", drive.member, push.normal)
     found.friction = Friction(coefficient=follower.cam.sliding_friction)

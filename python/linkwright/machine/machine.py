@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, Field, ModelWrapValidatorHandler, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from linkwright.drive.model.drive import Drive
 from linkwright.kernel.description.base import Description, Name, Title, fault, faults_of, raise_faults
+from linkwright.kernel.description.elsewhere import elsewhere
 from linkwright.kernel.description.plain import look
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.errors import MachineError
@@ -18,13 +19,18 @@ from linkwright.kinetostatics.model.body import Body, body_faults
 from linkwright.kinetostatics.model.loads import AnyLoad
 from linkwright.kinetostatics.model.loads.references import load_faults
 from linkwright.linkages.model.mechanism import Mechanism
-from linkwright.machine.mechanism_of import expansion_faults, merged, outline_of, with_followers
-from linkwright.pumping.model.rod_rotator import RodRotator
-from linkwright.pumping.model.unit import PumpingUnit
-from linkwright.topping.model.topper import Topper, topper_faults
-from linkwright.torsion.model.drive_train import two_trains
-from linkwright.torsion.model.train import Train
-from linkwright.torsion.model.train_faults import train_faults
+from linkwright.machine.whole_mechanism import merged, outline_of, with_followers
+
+if TYPE_CHECKING:
+    from linkwright.pumping.model.rod_rotator import RodRotator
+    from linkwright.pumping.model.unit import PumpingUnit
+    from linkwright.topping.model.topper import Topper
+    from linkwright.torsion.model.train import Train
+else:
+    PumpingUnit = elsewhere("pumping.model.unit", "PumpingUnit")
+    RodRotator = elsewhere("pumping.model.rod_rotator", "RodRotator")
+    Topper = elsewhere("topping.model.topper", "Topper")
+    Train = elsewhere("torsion.model.train", "Train")
 
 # The format that this version reads and writes.
 FORMAT = 1
@@ -114,18 +120,41 @@ def _reference_faults(machine: object) -> list[InitErrorDetails]:
     """Nothing that moves, names that clash, bodies and loads that refer to nothing."""
     mechanism, unit = look(machine, "mechanism"), look(machine, "pumping_unit")
     train, topper = look(machine, "train"), look(machine, "topper")
-    faults = [*train_faults(train), *two_trains(machine)]
+    faults = list(_faults_of_train(machine, train))
     stands_alone = any(each is not None for each in (unit, train, topper))
     if not stands_alone and (mechanism is None or _is_left_out(machine)):
         return [fault("mechanism", expected="a table")]
-    faults += expansion_faults(machine)
+    faults += _faults_of_unit(machine)
     if not stands_alone and not isinstance(mechanism, BaseModel | Mapping):
         # There is nothing to refer to.
         return faults
     outline = outline_of(machine)
-    faults += topper_faults(machine, outline.slides)
+    faults += _faults_of_topper(machine, outline.slides)
     bodies, loads = look(machine, "bodies"), look(machine, "loads")
     return [*faults, *body_faults(outline, bodies), *load_faults(outline, loads)]
+
+
+def _faults_of_train(machine: object, train: object) -> Iterator[InitErrorDetails]:
+    if train is not None:
+        from linkwright.torsion.model.drive_train import two_trains
+        from linkwright.torsion.model.train_faults import train_faults
+
+        yield from train_faults(train)
+        yield from two_trains(machine)
+
+
+def _faults_of_unit(machine: object) -> Iterator[InitErrorDetails]:
+    if look(machine, "pumping_unit") is not None or look(machine, "rod_rotator") is not None:
+        from linkwright.pumping.model.expansion import expansion_faults
+
+        yield from expansion_faults(machine)
+
+
+def _faults_of_topper(machine: object, slides: Sequence[str]) -> Iterator[InitErrorDetails]:
+    if look(machine, "topper") is not None:
+        from linkwright.topping.model.topper import topper_faults
+
+        yield from topper_faults(machine, slides)
 
 
 def _is_left_out(machine: object) -> bool:

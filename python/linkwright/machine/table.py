@@ -8,11 +8,10 @@ from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
-from linkwright.cam.model.cam import SecondFollower
+from linkwright.kernel.description.base import Description
 from linkwright.kernel.description.plain import field_names, keys, look
 from linkwright.kernel.description.text import join
 from linkwright.kernel.page.quantities import degrees, number, pretty_unit
-from linkwright.linkages.model.element import Guide
 from linkwright.linkages.model.outline import TABLES
 from linkwright.machine.address import kind
 from linkwright.machine.machine import Machine
@@ -165,7 +164,7 @@ def _entries(machine: Machine, place: Place, node: object, before: str = "") -> 
         elif isinstance(value, dict) and any(isinstance(each, BaseModel) for each in value.values()):
             for name, each in value.items():
                 yield Entry(f"{word.removesuffix('s')} {name}", _words(machine, (*place, key, name), each))
-        elif isinstance(value, Guide | SecondFollower):
+        elif isinstance(value, Description) and value.shown_with_part:
             yield from _entries(machine, (*place, key), value, f"{word} ")
         # A zero that nobody wrote says nothing.
         elif (

@@ -10,35 +10,3 @@
 | `task` | what a linkage shall do, as a file says it |
 | `four_bar`, `travel` | what the lengths say; whether positions can be reached one after another |
 """
-
-from linkwright.synthesis.dead_centre import CrankRocker, crank_rocker
-from linkwright.synthesis.function_generator import FunctionGenerator, function_generator
-from linkwright.synthesis.function_scale import chebyshev_points
-from linkwright.synthesis.path import PathGenerator, path_generator
-from linkwright.synthesis.pose import PoseGuide, pose_guide
-from linkwright.synthesis.straight_line import StraightLine, straight_line, straight_lines
-from linkwright.synthesis.stroke import StrokeCrank, slider_crank
-from linkwright.synthesis.task import Box, FunctionTask, MovingPoint, PathTask, Poses, PoseTask
-
-__all__ = [
-    "Box",
-    "CrankRocker",
-    "FunctionGenerator",
-    "FunctionTask",
-    "MovingPoint",
-    "PathGenerator",
-    "PathTask",
-    "PoseGuide",
-    "PoseTask",
-    "Poses",
-    "StraightLine",
-    "StrokeCrank",
-    "chebyshev_points",
-    "crank_rocker",
-    "function_generator",
-    "path_generator",
-    "pose_guide",
-    "slider_crank",
-    "straight_line",
-    "straight_lines",
-]

@@ -16,7 +16,3 @@
 
 Jinja2 and matplotlib are imported when a page is made.
 """
-
-from linkwright.app.report.page import report_html, write_report
-
-__all__ = ["report_html", "write_report"]

@@ -8,13 +8,13 @@ of them. What is drawn at these places is said in `scene_parts`.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.app.study import Study
-from linkwright.cam.scene import cam_headings, reach
 from linkwright.kernel.errors import AssemblyError
 from linkwright.linkages.closure import Closure, closure
 from linkwright.linkages.kinematics import Kinematics, kinematics
@@ -65,7 +65,7 @@ def scene(study: Study) -> Scene | None:
     box = _box(machine, drawn, listed, motion)
     fineness = _FINENESS * max(box[2] - box[0], box[3] - box[1])
     times, speeds = _times(study, motion.angles)
-    headings = {name: link.angle for name, link in motion.links.items()} | cam_headings(
+    headings = {name: link.angle for name, link in motion.links.items()} | _cam_headings(
         machine, motion.angles
     )
     turning = {part["link"] for part in listed if part.get("link")}
@@ -82,6 +82,24 @@ def scene(study: Study) -> Scene | None:
         "swings": not found.turns_fully,
         "true_speed": study.steady_state is not None,
     }
+
+
+def _cam_headings(machine: Machine, angles: Floats) -> dict[str, Floats]:
+    """Direction of each cam at each crank angle, (n,) [rad]."""
+    if not machine.mechanism.cams:
+        return {}
+    from linkwright.cam.scene import cam_headings
+
+    return cam_headings(machine, angles)
+
+
+def _cam_reach(machine: Machine) -> Iterable[tuple[str, float]]:
+    """Centre and greatest radius of each cam."""
+    if not machine.mechanism.cams:
+        return ()
+    from linkwright.cam.scene import reach
+
+    return reach(machine)
 
 
 def _closes(machine: Machine) -> bool:
@@ -134,7 +152,7 @@ def _box(machine: Machine, drawn: dict[str, Floats], listed: list[Scene], motion
         if part["kind"] in ("roller", "face") and part["rod"] and not part["link"]:
             cos, sin = np.cos(part["angle"]), np.sin(part["angle"])
             every.append(drawn[part["at"]] + np.array([[cos, -sin], [sin, cos]]) @ part["rod"])
-    for centre, radius in reach(machine):
+    for centre, radius in _cam_reach(machine):
         every += [drawn[centre] + radius, drawn[centre] - radius]
     together = np.concatenate(every)
     return [float(value) for value in (*together.min(axis=0), *together.max(axis=0))]

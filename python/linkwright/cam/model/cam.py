@@ -15,7 +15,7 @@ In the mechanism a cam stands for a driver that follows the programme (`cam_foll
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -62,6 +62,8 @@ _USUAL_LIMIT = {"translating": np.pi / 6, "oscillating": 7 * np.pi / 36}
 
 class SecondFollower(Description):
     """The second follower of a conjugate pair of cams, fixed to the first."""
+
+    shown_with_part: ClassVar[bool] = True
 
     roller_radius: PositiveLength | None = Field(
         None, description="Of its roller. Without it, that of the first."

@@ -42,12 +42,20 @@ class TranslatingFollower(LinearDriver):
 
     cam: Cam = Field(description="The cam.")
 
+    def follows(self) -> Cam:
+        """The cam that it follows."""
+        return self.cam
+
 
 class OscillatingFollower(Crank):
     """A driver that follows a cam about a pivot."""
 
     cam: Cam = Field(description="The cam.")
     turn: float = Field(description="Sense of the angle as the lift grows: -1 for an arm to the left.")
+
+    def follows(self) -> Cam:
+        """The cam that it follows."""
+        return self.cam
 
 
 def sizes(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> Sizes:

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from numbers import Real
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 from pydantic_core import InitErrorDetails
 
 from linkwright.drive.model.motor import AnyMotor
 from linkwright.kernel.description.base import Checked, Description, fault, wrong
+from linkwright.kernel.description.elsewhere import elsewhere
 from linkwright.kernel.units import (
     FRACTION,
     INERTIA,
@@ -29,8 +30,12 @@ from linkwright.kernel.units import (
     positive,
     show,
 )
-from linkwright.torsion.model.train import ElasticShaft
 from linkwright.torsion.model.train_base import PositiveStiffness
+
+if TYPE_CHECKING:
+    from linkwright.torsion.model.train import ElasticShaft
+else:
+    ElasticShaft = elsewhere("torsion.model.train", "ElasticShaft")
 
 Shaft = Literal["motor", "crank"]
 End = Literal["motor", "gearbox", "crank"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
@@ -19,6 +19,9 @@ class Description(BaseModel):
     # Only the machine as a whole is usually validated; building each part on its own as well costs a tenth of
     # the time of a start.
     model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True, defer_build=True)
+
+    # Whether its entries are shown among those of the part that it belongs to.
+    shown_with_part: ClassVar[bool] = False
 
     def with_entries(self, entries: Mapping[str, Any]) -> Self:
         """Copy with some entries exchanged, unchecked, so that an entry may be an array over many machines.

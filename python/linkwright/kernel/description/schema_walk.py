@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
+from linkwright.kernel.description.elsewhere import Elsewhere
 from linkwright.kernel.description.plain import field_names, look
 from linkwright.kernel.units import Quantity, QuantityList
 
@@ -108,8 +109,12 @@ def _branches(annotation: Any) -> tuple[Any, ...]:
 
 
 def _bare(annotation: Any) -> Any:
-    """The annotation without its marks."""
-    return get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
+    """The annotation without its marks; the model of a table that is described elsewhere."""
+    if get_origin(annotation) is not Annotated:
+        return annotation
+    marks = (mark for mark in annotation.__metadata__ if isinstance(mark, Elsewhere))
+    mark = next(marks, None)
+    return get_args(annotation)[0] if mark is None else mark.model()
 
 
 def _is_model(annotation: Any) -> bool:

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 from pydantic_core import InitErrorDetails
@@ -46,6 +46,8 @@ class FixedPoint(Description):
 
 class Guide(Description):
     """A straight guide, on the frame or on a link that moves."""
+
+    shown_with_part: ClassVar[bool] = True
 
     through: str | None = Field(
         None,
@@ -85,6 +87,10 @@ class Crank(Checked):
         default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
     )
 
+    def follows(self) -> Any:
+        """The cam that it follows; None where it is moved otherwise."""
+        return None
+
     def _faults(self) -> Iterator[InitErrorDetails]:
         return _law_faults(self.law, self.constants)
 
@@ -99,6 +105,10 @@ class LinearDriver(Checked):
     constants: Constants = Field(
         default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
     )
+
+    def follows(self) -> Any:
+        """The cam that it follows; None where it is moved otherwise."""
+        return None
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from _law_faults(self.law, self.constants)

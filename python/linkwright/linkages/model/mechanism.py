@@ -6,13 +6,12 @@ says which points and links each of them makes.
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self
 
 from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
 
-from linkwright.cam.model.cam import Cam
-from linkwright.cam.model.follower import cam_place_faults
 from linkwright.kernel.description.base import Description, Name, faults_of, raise_faults
+from linkwright.kernel.description.elsewhere import elsewhere
 from linkwright.kernel.units import Angle
 from linkwright.linkages.model.assembly import Step
 from linkwright.linkages.model.element import (
@@ -32,6 +31,11 @@ from linkwright.linkages.model.element import (
     Yoke,
 )
 from linkwright.linkages.model.outline import ORIGIN, Outline
+
+if TYPE_CHECKING:
+    from linkwright.cam.model.cam import Cam
+else:
+    Cam = elsewhere("cam.model.cam", "Cam")
 
 
 class Link(NamedTuple):
@@ -96,7 +100,10 @@ class Mechanism(Description):
             raise_faults(cls.__name__, [*faults_of(error), *Outline.of(data).faults(values_fit=False)])
             raise
         raise_faults(cls.__name__, Outline.of(mechanism).faults())
-        raise_faults(cls.__name__, cam_place_faults(mechanism))
+        if mechanism.cams:
+            from linkwright.cam.model.follower import cam_place_faults
+
+            raise_faults(cls.__name__, cam_place_faults(mechanism))
         return mechanism
 
     def fixed_points(self) -> dict[str, FixedPoint]:

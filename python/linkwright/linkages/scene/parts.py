@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.scene import cam_parts
 from linkwright.kinetostatics.model.body import Body
 from linkwright.kinetostatics.model.loads.between import BetweenPoints
 from linkwright.linkages.kinematics import Kinematics
@@ -48,7 +47,10 @@ def parts(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
     yield from _grounds(machine)
     yield from _traces(mechanism)
     yield from gear_parts(mechanism, motion, series)
-    yield from cam_parts(machine, series)
+    if machine.mechanism.cams:
+        from linkwright.cam.scene import cam_parts
+
+        yield from cam_parts(machine, series)
     yield from _links(mechanism, series)
     yield from _levers(mechanism, motion, series)
     yield from _cables(mechanism, motion, series)

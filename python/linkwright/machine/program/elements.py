@@ -13,8 +13,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkwright.cam.model.cam import Cam
-from linkwright.cam.model.follower import OscillatingFollower, TranslatingFollower
 from linkwright.kernel.description import formula
 from linkwright.linkages.model.assembly import Step
 from linkwright.linkages.model.element import (
@@ -187,8 +185,9 @@ class Rows(Numbers):
 
     def _crank(self, name: str, crank: Crank) -> None:
         pivot = self._fixed_or_origin(crank.pivot)
-        if isinstance(crank, OscillatingFollower):
-            self._turn(name, crank.phase, [(self._programme(name, crank.cam), crank.turn)])
+        cam = crank.follows()
+        if cam is not None:
+            self._turn(name, crank.phase, [(self._programme(name, cam), crank.turn)])  # type: ignore[attr-defined]
             row = [4, self._point(name), self.links[name], pivot]
             self.rows.append(row + self.slots(crank.radius, 0.0))
             return
@@ -201,8 +200,9 @@ class Rows(Numbers):
         self.rows.append(row + self.slots(crank.radius, np.cos(crank.phase), np.sin(crank.phase)))
 
     def _linear_driver(self, name: str, driver: LinearDriver) -> None:
-        if isinstance(driver, TranslatingFollower):
-            terms = [(self._programme(name, driver.cam), 1.0)]
+        cam = driver.follows()
+        if cam is not None:
+            terms = [(self._programme(name, cam), 1.0)]
         elif driver.law is not None:
             terms = [(self._law(name, driver.law, driver.constants), 1.0)]
         else:
@@ -217,7 +217,7 @@ class Rows(Numbers):
         self.rows.append([14, slide, self._formula(formula.parse(law), known)])
         return slide
 
-    def _programme(self, name: str, cam: Cam) -> int:
+    def _programme(self, name: str, cam: Any) -> int:
         """A coordinate that follows the lift of a cam."""
         slide = self._slide(f"{name}.lift")
         self.rows.append([16, slide, self.slot(cam.phase), self._motion_law(cam.lift)])

@@ -1,0 +1,56 @@
+"""Tables of a machine file that another room describes: its description is imported when a file has the table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Annotated, Any
+
+from pydantic import BaseModel, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, SchemaValidator, core_schema
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """Mark of an entry that a model in another room describes.
+
+    Attributes
+    ----------
+    module : str
+        Name of the module below the package.
+    name : str
+        Name of the model in it.
+    """
+
+    module: str
+    name: str
+
+    def model(self) -> type[BaseModel]:
+        """The model, imported now."""
+        found: type[BaseModel] = getattr(import_module(f"linkwright.{self.module}"), self.name)
+        return found
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """A schema that asks the model when there is something to check."""
+        return core_schema.with_info_plain_validator_function(self._checked)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """That of the model."""
+        model = self.model()
+        model.model_rebuild()
+        return handler(model.__pydantic_core_schema__)
+
+    def _checked(self, value: Any, info: core_schema.ValidationInfo) -> BaseModel:
+        """The description of a table; faults have their place in it."""
+        model = self.model()
+        if not isinstance(model.__pydantic_validator__, SchemaValidator):
+            model.model_rebuild()
+        checked: BaseModel = model.__pydantic_validator__.validate_python(value, context=info.context)
+        return checked
+
+
+def elsewhere(module: str, name: str) -> Any:
+    """The type of an entry that the model ``name`` of a module below the package describes."""
+    return Annotated[Any, Elsewhere(module, name)]

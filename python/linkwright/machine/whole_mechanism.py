@@ -1,0 +1,129 @@
+"""The whole mechanism of a machine: what its file builds of elements, with what a pumping unit expands into.
+
+| description | makes |
+| --- | --- |
+| a cam | the driver that follows it: a linear driver or a crank of its name |
+| `pumping_unit`, `rod_rotator` | what `linkwright.pumping.model.expansion` says |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel
+
+from linkwright.kernel.description.plain import arrays, keys, look
+from linkwright.linkages.model.element import Crank, LinearDriver
+from linkwright.linkages.model.mechanism import Mechanism
+from linkwright.linkages.model.outline import TABLES, Outline
+
+if TYPE_CHECKING:
+    from linkwright.pumping.model.rod_rotator import RodRotator
+    from linkwright.pumping.model.unit import PumpingUnit
+
+
+def with_followers(own: Mechanism) -> Mechanism:
+    """A mechanism with a driver in place of each cam; the same mechanism gives the same.
+
+    Parameters
+    ----------
+    own : Mechanism
+        What the file builds of elements.
+    """
+    if not own.cams:
+        return own
+    return _kept((own,), partial(_driven, own), _has_arrays(*own.cams.values(), *own.points.values()))
+
+
+def _driven(own: Mechanism) -> Mechanism:
+    from linkwright.cam.model.follower import follower_of
+
+    points = own.fixed_points()
+    made = {name: follower_of(cam, points) for name, cam in own.cams.items()}
+    cranks = {name: each for name, each in made.items() if isinstance(each, Crank)}
+    drivers = {name: each for name, each in made.items() if isinstance(each, LinearDriver)}
+    return own.with_entries(
+        {
+            "cams": {},
+            "cranks": {**own.cranks, **cranks},
+            "linear_drivers": {**own.linear_drivers, **drivers},
+        }
+    )
+
+
+def merged(own: Mechanism, unit: PumpingUnit, rotator: RodRotator | None) -> Mechanism:
+    """A mechanism together with what a unit expands into; the same parts give the same mechanism.
+
+    Parameters
+    ----------
+    own : Mechanism
+        What the file builds of elements.
+    unit : PumpingUnit
+        The unit.
+    rotator : RodRotator or None
+        The rotator.
+
+    Returns
+    -------
+    Mechanism
+        All elements.
+    """
+    parts = (own, unit, rotator)
+    return _kept(parts, partial(_merged, *parts), _has_arrays(unit, rotator))
+
+
+def _merged(own: Mechanism, unit: PumpingUnit, rotator: RodRotator | None) -> Mechanism:
+    from linkwright.pumping.model.expansion import mechanism_of
+
+    expanded = mechanism_of(unit, rotator)
+    return own.with_entries({name: {**getattr(own, name), **getattr(expanded, name)} for name in TABLES})
+
+
+def _has_arrays(*parts: BaseModel | None) -> bool:
+    """Whether entries of some parts vary over many machines."""
+    return any(True for _ in arrays(parts))
+
+
+def _kept(parts: tuple[object, ...], make: Callable[[], Mechanism], varies: bool) -> Mechanism:
+    """What is made of some parts, the same as before if they are the same."""
+    key = tuple(map(id, parts))
+    known = _known.get(key)
+    if known is not None:
+        return known[1]
+    made = make()
+    if varies:
+        # Arrays are large, and may change in place.
+        return made
+    if len(_known) >= _KNOWN_MAX:
+        _known.pop(next(iter(_known)), None)
+    _known[key] = (parts, made)
+    return made
+
+
+# Mechanisms made last, with the parts they were made of: these keep their identity while they stand here,
+# and the engine knows a machine again by the identity of its elements.
+_known: dict[tuple[int, ...], tuple[tuple[object, ...], Mechanism]] = {}
+_KNOWN_MAX = 16
+
+
+def outline_of(machine: object) -> Outline:
+    """Names of the whole mechanism of a machine, checked or raw."""
+    own = look(machine, "mechanism")
+    unit, rotator = look(machine, "pumping_unit"), look(machine, "rod_rotator")
+    if not isinstance(unit, BaseModel | Mapping):
+        return Outline.of(own)
+    from linkwright.pumping.model.expansion import ROTATOR_PARTS, UNIT
+
+    both = (UNIT, ROTATOR_PARTS) if isinstance(rotator, BaseModel | Mapping) else (UNIT,)
+    return Outline.of({table: _joined(table, own, *both) for table in TABLES})
+
+
+def _joined(table: str, own: object, *expanded: Mapping[str, Any]) -> dict[str, Any]:
+    """One table of names: those of the file and those that are expanded."""
+    found = look(own, table)
+    joined = {name: look(found, name) for name in keys(found)}
+    for each in expanded:
+        joined |= each.get(table, {})
+    return joined
