@@ -30,7 +30,7 @@ def imports(repeats: int) -> list[Row]:
 def command(repeats: int) -> Row:
     """`linkwright run FILE --json`, the whole process."""
     case = "linkwright run FILE --json"
-    words = ("-m", "linkwright.app", "run", str(machines.TWO_CARTS), "--json")
+    words = ("-m", "linkwright", "run", str(machines.TWO_CARTS), "--json")
     try:
         python(*words)
     except subprocess.CalledProcessError:

@@ -1,4 +1,4 @@
-"""``python -m linkwright.app``, for where the console script is not installed."""
+"""``python -m linkwright``, for where the console script is not installed."""
 
 from linkwright.app import main
 

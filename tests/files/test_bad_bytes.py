@@ -111,7 +111,7 @@ def test_a_name_of_a_file_that_is_no_text(command: list[str], tmp_path: Path) ->
     machine = Path(__file__).parents[2] / "machines" / "roller_one_cart.toml"
     name = os.fsdecode(b"caf\xe9.toml")
     (tmp_path / name).write_text(machine.read_text(encoding="utf-8"), encoding="utf-8")
-    words = [sys.executable, "-m", "linkwright.app", command[0]]
+    words = [sys.executable, "-m", "linkwright", command[0]]
     for file, code in ((name, 0), (name + "x", 2)):
         done = subprocess.run([*words, file, *command[1:]], cwd=tmp_path, capture_output=True, check=False)
         assert done.returncode == code, done.stderr.decode(errors="replace")

@@ -9,8 +9,8 @@
 | 5 | drive | bodies, loads or a motor |
 | 6 | `forces` | steady motion to act in |
 
-What fails becomes a finding, and the study goes on with what does not depend on it. A subject is imported when
-the machine has its table.
+What fails becomes a finding, and the study goes on with what does not depend on it. A subject is imported
+when the machine has its table.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from linkwright.kernel.result import Result
 
 
 def drive_tables(study: DriveStudy) -> Iterator[Table]:
-    """Reduction, steady motion, its evenness, the drive, run-up, run-down, step method: what there is of them."""
+    """What there is of reduction, steady motion, its evenness, the drive, run-up, run-down, step method."""
     parts = (_reduction, _steady, _measures, _drive, _run_up, _run_down, _step_method)
     yield from (table for part in parts if (table := part(study)) is not None)
 

@@ -74,7 +74,7 @@ class Result:
         return {name: value for name, value in arrays.items() if value.shape == (length,)}
 
     def columns(self) -> dict[str, np.ndarray]:
-        """Curves of the result's parts, each under a name with its unit such as ``A_x [N]``; none for most."""
+        """Curves of the result's parts, named with their unit such as ``A_x [N]``; none for most."""
         return {}
 
     def _entries(self) -> dict[str, Any]:

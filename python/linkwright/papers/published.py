@@ -126,8 +126,10 @@ def printed_values(number: int) -> dict[str, Any]:
     InputError
         There is no such paper.
     """
-    name = f"paper{known_paper(number)}.toml"
-    return tomllib.loads(files("linkwright.papers").joinpath(name).read_text(encoding="utf-8"))
+    n = known_paper(number)
+    return tomllib.loads(
+        files(f"linkwright.papers.paper{n}").joinpath(f"paper{n}.toml").read_text(encoding="utf-8")
+    )
 
 
 def published(number: int) -> Published:

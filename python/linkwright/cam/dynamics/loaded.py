@@ -1,8 +1,8 @@
 r"""A cam under the loads of its machine: what presses where, how hard the surfaces are loaded, when contact
 is lost.
 
-The normal force N comes from the equilibrium of the whole machine (`linkwright.kinetostatics.forces`), with all
-bodies, loads and guides. Where it is negative the first contact would have to pull: a second follower, a
+The normal force N comes from the equilibrium of the whole machine (`linkwright.kinetostatics.forces`), with
+all bodies, loads and guides. Where it is negative the first contact would have to pull: a second follower, a
 second cam or the outer flank of a groove takes over; a follower that only a spring closes leaves the cam.
 
 With dampers that resist in proportion to the speed, and inertia that goes with its square, the follower

@@ -144,7 +144,7 @@ def _rows() -> dict[str, dict[str, Any]]:
     import json
     import pkgutil
 
-    data = pkgutil.get_data("linkwright.machine", "motors.json")
+    data = pkgutil.get_data("linkwright.drive.model", "motors.json")
     assert data is not None, "motors.json is part of the package"
     return {row["type"]: row for row in json.loads(data)["motors"]}
 

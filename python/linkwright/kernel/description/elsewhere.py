@@ -1,4 +1,4 @@
-"""Tables of a machine file that another room describes: its description is imported when a file has the table."""
+"""Tables of a machine file that another room describes: that is imported when a file has the table."""
 
 from __future__ import annotations
 
@@ -37,10 +37,13 @@ class Elsewhere:
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
-        """That of the model."""
+        """That of the model, once for all places that it has."""
         model = self.model()
         model.model_rebuild()
-        return handler(model.__pydantic_core_schema__)
+        found: Any = dict(model.__pydantic_core_schema__)
+        inner = found["schema"] if found["type"] == "definitions" else found
+        named = {**inner, "ref": f"{self.module}.{self.name}"}
+        return handler({**found, "schema": named} if inner is not found else named)
 
     def _checked(self, value: Any, info: core_schema.ValidationInfo) -> BaseModel:
         """The description of a table; faults have their place in it."""

@@ -1,6 +1,7 @@
 """Numbers that are given to a function: each is a quantity of its kind, finite and within the kind's range.
 
-The ranges are those of the machine file (`linkwright.kernel.units`): no number of 1e300 enters by another door.
+The ranges are those of the machine file (`linkwright.kernel.units`): no number of 1e300 enters by another
+door.
 """
 
 from __future__ import annotations

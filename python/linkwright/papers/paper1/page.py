@@ -40,7 +40,7 @@ def page(paper: Paper1, figures: Mapping[str, Figure]) -> str:
     captions = {each.published.machine: each.published.name for each in paper.drives}
     own = {name: figure for name, figure in figures.items() if name in captions}
     return rendered(
-        "paper1.html",
+        "paper1/paper1.html",
         **heading(printed, conclusions(paper)),
         paper=paper,
         quantities=QUANTITIES,

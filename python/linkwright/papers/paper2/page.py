@@ -40,7 +40,7 @@ def page(paper: Paper2, figures: Mapping[str, Figure]) -> str:
         The page, with its figures in it.
     """
     return rendered(
-        "paper2.html",
+        "paper2/paper2.html",
         **heading(paper.published, conclusions(paper)),
         paper=paper,
         heads=[(head, unit) for head, unit, _ in COLUMNS],

@@ -43,7 +43,7 @@ def page(paper: Paper3, figures: Mapping[str, Figure]) -> str:
         The page, with its figures in it.
     """
     return rendered(
-        "paper3.html",
+        "paper3/paper3.html",
         **heading(paper.published, conclusions(paper)),
         paper=paper,
         heads=COLUMNS,

@@ -39,7 +39,7 @@ def page(paper: Paper5, figures: Mapping[str, Figure]) -> str:
     """
     chosen = paper.published["chosen"]
     return rendered(
-        "paper5.html",
+        "paper5/paper5.html",
         **heading(paper.published, conclusions(paper)),
         paper=paper,
         heads=HEADS,

@@ -131,7 +131,7 @@ def _units() -> dict[str, CatalogueUnit]:
     import json
     import pkgutil
 
-    data = pkgutil.get_data("linkwright.machine", "pumping_units.json")
+    data = pkgutil.get_data("linkwright.pumping.model", "pumping_units.json")
     assert data is not None, "pumping_units.json is part of the package"
     return {row["designation"]: _unit(row) for row in json.loads(data)["units"]}
 
