@@ -2,6 +2,14 @@
 
 It begins here, before anything large is imported, so that an interrupt from the keyboard is heard at any
 time.
+
+| module | |
+| --- | --- |
+| `application` | All commands, one a file |
+| `commands/` | Commands that are of no single subject |
+| `report/` | The report of a study: page, tables, figures, moving sketch, assumptions |
+| `soundness` | What a machine can be seen to be unable to do without solving for its motion |
+| `study` | A study |
 """
 
 from __future__ import annotations

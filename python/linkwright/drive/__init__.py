@@ -1,1 +1,21 @@
-"""To be written."""
+"""Drives: the machine reduced to its crank, steady motion and its evenness, run-up, run-down.
+
+| module | |
+| --- | --- |
+| `batch` | Steady motion of thousands to millions of machines that differ in some entries |
+| `cautions` | What the designer of a machine should know although it runs: sentences with numbers |
+| `characteristic` | The motor's characteristic and the mean load that it works against |
+| `constant_energy` | How unevenly would it turn without motor and load? |
+| `crank_speed` | At which speed of the crank a command computes, and where that speed comes from |
+| `figures/` | Figures of drives |
+| `model/` | Motors, gearbox, coupling, brake, flywheel |
+| `reduction` | What inertia and what load does the crank feel? |
+| `run_down` | How long until it stands? |
+| `run_up` | Does it start, and how long does that take? |
+| `sound_loads` | Whether the loads of a machine can be computed all round, and repeat every turn |
+| `steady_state` | How does it turn in the long run? |
+| `step_method` | What does the published step method give instead? |
+| `study` | What is known of a drive: reduction to the crank, steady motion, run-up, run-down |
+| `tables` | Results of a drive as tables of text, for the page and for the terminal |
+| `transient` | How does it move from here on? |
+"""

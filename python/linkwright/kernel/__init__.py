@@ -1,1 +1,18 @@
-"""To be written."""
+"""What all subjects stand on: errors, units, descriptions, numerics, results, files, pages.
+
+| module | |
+| --- | --- |
+| `command/` | What the commands share: options, errors as messages, the terminal, progress, output folders |
+| `core/` | What crosses the border to the compiled core |
+| `description/` | What all descriptions share: faults in the words of the file, addresses, formulas, curves |
+| `errors` | What can go wrong, in two families: the input is wrong, or the machine cannot do it |
+| `figure/` | What all figures share: style, SVG and PNG, captions |
+| `files/` | Files in and out: text, tables, points, whole files or none, the library, templates |
+| `findings` | What a study has to say |
+| `limits` | How much of everything there may be |
+| `numerics/` | Numerics that no library has as it is needed here |
+| `page/` | What all pages share: quantities in words, tables, formulas, templates |
+| `public/` | What public functions have in common |
+| `result` | Scalars, curves and tables of a result |
+| `units` | Units stop here: a number or a text with a unit comes in, an SI float comes out |
+"""

@@ -1,18 +1,26 @@
-"""Forces in a mechanism whose motion is given: Newton and Euler for every member, all crank angles at once.
+"""Forces: what pairs bear, what the drive must give, what the frame feels.
 
-| module | responsibility |
+| module | |
 | --- | --- |
-| `motion` | crank angle, speed, acceleration and time at which forces are asked for |
-| `scene` | where members, points and guides are, and how they move |
-| `wrench` | forces and couples on members |
-| `inertia` | what the accelerated masses do |
-| `applied` | what each load does |
-| `pairs` | what each pair can do: directions of its unknown forces, and its friction |
-| `friction` | friction in pins, guides and slots, as given by the user |
-| `formula_load` | what a load by a formula does |
-| `equilibrium` | the linear system, its solution, and the iteration over friction |
-| `result` | the forces by name |
-| `collect` | from the unknowns to the result |
-
-Indices of arrays: crank angle first, then member, then coordinate.
+| `applied` | What each load does |
+| `balancing` | Which counterweights make the force on the frame small? |
+| `cam_contact` | The force with which a cam drives its follower |
+| `collect` | From the unknowns to the result |
+| `commands/` | ``linkwright forces`` and ``linkwright balance`` |
+| `counterweight_formulas` | Counterweights by formulas |
+| `envelope` | How large does each force become, and under which loads? |
+| `equilibrium` | The linear system, its solution, and the iteration over friction |
+| `figures/` | Figures of forces |
+| `forces` | What do its pairs bear, what must the drive give, what does the frame feel? |
+| `formula_load` | What a load by a formula does |
+| `friction` | Friction in pins, guides and slots, as given by the user |
+| `harmonics` | Of which harmonics does a force consist? |
+| `inertia` | What the accelerated masses do |
+| `model/` | Masses on links and points; loads |
+| `motion` | Crank angle, speed, acceleration and time at which forces are asked for |
+| `pairs` | What each pair can do: directions of its unknown forces, and its friction |
+| `places` | Where members, points and guides are, and how they move |
+| `result` | The forces by name |
+| `tables` | Forces as tables of text |
+| `wrench` | Forces and couples on members |
 """

@@ -1,1 +1,28 @@
-"""To be written."""
+"""Linkages: how points, links and slides of a mechanism move.
+
+| module | |
+| --- | --- |
+| `circuits` | In which assemblies can it be put together, and which hang together? |
+| `closure` | At which crank angles does the mechanism close? |
+| `commands` | `linkwright motion FILE`: where everything is, at one crank angle, over a turn or over time |
+| `coupler_curve` | What path does a point draw? |
+| `cycle` | What are its extreme positions, transmission angles, dead points, its Grashof class? |
+| `dead_points` | Where a linkage stops, turns back, or could go two ways |
+| `dyads` | Dyads as the core has them, and the angle at which each passes on its force |
+| `figures/` | Figures of linkages |
+| `grashof` | Four-bar loops of a mechanism and their class after Grashof |
+| `kinematics` | How do points, links and slides move? |
+| `law` | Laws of the driver: the crank angle over time with three derivatives |
+| `law_formula` | A law of the driver written as a text, ``2*pi*t + 0.1*sin(5*t)`` |
+| `law_table` | A table of times and crank angles, the law of a motion in time |
+| `model/` | Elements of a mechanism, how they refer to each other, and in which order they are built |
+| `motion` | Where is everything under a law of time? |
+| `obstacle` | Why an element does not close, in words, and what to change |
+| `outputs` | What a mechanism moves to and fro: links on fixed points, sliders, levers, racks, by element |
+| `period` | After how many turns of the crank a mechanism is again where it was |
+| `pose` | Where is everything at one crank angle? |
+| `scene/` | What the moving sketch draws |
+| `straight_portion` | The longest portion of a path that is straight: that hardly leaves its chord |
+| `tables` | A linkage as tables of text: travel, transmission angles, four-bar loops, dead points |
+| `turning` | A mechanism swept over its cycle |
+"""

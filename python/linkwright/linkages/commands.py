@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from linkwright.drive.crank_speed import CrankSpeed, crank_speed
 from linkwright.kernel.command.common import Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, Out, put
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import ROWS_OUT
-from linkwright.kinetostatics.crank_speed import CrankSpeed, crank_speed
 
 if TYPE_CHECKING:
     from linkwright.linkages.law import Law

@@ -1,12 +1,26 @@
 """Synthesis: from what a linkage shall do to its lengths, as a machine verified by analysis.
 
-| module | finds |
+| module | |
 | --- | --- |
-| `pose`, `slider_pose` | four-bar and slider-crank for two or three poses of the coupler |
-| `dead_centre`, `stroke` | crank-rocker and slider-crank for swing or stroke and time ratio |
-| `function_generator`, `function_scale`, `freudenstein`, `expression` | four-bar for a function y(x) |
-| `path`, `path_model`, `path_refine`, `evolution` | four-bar for points of a path, by global search |
-| `straight_line`, `line_kinds` | linkages for straight lines from a catalogue |
-| `task` | what a linkage shall do, as a file says it |
-| `four_bar`, `travel` | what the lengths say; whether positions can be reached one after another |
+| `commands/` | ``linkwright synthesise`` |
+| `dead_centre` | Crank-rocker and slider-crank for swing or stroke and time ratio |
+| `expression` | Four-bar for a function y(x) |
+| `four_bar` | What the lengths say; whether positions can be reached one after another |
+| `freudenstein` | Four-bar for a function y(x) |
+| `function_generator` | Four-bar for a function y(x) |
+| `function_scale` | Four-bar for a function y(x) |
+| `line_kinds` | Linkages for straight lines from a catalogue |
+| `path` | Four-bar for points of a path, by global search |
+| `path_model` | Four-bar for points of a path, by global search |
+| `path_refine` | Four-bar for points of a path, by global search |
+| `path_starts` | Where the search for a path begins |
+| `pose` | Four-bar and slider-crank for two or three poses of the coupler |
+| `slider_pose` | Four-bar and slider-crank for two or three poses of the coupler |
+| `straight_line` | Linkages for straight lines from a catalogue |
+| `stroke` | Crank-rocker and slider-crank for swing or stroke and time ratio |
+| `task` | What a linkage shall do, as a file says it |
+| `transmission` | The transmission angle that a linkage should keep, and what to say where it does not |
+| `travel` | What the lengths say; whether positions can be reached one after another |
+| `turning_shape` | Shapes of four-bar linkages whose crank turns round, as three numbers without bounds |
+| `verify` | What a synthesis returns is analysed again, and must be what was asked for |
 """

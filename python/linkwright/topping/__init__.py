@@ -1,23 +1,36 @@
-"""Toppers of root crops: the knife over the head of a root.
+"""Toppers of root crops: the knife over the heads of a row.
 
-| module | answers |
+| module | |
 | --- | --- |
-| `head` | the disc that is cut, and what lies above it |
-| `published` | working lengths of the paper, and the bound that follows from its (4) |
-| `knife` | the law of the knife, given or that of a member of the mechanism |
-| `edge` | where the edge is and how fast it goes, seen from a head |
-| `coverage` | what heads need, what an edge leaves of them |
-| `worst_head`, `every_head` | the worst over offsets and phases; what it and all others need |
-| `slicing` | draw-cut ratio, cutting speed, use of the edge |
-| `knife_drive` | inertia force of the knife, torque of its drive |
-| `topper`, `cautions` | all of these as one; what it does not do |
-| `roots`, `passes` | the roots of a field; an edge over all of them |
-| `field`, `field_verdict` | share of heads cut, haulm left, loss; limits that are not kept |
-| `intervals`, `share_curve` | what holds the true shares and means; share against length |
-| `constant_speed` | the exact length for a knife that does not turn back over a head |
-| `every_phase` | the exact length for one that does, met in every phase |
-| `head_pass` | one pass over a head, and the outline of what is left of it |
-| `length_chart` | lengths over root diameter and knife speed, for some forward speeds |
-| `verdict` | for which heads lengths that are said to do for ranges of speeds do |
-| `verdict_chart` | the same about a machine's own angle, cut and offset |
+| `best/` | The best knife of a topper within its limits |
+| `cautions` | All of these as one; what it does not do |
+| `commands/` | ``linkwright topper`` |
+| `constant_speed` | The exact length for a knife that does not turn back over a head |
+| `core` | The core's knife of a topper over many heads |
+| `coverage` | What heads need, what an edge leaves of them |
+| `edge` | Where the edge is and how fast it goes, seen from a head |
+| `every_head` | The worst over offsets and phases; what it and all others need |
+| `every_phase` | The exact length for one that does, met in every phase |
+| `field` | Share of heads cut, haulm left, loss; limits that are not kept |
+| `field_verdict` | Share of heads cut, haulm left, loss; limits that are not kept |
+| `figures/` | Figures of toppers |
+| `head` | The disc that is cut, and what lies above it |
+| `head_pass` | One pass over a head, and the outline of what is left of it |
+| `intervals` | What holds the true shares and means; share against length |
+| `knife` | The law of the knife, given or that of a member of the mechanism |
+| `knife_drive` | Inertia force of the knife, torque of its drive |
+| `length_chart` | Lengths over root diameter and knife speed, for some forward speeds |
+| `model/` | Toppers, fields and limits of a knife in a machine file |
+| `passes` | The roots of a field; an edge over all of them |
+| `published` | Working lengths of the paper, and the bound that follows from its (4) |
+| `roots` | The roots of a field; an edge over all of them |
+| `scene` | The knife of a topper over a row of heads, to be moved |
+| `share_curve` | What holds the true shares and means; share against length |
+| `slicing` | Draw-cut ratio, cutting speed, use of the edge |
+| `sweep` | A topper over a field of roots, with the length, angle or speeds of its knife varied |
+| `tables/` | Tables of toppers, and what reports say of them |
+| `topper` | All of these as one; what it does not do |
+| `verdict` | For which heads lengths that are said to do for ranges of speeds do |
+| `verdict_chart` | The same about a machine's own angle, cut and offset |
+| `worst_head` | The worst over offsets and phases; what it and all others need |
 """

@@ -1,26 +1,18 @@
-"""Torsional vibration of trains.
+"""Torsional vibration of trains: modes, response, motion in time, limits, diagnosis, dampers.
 
-| module | answers |
+| module | |
 | --- | --- |
-| `free` | natural frequencies, mode shapes, nodes, energy, and what changes them |
-| `drive_line` | the train of a drive line, and how its mechanism excites it |
-| `scheme` | inertias, stiffnesses and equivalent lengths, own and referred |
-| `damper_rules`, `damper_design` | the best damper, in closed form and for a mode |
-| `ring_on_train` | the best damper for a train |
-| `holzer` | what a train needs to swing at any frequency |
-| `damped`, `damped_modes` | modes with damping, and what damps them |
-| `campbell`, `modes_over_speed` | critical speeds and how severe they are |
-| `excited`, `torques`, `engine_torques`, `mechanism_torques` | what makes a train vibrate |
-| `transient`, `moving_train`, `moving_engine`, `moving_drive`, `loaded_start` | motion in time |
-| `waterfall` | amplitudes over speed and order |
-| `synthesis` | orders added up in phase |
-| `study` | all of these as one |
-| `stress`, `mesh_torque` | stresses in shafts, with those permitted; torque of gear stages |
-| `barred_range` | speeds that shafts do not bear for ever |
-| `verdict` | whether all limits are kept |
-| `criteria`, `survey`, `exceedance`, `resonance` | what is asked, at which speeds, and where it is not kept |
-| `carried`, `forced` | torque and heat of shafts; amplitudes and unevenness of discs |
-| `unevenness_along` | the measure N over the cylinders, at every disc |
-| `diagnosis`, `engine_diagnosis` | which cylinder is weak, from a `measured_speed` |
-| `recorded_speed`, `record_diagnosis` | a speed recorded over the crank angle, and what it says |
+| `commands/` | ``linkwright torsion`` |
+| `core/` | Trains in the terms of the core |
+| `damper/` | The best damper for a mode |
+| `diagnosis/` | Which cylinder is weak, from a measured speed |
+| `figures/` | Figures of trains |
+| `in_time/` | Manoeuvres of trains, followed in time |
+| `limits/` | Whether a train bears its vibration |
+| `model/` | Trains in a machine file: discs, shafts, gears, couplings, dampers, engines, manoeuvres |
+| `modes/` | Free vibration: frequencies, mode shapes, damping, the Campbell diagram, equivalent schemes |
+| `page` | The page of a study of torsional vibration, from the template of all reports |
+| `response/` | Forced vibration: torques, amplitudes, stresses, unevenness over the speed |
+| `study` | All of these as one |
+| `tables/` | Tables of trains |
 """

@@ -1,1 +1,10 @@
-"""To be written."""
+"""Commands that are of no single subject.
+
+| module | |
+| --- | --- |
+| `check` | `linkwright check FILE`: is the machine file sound, and the geometry that it describes? |
+| `new` | `linkwright new TEMPLATE`: a machine file to start from |
+| `papers` | `linkwright papers`: published numbers against computed ones |
+| `run` | `linkwright run FILE`: everything that can be computed about a machine |
+| `schema` | `linkwright schema`: the JSON Schema of machine files, for editors |
+"""

@@ -1,1 +1,11 @@
-"""To be written."""
+"""Figures of drives.
+
+| module | |
+| --- | --- |
+| `captions` | The figures of a drive with their captions |
+| `compare` | Steady motion of several machines in one picture |
+| `motor` | The motor's characteristic, and the part of it that steady motion uses |
+| `reduction` | Reduced inertia and torque over a turn |
+| `run_up` | Speed from the start to steady motion |
+| `steady` | Speed, acceleration, torque and power over a turn and over time |
+"""

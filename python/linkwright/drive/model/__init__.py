@@ -1,1 +1,8 @@
-"""To be written."""
+"""Motors, gearbox, coupling, brake, flywheel.
+
+| module | |
+| --- | --- |
+| `catalogue` | Published motors |
+| `drive` | Gearbox, coupling, flywheel, brake; a drive line whose shafts twist, as a train |
+| `motor` | The kinds of motor, and how their entries follow from one another |
+"""

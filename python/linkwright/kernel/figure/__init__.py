@@ -1,1 +1,9 @@
-"""To be written."""
+"""What all figures share: style, SVG and PNG, captions.
+
+| module | |
+| --- | --- |
+| `captioned` | A figure of the page with its words |
+| `inline` | SVG that can stand in a page together with others |
+| `style` | Colours, fonts, axes |
+| `svg` | A figure as SVG text, or as PNG |
+"""

@@ -1,1 +1,13 @@
-"""To be written."""
+"""Numerics that no library has as it is needed here.
+
+| module | |
+| --- | --- |
+| `confidence` | How far estimates may be from the truth |
+| `damped_step` | Steps of Levenberg and Marquardt's method for many least-squares problems at once |
+| `formula_value` | The value of a formula: its tree worked through with numpy |
+| `least_squares` | Linear least squares with what it can tell, by singular values |
+| `roots` | Zeros and extremes of smooth functions of the crank angle, many at once, to rounding |
+| `taylor` | Numbers that carry their first three derivatives by time, for functions written with numpy |
+| `turn_curve` | Quantities over a revolution as Chebyshev series, piece by piece |
+| `turn_fit` | Quantities over a revolution |
+"""

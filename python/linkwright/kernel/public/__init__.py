@@ -1,4 +1,11 @@
-"""What public functions have in common: arguments checked by name, and results that stay as they are."""
+"""What public functions have in common: arguments checked by name, and results that stay as they are.
+
+| module | |
+| --- | --- |
+| `arguments` | What the public functions take |
+| `immutable` | Descriptions and results that stay as they are |
+| `in_range` | Numbers that are given to a function |
+"""
 
 from __future__ import annotations
 

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from linkwright.drive.crank_speed import speed_words, speeds_of
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, out_option, put
 from linkwright.kernel.errors import InputError
 from linkwright.kinetostatics.commands.forces import Speed
-from linkwright.kinetostatics.crank_speed import speed_words, speeds_of
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.balancing import Balance
@@ -75,7 +75,7 @@ def balance(
 
     machine = read(file, set or (), allow_outside=allow_outside)
     found = _found(machine, links, slider, share, radius, speed)
-    speeds = speeds_of(found.before, machine, speed)
+    speeds = speeds_of(found.before.speed, machine, speed)
     if json:
         _print_json(found, speeds)
     else:

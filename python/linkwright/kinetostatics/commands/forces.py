@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from linkwright.drive.crank_speed import speed_words, speeds_of
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
 from linkwright.kernel.errors import InputError
-from linkwright.kinetostatics.crank_speed import speed_words, speeds_of
 
 if TYPE_CHECKING:
     from linkwright.kernel.files.output import OutputFolder
@@ -95,7 +95,7 @@ def forces(
         return read(file, [*(set or []), *entries], allow_outside=allow_outside)
 
     found, machine = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
-    speeds = {name: speeds_of(each, machine, speed) for name, each in found.items()}
+    speeds = {name: speeds_of(each.speed, machine, speed) for name, each in found.items()}
     findings = [_named(name, each, found) for name, result in found.items() for each in result.findings]
     first = next(iter(found.values()))
     if json:

@@ -1,1 +1,12 @@
-"""To be written."""
+"""Elements of a mechanism, how they refer to each other, and in which order they are built.
+
+| module | |
+| --- | --- |
+| `assembly` | In which order a mechanism is built; what is missing or too much |
+| `element` | Cranks, dyads, gears, cables, joints and bars |
+| `guide_faults` | What is wrong with guides and gears |
+| `mechanism` | All elements by name |
+| `mobility` | How many independent motions a mechanism has by the count of its links and pairs |
+| `outline` | Names in a mechanism: what refers to what, in which order it is built |
+| `structure` | The structure of a mechanism |
+"""

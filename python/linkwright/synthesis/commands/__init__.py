@@ -1,1 +1,7 @@
-"""To be written."""
+"""``linkwright synthesise``.
+
+| module | |
+| --- | --- |
+| `synthesise` | `linkwright synthesise …`: from what a linkage shall do to a machine file |
+| `words` | Results of a synthesis as words, as a table of the catalogue, and as JSON |
+"""

@@ -1,1 +1,9 @@
-"""To be written."""
+"""The best knife of a topper within its limits.
+
+| module | |
+| --- | --- |
+| `best_knife` | What knife of a topper is the shortest, or the fastest, that keeps its limits? |
+| `knife_failing` | Which limit does no knife keep, and by how much? |
+| `knife_search` | Where it is sought, and what each knife does |
+| `knife_trial` | Where it is sought, and what each knife does |
+"""

@@ -1,1 +1,13 @@
-"""To be written."""
+"""Which cylinder is weak, from a measured speed.
+
+| module | |
+| --- | --- |
+| `cylinder_factors` | Factors of the cylinders of an engine with their uncertainty, and whom they accuse |
+| `cylinder_response` | Harmonics of the speed of one disc |
+| `diagnosis` | Which cylinder is weak, from a `measured_speed` |
+| `engine_diagnosis` | Which cylinder is weak, from a `measured_speed` |
+| `engine_speed` | What the speed of a disc is, however strongly |
+| `measured_speed` | A speed measured over a cycle, as harmonics |
+| `record_diagnosis` | A speed recorded over the crank angle, and what it says |
+| `recorded_speed` | A speed recorded over the crank angle, and what it says |
+"""

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from linkwright.kernel.command.common import option_value
 
 if TYPE_CHECKING:
-    from linkwright.kinetostatics.result import Forces
+    import numpy as np
+    from numpy.typing import NDArray
+
     from linkwright.machine.machine import Machine
 
 _OPTION = "--speed"
@@ -51,13 +53,13 @@ def crank_speed(machine: Machine, text: str | None) -> CrankSpeed:
     return CrankSpeed(1.0, "the file has no drive.speed: rates are those for a radian per second")
 
 
-def speeds_of(found: Forces, machine: Machine, text: str | None) -> dict[str, Any]:
-    """The speeds at which forces were computed, for JSON.
+def speeds_of(speeds: NDArray[np.float64], machine: Machine, text: str | None) -> dict[str, Any]:
+    """The speeds at which something was computed along a motion, for JSON.
 
     Parameters
     ----------
-    found : Forces
-        Forces along a motion.
+    speeds : ndarray, shape (n,)
+        Along the motion [rad/s].
     machine : Machine
         The machine.
     text : str or None
@@ -65,7 +67,7 @@ def speeds_of(found: Forces, machine: Machine, text: str | None) -> dict[str, An
     """
     has_motor = machine.drive is not None and machine.drive.motor is not None
     source = _OPTION if text is not None else "steady motion" if has_motor else _DESIGN
-    low, high = float(found.speed.min()), float(found.speed.max())
+    low, high = float(speeds.min()), float(speeds.max())
     return {"speed_min": low, "speed_max": high, "speed_source": source}
 
 
