@@ -1,60 +1,69 @@
-"""All commands, one a file.
+"""All commands, and where they are: one that is asked for is imported, and no other.
 
-A module of a command is imported at every start, so it imports what it computes with inside its function.
-To add a command, write its file and put its function into `COMMANDS`, or with its own commands into `GROUPS`.
+To add a command, write its file in the room of its subject and put it into `COMMANDS`, or into a group's.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Annotated, Any
+from collections.abc import Callable, Iterable
+from importlib import import_module
+from typing import Annotated, Any, NamedTuple
 
 import typer
 
-from linkwright.app.commands.check import check
-from linkwright.app.commands.new import new
-from linkwright.app.commands.papers import papers
-from linkwright.app.commands.run import run
-from linkwright.app.commands.schema import schema
-from linkwright.cam.commands.file import cam_file
-from linkwright.cam.commands.laws import CAM, cam
 from linkwright.kernel.command.common import reports_errors
 from linkwright.kernel.command.default_command import group_with_default
-from linkwright.kinetostatics.commands.balance import balance
-from linkwright.kinetostatics.commands.forces import forces
-from linkwright.linkages.commands import motion
-from linkwright.sizing.commands import size
-from linkwright.synthesis.commands.synthesise import SYNTHESISE, synthesise
-from linkwright.topping.commands.best import best
-from linkwright.topping.commands.field import field, topper
-from linkwright.torsion.commands.damper import TORSION
-from linkwright.torsion.commands.damper import torsion as torsion_group
-from linkwright.torsion.commands.diagnose import diagnose
-from linkwright.torsion.commands.torsion import torsion
 
-# In the order of the help.
-COMMANDS: tuple[Callable[..., Any], ...] = (
-    run,
-    check,
-    motion,
-    forces,
-    balance,
-    size,
-    papers,
-    new,
-    schema,
-)
+# Name → module and function, in the order of the help.
+COMMANDS = {
+    "run": "app.commands.run:run",
+    "check": "app.commands.check:check",
+    "motion": "linkages.commands:motion",
+    "forces": "kinetostatics.commands.forces:forces",
+    "balance": "kinetostatics.commands.balance:balance",
+    "size": "sizing.commands:size",
+    "papers": "app.commands.papers:papers",
+    "new": "app.commands.new:new",
+    "schema": "app.commands.schema:schema",
+}
 
-# Commands that have commands of their own: what the group does, and its commands.
-GROUPS: tuple[tuple[Callable[..., Any], tuple[Callable[..., Any], ...]], ...] = (
-    (synthesise, SYNTHESISE),
-    (cam, CAM),
-    (torsion_group, (*TORSION, diagnose)),
-    (topper, (field, best)),
-)
 
-# Group → its command for a first word that names none of its commands, such as a file.
-_DEFAULTS: dict[str, Callable[..., Any]] = {"cam": cam_file, "torsion": torsion, "topper": run}
+class Group(NamedTuple):
+    """Commands that belong together: what the group is, its commands, and that for a word that is none of them."""
+
+    about: str
+    commands: tuple[str, ...]
+    default: str = ""
+
+
+GROUPS = {
+    "synthesise": Group(
+        "synthesis.commands.synthesise:synthesise", ("synthesis.commands.synthesise:SYNTHESISE",)
+    ),
+    "cam": Group("cam.commands.laws:cam", ("cam.commands.laws:CAM",), "cam.commands.file:cam_file"),
+    "torsion": Group(
+        "torsion.commands.damper:torsion",
+        ("torsion.commands.damper:TORSION", "torsion.commands.diagnose:diagnose"),
+        "torsion.commands.torsion:torsion",
+    ),
+    "topper": Group(
+        "topping.commands.field:topper",
+        ("topping.commands.field:field", "topping.commands.best:best"),
+        "app.commands.run:run",
+    ),
+}
+
+
+def _found(place: str) -> Any:
+    """What stands at a place ``module:name`` below the package."""
+    module, _, name = place.partition(":")
+    return getattr(import_module(f"linkwright.{module}"), name)
+
+
+def _listed(places: Iterable[str]) -> list[Callable[..., Any]]:
+    """Commands at places, each a command or several."""
+    found = map(_found, places)
+    return [command for each in found for command in (each if isinstance(each, tuple) else (each,))]
 
 
 def _version(wanted: bool) -> None:
@@ -78,33 +87,40 @@ def _top(version: Version = False) -> None:
     """Computes how machines move: from the motor through gearbox and shaft to the mechanism and its work."""
 
 
-def application() -> typer.Typer:
-    """The command line with all its commands."""
+def application(only: str = "") -> typer.Typer:
+    """The command line.
+
+    Parameters
+    ----------
+    only : str
+        Name of the only command that it needs; all of them if that names none.
+    """
     # Plain help: the boxes of rich cost more time than the whole of `check`.
     app = typer.Typer(
         add_completion=False, no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False
     )
     app.callback()(_top)
-    for command in COMMANDS:
-        app.command()(reports_errors(command))
-    for group, commands in GROUPS:
-        app.add_typer(
-            _group(commands, _DEFAULTS.get(group.__name__)), name=group.__name__, help=group.__doc__
-        )
+    known = only in COMMANDS or only in GROUPS
+    for name, place in COMMANDS.items():
+        if name == only or not known:
+            app.command()(reports_errors(_found(place)))
+    for name, group in GROUPS.items():
+        if name == only or not known:
+            app.add_typer(_group(group), name=name, help=_found(group.about).__doc__)
     return app
 
 
-def _group(commands: tuple[Callable[..., Any], ...], default: Callable[..., Any] | None) -> typer.Typer:
+def _group(described: Group) -> typer.Typer:
     """A group of commands, with a command for what is none of them."""
     # Never a word that somebody writes: a blank is in it.
     hidden = "a file"
-    kind = None if default is None else group_with_default(hidden)
+    kind = group_with_default(hidden) if described.default else None
     group = typer.Typer(cls=kind, no_args_is_help=True, rich_markup_mode=None)
     group.callback()(_nothing)
-    for command in commands:
+    for command in _listed(described.commands):
         group.command()(reports_errors(command))
-    if default is not None:
-        group.command(hidden, hidden=True)(reports_errors(default))
+    if described.default:
+        group.command(hidden, hidden=True)(reports_errors(_found(described.default)))
     return group
 
 

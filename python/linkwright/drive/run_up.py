@@ -201,7 +201,8 @@ def _settled(motion: Transient, steady: SteadyState, band: float) -> tuple[float
         return np.abs(speed - _steady_speed(steady, angle)) - limit
 
     # Eight looks a step of the solver, which itself takes some twenty a turn.
-    looks = np.unique(np.concatenate([np.linspace(a, b, 9) for a, b in _spans(motion.time)]))
+    even = [np.linspace(a, b, 8, endpoint=False) for a, b in _spans(motion.time)]
+    looks = np.concatenate([*even, motion.time[-1:]])
     outside = np.flatnonzero(excess(looks) > 0)
     if not len(outside):
         return 0.0, 0.0

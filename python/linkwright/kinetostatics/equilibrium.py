@@ -164,8 +164,9 @@ class Equilibrium:
             if self.models[k].is_nonlinear:
                 A[:, :, span] += self.extras[:, :, k, None] * slopes[:, None, span]
         A = (A * self.column_scale)[where]
-        rng = np.random.default_rng(1)
-        probes = np.broadcast_to(rng.standard_normal((A.shape[1], _PROBES)), (len(A), A.shape[1], _PROBES))
+        # Numbers without any pattern that a mechanism could have: squares of whole numbers, in radians.
+        random = np.cos(np.arange(1.0, A.shape[1] * _PROBES + 1) ** 2).reshape(A.shape[1], _PROBES)
+        probes = np.broadcast_to(random, (len(A), *random.shape))
         found, singular = _solved(A, np.concatenate((-b[where], probes), axis=-1))
         growth = np.abs(found[..., -_PROBES:]).max(axis=(1, 2))
         singular |= ~(growth < _UNBOUNDED)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -60,17 +59,12 @@ def run(
 
 def _studied(file: Path, sets: list[str], accuracy: float, step: str | None, *, allow_outside: bool) -> Study:
     """Read the file and study the machine."""
-    # A start makes some 100 000 objects that all stay; looking among them for rubbish takes time.
-    gc.disable()
-    try:
-        from linkwright.app.study import study
-        from linkwright.kernel.units import ANGLE
-        from linkwright.machine.read import read
+    from linkwright.app.study import study
+    from linkwright.kernel.units import ANGLE
+    from linkwright.machine.read import read
 
-        angle = None if step is None else option_value("--step", step, ANGLE)
-        return study(read(file, sets, allow_outside=allow_outside), accuracy=accuracy, step=angle)
-    finally:
-        gc.enable()
+    angle = None if step is None else option_value("--step", step, ANGLE)
+    return study(read(file, sets, allow_outside=allow_outside), accuracy=accuracy, step=angle)
 
 
 def _shown(file: Path, sets: list[str], accuracy: float, step: str | None, *, allow_outside: bool) -> Study:
