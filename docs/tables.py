@@ -1,13 +1,14 @@
 """Write the tables of the pages that are said by the code already: ``python docs/tables.py``.
 
 In `docs/file_format.md` a table stands between ``<!-- keys: NAME -->`` and ``<!-- end -->``, where NAME is a
-class of `linkwright.machine`; in `docs/units.md` the ranges of all quantities between ``<!-- ranges -->`` and
-``<!-- end -->``. A test fails if a page is not what this file would write.
+description that a machine file may hold (`descriptions`); in `docs/units.md` the ranges of all quantities
+between ``<!-- ranges -->`` and ``<!-- end -->``. A test fails if a page is not what this file would write.
 """
 
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -15,10 +16,10 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
-from linkwright import machine
-from linkwright.kernel.description.schema_walk import mark_of, model_of, words_of
+from linkwright.kernel.description.schema_walk import mark_of, model_of, models_in, words_of
 from linkwright.kernel.limits import ALL, grouped
 from linkwright.kernel.units import COUNT, KINDS, Quantity, QuantityList, size_words
+from linkwright.machine.machine import Machine
 
 PAGES = tuple(Path(__file__).with_name(name) for name in ("file_format.md", "units.md", "limits.md"))
 
@@ -34,7 +35,27 @@ def written(text: str) -> str:
     """The page with all its tables made anew."""
     text = _RANGES.sub(lambda block: block[1] + ranges() + block[2], text)
     text = _LIMITS.sub(lambda block: block[1] + limits() + block[2], text)
-    return _BLOCK.sub(lambda block: block[1] + table(getattr(machine, block[2])) + block[3], text)
+    return _BLOCK.sub(lambda block: block[1] + table(descriptions()[block[2]]) + block[3], text)
+
+
+@cache
+def descriptions() -> dict[str, type[BaseModel]]:
+    """All descriptions that a machine file may hold; ``Train`` stands before names that others have."""
+    found: dict[str, type[BaseModel]] = {}
+    left: list[Any] = [Machine]
+    seen: set[Any] = set()
+    while left:
+        each = left.pop()
+        for model in models_in(each):
+            if model not in seen:
+                seen.add(model)
+                left += [_annotation(field) for field in model.model_fields.values()]
+    of_trains = {model for model in seen if model.__module__.startswith("linkwright.torsion")}
+    for model in (*(seen - of_trains), *of_trains):
+        name = model.__name__ if model.__name__ not in found else f"Train{model.__name__}"
+        assert name not in found, name
+        found[name] = model
+    return found
 
 
 def limits() -> str:

@@ -18,7 +18,7 @@ from linkwright.kernel.files.output import MARKER, OutputFolder, file_name, file
 PACKAGE = Path(__file__).parents[2] / "python" / "linkwright"
 
 # The one module that writes, and two whose libraries write to a path: that of a trial.
-WRITERS = {"files/output.py", "exchange/dxf.py", "exchange/step.py"}
+WRITERS = {"kernel/files/output.py", "cam/manufacture/dxf.py", "cam/manufacture/step.py"}
 
 
 def seen(folder: Path) -> dict[str, str]:
@@ -43,7 +43,7 @@ def test_one_module_writes() -> None:
             if name in calls or (name == "open" and any(str(mode)[:1] in "wax" for mode in modes if mode)):
                 found.add(str(path.relative_to(PACKAGE)))
     # Figures are written into the memory; a folder for a drawing is made beside the module.
-    assert found - {"plot/svg.py", "exchange/write.py"} == WRITERS
+    assert found - {"kernel/figure/svg.py", "cam/manufacture/write.py"} == WRITERS
 
 
 def test_a_folder_that_is_new_empty_or_ours(tmp_path: Path) -> None:

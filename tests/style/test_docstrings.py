@@ -18,15 +18,18 @@ from linkwright.kernel.description.base import Description
 
 # Modules whose functions and classes are documented in full: what a user calls.
 PUBLIC_PACKAGES = (
-    "analysis",
-    "exchange",
-    "files",
     "machine",
-    "sweep",
-    "sizing",
+    "linkages",
+    "drive",
+    "kinetostatics",
+    "cam",
+    "torsion",
+    "pumping",
+    "topping",
     "synthesis",
-    "units",
-    "errors",
+    "sizing",
+    "kernel",
+    "app",
 )
 
 _SECTION = re.compile(r"^(\w[\w ]*)\n-{3,}$", re.MULTILINE)
@@ -154,7 +157,9 @@ def test_attributes_of_results_are_documented() -> None:
         there = {each.name for each in fields(member) if not each.name.startswith("_")}
         there |= {key for key, value in inspect.getmembers(member) if isinstance(value, property)}
         wrong += [f"{name}: {each} is documented, not there" for each in sorted(set(entries(text)) - there)]
-        missing = {each.name for each in fields(member)} - set(entries(text))
+        # What is inherited is documented where it is from.
+        own = vars(member).get("__annotations__", {})
+        missing = {each.name for each in fields(member) if each.name in own} - set(entries(text))
         wrong += [f"{name}: {each} is not documented" for each in sorted(missing) if not each.startswith("_")]
     assert not wrong, "\n".join(wrong)
 

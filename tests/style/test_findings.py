@@ -19,12 +19,15 @@ OURS = {
 
 # Handlers that leave an error of ours without a word, and why nothing is lost by it.
 SILENT = {
-    ("cli/check.py", "_whole"): "lengths that no rotator has are told by the study, and by the check",
-    ("report/scene.py", "_closes"): "the same, and a mechanism that does not move is not drawn",
-    ("report/scene_cam.py", "_contacts"): "a cam without room for its second follower is told by the study",
-    ("report/torsion_figures.py", "_manoeuvre"): "a record too short for orders has no waterfall",
+    (
+        "app/commands/check.py",
+        "_whole",
+    ): "the study and the check tell of lengths that no rotator has",
+    ("app/report/scene.py", "_closes"): "the same, and a mechanism that does not move is not drawn",
+    ("cam/scene.py", "_contacts"): "a cam without room for its second follower is told by the study",
+    ("torsion/figures/captions.py", "_manoeuvre"): "a record too short for orders has no waterfall",
     ("sizing/flywheel.py", "_unevenness"): "no steady motion is an answer there: δ counts as infinite",
-    ("units.py", "_from_pint"): "a text that pint does not know is told with the units that are known",
+    ("kernel/units.py", "_from_pint"): "a text that pint does not know is told with the units that are known",
 }
 
 
@@ -75,7 +78,7 @@ def test_a_study_has_one_collector_of_findings() -> None:
         for node in ast.walk(tree)
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Findings"
     ]
-    assert sorted(made) == ["analysis/findings.py", "analysis/soundness.py", "analysis/study.py"]
+    assert sorted(made) == ["app/soundness.py", "app/study.py", "kernel/findings.py"]
 
 
 def test_nothing_is_suppressed_by_contextlib() -> None:

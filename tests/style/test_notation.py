@@ -27,10 +27,10 @@ def rows(page: str) -> Iterator[tuple[str, str, str]]:
 
 @cache
 def words_of_python() -> set[str]:
-    """Names of arguments, of fields and of properties below analysis, machine, sweep."""
+    """Names of arguments, of fields and of properties in the rooms of all subjects, and of the machine."""
     found: set[str] = set()
-    for part in ("analysis", "machine", "sweep"):
-        for path in (PYTHON / part).rglob("*.py"):
+    for path in PYTHON.rglob("*.py"):
+        if path.relative_to(PYTHON).parts[0] not in ("kernel", "papers", "app"):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
                     found.add(node.target.id)

@@ -41,7 +41,7 @@ def main() -> None:
         # Names may hold letters that the terminal has not; they are no reason to fail.
         if isinstance(sys.stdout, TextIOWrapper):
             sys.stdout.reconfigure(errors="backslashreplace")
-        # A start makes some 100 000 objects that all stay; looking among them for rubbish takes a fifth of its time.
+        # A start makes some 100 000 objects that all stay; looking among them for rubbish takes time.
         gc.set_threshold(200_000)
         app = application(sys.argv[1] if len(sys.argv) > 1 else "")
         interrupts.raise_from_now_on()

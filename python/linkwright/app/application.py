@@ -29,7 +29,7 @@ COMMANDS = {
 
 
 class Group(NamedTuple):
-    """Commands that belong together: what the group is, its commands, and that for a word that is none of them."""
+    """What a group of commands is, its commands, and the one for a word that names none of them."""
 
     about: str
     commands: tuple[str, ...]

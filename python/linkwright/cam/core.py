@@ -79,7 +79,7 @@ class CamKernel:
 
     Attributes
     ----------
-    law : ndarray
+    law : ndarray, shape (k, 2)
         The law as the core reads it.
     kind : int
         Of the follower, as the core counts them.

@@ -24,3 +24,8 @@
 | `turning_shape` | Shapes of four-bar linkages whose crank turns round, as three numbers without bounds |
 | `verify` | What a synthesis returns is analysed again, and must be what was asked for |
 """
+
+from linkwright.synthesis.task import Box, FunctionTask, MovingPoint, PathTask, Poses, PoseTask
+
+# The tasks, which a user writes.
+__all__ = ["Box", "FunctionTask", "MovingPoint", "PathTask", "PoseTask", "Poses"]

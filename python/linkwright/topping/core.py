@@ -83,7 +83,7 @@ class KnifeKernel:
 
         Parameters
         ----------
-        radius, offset : array_like
+        radius, offset : array_like, shape (n,)
             Of the discs, and of their centres to the left of the row [m]; one, or one a head.
         phase : array_like
             Of the law when the middle of the edge is abreast of the centre [rad].

@@ -102,7 +102,7 @@ class MotionLaw:
 
         Parameters
         ----------
-        x : array_like
+        x : array_like, any shape
             Where; beyond the ends the outer pieces go on.
         order : int
             Of the derivative.

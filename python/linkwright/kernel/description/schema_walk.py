@@ -50,6 +50,17 @@ def model_of(annotation: Any, data: object = None) -> type[BaseModel] | None:
     return next((each for each in models if look(data, "kind") in kinds_of(each)), None)
 
 
+def models_in(annotation: Any) -> list[type[BaseModel]]:
+    """All models that an entry may hold, in tables and lists too."""
+    found: list[type[BaseModel]] = []
+    for each in map(_bare, _branches(annotation)):
+        if _is_model(each):
+            found.append(each)
+        elif get_origin(each) in (dict, tuple):
+            found += [model for inner in get_args(each) if inner is not ... for model in models_in(inner)]
+    return found
+
+
 def kinds_of(model: type[BaseModel]) -> tuple[str, ...]:
     """The words for ``kind`` that choose a model."""
     field = model.model_fields.get("kind")

@@ -129,7 +129,7 @@ def array(name: str, value: Any, *, finite: bool = True, complex_too: bool = Fal
     ----------
     name : str
         Of the argument, for messages.
-    value : array_like
+    value : array_like, any shape
         What was given, of any shape.
     finite : bool
         Whether all must be finite.

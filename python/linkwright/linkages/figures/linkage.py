@@ -55,7 +55,7 @@ def coupler_figure(curves: list[CouplerCurve], links: list[tuple[np.ndarray, boo
     ----------
     curves : list of CouplerCurve
         The paths.
-    links : list of (ndarray, bool)
+    links : list of (ndarray, shape (2, 2), and bool)
         Ends of each link, shape (2, 2) [m], and whether its start is at rest.
 
     Returns

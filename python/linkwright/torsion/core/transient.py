@@ -371,9 +371,9 @@ def viscous(stiffness: ArrayLike, loss_factor: ArrayLike, omega: ArrayLike) -> F
 
     Parameters
     ----------
-    stiffness : array_like
+    stiffness : array_like, any shape
         k, of any shape [N m/rad].
-    loss_factor : array_like
+    loss_factor : array_like, any shape
         η, of the same shape [–].
     omega : array_like
         The frequency, of the same shape or one for all [rad/s].
