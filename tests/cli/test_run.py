@@ -87,7 +87,7 @@ def test_standard_output_holds_json_and_nothing_else(tmp_path: Path) -> None:
     command = [
         sys.executable,
         "-m",
-        "linkwright.app",
+        "linkwright",
         "run",
         str(TWO_CARTS),
         "--json",

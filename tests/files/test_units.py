@@ -174,7 +174,7 @@ def test_lists() -> None:
 
 def test_common_spellings_do_not_load_pint() -> None:
     code = (
-        "import sys\nfrom linkwright import units\n"
+        "import sys\nfrom linkwright.kernel import units\n"
         "units.parse('48.4 kg·m²', units.INERTIA), units.parse('90 deg', units.ANGLE)\n"
         "assert not {'pint', 'numpy'} & set(sys.modules)"
     )

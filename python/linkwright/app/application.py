@@ -106,21 +106,24 @@ def application(only: str = "") -> typer.Typer:
             app.command()(reports_errors(_found(place)))
     for name, group in GROUPS.items():
         if name == only or not known:
-            app.add_typer(_group(group), name=name, help=_found(group.about).__doc__)
+            default = _found(group.default) if group.default else None
+            app.add_typer(
+                _group(_listed(group.commands), default), name=name, help=_found(group.about).__doc__
+            )
     return app
 
 
-def _group(described: Group) -> typer.Typer:
+def _group(commands: Iterable[Callable[..., Any]], default: Callable[..., Any] | None) -> typer.Typer:
     """A group of commands, with a command for what is none of them."""
     # Never a word that somebody writes: a blank is in it.
     hidden = "a file"
-    kind = group_with_default(hidden) if described.default else None
+    kind = None if default is None else group_with_default(hidden)
     group = typer.Typer(cls=kind, no_args_is_help=True, rich_markup_mode=None)
     group.callback()(_nothing)
-    for command in _listed(described.commands):
+    for command in commands:
         group.command()(reports_errors(command))
-    if described.default:
-        group.command(hidden, hidden=True)(reports_errors(_found(described.default)))
+    if default is not None:
+        group.command(hidden, hidden=True)(reports_errors(default))
     return group
 
 

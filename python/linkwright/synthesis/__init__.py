@@ -25,7 +25,24 @@
 | `verify` | What a synthesis returns is analysed again, and must be what was asked for |
 """
 
-from linkwright.synthesis.task import Box, FunctionTask, MovingPoint, PathTask, Poses, PoseTask
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-# The tasks, which a user writes.
+# The tasks, which a user writes; they are imported when they are used.
 __all__ = ["Box", "FunctionTask", "MovingPoint", "PathTask", "PoseTask", "Poses"]
+
+
+def __getattr__(name: str) -> Any:
+    """A task by its name."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module("linkwright.synthesis.task"), name)
+
+
+if TYPE_CHECKING:
+    from linkwright.synthesis.task import Box as Box
+    from linkwright.synthesis.task import FunctionTask as FunctionTask
+    from linkwright.synthesis.task import MovingPoint as MovingPoint
+    from linkwright.synthesis.task import PathTask as PathTask
+    from linkwright.synthesis.task import Poses as Poses
+    from linkwright.synthesis.task import PoseTask as PoseTask
