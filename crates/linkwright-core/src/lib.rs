@@ -51,6 +51,7 @@ pub mod kinks;
 pub mod lanes;
 pub mod law;
 pub mod layout;
+pub mod levels;
 pub mod linkage;
 pub mod march;
 pub mod measures;

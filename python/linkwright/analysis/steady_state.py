@@ -38,6 +38,37 @@ _SPEEDS = 400
 
 
 @dataclass(frozen=True)
+class OtherMotion:
+    """A motion that repeats besides the one that a fast machine settles to.
+
+    Attributes
+    ----------
+    speed_min, speed_max : float
+        Of the crank [rad/s].
+    period : float
+        Duration of a turn [s].
+    multiplier : float
+        What is left of a small disturbance of the speed after one turn, as a share. From 1 up the machine
+        departs from the motion: what starts slower slows down, what starts faster speeds up.
+    """
+
+    speed_min: float
+    speed_max: float
+    period: float
+    multiplier: float
+
+    @property
+    def speed_mean_time(self) -> float:
+        """2π/period [rad/s]."""
+        return 2 * np.pi / self.period
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether a small disturbance dies away."""
+        return abs(self.multiplier) < 1
+
+
+@dataclass(frozen=True)
 class SteadyState(Result):
     """One turn of steady motion.
 
@@ -81,6 +112,8 @@ class SteadyState(Result):
         Newton sweeps over the turn in all, and steps of the finest mesh.
     method : str
         ``"collocation"`` or ``"constant speed"``.
+    others : tuple of OtherMotion
+        Other motions of the machine that repeat, from the fastest down to a hundredth of the working speed.
     """
 
     crank_angle: Floats
@@ -114,6 +147,7 @@ class SteadyState(Result):
     sweeps: int
     steps: int
     method: str = "collocation"
+    others: tuple[OtherMotion, ...] = ()
 
     @property
     def speed_mean_extremes(self) -> float:
@@ -273,7 +307,7 @@ def _from_core(scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled)
     """The core's numbers by name; their order is that of `linkwright-core`, module `batch`."""
     time, speed, acceleration, torque_motor, torque_drive, torque_load, inertia = curves
     low, high, drop, rise, period, multiplier, motor, drive, load, mean, rms, *places = scalars.tolist()
-    low_at, high_at, drop_at, rise_at, reached, sweeps, steps = places
+    low_at, high_at, drop_at, rise_at, reached, sweeps, steps, *others = places
     weakest, strongest, most = _motor_extremes(compiled, low, high)
     ratio = compiled.gear_factors[0]
     return SteadyState(
@@ -307,6 +341,7 @@ def _from_core(scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled)
         accuracy=reached,
         sweeps=int(sweeps),
         steps=int(steps),
+        others=tuple(OtherMotion(*others[k : k + 4]) for k in range(0, len(others), 4)),
     )
 
 
