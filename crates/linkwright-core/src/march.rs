@@ -9,7 +9,7 @@
 //! * Between a start that gains speed and one that loses it lies one that repeats.
 //!
 //! Turns are marched through step by step with as short steps as the motion needs. Instead of waiting turn
-//! by turn, starts are halved, or put where Newton on P(u) = u expects a motion that repeats. That none was
+//! by turn, starts are lowered by a share, or put where Newton on P(u) = u expects a motion that repeats. That none was
 //! leapt over is read from the gain P(u) − u and its slope at both ends: the cubic through them must keep
 //! clear of zero, or the interval is halved.
 
@@ -53,7 +53,10 @@ const BRINK: f64 = 1e-3;
 const HALVINGS: u32 = 8;
 
 /// Share of the smaller gain at the ends of an interval that the cubic between must keep from zero.
-const CLEAR: f64 = 0.25;
+const CLEAR: f64 = 0.5;
+
+/// The next start lies above this share of u, so that the gain is seen in all its turns.
+const LEAP: f64 = 0.75;
 
 /// How far behind the place that Newton expects the next start lies, so that what repeats lies between.
 const BEHIND: f64 = 0.1;
@@ -149,14 +152,14 @@ impl Revolution {
 
     /// The start to go on with below this one.
     fn next_below(&self) -> f64 {
-        let half = 0.5 * self.start;
+        let least = LEAP * self.start;
         if self.gain() >= 0.0 {
-            return half;
+            return least;
         }
         let newton = self.newton();
         let behind = newton - BEHIND * (self.start - newton);
         // A growth of 1 or more, or a NaN, points to nothing below.
-        let next = if self.growth < 1.0 && behind > half { behind } else { half };
+        let next = if self.growth < 1.0 && behind > least { behind } else { least };
         next.min(self.end)
     }
 
@@ -252,8 +255,8 @@ impl March<'_> {
 
     /// From a start that turns to one that comes to rest: what lies between?
     fn to_rest(&mut self, mut high: Revolution, mut rest: f64, mut reason: NoMotion) -> Result<(), NoMotion> {
-        // Every start between falls to what rests; or what gains is followed to the brink.
-        while if high.gain() < 0.0 { high.end > rest } else { high.start - rest > BRINK * high.start } {
+        // Every start between falls to what rests, or what gains is followed to the brink.
+        while (high.gain() < 0.0 && high.end > rest) || high.start - rest > BRINK * high.start {
             match self.revolution(0.5 * (high.start + rest)) {
                 Ok(low) => high = self.between(high, low, HALVINGS)?,
                 Err(rests @ NoMotion::Rests { .. }) => (rest, reason) = (0.5 * (high.start + rest), rests),

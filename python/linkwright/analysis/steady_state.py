@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,8 +38,7 @@ _SPEEDS_IN_TURN, _ZOOMS = 65, 7
 _SPEEDS = 400
 
 
-@dataclass(frozen=True)
-class OtherMotion:
+class OtherMotion(NamedTuple):
     """A motion that repeats besides the one that a fast machine settles to.
 
     Attributes
@@ -148,6 +148,21 @@ class SteadyState(Result):
     steps: int
     method: str = "collocation"
     others: tuple[OtherMotion, ...] = ()
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """As `Result.to_dict`, other motions as tables with names.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether arrays are included.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and lists, ready for JSON.
+        """
+        return super().to_dict(curves=curves) | {"others": [each._asdict() for each in self.others]}
 
     @property
     def speed_mean_extremes(self) -> float:
