@@ -34,7 +34,7 @@ const REST: f64 = 1e-10;
 const STEPS_MAX: usize = 20_000;
 
 /// Turns that may be marched through before the search is given up.
-const TURNS_MAX: usize = 200;
+const TURNS_MAX: usize = 500;
 
 /// Relative distance from repeating at which a motion is good enough to start from.
 const REPEATS: f64 = 1e-7;
@@ -52,11 +52,12 @@ const BRINK: f64 = 1e-3;
 /// Halvings of an interval to see that nothing repeats in it, and to keep several that repeat apart.
 const HALVINGS: u32 = 8;
 
-/// Share of the smaller gain at the ends of an interval that the cubic between must keep from zero.
-const CLEAR: f64 = 0.5;
+/// Share of the smaller gain at the ends of an interval that the cubic between must keep from zero: where it
+/// bends towards zero, the gain itself may get there.
+const CLEAR: f64 = 0.9;
 
 /// The next start lies above this share of u, so that the gain is seen in all its turns.
-const LEAP: f64 = 0.75;
+const LEAP: f64 = 0.85;
 
 /// How far behind the place that Newton expects the next start lies, so that what repeats lies between.
 const BEHIND: f64 = 0.1;

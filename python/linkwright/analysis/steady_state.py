@@ -427,7 +427,7 @@ def _failure(status: int, places: Floats, compiled: Compiled, accuracy: float) -
             f"{_what_lacks(compiled)} (started at {speed:.4g} rad/s at φ = 0, it comes to rest at "
             f"φ = {np.degrees(angle):.4g}°, and every faster start slows down to that)"
         )
-    text = "was not decided within 200 revolutions" if np.isnan(reached) else f"{reached:.1e} was reached"
+    text = "was not decided within 500 revolutions" if np.isnan(reached) else f"{reached:.1e} was reached"
     return ConvergenceError(
         f"steady motion was not found to a relative accuracy of {accuracy:g} ({text}); ask for less, "
         "or look for a mechanism that nearly locks",
