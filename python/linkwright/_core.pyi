@@ -59,8 +59,10 @@ class Plan:
 def steady_state(
     plan: Plan, q: _Floats, accuracy: float, phi: _Floats
 ) -> tuple[int, _Floats, _Floats | None]:
-    """Status, 18 scalars, and 7 curves (time, ω, ε, motor, drive and load torque, J) at the angles `phi`.
+    """Status, scalars, and 7 curves (time, ω, ε, motor, drive and load torque, J) at the angles `phi`.
 
+    The scalars are 18 of the motion, and for each other motion that repeats its least and greatest speed, its
+    period and its multiplier.
     Without an answer the scalars are the angle at which the machine comes to rest (or does not close), the
     speed from which it slows down (or which it exceeds), and the accuracy reached; NaN where there is none.
     """

@@ -157,6 +157,86 @@ def test_of_several_motions_the_stable_one_is_found_at_every_accuracy() -> None:
         assert steady.speed_min == pytest.approx(7.39, abs=0.01), accuracy
         assert steady.speed_max == pytest.approx(86.9, abs=0.05), accuracy
         assert steady.is_stable, accuracy
+        assert [other.is_stable for other in steady.others] == [False], accuracy
+
+
+@pytest.mark.parametrize("name", ["three_motions", "narrow_window", "two_motions"])
+@pytest.mark.parametrize("accuracy", [1e-6, 1e-9, 1e-11])
+def test_stable_and_unstable_motions_take_turns(name: str, accuracy: float) -> None:
+    """The turn-to-turn map increases: between two stable motions lies an unstable one that parts them."""
+    machine = read(HERE / "machines" / f"{name}.toml")
+    steady = steady_state(machine, accuracy=accuracy)
+    assert steady.others
+    motions = [steady, *steady.others]
+    assert [each.is_stable for each in motions] == [n % 2 == 0 for n in range(len(motions))]
+    for faster, slower in pairwise(motions):
+        assert faster.speed_min > slower.speed_min
+        assert faster.speed_max > slower.speed_max
+        assert faster.period < slower.period
+
+
+@pytest.mark.parametrize("name", ["three_motions", "narrow_window"])
+def test_starts_part_at_the_unstable_motion(name: str) -> None:
+    """Motion in time from above an unstable motion settles to the next faster one, from below it does not."""
+    machine = read(HERE / "machines" / f"{name}.toml")
+    steady = steady_state(machine)
+    parting = steady.others[0]
+    # The phase of the crank is that of the analysis, so whole turns end at φ = 0.
+    up = lw.transient(machine, speed=1.01 * parting.speed_max, turns=300.0, accuracy=1e-9)
+    assert up.speed[-1] == pytest.approx(steady.speed[0], rel=1e-6)
+    down = lw.transient(machine, speed=0.99 * parting.speed_min, turns=300.0, accuracy=1e-9)
+    assert down.speed[-1] < parting.speed_min
+
+
+def test_every_other_motion_is_a_caution_and_is_written_out() -> None:
+    """Text and JSON tell the stable and the unstable motion."""
+    machine = read(HERE / "machines" / "three_motions.toml")
+    study = lw.study(machine)
+    assert study.steady_state is not None
+    told = " ".join(study.warnings)
+    for other in study.steady_state.others:
+        assert f"from {other.speed_min:.4g} to {other.speed_max:.4g} rad/s" in told
+    written = study.steady_state.to_dict()["others"]
+    assert [row["speed_max"] for row in written] == [each.speed_max for each in study.steady_state.others]
+
+
+@pytest.mark.parametrize("free_length", [0.19279829159075335, 0.1994])
+def test_a_row_that_does_not_converge_is_refused(free_length: float) -> None:
+    """Newton in lanes ends at 90 to 913 rad/s with a motor of 13 rad/s: no step in halves bears that out."""
+    machine = Machine.model_validate(
+        {
+            "format": 1,
+            "name": "stiff spring",
+            "mechanism": {
+                "cranks": {"A": {"radius": 0.222364487830005, "phase": -1.5065874818779363}},
+                "sliders": {"S": {"crank": "A", "rod": 0.6511568990003243, "angle": 2.7669510909322392}},
+            },
+            "bodies": {"A": {"inertia": 0.052257668249688576, "mass": 0.9090181905704572}},
+            "loads": {
+                "gravity": {"kind": "gravity"},
+                "spring": {
+                    "kind": "spring",
+                    "between": ["S", "O"],
+                    "free_length": 0.2035150337610216,
+                    "stiffness": 139395.93406986273,
+                },
+            },
+            "drive": {
+                "motor": {
+                    "kind": "induction",
+                    "inertia": 0.0047441085702000976,
+                    "speed_rated": 12.989500281326327,
+                    "speed_synchronous": 13.343187021943711,
+                    "torque_breakdown": 2003.084033011586,
+                    "torque_rated": 639.6465097439935,
+                }
+            },
+        }
+    )
+    rows = lw.steady_states(machine, {"loads.spring.free_length": np.array([free_length])})
+    assert rows.status[0] != 0
+    with pytest.raises(FindingError):
+        steady_state(lw.replace(machine, {"loads.spring.free_length": free_length}))
 
 
 @pytest.mark.parametrize("stiffness", [1e5, 1e6])

@@ -180,10 +180,16 @@ impl Job for Chunk<'_> {
                 #[inline(always)]
                 || turn.estimate(&machine, &mut m),
             );
-            // Where Newton did not converge, or to a motion that the machine departs from, there is no error
-            // to trust.
-            let is_stable = turn.multiplier.select_lt(R::splat(1.0), error, R::splat(f64::NAN));
-            let trusted = turn.correction.select_lt(R::splat(PROMISED), is_stable, R::splat(f64::NAN));
+            let may_have_faster = R::outline(
+                #[inline(always)]
+                || turn.may_have_faster(&machine),
+            );
+            // Where Newton did not converge, or to a motion that the machine departs from, or that may not be
+            // the fastest, there is no error to trust.
+            let none = R::splat(f64::NAN);
+            let is_stable = turn.multiplier.select_lt(R::splat(1.0), error, none);
+            let is_fastest = may_have_faster.select_lt(R::splat(0.5), is_stable, none);
+            let trusted = turn.correction.select_lt(R::splat(PROMISED), is_fastest, none);
             trusted.store(&mut lane);
             for (status, error) in status.iter_mut().zip(&lane) {
                 if error.is_nan() || *error > PROMISED {

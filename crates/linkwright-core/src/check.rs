@@ -23,8 +23,8 @@ const LEVELS_IN_LANES: usize = 3;
 /// Rounding of a value that a few dozen operations lead to, relative.
 const ROUNDING: f64 = 2e-15;
 
-/// Accelerations count against their peak, but at least against this share of ω²: a machine that turns
-/// evenly has none, and rounding is all that there is.
+/// Accelerations count against their peak, but at least against this share of ω², and torques and work
+/// against what makes it: a machine that turns evenly has none, and rounding is all that there is.
 const EVEN: f64 = 1e-4;
 
 /// What is wrong with a step.
@@ -90,12 +90,31 @@ impl<R: Real> Turn<R> {
             reached: column(&|k| differences[k].relative).into_iter().fold(0.0, f64::max),
         };
         self.add_carried(&mut check, &defect, limits);
-        for i in 0..INTEGRALS {
+        for (i, size) in self.integral_sizes(machine).into_iter().enumerate() {
             let parts = column(&|k| differences[k].integrals[i]);
-            let sizes = column(&|k| machine.integrals(&self.steps[k], self.given_of(machine, k))[i].abs());
-            add_integral(&mut check, &parts, sizes.iter().sum(), accuracy);
+            add_integral(&mut check, &parts, size, accuracy);
         }
         check
+    }
+
+    /// What the errors of the integrals count against: the sum of their parts' sizes, so that nothing is lost
+    /// where they cancel, but at least what the acceleration of [`EVEN`] makes of them. Of a load that takes
+    /// nothing, or of a drive that idles, rounding is all that there is.
+    #[inline(always)]
+    fn integral_sizes(&self, machine: &Machine<'_, R>) -> [f64; INTEGRALS] {
+        let zero = R::splat(0.0);
+        let (mut sizes, mut least) = ([zero; INTEGRALS], [zero; INTEGRALS]);
+        for (k, step) in self.steps.iter().enumerate() {
+            let parts = machine.integrals(step, self.given_of(machine, k));
+            let torque = step.u * (2.0 * EVEN) / step.rows[S - 1].inverse;
+            let (at_motor, work) = (torque / machine.q[machine.plan.drive.ratio], torque * step.h);
+            let (impulse, heat) = (at_motor * parts[0], at_motor.squared() * parts[0]);
+            for (i, part) in [zero, work, work, work, impulse, heat].into_iter().enumerate() {
+                (sizes[i], least[i]) = (sizes[i] + parts[i].abs(), least[i] + part);
+            }
+        }
+        let total = |sum: R| unbundle(&[sum]).into_iter().sum::<f64>();
+        std::array::from_fn(|i| total(sizes[i]).max(total(least[i])))
     }
 
     /// Peak acceleration of the stages, or what counts in its place.
@@ -210,8 +229,8 @@ impl<R: Real> Turn<R> {
             let (first, _) = machine.advance_near(worst.phi, worst.u, x, X, m);
             let X = stages_of_part(&quintic, R::splat(share), R::splat(share));
             let (second, _) = machine.advance_near(worst.phi + x, first.end(), x, X, m);
-            let du = (second.end() - whole.end()).abs();
-            let de = (second.K[S - 1] - whole.K[S - 1]).abs();
+            let du = size(second.end() - whole.end());
+            let de = size(second.K[S - 1] - whole.K[S - 1]);
             relative = relative.max(du / worst.u * 0.5).max(de / epsilon);
             if level == 0 {
                 let of_all = squares / of_worst.squared().max(R::splat(f64::MIN_POSITIVE));
@@ -220,8 +239,15 @@ impl<R: Real> Turn<R> {
             }
             whole = first;
         }
-        relative.max(carried / worst.u * 0.5).max(carried * steepness / epsilon)
+        relative.max(size(carried / worst.u * 0.5)).max(size(carried * steepness / epsilon))
     }
+}
+
+/// The size of a difference; infinite for a NaN, which steps that do not converge leave.
+#[inline(always)]
+fn size<R: Real>(difference: R) -> R {
+    let infinity = R::splat(f64::INFINITY);
+    difference.abs().select_lt(infinity, difference.abs(), infinity)
 }
 
 /// Adds the errors of an integral; its size is that of its parts, so that nothing is lost where they cancel.
@@ -245,8 +271,6 @@ impl<R: Real> Differences<R> {
     /// Adds the difference of a part of the step from its two halves.
     #[inline(always)]
     fn add_part(&mut self, whole: &Step<R>, halves: &Step<R>, steepness: R, level: usize, limits: Limits) {
-        let infinity = R::splat(f64::INFINITY);
-        let size = |x: R| x.abs().select_lt(infinity, x.abs(), infinity);
         let u = whole.u;
         let du = size(halves.end() - whole.end());
         let de = size(halves.K[S - 1] - whole.K[S - 1]);

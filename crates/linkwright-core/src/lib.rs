@@ -19,6 +19,7 @@
 //! | [`cycle`] | steady motion on one mesh, in any lanes |
 //! | [`mesh`], [`check`] | steps of one machine's turn; the error in each, measured |
 //! | [`reading`], [`measures`], [`extremes`] | curves; work and torque of a turn; its extremes |
+//! | [`levels`] | whether a machine may have other periodic motions than one that is known |
 //! | [`march`] | all motions over one turn, from the fastest down: which repeat, and whether any does |
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
 //! | [`rk`], [`transient`] | motion in time from given angle and speed, with its events |
@@ -51,6 +52,7 @@ pub mod kinks;
 pub mod lanes;
 pub mod law;
 pub mod layout;
+pub mod levels;
 pub mod linkage;
 pub mod march;
 pub mod measures;

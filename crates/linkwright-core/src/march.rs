@@ -1,14 +1,17 @@
 //! All motions over one turn, from the fastest down: which repeat, and whether any does.
 //!
 //! The equation has one unknown u over φ, so motions from different starts never cross: the turn-to-turn map
-//! P is increasing. Two things follow.
+//! P is increasing. Three things follow.
 //!
 //! * A motion that starts too fast to repeat, P(u) < u, slows down turn by turn, and whatever repeats lies
-//!   below it; it ends in the fastest motion that repeats, which therefore draws in all that are faster.
+//!   below P(u); it ends in the fastest motion that repeats, which therefore draws in all that are faster.
 //! * If it comes to rest instead, so does every slower one: then no motion repeats.
+//! * Between a start that gains speed and one that loses it lies one that repeats.
 //!
 //! Turns are marched through step by step with as short steps as the motion needs. Instead of waiting turn
-//! by turn, Newton on P(u) = u leaps ahead, and a bracket keeps it from passing what it seeks.
+//! by turn, starts are lowered by a share, or put where Newton on P(u) = u expects a motion that repeats. That none was
+//! leapt over is read from the gain P(u) − u and its slope at both ends: the cubic through them must keep
+//! clear of zero, or the interval is halved.
 
 use crate::call::poll;
 use crate::cycle::{Machine, divide};
@@ -18,7 +21,7 @@ use crate::radau::{S, tail};
 
 /// What the polynomial of a step may have of the highest degree, as a share of u: with order 9, errors are
 /// about the square of that.
-const TAIL: f64 = 1e-4;
+const TAIL: f64 = 1e-5;
 
 /// Longest step: a 24th of the turn.
 const LONGEST: usize = 24;
@@ -31,7 +34,7 @@ const REST: f64 = 1e-10;
 const STEPS_MAX: usize = 20_000;
 
 /// Turns that may be marched through before the search is given up.
-const TURNS_MAX: usize = 200;
+const TURNS_MAX: usize = 500;
 
 /// Relative distance from repeating at which a motion is good enough to start from.
 const REPEATS: f64 = 1e-7;
@@ -39,6 +42,25 @@ const REPEATS: f64 = 1e-7;
 /// Doublings of the speed before a machine counts as running away: from three times the working speed to
 /// 3000 times.
 const DOUBLINGS: usize = 10;
+
+/// Slow motions are looked for down to this share of u at the working speed: a hundredth of the speed.
+const SLOWEST: f64 = 1e-4;
+
+/// How near, as a share of itself, a start that gains speed is followed to one that comes to rest.
+const BRINK: f64 = 1e-3;
+
+/// Halvings of an interval to see that nothing repeats in it, and to keep several that repeat apart.
+const HALVINGS: u32 = 8;
+
+/// Share of the smaller gain at the ends of an interval that the cubic between must keep from zero: where it
+/// bends towards zero, the gain itself may get there.
+const CLEAR: f64 = 0.9;
+
+/// The next start lies above this share of u, so that the gain is seen in all its turns.
+const LEAP: f64 = 0.85;
+
+/// How far behind the place that Newton expects the next start lies, so that what repeats lies between.
+const BEHIND: f64 = 0.1;
 
 /// A motion through one turn.
 #[derive(Clone, Debug)]
@@ -48,6 +70,22 @@ struct Revolution {
     /// Derivative of the end by the start.
     growth: f64,
     pieces: Vec<Piece>,
+}
+
+/// A motion that repeats, to about seven digits.
+#[derive(Clone, Debug)]
+pub struct Repeated {
+    /// Its steps.
+    pub pieces: Vec<Piece>,
+    /// Derivative of the end of the turn by its start.
+    pub growth: f64,
+}
+
+impl Repeated {
+    /// u at φ = 0.
+    pub fn u(&self) -> f64 {
+        self.pieces[0].u
+    }
 }
 
 /// Why no motion repeats.
@@ -64,79 +102,185 @@ pub enum NoMotion {
     Unknown,
 }
 
+/// Which motions are looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// The fastest one.
+    Fastest,
+    /// All, down to a hundredth of the working speed.
+    All,
+}
+
 struct March<'a> {
     machine: &'a Machine<'a, f64>,
     breaks: &'a [f64],
     rest: f64,
     m: Motion<f64>,
+    turns: usize,
+    /// Motions that repeat, from the fastest down.
+    found: Vec<Repeated>,
 }
 
-/// The fastest motion that repeats, to about seven digits.
+/// Motions that repeat, to about seven digits, from the fastest down; at least one.
 ///
 /// # Errors
 /// [`NoMotion`] says why there is none.
-pub fn fastest_motion(machine: &Machine<'_, f64>, breaks: &[f64]) -> Result<Vec<Piece>, NoMotion> {
+pub fn repeating(
+    machine: &Machine<'_, f64>,
+    breaks: &[f64],
+    which: Which,
+) -> Result<Vec<Repeated>, NoMotion> {
     let m = Motion::new(&machine.plan.mechanism, machine.q);
     let working = 0.5 * machine.q[machine.plan.drive.speed_start].powi(2);
-    let mut march = March { machine, breaks, rest: REST * working, m };
-    // Above: slows down. Below: comes to rest (none yet: u = 0), or gains speed.
-    let mut below = Below { u: 0.0, rests: NoMotion::Unknown, is_gaining: false };
-    let mut above = march.fast_start(9.0 * working, &mut below)?;
-    for _ in 0..TURNS_MAX {
-        if (above.start - above.end) <= REPEATS * above.start {
-            return Ok(above.pieces);
-        }
-        if !below.is_gaining && above.end <= below.u {
-            return Err(below.rests);
-        }
-        let newton = above.start + (above.end - above.start) / (1.0 - above.growth);
-        let is_inside = newton > below.u && newton < above.start;
-        let next = if is_inside { newton } else { 0.5 * (below.u + above.start) };
-        if below.is_gaining && above.start - below.u <= REPEATS * above.start {
-            return Ok(above.pieces);
-        }
-        match march.revolution(next) {
-            Ok(found) if found.end < found.start => above = found,
-            Ok(found)
-                if found.start - found.end <= REPEATS * found.start
-                    && found.growth < 1.0
-                    && found.end - found.start <= REPEATS * found.start =>
-            {
-                return Ok(found.pieces);
-            }
-            Ok(found) => below = Below { u: found.start, is_gaining: true, ..below },
-            Err(rests @ NoMotion::Rests { .. }) => below = Below { u: next, rests, is_gaining: false },
-            Err(other) => return Err(other),
-        }
+    let mut march = March { machine, breaks, rest: REST * working, m, turns: 0, found: Vec::new() };
+    match march.walk(working, which) {
+        _ if !march.found.is_empty() => Ok(march.found),
+        Ok(()) => Err(NoMotion::Unknown),
+        Err(reason) => Err(reason),
     }
-    Err(NoMotion::Unknown)
 }
 
-/// The fastest start that is known not to slow down.
-#[derive(Clone, Copy)]
-struct Below {
-    u: f64,
-    rests: NoMotion,
-    is_gaining: bool,
+impl Revolution {
+    /// What u gains over the turn.
+    fn gain(&self) -> f64 {
+        self.end - self.start
+    }
+
+    /// Where Newton expects a start that repeats.
+    fn newton(&self) -> f64 {
+        self.start + self.gain() / (1.0 - self.growth)
+    }
+
+    /// The start to go on with below this one.
+    fn next_below(&self) -> f64 {
+        let least = LEAP * self.start;
+        if self.gain() >= 0.0 {
+            return least;
+        }
+        let newton = self.newton();
+        let behind = newton - BEHIND * (self.start - newton);
+        // A growth of 1 or more, or a NaN, points to nothing below.
+        let next = if self.growth < 1.0 && behind > least { behind } else { least };
+        next.min(self.end)
+    }
+
+    /// Whether nothing repeats between this start and a slower one with a gain of the same sign: by the order
+    /// of motions, or by the cubic through gains and slopes.
+    fn is_clear_down_to(&self, low: &Revolution) -> bool {
+        let (h, sign) = (self.start - low.start, self.gain().signum());
+        if (sign < 0.0 && self.end <= low.start) || (sign > 0.0 && low.end >= self.start) {
+            return true;
+        }
+        let least = CLEAR * self.gain().abs().min(low.gain().abs());
+        let (left, right) = ((low.growth - 1.0) * h, (self.growth - 1.0) * h);
+        (1..16).all(|i| {
+            let x = f64::from(i) / 16.0;
+            let (y, up) = (1.0 - x, x * x * (3.0 - 2.0 * x));
+            let cubic = low.gain() * (1.0 - up) + self.gain() * up + left * x * y * y - right * x * x * y;
+            sign * cubic > least
+        })
+    }
 }
 
 impl March<'_> {
-    /// A motion fast enough to slow down.
-    fn fast_start(&mut self, mut u: f64, below: &mut Below) -> Result<Revolution, NoMotion> {
-        for _ in 0..DOUBLINGS {
-            match self.revolution(u) {
-                Ok(found) if found.end < found.start => return Ok(found),
-                Ok(_) => *below = Below { u, is_gaining: true, ..*below },
-                Err(rests @ NoMotion::Rests { .. }) => *below = Below { u, rests, is_gaining: false },
-                Err(other) => return Err(other),
+    /// Goes down from a start that is too fast, until the machine comes to rest.
+    fn walk(&mut self, working: f64, which: Which) -> Result<(), NoMotion> {
+        let mut high = self.fast_start(9.0 * working)?;
+        loop {
+            if which == Which::Fastest && !self.found.is_empty() {
+                return Ok(());
             }
+            let next = high.next_below();
+            if high.gain() >= 0.0 && next < SLOWEST * working {
+                return Ok(());
+            }
+            high = match self.revolution(next) {
+                Ok(low) => self.between(high, low, HALVINGS)?,
+                Err(rests @ NoMotion::Rests { .. }) => return self.to_rest(high, next, rests),
+                Err(other) => return Err(other),
+            };
+        }
+    }
+
+    /// A motion fast enough to slow down.
+    fn fast_start(&mut self, mut u: f64) -> Result<Revolution, NoMotion> {
+        let mut reason = NoMotion::Unknown;
+        for _ in 0..DOUBLINGS {
+            reason = match self.revolution(u) {
+                Ok(found) if found.gain() < 0.0 => return Ok(found),
+                Ok(_) => NoMotion::RunsAway { omega: (2.0 * u).sqrt() },
+                Err(rests @ NoMotion::Rests { .. }) => rests,
+                Err(other) => return Err(other),
+            };
             u *= 4.0;
         }
-        Err(if below.is_gaining { NoMotion::RunsAway { omega: (0.5 * u).sqrt() } } else { below.rests })
+        Err(reason)
+    }
+
+    /// Finds what repeats between two starts; gives back the lower.
+    fn between(&mut self, high: Revolution, low: Revolution, halvings: u32) -> Result<Revolution, NoMotion> {
+        let changes = (high.gain() < 0.0) != (low.gain() < 0.0);
+        // With one change of sign and both slopes towards it there is one that repeats.
+        let slope = if high.gain() < 0.0 { 1.0 } else { -1.0 };
+        let is_one = changes && [&high, &low].iter().all(|end| slope * (end.growth - 1.0) < 0.0);
+        if is_one || (changes && halvings == 0) {
+            self.refine(high, &low)?;
+            return Ok(low);
+        }
+        if halvings == 0 || (!changes && high.is_clear_down_to(&low)) {
+            return Ok(low);
+        }
+        let middle = self.turning(0.5 * (high.start + low.start))?;
+        let middle = self.between(high, middle, halvings - 1)?;
+        self.between(middle, low, halvings - 1)
+    }
+
+    /// Newton for what repeats between two starts, kept inside the bracket.
+    fn refine(&mut self, mut high: Revolution, low: &Revolution) -> Result<(), NoMotion> {
+        let (mut bottom, mut nearest) = (low.start, low.clone());
+        if high.gain().abs() < low.gain().abs() {
+            nearest = high.clone();
+        }
+        let falls = high.gain() < 0.0;
+        let mut top = high.start;
+        while top - bottom > REPEATS * top && (nearest.newton() / nearest.start - 1.0).abs() > REPEATS {
+            let newton = nearest.newton();
+            let is_inside = newton > bottom && newton < top;
+            high = self.turning(if is_inside { newton } else { 0.5 * (bottom + top) })?;
+            *if (high.gain() < 0.0) == falls { &mut top } else { &mut bottom } = high.start;
+            nearest = high;
+        }
+        self.found.push(Repeated { pieces: nearest.pieces, growth: nearest.growth });
+        Ok(())
+    }
+
+    /// From a start that turns to one that comes to rest: what lies between?
+    fn to_rest(&mut self, mut high: Revolution, mut rest: f64, mut reason: NoMotion) -> Result<(), NoMotion> {
+        // Every start between falls to what rests, or what gains is followed to the brink.
+        while (high.gain() < 0.0 && high.end > rest) || high.start - rest > BRINK * high.start {
+            match self.revolution(0.5 * (high.start + rest)) {
+                Ok(low) => high = self.between(high, low, HALVINGS)?,
+                Err(rests @ NoMotion::Rests { .. }) => (rest, reason) = (0.5 * (high.start + rest), rests),
+                Err(other) => return Err(other),
+            }
+        }
+        Err(reason)
+    }
+
+    /// The motion from a start above one that turns: where it comes to rest all the same, rounding decides.
+    fn turning(&mut self, start: f64) -> Result<Revolution, NoMotion> {
+        self.revolution(start).map_err(|reason| match reason {
+            NoMotion::Rests { .. } => NoMotion::Unknown,
+            other => other,
+        })
     }
 
     /// The motion from a start through one turn.
     fn revolution(&mut self, start: f64) -> Result<Revolution, NoMotion> {
+        self.turns += 1;
+        if self.turns > TURNS_MAX {
+            return Err(NoMotion::Unknown);
+        }
         let mut turn = Revolution { start, end: start, growth: 1.0, pieces: Vec::new() };
         let longest = divide(&[0.0, std::f64::consts::TAU], LONGEST)[1];
         let mut h = 0.25 * longest;

@@ -6,7 +6,7 @@ use crate::cycle::{Machine, Turn};
 use crate::law::Moving;
 use crate::layout::{bundle, unbundle};
 use crate::linkage::Motion;
-use crate::radau::{C, N, S, through, value};
+use crate::radau::{B, C, N, S, through, value};
 use crate::real::Real;
 use std::f64::consts::TAU;
 
@@ -40,6 +40,11 @@ pub struct Piece {
 }
 
 impl Piece {
+    /// How long it takes \[s\].
+    pub fn duration(&self) -> f64 {
+        (0..S).map(|i| self.h * B[i] / (2.0 * self.X[i]).sqrt()).sum()
+    }
+
     /// Quintic through start and stages.
     fn quintic(&self) -> [f64; N] {
         let mut values = [self.u; N];

@@ -6,8 +6,10 @@
 //! is what was measured.
 //!
 //! Newton over the whole turn from one constant speed finds the motion of all but a few machines. Where it
-//! fails, or finds a motion from which the machine departs, the turn is marched through instead
-//! ([`crate::march`]): that finds the fastest motion that repeats, or shows that none does.
+//! fails, or finds a motion from which the machine departs, or one that may not be the only one
+//! ([`crate::levels`]), the turn is marched through instead ([`crate::march`]): that finds all motions that
+//! repeat, or shows that none does. The fastest is the answer: it draws in every faster start. The others are
+//! told.
 
 use crate::call::poll;
 use crate::cycle::{Machine, Turn, divide};
@@ -15,7 +17,7 @@ use crate::extremes::{Extreme, Extremes};
 use crate::lanes::{Job, in_lanes};
 use crate::layout::unbundle;
 use crate::linkage::Motion;
-use crate::march::{NoMotion, fastest_motion};
+use crate::march::{NoMotion, Repeated, Which, repeating};
 use crate::measures::Totals;
 use crate::mesh::{Mesh, Piece, crossings_of};
 use crate::plan::Plan;
@@ -55,6 +57,32 @@ pub struct Steady {
     pub reached: f64,
     /// Sweeps over all meshes.
     pub sweeps: u32,
+    /// Whether there may be faster, and slower, motions that repeat.
+    pub may_have: Rivals,
+    /// Those that there are, from the fastest down.
+    pub others: Vec<Other>,
+}
+
+/// Whether other motions may repeat.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rivals {
+    /// Above the one that was found.
+    pub faster: bool,
+    /// Below it.
+    pub slower: bool,
+}
+
+/// Another motion of the machine that repeats.
+#[derive(Clone, Copy, Debug)]
+pub struct Other {
+    /// Least speed of the crank \[rad/s\].
+    pub speed_min: f64,
+    /// Greatest speed of the crank \[rad/s\].
+    pub speed_max: f64,
+    /// Duration of the turn \[s\].
+    pub period: f64,
+    /// Derivative of the turn-to-turn map: the machine departs from the motion above 1.
+    pub multiplier: f64,
 }
 
 /// Why there is no answer.
@@ -87,33 +115,107 @@ impl From<NoMotion> for Failure {
     }
 }
 
+/// Another motion counts as the same if their u at φ = 0 differ by less than this share.
+const SAME: f64 = 1e-5;
+
+/// Accuracy to which other motions are told.
+const TOLD: f64 = 1e-7;
+
 /// Solves for the steady motion with relative accuracy `accuracy`.
 ///
 /// # Errors
 /// [`Status::DoesNotClose`], [`Status::NoSteadyMotion`], or [`Status::Inaccurate`] when the finest mesh
 /// does not suffice.
 pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
+    fastest_and(Which::Fastest, plan, q, accuracy)
+}
+
+/// The same, with all others that repeat.
+///
+/// # Errors
+/// As [`steady`].
+pub fn steady_with_others(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
+    fastest_and(Which::All, plan, q, accuracy)
+}
+
+fn fastest_and(which: Which, plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
     let machine = Machine { plan, q };
     let breaks = machine.breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0);
     // With order 9 a mesh this much finer is good for the accuracy where 24 steps are for 1e-8.
     let steps = FIRST * (1e-8 / accuracy).powf(0.125).clamp(1.0, 4.0);
     let mesh = Mesh::new(divide(&breaks, steps as usize));
-    let search = Search { plan, q, breaks: &breaks, accuracy, mesh, start: None };
+    let search = Search { plan, q, breaks: &breaks, accuracy, mesh, start: None, any: false };
     let first = in_lanes(search.clone());
-    match first {
-        Ok(found) if found.multiplier < 1.0 => return Ok(found),
+    let stable = match first {
+        Ok(found) if found.multiplier < 1.0 => Some(found),
         Err(failure) if failure.status == Status::DoesNotClose => return Err(failure),
-        _ => {}
+        _ => None,
+    };
+    if let Some(found) = &stable {
+        let Rivals { faster, slower } = found.may_have;
+        if !faster && (!slower || which == Which::Fastest) {
+            return stable.ok_or(Failure::new(Status::Inaccurate));
+        }
     }
-    let start = fastest_motion(&machine, &breaks)?;
-    let mut edges: Vec<f64> = start.iter().map(|piece| piece.phi).collect();
-    edges.push(std::f64::consts::TAU);
-    let second = in_lanes(Search { mesh: Mesh::new(edges), start: Some(start), ..search });
-    second.map_err(|failure| match failure.status {
+    match (repeating(&machine, &breaks, which), stable) {
+        (Ok(motions), stable) => fastest_of(&search, &motions, stable),
+        (Err(_), Some(found)) => Ok(found),
+        (Err(reason), None) => Err(reason.into()),
+    }
+}
+
+/// The fastest of the motions that repeat from which the machine does not depart, with the others; `known` is
+/// one that is solved already.
+fn fastest_of(search: &Search<'_>, motions: &[Repeated], known: Option<Steady>) -> Result<Steady, Failure> {
+    let (mut answer, mut others, mut failed): (Option<Steady>, Vec<Other>, _) = (None, Vec::new(), None);
+    for motion in motions {
+        let is_known = |found: &&Steady| (motion.u() / found.marks[0].u - 1.0).abs() <= SAME;
+        let solved = match known.as_ref().filter(is_known) {
+            Some(found) => Ok(found.clone()),
+            None => in_lanes(search.from(motion, answer.is_some())),
+        };
+        match solved {
+            Ok(found) if answer.is_none() && found.multiplier < 1.0 => answer = Some(found),
+            Ok(found) => others.push(Other::from(&found)),
+            Err(failure) => {
+                others.push(Other::from(motion));
+                failed = failed.or(Some(failure));
+            }
+        }
+    }
+    match (answer.or(known), failed) {
+        (Some(found), _) => Ok(Steady { others, ..found }),
         // There is a motion, but Newton does not hold it.
-        Status::NoSteadyMotion => Failure { status: Status::Inaccurate, ..failure },
-        _ => failure,
-    })
+        (None, failed) => {
+            let reached = failed.map_or(f64::NAN, |failure| failure.reached);
+            Err(Failure { reached, ..Failure::new(Status::Inaccurate) })
+        }
+    }
+}
+
+impl From<&Steady> for Other {
+    fn from(found: &Steady) -> Self {
+        Other {
+            speed_min: found.extremes.speed_min.value,
+            speed_max: found.extremes.speed_max.value,
+            period: found.totals.period,
+            multiplier: found.multiplier,
+        }
+    }
+}
+
+impl From<&Repeated> for Other {
+    /// From the marched turn, to its stages.
+    fn from(motion: &Repeated) -> Self {
+        let stages = || motion.pieces.iter().flat_map(|piece| piece.X);
+        let speed = |u: f64| (2.0 * u).sqrt();
+        Other {
+            speed_min: speed(stages().fold(f64::INFINITY, f64::min)),
+            speed_max: speed(stages().fold(0.0, f64::max)),
+            period: motion.pieces.iter().map(Piece::duration).sum(),
+            multiplier: motion.growth,
+        }
+    }
 }
 
 /// The search from one mesh on, with the steps of the machine in lanes.
@@ -126,6 +228,24 @@ struct Search<'a> {
     mesh: Mesh,
     /// What to start from; one constant speed otherwise.
     start: Option<Vec<Piece>>,
+    /// Whether a motion from which the machine departs is wanted too.
+    any: bool,
+}
+
+impl Search<'_> {
+    /// The search from a marched turn on: for the answer, or for another motion, which is only told.
+    fn from(&self, motion: &Repeated, told: bool) -> Self {
+        let mut edges: Vec<f64> = motion.pieces.iter().map(|piece| piece.phi).collect();
+        edges.push(std::f64::consts::TAU);
+        let accuracy = if told { self.accuracy.max(TOLD) } else { self.accuracy };
+        Search {
+            mesh: Mesh::new(edges),
+            start: Some(motion.pieces.clone()),
+            any: told,
+            accuracy,
+            ..self.clone()
+        }
+    }
 }
 
 impl Job for Search<'_> {
@@ -153,7 +273,7 @@ impl Job for Search<'_> {
             turn.solve(&machine);
             sweeps += turn.sweeps;
             let multiplier = unbundle(&[turn.multiplier])[0];
-            if !turn.is_solved() || multiplier >= 1.0 {
+            if !turn.is_solved() || (multiplier >= 1.0 && !self.any) {
                 return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
             }
             let pieces = turn.pieces();
@@ -180,6 +300,11 @@ impl Job for Search<'_> {
                     totals: turn.totals(&machine).first_lane(),
                     reached,
                     sweeps,
+                    may_have: Rivals {
+                        faster: first_lane(turn.may_have_faster(&machine)) > 0.5,
+                        slower: first_lane(turn.may_have_slower(&machine)) > 0.5,
+                    },
+                    others: Vec::new(),
                 });
             };
             (mesh, start, placements) = (next, Some(pieces), 0);

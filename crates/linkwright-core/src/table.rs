@@ -23,6 +23,12 @@ impl Table {
         &self.x
     }
 
+    /// The end of the last line along which the table changes in the direction of `sign`; 0 without any.
+    pub fn last_change(&self, sign: f64) -> f64 {
+        let changes = |i: &usize| sign * (self.y[*i] - self.y[*i - 1]) > 0.0;
+        (1..self.x.len()).rev().find(changes).map_or(0.0, |i| self.x[i])
+    }
+
     /// Value and slope at `x`; the end values are held outside.
     pub fn held(&self, x: f64) -> (f64, f64) {
         let n = self.x.len();

@@ -21,7 +21,7 @@ use linkwright_core::linkage::in_line::InLine as CoreInLine;
 use linkwright_core::linkage::trace;
 use linkwright_core::plan::{Encoded, Plan as CorePlan};
 use linkwright_core::reading::ReadCurves;
-use linkwright_core::steady::{Failure, steady};
+use linkwright_core::steady::{Failure, steady_with_others};
 use linkwright_core::transient::{Start, follow};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1};
 use pyo3::exceptions::PyValueError;
@@ -106,7 +106,7 @@ fn steady_state<'py>(
 ) -> PyResult<Solved<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let solved = guarded(py, "steady motion", || {
-        let found = steady(&plan.0, q, accuracy)?;
+        let found = steady_with_others(&plan.0, q, accuracy)?;
         let curves = in_lanes(ReadCurves { plan: &plan.0, q, marks: &found.marks, phi });
         Ok((found, curves))
     })?;
@@ -126,6 +126,9 @@ fn steady_state<'py>(
         f64::from(found.sweeps),
         found.marks.len() as f64,
     ]);
+    for other in &found.others {
+        scalars.extend([other.speed_min, other.speed_max, other.period, other.multiplier]);
+    }
     let rows = [
         &curves.time,
         &curves.omega,

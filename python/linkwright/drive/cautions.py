@@ -116,12 +116,35 @@ def _cycle(steady: SteadyState) -> Iterator[str]:
             f"The steady motion is unstable: a small disturbance of the speed grows {steady.multiplier:.4g} "
             "times in each turn, so the machine will not stay there."
         )
+    yield from _others(steady)
     if steady.accuracy > _ACCURATE:
         yield (
             f"The steady motion is known to a relative accuracy of {steady.accuracy:.1e} only: the motor's "
             "torque is so steep over the speed that rounding of the speed shows in it. An inertia that was "
             "left out, of motor or crank, is the usual cause."
         )
+
+
+def _others(steady: SteadyState) -> Iterator[str]:
+    """Other motions that repeat: where the machine may stay, and what it must be faster than."""
+    for other in steady.others:
+        range_ = (
+            f"from {other.speed_min:.4g} to {other.speed_max:.4g} rad/s "
+            f"({other.speed_mean_time:.4g} rad/s on average)"
+        )
+        faster = other.period < steady.period
+        if other.is_stable:
+            yield (
+                f"Another steady motion is possible, {range_}: a machine that starts near it stays there; "
+                "the one computed is what a fast start leads to."
+            )
+        elif faster:
+            yield f"From speeds above an unstable motion {range_} the machine does not settle."
+        else:
+            yield (
+                f"There is an unstable motion {range_}: a machine that is slower than that does not come up "
+                "to the steady motion."
+            )
 
 
 def _design_speed(drive: Drive, steady: SteadyState) -> Iterator[str]:

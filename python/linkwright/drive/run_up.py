@@ -168,6 +168,15 @@ def _why_not(motion: Transient) -> str:
 
 
 def _too_slow(motion: Transient, steady: SteadyState, band: float) -> str:
+    end = float(motion.speed[-1])
+    for other in steady.others:
+        if other.is_stable and (1 - band) * other.speed_min <= end <= (1 + band) * other.speed_max:
+            return (
+                f"does not come up to the steady motion of {steady.speed_mean_time:.4g} rad/s: after "
+                f"{motion.turns:.0f} turns it turns at {end:.4g} rad/s, within another steady motion from "
+                f"{other.speed_min:.4g} to {other.speed_max:.4g} rad/s; choose a motor with more torque at low "
+                "speed, or start at a higher run_up.speed_start"
+            )
     off = abs(motion.speed[-1] / _steady_speed(steady, motion.crank_angle[-1:])[0] - 1)
     return (
         f"has not settled after {motion.turns:.0f} turns ({motion.time[-1]:.1f} s): the speed still differs "

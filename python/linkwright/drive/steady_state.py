@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,36 @@ _SPEEDS_IN_TURN, _ZOOMS = 65, 7
 
 # Speeds at which it is looked whether the drive can balance the mean load at all.
 _SPEEDS = 400
+
+
+class OtherMotion(NamedTuple):
+    """A motion that repeats besides the one that a fast machine settles to.
+
+    Attributes
+    ----------
+    speed_min, speed_max : float
+        Of the crank [rad/s].
+    period : float
+        Duration of a turn [s].
+    multiplier : float
+        What is left of a small disturbance of the speed after one turn, as a share. From 1 up the machine
+        departs from the motion: what starts slower slows down, what starts faster speeds up.
+    """
+
+    speed_min: float
+    speed_max: float
+    period: float
+    multiplier: float
+
+    @property
+    def speed_mean_time(self) -> float:
+        """2π/period [rad/s]."""
+        return 2 * np.pi / self.period
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether a small disturbance dies away."""
+        return abs(self.multiplier) < 1
 
 
 @dataclass(frozen=True)
@@ -82,6 +113,8 @@ class SteadyState(Result):
         Newton sweeps over the turn in all, and steps of the finest mesh.
     method : str
         ``"collocation"`` or ``"constant speed"``.
+    others : tuple of OtherMotion
+        Other motions of the machine that repeat, from the fastest down to a hundredth of the working speed.
     """
 
     crank_angle: Floats
@@ -115,6 +148,22 @@ class SteadyState(Result):
     sweeps: int
     steps: int
     method: str = "collocation"
+    others: tuple[OtherMotion, ...] = ()
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """As `Result.to_dict`, other motions as tables with names.
+
+        Parameters
+        ----------
+        curves : bool
+            Whether arrays are included.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and lists, ready for JSON.
+        """
+        return super().to_dict(curves=curves) | {"others": [each._asdict() for each in self.others]}
 
     @property
     def speed_mean_extremes(self) -> float:
@@ -274,7 +323,7 @@ def _from_core(scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled)
     """The core's numbers by name; their order is that of `linkwright-core`, module `batch`."""
     time, speed, acceleration, torque_motor, torque_drive, torque_load, inertia = curves
     low, high, drop, rise, period, multiplier, motor, drive, load, mean, rms, *places = scalars.tolist()
-    low_at, high_at, drop_at, rise_at, reached, sweeps, steps = places
+    low_at, high_at, drop_at, rise_at, reached, sweeps, steps, *others = places
     weakest, strongest, most = _motor_extremes(compiled, low, high)
     ratio = compiled.gear_factors[0]
     return SteadyState(
@@ -308,6 +357,7 @@ def _from_core(scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled)
         accuracy=reached,
         sweeps=int(sweeps),
         steps=int(steps),
+        others=tuple(OtherMotion(*others[k : k + 4]) for k in range(0, len(others), 4)),
     )
 
 
@@ -378,7 +428,7 @@ def _failure(status: int, places: Floats, compiled: Compiled, accuracy: float) -
             f"{_what_lacks(compiled)} (started at {speed:.4g} rad/s at φ = 0, it comes to rest at "
             f"φ = {np.degrees(angle):.4g}°, and every faster start slows down to that)"
         )
-    text = "was not decided within 200 revolutions" if np.isnan(reached) else f"{reached:.1e} was reached"
+    text = "was not decided within 500 revolutions" if np.isnan(reached) else f"{reached:.1e} was reached"
     return ConvergenceError(
         f"steady motion was not found to a relative accuracy of {accuracy:g} ({text}); ask for less, "
         "or look for a mechanism that nearly locks",
