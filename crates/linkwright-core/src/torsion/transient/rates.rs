@@ -207,13 +207,17 @@ impl<'a> Rates<'a> {
     /// Torque in a link from components of a state.
     pub fn link_torque_at(&self, link: &Link, state: impl Fn(usize) -> f64) -> f64 {
         let n = self.system.len();
-        let [a, b] = link.ends;
-        let aside = |i: usize, half: usize| {
-            if i == n || (i == 0 && self.relative) { 0.0 } else { state(i + half) }
-        };
-        let twist = link.ratio * (aside(a, 0) - aside(b, 0));
-        let rate = link.ratio * (aside(a, n) - aside(b, n));
+        let (twist, rate) = (self.twist_of(link, &state), self.twist_of(link, |i| state(n + i)));
         link.elastic(self.system, twist).0 + link.damping * rate
+    }
+
+    /// Twist of a link at its own speed from the angles of a state; from its speeds the rate of twist.
+    pub fn twist_of(&self, link: &Link, state: impl Fn(usize) -> f64) -> f64 {
+        let aside = |i: usize| {
+            if i == self.system.len() || (i == 0 && self.relative) { 0.0 } else { state(i) }
+        };
+        let [a, b] = link.ends;
+        link.ratio * (aside(a) - aside(b))
     }
 
     /// Kinetic and potential energy of a state \[J\].

@@ -2,8 +2,9 @@
 
 use super::rates::Rates;
 
-/// Steps through a motion. In order for each step: [`Stepper::step`], [`Stepper::accept`], if needed [`Stepper::fill`] and then
-/// [`Stepper::component`], [`Stepper::work`], [`Stepper::advance`].
+/// Steps through a motion. In order for each step: [`Stepper::step`], [`Stepper::accept`], [`Stepper::fill`], and then
+/// [`Stepper::component`], [`Stepper::work`], [`Stepper::advance`]. Where the polynomial errs too much, [`Stepper::shorten`],
+/// and the step is taken again.
 pub trait Stepper {
     /// Starts anew at an event, with a length to try first.
     fn begin(&mut self, rates: &mut Rates<'_>, t: f64, state: &[f64], first: f64);
@@ -21,8 +22,18 @@ pub trait Stepper {
     /// Evaluates the equations at the end of the step.
     fn accept(&mut self, rates: &mut Rates<'_>, t_end: f64, end: &[f64]);
 
-    /// Makes the polynomial between the ends of the step.
-    fn fill(&mut self, rates: &mut Rates<'_>, at: (f64, &Vec<f64>), h: f64, end: &[f64]);
+    /// Makes the polynomial between the ends of the step; its largest error over what it may be.
+    fn fill(
+        &mut self,
+        rates: &mut Rates<'_>,
+        at: (f64, &Vec<f64>),
+        h: f64,
+        scale: &Scale,
+        end: &[f64],
+    ) -> f64;
+
+    /// Gives up a step of a length whose polynomial had an error.
+    fn shorten(&mut self, h: f64, error: f64);
 
     /// One number of the state at a share 0…1 of the step.
     fn component(&self, share: f64, state: &[f64], i: usize) -> f64;
@@ -50,8 +61,10 @@ const SMALL: f64 = 0.01;
 /// How large an error of each number of the state may be.
 #[derive(Clone, Copy, Debug)]
 pub struct Scale {
-    /// Relative accuracy of a step.
+    /// Relative accuracy of a step as its method estimates it.
     pub accuracy: f64,
+    /// Relative accuracy between the ends of a step.
+    between: f64,
     n: usize,
     relative: bool,
     speed_floor: f64,
@@ -62,11 +75,12 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// For n masses whose fastest swing is about `omega`.
-    pub fn new(accuracy: f64, rates: &Rates<'_>, omega: f64) -> Self {
+    /// For masses whose fastest swing is about `omega`, with the accuracies of a step's estimate and between its ends.
+    pub fn new([accuracy, between]: [f64; 2], rates: &Rates<'_>, omega: f64) -> Self {
         let (n, relative) = (rates.system.len(), rates.is_relative());
         Scale {
             accuracy,
+            between,
             n,
             relative,
             speed_floor: TWIST_FLOOR * omega.max(SLOWEST),
@@ -79,14 +93,29 @@ impl Scale {
     /// Error that one number of the state, of a size, may have.
     #[inline(always)]
     pub fn of(&self, index: usize, size: f64) -> f64 {
+        self.accuracy * self.counted(index, size)
+    }
+
+    /// The same between the ends of a step.
+    pub fn between(&self, index: usize, size: f64) -> f64 {
+        self.between * self.counted(index, size)
+    }
+
+    /// The same for the twist of a link, of a size.
+    pub fn between_ends(&self, twist: f64) -> f64 {
+        self.between * twist.max(SMALL * self.twist).max(TWIST_FLOOR)
+    }
+
+    /// Size to which the accuracy of one number is relative.
+    #[inline(always)]
+    fn counted(&self, index: usize, size: f64) -> f64 {
         let leads = self.relative && (index == 0 || index == self.n);
-        let size = match (leads, index < self.n) {
+        match (leads, index < self.n) {
             (true, true) => 1.0,
             (false, true) => size.max(SMALL * self.twist).max(TWIST_FLOOR),
             (true, false) => size.max(SMALL * self.speed).max(self.speed_floor),
             (false, false) => size.max(SMALL * self.aside).max(self.speed_floor),
-        };
-        self.accuracy * size
+        }
     }
 
     /// Takes note of a state that was reached.
