@@ -16,7 +16,7 @@
 | `synthesis` | orders added up in phase |
 | `study` | all of these as one |
 | `stress`, `mesh_torque` | stresses in shafts, with those permitted; torque of gear stages |
-| `barred_range` | speeds that shafts do not bear for ever |
+| `barred_range` | speeds barred from continuous operation |
 | `verdict` | whether all limits are kept |
 | `criteria`, `survey`, `exceedance`, `resonance` | what is asked, at which speeds, and where it is not kept |
 | `carried`, `forced` | torque and heat of shafts; amplitudes and unevenness of discs |
