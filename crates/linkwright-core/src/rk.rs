@@ -225,37 +225,43 @@ impl<Y: State> Stages<Y> {
         slope
     }
 
-    /// Largest error of any number between the ends over its tolerance, after [`Stages::fill`]: from the defect
-    /// h (p′ − f(t, p)) of the polynomial p.
+    /// Error between the ends, after [`Stages::fill`]: from the defect h (p′ − f(t, p)) of the polynomial p, the larger of what
+    /// is measured of a state and its error at two places.
     pub fn error_between(
         &mut self,
         f: &mut impl FnMut(f64, &Y, &mut Y),
         (t, y): (f64, &Y),
         h: f64,
-        scale: &impl Fn(usize, f64) -> f64,
+        measure: &impl Fn(&[f64], &[f64]) -> f64,
     ) -> f64 {
-        let mut worst = 0.0_f64;
-        for share in WATCHED {
+        let measured = WATCHED.map(|share| {
             for (n, &y) in y.as_ref().iter().enumerate() {
                 self.stage.as_mut()[n] = self.component(share, y, n);
             }
-            let mut rate = self.sums[0].clone();
-            f(t + share * h, &self.stage, &mut rate);
-            for (n, &y) in y.as_ref().iter().enumerate() {
-                let size = y.abs().max(self.stage.as_ref()[n].abs());
-                let defect = (self.slope(share, n) - h * rate.as_ref()[n]).abs();
-                let error = ERROR_OF_DEFECT * defect / scale(n, size).max(ROUNDING * size);
-                // A number that is none must not be lost in a maximum.
-                worst = if error.is_nan() { error } else { worst.max(error) };
+            let mut error = self.sums[0].clone();
+            f(t + share * h, &self.stage, &mut error);
+            for (n, error) in error.as_mut().iter_mut().enumerate() {
+                *error = ERROR_OF_DEFECT * (self.slope(share, n) - h * *error);
             }
-        }
-        worst
+            measure(self.stage.as_ref(), error.as_ref())
+        });
+        worse(measured[0], measured[1])
     }
 
     /// Factors of the polynomial of number `n`, after [`Stages::fill`]; [`Stages::component`] says what they mean.
     pub fn polynomial(&self, n: usize) -> [f64; 7] {
         self.polynomial.each_ref().map(|row| row.as_ref()[n])
     }
+}
+
+/// The larger of two errors over their tolerances; one that is no number is not lost.
+pub fn worse(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
+/// An error over its tolerance, which is no smaller than what rounding of a polynomial leaves of a number of a size.
+pub fn over(error: f64, tolerance: f64, size: f64) -> f64 {
+    error.abs() / tolerance.max(ROUNDING * size)
 }
 
 /// Weights of the derivatives over a step: the first and those of [`Stages::try_step`]'s stages in order.
@@ -364,7 +370,8 @@ mod tests {
                 let off = |n: usize| (stages.component(share, y[n], n) - at[n]).abs();
                 worst = worst.max(off(0)).max(off(1));
             }
-            let told = stages.error_between(&mut f, (0.0, &y), h, &|_, _| 1.0);
+            let told =
+                stages.error_between(&mut f, (0.0, &y), h, &|_, off| worse(off[0].abs(), off[1].abs()));
             assert!(worst <= told && told <= 10.0 * worst, "{worst:e}, told {told:e}");
             let slope =
                 (stages.component(0.3 + 1e-5, y[1], 1) - stages.component(0.3 - 1e-5, y[1], 1)) / 2e-5;

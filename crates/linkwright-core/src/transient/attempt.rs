@@ -1,7 +1,7 @@
 //! Steps of any length from one instant, and the polynomial of the one that was tried last.
 
 use super::equation::Equation;
-use crate::rk::{Stages, Trial};
+use crate::rk::{Stages, Trial, over, worse};
 
 /// Angle and speed of the crank.
 pub type Y = [f64; 2];
@@ -50,9 +50,12 @@ impl<'a, 'm> Attempt<'a, 'm> {
         let equation = &mut *self.equation;
         *self.stages.end() = equation.derivative(t + h, end);
         let mut f = |t: f64, y: &Y, to: &mut Y| *to = equation.derivative(t, y);
-        let scale = |n: usize, size: f64| tolerance(accuracy, aside, n, size);
+        let measure = |y: &[f64], error: &[f64]| {
+            let share = |n: usize| over(error[n], tolerance(accuracy, aside, n, y[n].abs()), y[n].abs());
+            worse(share(0), share(1))
+        };
         self.stages.fill(&mut f, (t, &y), h, end);
-        self.stages.error_between(&mut f, (t, &y), h, &scale)
+        self.stages.error_between(&mut f, (t, &y), h, &measure)
     }
 
     /// Derivative at the end, and polynomials of angle and speed, after [`Attempt::fill`].

@@ -88,9 +88,11 @@ impl Stepper for Explicit {
         scale: &Scale,
         end: &[f64],
     ) -> f64 {
+        let system = rates.system;
         let mut f = |t: f64, y: &Vec<f64>, to: &mut Vec<f64>| rates.derivative(t, y, to);
         self.stages.fill(&mut f, at, h, end);
-        let error = self.stages.error_between(&mut f, at, h, &|i, size| scale.between(i, size));
+        let error =
+            self.stages.error_between(&mut f, at, h, &|y, error| scale.worst(system, error, [y, end]));
         // A step cut short says nothing about the next.
         if error > SAYS_NOTHING {
             self.h = self.h.min(h * next_factor(error));

@@ -57,9 +57,6 @@ const POLYNOMIAL: [[f64; 3]; 3] = [
 /// times its value at the start, 0.1 K h/3.64.
 const POLYNOMIAL_ERROR: f64 = 0.25;
 
-/// Share of the size of a number below which Newton's corrections are rounding.
-const ROUNDING: f64 = 1e-13;
-
 /// Newton's corrections of a step; RADAU5 allows seven.
 const CORRECTIONS: usize = 7;
 
@@ -360,18 +357,7 @@ impl Stepper for Implicit {
         end: &[f64],
     ) -> f64 {
         // The first sides still hold the estimate.
-        let mut worst = 0.0_f64;
-        for (i, (&estimate, (y, z))) in self.sides[0].iter().zip(state.iter().zip(end)).enumerate() {
-            let size = y.abs().max(z.abs());
-            let error = POLYNOMIAL_ERROR * estimate.abs() / scale.between(i, size).max(ROUNDING * size);
-            // A number that is none must not be lost in a maximum.
-            worst = if error.is_nan() { error } else { worst.max(error) };
-        }
-        for link in &rates.system.links {
-            let [error, start, end] =
-                [&self.sides[0][..], state, end].map(|list: &[f64]| rates.twist_of(link, |i| list[i]).abs());
-            worst = worst.max(POLYNOMIAL_ERROR * error / scale.between_ends(start.max(end)));
-        }
+        let worst = POLYNOMIAL_ERROR * scale.worst(rates.system, &self.sides[0], [state, end]);
         if worst > SAYS_NOTHING {
             self.h = self.h.min(h * shortened(worst));
         }

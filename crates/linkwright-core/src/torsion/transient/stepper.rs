@@ -1,6 +1,8 @@
 //! What a method of integration can do, and how exact it has to be.
 
 use super::rates::Rates;
+use super::system::System;
+use crate::rk::{over, worse};
 
 /// Steps through a motion. In order for each step: [`Stepper::step`], [`Stepper::accept`], [`Stepper::fill`], and then
 /// [`Stepper::component`], [`Stepper::work`], [`Stepper::advance`]. Where the polynomial errs too much, [`Stepper::shorten`],
@@ -96,14 +98,23 @@ impl Scale {
         self.accuracy * self.counted(index, size)
     }
 
-    /// The same between the ends of a step.
-    pub fn between(&self, index: usize, size: f64) -> f64 {
-        self.between * self.counted(index, size)
-    }
-
-    /// The same for the twist of a link, of a size.
-    pub fn between_ends(&self, twist: f64) -> f64 {
-        self.between * twist.max(SMALL * self.twist).max(TWIST_FLOOR)
+    /// Largest error between the ends of a step over what it may be, of the numbers of the state and of the twist of each link,
+    /// which may be small beside the angles; their sizes are the larger of two states.
+    pub fn worst(&self, system: &System, error: &[f64], states: [&[f64]; 2]) -> f64 {
+        let size = |value: &dyn Fn(&[f64]) -> f64| value(states[0]).abs().max(value(states[1]).abs());
+        let numbers = error.iter().enumerate().map(|(i, &error)| {
+            let size = size(&|state| state[i]);
+            over(error, self.between * self.counted(i, size), size)
+        });
+        let links = system.links.iter().map(|link| {
+            let twist = |list: &[f64]| link.twist(self.n, self.relative, |i| list[i]);
+            let size = size(&twist);
+            let angle =
+                link.ratio * states[1][..self.n].iter().skip(1).fold(0.0, |most: f64, x| most.max(x.abs()));
+            let tolerance = self.between * size.max(SMALL * self.twist).max(TWIST_FLOOR);
+            over(twist(error), tolerance, size.max(angle))
+        });
+        numbers.chain(links).fold(0.0, worse)
     }
 
     /// Size to which the accuracy of one number is relative.
