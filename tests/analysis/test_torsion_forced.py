@@ -370,4 +370,5 @@ def test_orders_far_apart_ask_for_no_more_harmonics_than_there_may_be(listed: li
     assert orders.harmonic.max() <= 2048
     top, bottom = span(orders, np.ones((len(listed), 1), complex))
     # One alone repeats; what repeats and what does not reach their peaks together.
-    assert top == pytest.approx(len(listed)) and -len(listed) - 1e-9 <= bottom <= 0
+    assert top == pytest.approx(len(listed))
+    assert -len(listed) - 1e-9 <= bottom <= 0

@@ -78,10 +78,12 @@ def test_loads_damp_as_much_as_they_take() -> None:
 
 def test_loads_stay_as_given_unless_they_shall_follow() -> None:
     made = engine(10.0)
-    assert made.train is not None and made.train.run is not None
+    assert made.train is not None
+    assert made.train.run is not None
     run = made.train.run.model_copy(update={"loads_follow": False})
     study = lw.torsion_study(made.model_copy(update={"train": made.train.model_copy(update={"run": run})}))
-    assert study.excited is not None and study.forced is not None
+    assert study.excited is not None
+    assert study.forced is not None
     # Mean effective pressure times the swept volume over two turns, less the load.
     left = 6e5 * np.pi / 4 * 0.1**2 * 0.1 / (4 * np.pi) - 10.0
     np.testing.assert_allclose(study.excited.torques.surplus, left, rtol=1e-9)

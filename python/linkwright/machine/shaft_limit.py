@@ -84,7 +84,9 @@ class ShaftLimit(Checked):
     stress_concentration: Annotated[float, positive(RATIO)] | None = Field(
         None, description="Greatest over nominal stress, which the stresses given hold for. Without it, 1."
     )
-    stress_permitted: Stress | None = Field(None, description="Amplitude of the shear stress in continuous operation.")
+    stress_permitted: Stress | None = Field(
+        None, description="Amplitude of the shear stress in continuous operation."
+    )
     stress_transient: Stress | None = Field(
         None, description="The same, while barred speeds are passed quickly."
     )
@@ -184,7 +186,7 @@ class ShaftLimit(Checked):
         return math.inf if self.kind == "given" else propulsion_shaft.RATIO_BARRED_MAX
 
     def permitted_stress(self, speed_ratio: Floats, diameter: float | None) -> tuple[Floats, Floats]:
-        """Amplitudes of the vibratory stress that are permitted in continuous operation, and in transient passage.
+        """Permitted amplitudes of the vibratory stress in continuous operation and in transient passage.
 
         Parameters
         ----------

@@ -40,8 +40,8 @@ class TrainRun(Checked):
     )
     loads_follow: bool = Field(
         False,
-        description="Whether loads are scaled at each speed so that they take off what the engine gives in the "
-        "mean. Otherwise they are as given, and what is left over accelerates the train.",
+        description="Whether loads are scaled at each speed so that they take off what the engine gives in "
+        "the mean. Otherwise they are as given, and what is left over accelerates the train.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

@@ -55,7 +55,7 @@ Complexes = NDArray[np.complex128]
 # Secant steps to a critical speed: from neighbours on a grid, or exact where frequencies do not change.
 _STEPS = 8
 
-# Share of a speed by which the growth of a torque is looked at: torques of an order are smooth over the speed.
+# Share of a speed by which the growth of a torque is looked at: an order's torques are smooth.
 _ASIDE = 1e-3
 
 # Speeds that differ by a smaller share are one.
@@ -278,7 +278,7 @@ def _judged(
     return listed
 
 
-def _growth(modes: ModesAt, at: Floats, orders: Floats, shapes: Complexes) -> Floats:
+def _growth(modes: ModesAt, at: Floats, orders: Floats, shapes: Floats) -> Floats:
     """Power of the speed with which the work of each order in a mode grows about a speed, (n,)."""
     sizes = []
     for speeds in (at * (1 - _ASIDE), at * (1 + _ASIDE)):

@@ -55,7 +55,8 @@ class ShaftStress(Result):
     mean, vibratory, greatest : ndarray, shape (shafts, speeds)
         Of the torque's mean, of half its range, of its largest value [Pa].
     continuous, transient : ndarray, shape (shafts, speeds)
-        Vibratory stress permitted in continuous operation and in transient passage [Pa]; NaN where nothing is said.
+        Vibratory stress permitted in continuous operation and in transient passage [Pa]; NaN where
+        nothing is said.
     """
 
     speeds: Floats
