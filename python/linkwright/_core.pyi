@@ -116,7 +116,8 @@ def transient(
     turns: float,
     accuracy: float,
 ) -> tuple[int, tuple[float, float], int, list[_Floats]]:
-    """How it ended; drive and load torque there; evaluations; t, φ, ω, ε at the ends of the steps."""
+    """How it ended; drive and load torque there; evaluations; t, φ, ω, ε at the ends of the steps, and of
+    each step seven factors of the angle and seven of the speed (`Stages::component` in `rk.rs`)."""
 
 def kinks(plan: Plan, q: _Floats) -> _Floats:
     """Crank angles between which the reduced machine is smooth, from 0 to 2π."""

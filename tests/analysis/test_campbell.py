@@ -175,6 +175,32 @@ def test_what_is_missing_is_told(arguments: dict[str, Any], words: str) -> None:
         lw.campbell(two_discs(), **arguments)
 
 
+@pytest.mark.parametrize("exponent", [0.0, 1.0, 2.0])
+@pytest.mark.parametrize("zeta", [0.0, 0.02, 0.1, 0.3])
+def test_peak_beside_the_crossing_is_that_of_the_response(zeta: float, exponent: float) -> None:
+    """Damping in proportion to the inertias leaves one mode: its largest twist, by dense speeds."""
+    c = 2 * zeta * OMEGA
+    discs = {"a": {"inertia": J1, "damping": c * J1}, "b": {"inertia": J2, "damping": c * J2}}
+    pulse = {"on": "a", "harmonics": [{"order": 2.0, "torque": 50.0}], "speed": 50.0, "exponent": exponent}
+    machine = two_discs(discs=discs, excitations={"e": pulse})
+    (found,) = lw.campbell(machine, [2.0], (20.0, 200.0)).critical
+    assert found.peak_speed is not None
+    if zeta == 0:
+        assert found.peak_speed == pytest.approx(found.speed, rel=1e-9)
+        return
+    beside = found.peak_speed * np.linspace(0.9, 1.1, 201)
+    twist = np.abs(forced_vibration(machine, beside).shaft_torques[0, 0])
+    # The speeds looked at are a thousandth apart.
+    assert beside[twist.argmax()] == pytest.approx(found.peak_speed, rel=1.001e-3)
+
+
+def test_no_peak_where_damping_is_strong() -> None:
+    """From ζ = 1/√2 on the answer to a constant torque only falls with the speed."""
+    free = lw.free_vibration(two_discs())
+    (found,) = lw.campbell(free, [2.0], (20.0, 200.0), damping_ratios=0.71).critical
+    assert found.peak_speed is None
+
+
 def test_free_vibration_alone_asks_for_both() -> None:
     free = lw.free_vibration(two_discs())
     with pytest.raises(InputError, match="speed_range"):

@@ -12,7 +12,7 @@ from cylinders import BORE, cylinder, diesel, told
 from scipy.integrate import cumulative_simpson, quad, solve_ivp
 from scipy.interpolate import CubicSpline
 
-from linkwright.kernel.errors import MachineError
+from linkwright.kernel.errors import InputError, MachineError
 from linkwright.torsion.model.engine import cycle_mesh, speed_points
 from linkwright.torsion.model.engine.burnt_gas import GAS_CONSTANT, STOICHIOMETRIC, heat_ratio
 from linkwright.torsion.model.engine.closed_cycle import ClosedTrace
@@ -419,3 +419,14 @@ def test_cycles_that_cannot_be(entries: dict[str, Any], text: str) -> None:
         )
     assert text in str(caught.value)
     assert caught.value.problems[0].key.startswith("train.engine.gas")
+
+
+@pytest.mark.parametrize("kind", ["woschni", "hohenberg"])
+def test_walls_at_rest_are_refused(kind: str) -> None:
+    """A cycle that never ends gives all its heat away; a share of the heat knows no speed."""
+    gas = diesel(walls={"kind": kind})
+    for least in (0.0, -1.0):
+        with pytest.raises(InputError, match="speeds above 0"):
+            gas.cycle_pressure(cylinder(4), np.array([100.0, least]))
+    shared = diesel(walls={"kind": "share", "share": 0.2}).cycle_pressure(cylinder(4), np.array([0.0, 100.0]))
+    assert np.isfinite(shared.pressure).all()

@@ -62,7 +62,7 @@ def machine(**train: Any) -> lw.Machine:
         "discs": {"flywheel": {"inertia": 6.0}},
         "shafts": {"out": {"between": ["throw_6", "flywheel"], "stiffness": 4e6, "loss_factor": 0.02}},
         "loads": {"brake": {"on": "flywheel", "torque": 2000.0, "speed": 150.0}},
-        "run": {"speed_min": 50.0, "speed_max": 170.0, "points": 13},
+        "run": {"speed_min": 50.0, "speed_max": 170.0, "points": 13, "loads_follow": True},
     }
     return lw.Machine.model_validate({"format": 1, "name": "V", "train": {**whole, **train}})
 

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 import linkwright as lw
@@ -20,7 +21,7 @@ ENGINE: dict[str, Any] = {
 
 
 def machine(**train: Any) -> lw.Machine:
-    run = {"speed_min": 20.0, "speed_max": 200.0, "points": 40}
+    run = {"speed_min": 20.0, "speed_max": 200.0, "points": 40, "loads_follow": True}
     return lw.Machine.model_validate({"format": 1, "name": "train", "train": {"run": run, **train}})
 
 
@@ -73,6 +74,26 @@ def test_loads_damp_as_much_as_they_take() -> None:
     # Both are scaled to what the engine gives, and so is their slope.
     assert other.torques.damping == pytest.approx(one.torques.damping, rel=1e-12)
     assert one.torques.damping[-1] == pytest.approx(-one.torques.mean[-1] / one.torques.speeds, rel=1e-12)
+
+
+def test_loads_stay_as_given_unless_they_shall_follow() -> None:
+    made = engine(10.0)
+    assert made.train is not None
+    assert made.train.run is not None
+    run = made.train.run.model_copy(update={"loads_follow": False})
+    study = lw.torsion_study(made.model_copy(update={"train": made.train.model_copy(update={"run": run})}))
+    assert study.excited is not None
+    assert study.forced is not None
+    # Mean effective pressure times the swept volume over two turns, less the load.
+    left = 6e5 * np.pi / 4 * 0.1**2 * 0.1 / (4 * np.pi) - 10.0
+    np.testing.assert_allclose(study.excited.torques.surplus, left, rtol=1e-9)
+    np.testing.assert_array_equal(study.excited.torques.load_factor, 1.0)
+    # The shaft carries the load and what speeds the flywheel up with all the rest.
+    J = study.excited.referred.inertia
+    wanted = 10.0 + left * 2.0 / J.sum()
+    np.testing.assert_allclose(study.forced.mean_torques[-1], wanted, rtol=1e-9)
+    assert f"{left:+.5g} N m of the engine are left over" in study.balance
+    assert "loads were scaled by" in lw.torsion_study(made).balance
 
 
 def test_a_curve_that_ends_below_the_mean_torque_is_told() -> None:

@@ -100,7 +100,7 @@ BEYOND = {
     "maximum of 900": (LOAD.format(f"max({','.join(['phi'] * 900)})"), "at most 400 numbers"),
     "tower of powers": (LOAD.format("^".join(["phi"] * 150)), "inside one another"),
     "discs": (train(501), "at most 500 discs"),
-    "order": (excited("{ order = 1e7, torque = 1 }"), "up to 1000"),
+    "order": (excited("{ order = 1e7, torque = 1 }"), "from 0.001 to 1000"),
     "orders": (
         excited(",".join(f"{{ order = {k / 2}, torque = 1 }}" for k in range(1, 600))),
         "at most 500 harmonics",

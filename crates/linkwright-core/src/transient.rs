@@ -8,14 +8,17 @@
 //! under dry friction, knots of tables), speeds at which the drive's characteristic has a kink, standstill.
 //! At standstill the dry loads decide: what is left of the drive's torque must exceed them to move on.
 
+pub mod attempt;
+pub mod equation;
+
+use self::attempt::{Attempt, Y};
+use self::equation::Equation;
 use crate::call::poll;
 use crate::cycle::Machine;
-use crate::law::Given;
 use crate::linkage::Motion;
 use crate::mesh::crossing;
 use crate::plan::Plan;
-use crate::plane::Angle;
-use crate::rk::{Trial, next_factor, try_step};
+use crate::rk::{Trial, next_factor};
 use std::f64::consts::TAU;
 
 /// What to follow.
@@ -29,7 +32,7 @@ pub struct Start {
     pub duration: f64,
     /// Most turns of the crank.
     pub turns: f64,
-    /// Relative accuracy of a step.
+    /// Relative accuracy of a step, at its end and on the way there.
     pub accuracy: f64,
 }
 
@@ -55,6 +58,13 @@ pub enum End {
     Inaccurate = 7,
 }
 
+impl End {
+    /// What a step that is given up for its error says.
+    fn of_error(error: f64) -> Self {
+        if error.is_nan() { End::DoesNotClose } else { End::Inaccurate }
+    }
+}
+
 /// The motion at the ends of the steps.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
@@ -62,6 +72,8 @@ pub struct Trajectory {
     pub phi: Vec<f64>,
     pub omega: Vec<f64>,
     pub epsilon: Vec<f64>,
+    /// Of each step the polynomials of angle and speed ([`crate::rk::Stages::component`]).
+    pub between: Vec<[[f64; 7]; 2]>,
     pub end: End,
     /// Drive's torque at the crank where the motion ended \[N m\].
     pub drive_torque: f64,
@@ -84,72 +96,13 @@ const NEAR: f64 = 1e-3;
 /// Difference of speeds, as a share of the working speed, that rounding may leave.
 const AT_REST: f64 = 1e-11;
 
-type Y = [f64; 2];
-
-struct Follower<'a> {
-    machine: Machine<'a, f64>,
-    motion: Motion<f64>,
-    given: Vec<Given<f64>>,
-    speed_scale: f64,
-    evaluations: usize,
-}
-
-impl Follower<'_> {
-    /// (ω, ε)
-    fn derivative(&mut self, t: f64, y: &Y) -> Y {
-        let Machine { plan, q } = self.machine;
-        self.evaluations += 1;
-        let [phi, omega] = *y;
-        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut self.motion);
-        let mut resisting = r.load + r.dry + r.viscous * omega;
-        if !plan.laws.is_empty() {
-            resisting += self.laws(t, phi, omega);
-        }
-        let net = plan.drive_torque(q, omega) - resisting - 0.5 * r.J_d1 * omega * omega;
-        [omega, net / r.J]
-    }
-
-    /// Torque of the laws at an angle for which the mechanism has been placed.
-    #[inline(never)]
-    fn laws(&mut self, t: f64, phi: f64, omega: f64) -> f64 {
-        let Machine { plan, q } = self.machine;
-        self.given.clear();
-        plan.give(q, phi, &self.motion, &mut self.given);
-        plan.law_torque(q, &self.given, omega, t)
-    }
-
-    /// Drive's and needed torque at standstill, and which way the machine goes from there: +1, 0 or −1. Laws
-    /// count as at a vanishing speed in that direction, so that one with a jump at rest holds there.
-    fn balance_at_rest(&mut self, t: f64, phi: f64) -> (f64, f64, i8) {
-        let Machine { plan, q } = self.machine;
-        let slow = AT_REST * self.speed_scale;
-        let mut ahead = plan.reduce::<f64, 1>(q, Angle::new(phi), 1.0, &mut self.motion);
-        ahead.load += self.laws(t, phi, slow);
-        let mut back = plan.reduce::<f64, 1>(q, Angle::new(phi), -1.0, &mut self.motion);
-        back.load += self.laws(t, phi, -slow);
-        let drive = plan.geared_torque(q, plan.motor_torque(q, 0.0));
-        // At rest a load over speed holds in either direction, like a dry one; a driving one drives.
-        let over_speed: f64 = plan.speed_load(0.0);
-        let holding = over_speed.max(0.0);
-        let free = drive - over_speed.min(0.0);
-        let way = if free - ahead.load > ahead.dry + holding {
-            1
-        } else if free - back.load < -(back.dry + holding) {
-            -1
-        } else {
-            0
-        };
-        (drive, ahead.load + ahead.dry + over_speed, way)
-    }
-}
-
 /// Follows the motion until time, turns or an event end it.
 pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
     let machine = Machine { plan, q };
     let mut motion = Motion::new(&plan.mechanism, q);
     let kinks = machine.breaks(&mut motion).swap_remove(0);
     let speed_scale = q[plan.drive.speed_start].max(start.omega);
-    let mut follower = Follower { machine, motion, given: Vec::new(), speed_scale, evaluations: 0 };
+    let mut follower = Equation { machine, motion, given: Vec::new(), speed_scale, evaluations: 0 };
     let mut path = Path::new(plan, q, start, kinks);
     path.run(&mut follower);
     path.finish(&mut follower)
@@ -169,6 +122,9 @@ struct Path {
 struct Accepted {
     h: f64,
     y: Y,
+    /// Derivative at its end.
+    rate: Y,
+    between: [[f64; 7]; 2],
     /// Length to try next.
     next: f64,
     at_rest: bool,
@@ -181,6 +137,7 @@ impl Path {
             phi: vec![start.phi],
             omega: vec![start.omega],
             epsilon: Vec::new(),
+            between: Vec::new(),
             end: End::Time,
             drive_torque: f64::NAN,
             load_torque: f64::NAN,
@@ -203,7 +160,7 @@ impl Path {
         (path.t[last], [path.phi[last], path.omega[last]])
     }
 
-    fn run(&mut self, follower: &mut Follower<'_>) {
+    fn run(&mut self, follower: &mut Equation<'_>) {
         let (_, y) = self.now();
         if y[1] <= AT_REST * self.speed_scale {
             self.trajectory.omega[0] = 0.0;
@@ -225,15 +182,19 @@ impl Path {
                 self.trajectory.end = end;
                 return;
             }
-            let Some(step) = self.step(follower, (t, &y, &k0), h) else {
-                self.trajectory.end = End::Inaccurate;
-                return;
+            let step = match self.step(follower, (t, &y, &k0), h) {
+                Ok(step) => step,
+                Err(end) => {
+                    self.trajectory.end = end;
+                    return;
+                }
             };
             h = step.next;
             self.trajectory.t.push(t + step.h);
             self.trajectory.phi.push(step.y[0]);
             self.trajectory.omega.push(step.y[1]);
-            k0 = follower.derivative(t + step.h, &step.y);
+            self.trajectory.between.push(step.between);
+            k0 = step.rate;
             if step.at_rest {
                 self.trajectory.epsilon.push(k0[1]);
                 if self.stays_at_rest(follower, t + step.h, step.y[0]) {
@@ -246,7 +207,7 @@ impl Path {
     }
 
     fn is_over(&self, t: f64, y: &Y, k0: &Y) -> Option<End> {
-        if k0[1].is_nan() {
+        if !k0[1].is_finite() {
             Some(End::DoesNotClose)
         } else if t >= self.last_time {
             Some(End::Time)
@@ -258,7 +219,7 @@ impl Path {
     }
 
     /// At standstill on the way: ends the motion unless the drive takes it on.
-    fn stays_at_rest(&mut self, follower: &mut Follower<'_>, t: f64, phi: f64) -> bool {
+    fn stays_at_rest(&mut self, follower: &mut Equation<'_>, t: f64, phi: f64) -> bool {
         let way = follower.balance_at_rest(t, phi).2;
         if way < 1 {
             self.trajectory.end = if way < 0 { End::Reversal } else { End::Stall };
@@ -266,42 +227,61 @@ impl Path {
         way < 1
     }
 
-    /// The next accepted step from `from`, of length at most `longest`.
-    fn step(&self, follower: &mut Follower<'_>, from: (f64, &Y, &Y), mut longest: f64) -> Option<Accepted> {
+    /// The next accepted step from `from`, of length at most `longest`; or why none is: it errs too much, or the machine
+    /// has no acceleration however near.
+    fn step(
+        &self,
+        follower: &mut Equation<'_>,
+        from: (f64, &Y, &Y),
+        mut longest: f64,
+    ) -> Result<Accepted, End> {
         let (t, y, k0) = from;
         let target = self.next_angle(y[0]);
         let rest = self.last_time - t;
         let landing = time_to(target - y[0], y[1], k0[1]);
-        let scale = |n: usize, size: f64| {
-            if n == 0 { self.accuracy } else { self.accuracy * (size + 0.01 * self.speed_scale) }
-        };
-        let mut derivative = |t: f64, y: &Y| follower.derivative(t, y);
-        let mut attempt = |h: f64| try_step(&mut derivative, from, h, &scale);
+        let mut attempt = Attempt::new(follower, from, self.accuracy, self.speed_scale);
         let mut growth_max = f64::INFINITY;
+        let mut reason = End::Inaccurate;
         // Forty reductions by a tenth to nine tenths reach any length that still changes t.
         for _ in 0..40 {
             let mut h = longest.min(rest).min(landing);
-            let mut trial = attempt(h);
+            let mut trial = attempt.to(h);
             if trial.error.is_nan() || trial.error > 1.0 {
-                longest = h * next_factor(trial.error).min(0.9);
-                growth_max = 1.0;
+                (longest, growth_max) = (h * next_factor(trial.error).min(0.9), 1.0);
+                reason = End::of_error(trial.error);
                 continue;
             }
-            // A step cut short by an event says nothing about the length that the next may have.
-            let grown = h * next_factor(trial.error).min(growth_max);
-            let next = if h < longest { grown.max(longest) } else { grown };
+            let tried = h;
             if trial.y[0] > target || h == landing {
                 let is_last = target == self.last_angle;
                 let near = if is_last { LANDING } else { NEAR * self.accuracy.sqrt() };
                 (trial, h) = land(&mut attempt, trial, h, (target, near));
             }
-            let Some((h, speed)) = self.first_speed_event(&mut attempt, y[1], &trial, h) else {
-                return Some(Accepted { h, y: trial.y, next, at_rest: false });
-            };
-            let at_rest = speed == 0.0;
-            return Some(Accepted { h, y: [attempt(h).y[0], speed], next, at_rest });
+            let event = self.first_speed_event(&mut attempt, y[1], &trial, h);
+            let mut end = trial.y;
+            if let Some((at, speed)) = event {
+                (h, end) = (at, [attempt.to(at).y[0], speed]);
+            }
+            let on_the_way = attempt.fill(h, &end);
+            if on_the_way.is_nan() || on_the_way > 1.0 {
+                (longest, growth_max) = (h * next_factor(on_the_way).min(0.9), 1.0);
+                reason = End::of_error(on_the_way);
+                continue;
+            }
+            // A step cut short by an event says nothing about the length that the next may have.
+            let grown = tried * next_factor(trial.error.max(on_the_way)).min(growth_max);
+            let next = if tried < longest { grown.max(longest) } else { grown };
+            let (rate, between) = attempt.ended();
+            return Ok(Accepted {
+                h,
+                y: end,
+                rate,
+                between,
+                next,
+                at_rest: event.is_some() && end[1] == 0.0,
+            });
         }
-        None
+        Err(reason)
     }
 
     /// The next angle at which a step must end.
@@ -316,7 +296,7 @@ impl Path {
     /// The earliest time in the step at which the speed passes a kink of the drive or zero, and that speed.
     fn first_speed_event(
         &self,
-        attempt: &mut impl FnMut(f64) -> Trial<2>,
+        attempt: &mut Attempt<'_, '_>,
         omega: f64,
         trial: &Trial<2>,
         h: f64,
@@ -328,7 +308,7 @@ impl Path {
             apart && (omega - speed) * (trial.y[1] - speed) < 0.0
         };
         for speed in self.speeds.iter().copied().chain([0.0]).filter(|&speed| is_past(speed)) {
-            let excess = |x: f64| attempt(x).y[1] - speed;
+            let excess = |x: f64| attempt.to(x).y[1] - speed;
             let at = crossing(excess, h, omega - speed, trial.y[1] - speed);
             if first.is_none_or(|(earliest, _)| at < earliest) {
                 first = Some((at, speed));
@@ -337,7 +317,7 @@ impl Path {
         first
     }
 
-    fn finish(mut self, follower: &mut Follower<'_>) -> Trajectory {
+    fn finish(mut self, follower: &mut Equation<'_>) -> Trajectory {
         let (t, y) = self.now();
         let path = &mut self.trajectory;
         if path.epsilon.len() < path.t.len() {
@@ -361,7 +341,7 @@ fn time_to(angle: f64, omega: f64, epsilon: f64) -> f64 {
 
 /// Newton on the length of the step until it ends on the target angle.
 fn land(
-    attempt: &mut impl FnMut(f64) -> Trial<2>,
+    attempt: &mut Attempt<'_, '_>,
     mut trial: Trial<2>,
     mut h: f64,
     (target, near): (f64, f64),
@@ -372,7 +352,7 @@ fn land(
             break;
         }
         h += miss / trial.y[1];
-        trial = attempt(h);
+        trial = attempt.to(h);
     }
     (trial, h)
 }

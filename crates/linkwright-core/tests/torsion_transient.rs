@@ -520,10 +520,9 @@ fn accuracy_is_kept() {
             let accuracy = 10_f64.powi(-decade);
             let course = run(&system, state, &times, accuracy, method);
             let off = worst(&row(&course, &times, 4), row(&exact, &times, 4).into_iter()) / size;
-            // Some hundred steps over fifteen swings; the implicit samples are read from cubics, of lower order.
-            let allowed =
-                if method == Method::Explicit { 100.0 * accuracy } else { 10.0 * accuracy.powf(0.75) };
-            assert!(off < allowed, "{method:?}, asked for {accuracy:e}: {off:e}");
+            // Errors of some hundred steps over fifteen swings add up.
+            println!("{method:?}, asked for {accuracy:e}: {off:e}");
+            assert!(off < 100.0 * accuracy, "{method:?}, asked for {accuracy:e}: {off:e}");
         }
     }
 }

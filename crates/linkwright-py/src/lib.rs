@@ -90,7 +90,7 @@ type Table<'py> = Bound<'py, PyArray2<f64>>;
 type Solved<'py> = (u8, Curve<'py>, Option<Table<'py>>);
 /// Status and scalars of every row, and turns swept.
 type SolvedRows<'py> = (Bound<'py, PyArray1<u8>>, Table<'py>, u64);
-/// How it ended, torques there, evaluations, and t, φ, ω, ε.
+/// How it ended, torques there, evaluations, and t, φ, ω, ε, and the polynomials of the steps.
 type Followed<'py> = (u8, [f64; 2], usize, Vec<Curve<'py>>);
 
 /// Crank angles, x and y of each joint there, and the turns after which the motion repeats.
@@ -302,7 +302,8 @@ fn transient<'py>(
     let q = plan.parameters(&q)?;
     let start = Start { phi, omega, duration, turns, accuracy };
     let path = guarded(py, "motion in time", || follow(&plan.0, q, &start))?;
-    let curves = [path.t, path.phi, path.omega, path.epsilon].map(|list| column(py, list));
+    let between = path.between.into_flattened().into_flattened();
+    let curves = [path.t, path.phi, path.omega, path.epsilon, between].map(|list| column(py, list));
     let torques = [path.drive_torque, path.load_torque];
     Ok((path.end as u8, torques, path.evaluations, curves.into()))
 }

@@ -383,7 +383,7 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
     _, load_mean, drive_mean, motor_mean = turn.mean().tolist()
     motor_max = turn.extreme(+1, 3)[0]
     period = 2 * np.pi / omega
-    still = dict.fromkeys(("speed_min_angle", "speed_max_angle"), 0.0)
+    still: dict[str, Any] = dict.fromkeys(("speed_min_angle", "speed_max_angle"), 0.0)
     still |= dict.fromkeys(("acceleration_min", "acceleration_max"), 0.0)
     still |= dict.fromkeys(
         ("acceleration_min_angle", "acceleration_max_angle", "accuracy", "multiplier"), 0.0

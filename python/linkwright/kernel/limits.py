@@ -60,7 +60,11 @@ TABLES = Limit(40, "tables on the terminal", "what fits on some screens")
 DISCS = Limit(500, "discs in a train", "modes cost the cube of their number")
 THROWS = Limit(100, "throws of a crankshaft", "large engines have a dozen")
 HARMONICS = Limit(500, "harmonics of a torque", "gas and inertia torques are known to order 48")
-ORDER = Limit(1_000, "periods a revolution in an order of excitation", "teeth of gears have some hundred")
+ORDER = Limit(
+    1_000,
+    "periods a revolution in an order of excitation, or revolutions a period",
+    "teeth of gears have some hundred, and a hunting tooth meets another after as many revolutions",
+)
 RESPONSE = Limit(
     4_000_000,
     "orders, discs and speeds multiplied in a forced response",

@@ -224,10 +224,22 @@ def _balance(study: TorsionStudy) -> Iterator[str]:
     at, train = study.excited, study.machine.train
     if at is None or train is None or train.engine is None or not train.loads:
         return
-    least, most = float(at.torques.load_factor.min()), float(at.torques.load_factor.max())
-    if abs(least - 1) > _BALANCED or abs(most - 1) > _BALANCED:
-        count = f"{least:.4g} to {most:.4g} times over the speeds"
-        yield f"Steady running: loads follow the engine, and count {count}."
+    if train.run is not None and train.run.loads_follow:
+        least, most = float(at.torques.load_factor.min()), float(at.torques.load_factor.max())
+        if abs(least - 1) > _BALANCED or abs(most - 1) > _BALANCED:
+            yield (
+                f"Steady running: loads were scaled by {least:.4g} to {most:.4g} over the speeds, to what "
+                "the engine gives (`train.run.loads_follow = true`)."
+            )
+        return
+    left, n = at.torques.surplus, at.referred.speed
+    taken = np.abs(n[:, None] * at.torques.mean).sum(axis=0)
+    if (np.abs(left) > _BALANCED * taken).any():
+        yield (
+            f"Steady running: loads are as given; {left.min():+.5g} to {left.max():+.5g} N m of the engine "
+            "are left over at the speeds and accelerate the train (`train.run.loads_follow = true` "
+            "scales the loads instead)."
+        )
 
 
 def _warnings(study: TorsionStudy) -> Iterator[str]:

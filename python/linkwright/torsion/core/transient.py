@@ -264,7 +264,7 @@ class MovingTrain:
         times : array_like, shape (times,)
             To sample at, from zero to the end [s].
         accuracy : float
-            Relative, of a step.
+            Relative, of a step, at its end and on the way there.
         start : float
             When the motion begins, zero or before; it is recorded from zero on [s].
         method : str

@@ -77,7 +77,8 @@ class EngineSpeed:
         delay, compression = further or (0.0, 0.0)
         states = CylinderStates(1 + combustion, delay, 1 + compression)
         sources = throw_sources(self.engine, self.gas, states)
-        return under(self.machine, self.train, self.referred, speeds, sources)
+        # A record is of steady running: whatever the cylinders give, the loads took it off.
+        return under(self.machine, self.train, self.referred, speeds, sources, loads_follow=True)
 
     def harmonics(self, values: Floats) -> tuple[Floats, Complexes]:
         """Speed of the disc in some states of the cylinders.

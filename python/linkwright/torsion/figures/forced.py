@@ -120,10 +120,10 @@ def _bar(axes: Axes, ranges: Sequence[tuple[float, float]]) -> None:
 
 
 def _limits(axes: Axes, stress: ShaftStress, s: int) -> None:
-    """What a shaft bears for ever, and in passing."""
+    """Permitted in continuous operation, and in transient passage."""
     for limit, words, dashes in (
-        (stress.continuous[s], "for ever", (5, 3)),
-        (stress.transient[s], "in passing", (2, 2)),
+        (stress.continuous[s], "continuous operation", (5, 3)),
+        (stress.transient[s], "transient passage", (2, 2)),
     ):
         if np.isfinite(limit).any():
             rpm = _rpm(stress.speeds)

@@ -227,7 +227,7 @@ def follow_train(
     sample_time : float, optional
         Between samples [s].
     accuracy : float
-        Relative, of a step.
+        Relative, of a step, at its end and on the way there.
     method : str
         "explicit" steps of order 8 follow every swing; "implicit" ones of order 5 let die out those faster
         than a step; "auto" takes these where stability would ask the others for more than 200 000 steps.

@@ -1,11 +1,11 @@
-r"""Speeds that shafts do not bear for ever: barred, and passed quickly, or not to be passed at all.
+r"""Speeds barred from continuous operation of shafts: barred, and passed quickly, or not to be passed at all.
 
-A range is barred where a shaft's vibratory stress is above what is permitted for ever. Its bounds are where
-the two are equal, sought with the response itself. About a critical speed :math:`n_c` classification
-societies ask for at least :math:`16 n_c/(18 - \lambda) \le n \le (18 - \lambda) n_c/16`, λ being its ratio to
-the speed of service. Critical is where the stress peaks: damping, dampers above all, has it beside the
-speed at which an order meets a natural frequency without damping. Where the stress is also above what is
-permitted while passing, the range may not even be passed.
+A range is barred where a shaft's vibratory stress is above what is permitted in continuous operation. Its
+bounds are where the two are equal, sought with the response itself. About a critical speed :math:`n_c`
+classification societies ask for at least :math:`16 n_c/(18 - \lambda) \le n \le (18 - \lambda) n_c/16`, λ
+being its ratio to the speed of service. Critical is where the stress peaks: damping, dampers above all, has
+it beside the speed at which an order meets a natural frequency without damping. Where the stress is also
+above what is permitted while passing, the range may not even be passed.
 
 References
 ----------
@@ -37,23 +37,24 @@ _POINTS = 100
 
 @dataclass(frozen=True)
 class BarredRange(Result):
-    """Speeds at which a shaft is stressed more than it bears for ever.
+    """Speeds at which a shaft is stressed more than is permitted in continuous operation.
 
     Attributes
     ----------
     shaft : str
         The shaft.
     speed_min, speed_max : float
-        Where the stress passes what is permitted for ever [rad/s].
+        Where the stress passes what is permitted in continuous operation [rad/s].
     open_min, open_max : bool
         Whether the range goes on beyond the speeds looked at.
     worst_speed : float
         Where stress over permitted stress is largest [rad/s].
     worst_stress, continuous, transient : float
-        Vibratory stress there, permitted for ever, permitted while passing; NaN if nothing is said [Pa].
+        Vibratory stress there, permitted in continuous operation and in transient passage; NaN if nothing
+        is said [Pa].
     not_passable : tuple of tuple of float
-        Lowest and highest speed of each part in which the stress is above what is permitted while passing
-        [rad/s].
+        Lowest and highest speed of each part in which the stress is above what is permitted in transient
+        passage [rad/s].
     critical_speed, order : float or None
         Of the peaks of the stress in the range the highest [rad/s], and the order that makes most of it; None
         where the stress peaks beyond the speeds looked at.
@@ -105,7 +106,7 @@ class BarredRange(Result):
 
 @public
 def barred_ranges(machine: Machine) -> tuple[BarredRange, ...]:
-    """Speeds that the shafts of a train do not bear for ever.
+    """Speeds barred from continuous operation of the shafts of a train.
 
     Parameters
     ----------

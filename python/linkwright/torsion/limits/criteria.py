@@ -2,7 +2,7 @@
 
 | part | what | permitted by |
 | --- | --- | --- |
-| shaft | vibratory stress for ever and while passing, greatest stress, torques | its `limit` |
+| shaft | vibratory stress, continuous and in transient passage, greatest stress, torques | its `limit` |
 | coupling | torque, vibratory torque, heat | its own entries |
 | damper | heat | `heat_permitted` |
 | gear stage | drop of the torque below its mean | the mean: beyond it teeth part |

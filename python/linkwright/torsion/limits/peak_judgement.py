@@ -6,7 +6,7 @@ r"""Whether shafts and couplings bear a manoeuvre: largest torques and stresses 
 | `stress_greatest` | its stress |
 | vibratory stress while passing | half of greatest less least stress within two turns of the first disc |
 
-Limits of what is borne for ever, vibratory torques and heat among them, are those of steady running and not
+Limits of continuous operation, vibratory torques and heat among them, are those of steady running and not
 judged here. Largest torques are exact between the samples; those within two turns are read from the samples.
 """
 

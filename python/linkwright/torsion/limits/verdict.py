@@ -91,7 +91,7 @@ class Verdict(Result):
     judgements : tuple of Judgement
         Shafts, couplings, dampers, gear stages.
     barred : tuple of BarredRange
-        Ranges in which shafts are stressed more than they bear for ever.
+        Ranges in which shafts are stressed more than permitted in continuous operation.
     notes : tuple of str
         What was not judged, and why.
     """

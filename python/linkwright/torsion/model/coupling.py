@@ -38,7 +38,7 @@ class Coupling(Checked):
     )
     torque_permitted: PositiveTorque | None = Field(None, description="Mean and vibratory torque together.")
     vibratory_torque_permitted: PositiveTorque | None = Field(
-        None, description="Amplitude of the torque that it bears for ever."
+        None, description="Amplitude of the torque in continuous operation."
     )
     heat_permitted: Annotated[float, positive(POWER)] | None = Field(
         None, description="Heat that it can give off."

@@ -5,10 +5,10 @@ With λ the speed over the highest of continuous service, in N/mm² as amplitude
 .. math:: \tau_1 = 45 - 24\lambda^2, \qquad \tau_2 = 2\tau_1 \;(\lambda \le 0.8), \qquad
     \tau_3 = 21 + 237 (\lambda - 0.8) \sqrt{\lambda - 1} \;(1 \le \lambda \le 1.15)
 
-for ever, while passing, and above the highest speed, for four-stroke engines in line and for V engines that
-fire every 45° or 60°. For two-stroke engines and other V engines 24 becomes 29, and 21 becomes 16. Steel
-stronger than 440 N/mm² may bear more, :math:`f = 1 + \frac23 (\sigma_B/440 - 1)` times τ₁ and τ₃, and
-σ_Y/225 times τ₂.
+in continuous operation, in transient passage, and above the highest speed, for four-stroke engines in line
+and for V engines that fire every 45° or 60°. For two-stroke engines and other V engines 24 becomes 29, and 21
+becomes 16. Steel stronger than 440 N/mm² may bear more, :math:`f = 1 + \frac23 (\sigma_B/440 - 1)` times τ₁
+and τ₃, and σ_Y/225 times τ₂.
 
 A maker's own limit, or a fatigue calculation of the crankshaft (IACS UR M53), goes before these.
 

@@ -6,9 +6,9 @@ With the tensile strength σ_B in N/mm², the outside diameter d in mm and λ th
 
 .. math:: C_\lambda = 3 - 2\lambda^2 \;(\lambda < 0.9), \qquad 1.38 \;(0.9 \le \lambda \le 1.05)
 
-are permitted for ever, in N/mm², as amplitude of the nominal stress: half of greatest less least, in the
-plain section, without stress concentration. Where τ_C is exceeded, the speeds are barred and passed quickly,
-and the amplitude there must stay below
+are permitted in continuous operation, in N/mm², as amplitude of the nominal stress: half of greatest less
+least, in the plain section, without stress concentration. Where τ_C is exceeded, the speeds are barred and
+passed quickly, and the amplitude there must stay below
 
 .. math:: \tau_T = 1.7\, \tau_C/\sqrt{C_K}
 
@@ -127,7 +127,7 @@ def speed_factor(speed_ratio: Floats) -> Floats:
 
 
 def continuous_stress(strength: float, diameter: float, design_factor: float, speed_ratio: Floats) -> Floats:
-    """τ_C, permitted for ever.
+    """τ_C, permitted in continuous operation.
 
     Parameters
     ----------

@@ -84,14 +84,16 @@ class ShaftLimit(Checked):
     stress_concentration: Annotated[float, positive(RATIO)] | None = Field(
         None, description="Greatest over nominal stress, which the stresses given hold for. Without it, 1."
     )
-    stress_permitted: Stress | None = Field(None, description="Amplitude of the shear stress, for ever.")
+    stress_permitted: Stress | None = Field(
+        None, description="Amplitude of the shear stress in continuous operation."
+    )
     stress_transient: Stress | None = Field(
         None, description="The same, while barred speeds are passed quickly."
     )
     stress_greatest: Stress | None = Field(None, description="Shear stress of mean and vibration together.")
     torque_permitted: PositiveTorque | None = Field(None, description="Mean and vibratory torque together.")
     vibratory_torque_permitted: PositiveTorque | None = Field(
-        None, description="Amplitude of the torque, for ever."
+        None, description="Amplitude of the torque in continuous operation."
     )
     tensile_strength: Stress | None = Field(None, description="σ_B that the steel is specified to have.")
     yield_strength: Stress | None = Field(None, description="σ_Y of the steel of a crankshaft.")
@@ -184,7 +186,7 @@ class ShaftLimit(Checked):
         return math.inf if self.kind == "given" else propulsion_shaft.RATIO_BARRED_MAX
 
     def permitted_stress(self, speed_ratio: Floats, diameter: float | None) -> tuple[Floats, Floats]:
-        """Amplitudes of the vibratory stress that are permitted for ever, and while passing.
+        """Permitted amplitudes of the vibratory stress in continuous operation and in transient passage.
 
         Parameters
         ----------

@@ -38,6 +38,11 @@ class TrainRun(Checked):
     orders_max: Annotated[float, Quantity(COUNT, _ORDER)] = Field(
         24.0, description="Highest order of gas and inertia torques."
     )
+    loads_follow: bool = Field(
+        False,
+        description="Whether loads are scaled at each speed so that they take off what the engine gives in "
+        "the mean. Otherwise they are as given, and what is left over accelerates the train.",
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.speed_max <= self.speed_min:

@@ -46,9 +46,9 @@ Order = Annotated[
     Quantity(
         COUNT,
         Bound(
-            f" above 0 and up to {ORDER.most},",
-            {"exclusiveMinimum": 0, "maximum": ORDER.most},
-            lambda value: 0 < value <= ORDER.most,
+            f" from {1 / ORDER.most:g} to {ORDER.most},",
+            {"minimum": 1 / ORDER.most, "maximum": ORDER.most},
+            lambda value: 1 / ORDER.most <= value <= ORDER.most,
         ),
     ),
 ]

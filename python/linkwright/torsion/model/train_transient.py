@@ -85,7 +85,9 @@ class TrainTransient(Checked):
         description="Mode of vibration in which viscous damping loses what hysteresis would. Without it, for "
         "each shaft the lowest mode of whose energy it stores a twentieth or more.",
     )
-    accuracy: Annotated[float, Field(ge=1e-13, le=1e-3)] = Field(1e-8, description="Relative, of a step.")
+    accuracy: Annotated[float, Field(ge=1e-13, le=1e-3)] = Field(
+        1e-8, description="Relative, of a step, at its end and on the way there."
+    )
     method: Literal["auto", "explicit", "implicit"] = Field(
         "auto", description="Of integration; implicit steps do not follow the swings of very stiff shafts."
     )

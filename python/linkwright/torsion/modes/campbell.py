@@ -14,11 +14,20 @@ slowly, and that of resonance, which damping limits,
 
 The ratio :math:`\zeta_n` is that of light damping, and other modes are left out; forced vibration has both.
 
+Damping moves the peak of the response away from the undamped crossing. Where the torque grows with the power
+q of the speed, the amplitude :math:`s^{q/2}/\sqrt{(1 - s)^2 + 4\zeta^2 s}` over
+:math:`s = (\nu\Omega/\omega_n)^2` peaks at a root of
+
+.. math:: (q - 2)\,s^2 + (q - 1)(4\zeta^2 - 2)\,s + q = 0
+
+which is :math:`1 - 2\zeta^2` of a constant torque and :math:`1/(1 - 2\zeta^2)` of one of inertia (q = 2).
+
 References
 ----------
 .. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963: vector sums, equilibrium
 amplitude.
-.. [2] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.5: work of an engine's torques in a mode.
+.. [2] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.5: work of an engine's torques in a
+mode; section 2.8: amplitude of a damped vibration over the frequency.
 """
 
 from __future__ import annotations
@@ -46,6 +55,9 @@ Complexes = NDArray[np.complex128]
 # Secant steps to a critical speed: from neighbours on a grid, or exact where frequencies do not change.
 _STEPS = 8
 
+# Share of a speed by which the growth of a torque is looked at: an order's torques are smooth.
+_ASIDE = 1e-3
+
 # Speeds that differ by a smaller share are one.
 _EQUAL = 1e-12
 
@@ -71,6 +83,9 @@ class CriticalSpeed(NamedTuple):
         ζ of the mode; None where it is not known.
     resonance_amplitude : float or None
         At the disc of largest amplitude; infinite without damping [rad].
+    peak_speed : float or None
+        At which the damped response of the mode to the order peaks; None where it has no peak, or the damping
+        is not known [rad/s].
     """
 
     speed: float
@@ -81,6 +96,7 @@ class CriticalSpeed(NamedTuple):
     equilibrium_amplitude: float | None
     damping_ratio: float | None
     resonance_amplitude: float | None
+    peak_speed: float | None
 
 
 @dataclass(frozen=True)
@@ -240,6 +256,8 @@ def _judged(
     torques = modes.torques(at, orders) if given is None else given
     work = None if torques is None else np.abs((torques * found.shapes).sum(axis=1))
     zeta = found.damping_ratios if ratios is None else ratios[mode]
+    unknown = work is None or given is not None
+    growth = np.zeros(len(at)) if unknown else _growth(modes, at, orders, found.shapes)
     listed = []
     for n, (speed, ν, k) in enumerate(zip(at.tolist(), orders.tolist(), mode.tolist(), strict=True)):
         static = None if work is None else float(work[n] / found.stiffness[n])
@@ -254,9 +272,32 @@ def _judged(
                 equilibrium_amplitude=static,
                 damping_ratio=ratio,
                 resonance_amplitude=_resonance(static, ratio),
+                peak_speed=_peak(speed, ratio, float(growth[n])),
             )
         )
     return listed
+
+
+def _growth(modes: ModesAt, at: Floats, orders: Floats, shapes: Floats) -> Floats:
+    """Power of the speed with which the work of each order in a mode grows about a speed, (n,)."""
+    sizes = []
+    for speeds in (at * (1 - _ASIDE), at * (1 + _ASIDE)):
+        torques = modes.torques(speeds, orders)
+        sizes.append(np.zeros(len(at)) if torques is None else np.abs((torques * shapes).sum(axis=1)))
+    below, above = sizes
+    ratio = np.divide(above, below, out=np.ones(len(at)), where=(below > 0) & (above > 0))
+    growth: Floats = np.log(ratio) / math.log((1 + _ASIDE) / (1 - _ASIDE))
+    return growth
+
+
+def _peak(speed: float, ratio: float | None, growth: float) -> float | None:
+    """Speed of the largest amplitude near a crossing."""
+    if ratio is None:
+        return None
+    roots = np.roots([growth - 2, (growth - 1) * (4 * ratio**2 - 2), growth])
+    real = roots.real[(roots.imag == 0) & (roots.real > 0)]
+    # Of two the one near the crossing is the peak, the other a least value.
+    return float(speed * math.sqrt(real[np.abs(real - 1).argmin()])) if len(real) else None
 
 
 def _resonance(static: float | None, ratio: float | None) -> float | None:

@@ -134,6 +134,8 @@ def under(
     speeds: Floats,
     sources: Iterable[Source],
     damping: Floats | None = None,
+    *,
+    loads_follow: bool | None = None,
 ) -> Excited:
     """A train under torques of its engine or mechanism, and those of its file.
 
@@ -151,13 +153,16 @@ def under(
         Torques of the engine or of the mechanism, with their mean.
     damping : ndarray, shape (discs, speeds), optional
         Of motor and mechanism [N m s/rad].
+    loads_follow : bool, optional
+        Whether loads are scaled to what the engine gives; without it, as `[train.run]` says.
 
     Returns
     -------
     Excited
-        What the train is under each column of torques: loads follow the engine, and couplings have the slope
-        at the mean torque.
+        What the train is under each column of torques; couplings have the slope at the mean torque.
     """
+    run = None if machine.train is None else machine.train.run
+    follow = (run is not None and run.loads_follow) if loads_follow is None else loads_follow
     listed = list(sources)
     _require_room(train, listed, len(speeds))
     torques = torques_of(
@@ -168,6 +173,7 @@ def under(
         damping,
         is_free=referred.is_free,
         has_engine=machine.train is not None and machine.train.engine is not None,
+        loads_follow=follow,
     )
     return loaded(machine, train, referred, torques)
 

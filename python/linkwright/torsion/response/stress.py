@@ -56,7 +56,8 @@ class ShaftStress(Result):
     mean, vibratory, greatest : ndarray, shape (shafts, speeds)
         Of the torque's mean, of half its range, of its largest value [Pa].
     continuous, transient : ndarray, shape (shafts, speeds)
-        Vibratory stress permitted for ever, and while speeds are passed [Pa]; NaN where nothing is said.
+        Vibratory stress permitted in continuous operation and in transient passage [Pa]; NaN where
+        nothing is said.
     """
 
     speeds: Floats
@@ -71,7 +72,7 @@ class ShaftStress(Result):
 
     @property
     def utilisation(self) -> Floats:
-        """Vibratory stress over that permitted for ever, shape (shafts, speeds)."""
+        """Vibratory stress over that permitted in continuous operation, shape (shafts, speeds)."""
         return self.vibratory / self.continuous
 
 

@@ -85,7 +85,11 @@ def _counted(values: Floats, unit: float) -> Orders:
         more = lcm(turns, f.denominator)
         if fits and more <= _TURNS and more * highest <= _HARMONICS:
             turns = more
-    fits_base = [ok and turns % f.denominator == 0 for f, ok in zip(fractions, close, strict=True)]
+    # One of far more waves than the others would ask for as many harmonics: it stands alone.
+    within = [value * turns <= _HARMONICS for value in share]
+    fits_base = [
+        ok and few and turns % f.denominator == 0 for f, ok, few in zip(fractions, close, within, strict=True)
+    ]
     harmonic = np.where(fits_base, np.rint(np.array(share) * turns), 0).astype(np.int64)
     return Orders(values, turns / unit, harmonic)
 

@@ -40,6 +40,8 @@ class Torques:
         Of the loads [N m s/rad].
     load_factor : ndarray, shape (speeds,)
         Loads as they count over those given: not 1 where they follow an engine.
+    surplus : ndarray, shape (speeds,)
+        Mean torque at the first disc beyond what the loads take off, which accelerates a free train [N m].
     """
 
     speeds: Floats
@@ -48,6 +50,7 @@ class Torques:
     mean: Floats
     damping: Floats
     load_factor: Floats
+    surplus: Floats
 
 
 @dataclass(frozen=True)
@@ -81,6 +84,7 @@ def torques_of(
     *,
     is_free: bool = True,
     has_engine: bool = False,
+    loads_follow: bool = False,
 ) -> Torques:
     """All torques on the discs of a train.
 
@@ -99,13 +103,16 @@ def torques_of(
     is_free : bool
         Whether the train can turn as a whole. A held one leaves its mean torque to the ground.
     has_engine : bool
-        Whether the sources drive, so that the loads follow them.
+        Whether the sources drive.
+    loads_follow : bool
+        Whether the loads are scaled to what an engine gives.
 
     Returns
     -------
     Torques
-        Mean torques of a free train balance: loads take off what an engine gives, in proportion to their
-        laws; without an engine the driver gives what is needed. An engine without loads speeds the train up.
+        Without an engine the mean torques of a free train balance: the driver gives what the loads need. What
+        an engine gives beyond its loads accelerates the train, unless the loads follow: then they take off
+        what it gives, in proportion to their laws.
     """
     place = {name: k for k, name in enumerate(train.discs)}
     found = [*sources, *_excitations(train, place, turning, speeds)]
@@ -118,10 +125,10 @@ def torques_of(
     if is_free:
         # Power balances: what turns n times as fast counts n times.
         drive, needed = turning @ mean, turning @ resistance
-        if has_engine:
+        if has_engine and loads_follow:
             factor = np.divide(drive, needed, out=factor, where=needed > 0)
             resistance, of_loads = factor * resistance, np.maximum(factor, 0.0) * of_loads
-        else:
+        elif not has_engine:
             driver = place[train.driver or next(iter(place))]
             mean[driver] += (needed - drive) / turning[driver]
     found += _load_harmonics(train, place, turning, resistance)
@@ -131,7 +138,8 @@ def torques_of(
         at = np.abs(orders[:, None] - each.orders).argmin(axis=0)
         np.add.at(harmonics, (at, each.disc), each.harmonics)
     own = of_loads if damping is None else of_loads + damping
-    return Torques(speeds, orders, harmonics, mean - resistance, own, factor)
+    surplus = turning @ (mean - resistance) if is_free else np.zeros(len(speeds))
+    return Torques(speeds, orders, harmonics, mean - resistance, own, factor, surplus)
 
 
 def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> list[Source]:

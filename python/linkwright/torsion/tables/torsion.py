@@ -198,12 +198,13 @@ def _critical(found: CampbellDiagram) -> Table:
             str(each.mode),
             f"{each.frequency:.5g}",
             _rpm(each.speed),
+            "–" if each.peak_speed is None else _rpm(each.peak_speed),
             _amplitude(each.resonance_amplitude),
         )
         for each in found.critical
         if each in kept
     ]
-    heads = ("order", "", "mode", "Hz", "rpm", "amplitude [°]")
+    heads = ("order", "", "mode", "Hz", "rpm", "peaks at [rpm]", "amplitude [°]")
     more = len(found.critical) - len(rows)
     title = "Critical speeds" + (f", the most severe of {len(found.critical)}" if more else "")
     return Table("critical_speeds", title, heads, rows)

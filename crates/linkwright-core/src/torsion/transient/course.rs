@@ -19,7 +19,7 @@ pub struct Request<'a> {
     /// When the motion begins, zero or before: what swings in until zero is not recorded.
     pub start: f64,
     pub duration: f64,
-    /// Relative accuracy of a step.
+    /// Relative accuracy of a step, at its end and on the way there.
     pub accuracy: f64,
     pub method: Method,
     pub steps_max: usize,
@@ -143,7 +143,7 @@ impl<'a, S: Stepper> Follower<'a, S> {
             Method::Implicit => estimated(request.accuracy),
             _ => request.accuracy,
         };
-        let mut scale = Scale::new(accuracy, &rates, fastest);
+        let mut scale = Scale::new([accuracy, request.accuracy], &rates, fastest);
         scale.widen(&state);
         Follower {
             request,
@@ -214,27 +214,16 @@ impl<'a, S: Stepper> Follower<'a, S> {
     fn step(&mut self, mark: f64) -> bool {
         poll();
         let t = self.course.time;
-        let longest = (mark - t).min(REACH / self.rates.turning(&self.state).max(f64::MIN_POSITIVE));
+        let Some((h, reached)) = self.find_step(mark) else { return false };
         let at = (t, &self.state);
-        let Some(h) = self.stepper.step(&mut self.rates, at, longest, &self.scale, &mut self.end) else {
-            return false;
-        };
-        // What is left to the mark is taken whole, and then it is met to the last bit.
-        let reached = if h == mark - t { mark } else { t + h };
-        if reached == t {
-            return false;
-        }
         self.stepper.work(&mut self.rates, at, h, &mut self.course.work);
-        self.stepper.accept(&mut self.rates, reached, &self.end);
-        let mut is_filled = self.extremes.pass(&mut self.rates, &mut self.stepper, at, h, &self.end);
+        self.extremes.take(&self.rates, &self.stepper, at, h);
+        self.extremes.advance(reached);
         while self.next_sample < self.request.times.len() && self.request.times[self.next_sample] <= reached {
-            if !is_filled {
-                self.stepper.fill(&mut self.rates, (t, &self.state), h, &self.end);
-                is_filled = true;
-            }
-            let share = ((self.request.times[self.next_sample] - t) / h).clamp(0.0, 1.0);
+            let time = self.request.times[self.next_sample];
             for i in 0..self.sample.len() {
-                self.sample[i] = self.stepper.component(share, &self.state, i);
+                let inside = || self.stepper.component(((time - t) / h).clamp(0.0, 1.0), &self.state, i);
+                self.sample[i] = if time == reached { self.end[i] } else { inside() };
             }
             self.write_sample();
         }
@@ -244,6 +233,31 @@ impl<'a, S: Stepper> Follower<'a, S> {
         self.course.time = reached;
         self.course.steps += 1;
         true
+    }
+
+    /// Length and end of a step that keeps the accuracy at its end and on the way there, read or not, so that reading changes
+    /// nothing; `None` if none does.
+    fn find_step(&mut self, mark: f64) -> Option<(f64, f64)> {
+        let at = (self.course.time, &self.state);
+        let t = at.0;
+        let longest = (mark - t).min(REACH / self.rates.turning(&self.state).max(f64::MIN_POSITIVE));
+        // Forty reductions by a tenth to nine tenths reach any length that still changes t.
+        for _ in 0..40 {
+            let h = self.stepper.step(&mut self.rates, at, longest, &self.scale, &mut self.end)?;
+            // What is left to the mark is taken whole, and then it is met to the last bit.
+            let reached = if h == mark - t { mark } else { t + h };
+            if reached == t {
+                return None;
+            }
+            self.stepper.accept(&mut self.rates, reached, &self.end);
+            self.extremes.look(&self.rates);
+            let error = self.stepper.fill(&mut self.rates, at, h, &self.scale, &self.end);
+            if error <= 1.0 {
+                return Some((h, reached));
+            }
+            self.stepper.shorten(h, error);
+        }
+        None
     }
 
     /// Writes what the sample's state says into the next column.

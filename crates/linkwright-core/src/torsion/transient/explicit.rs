@@ -7,6 +7,9 @@ use crate::rk::{Stages, WEIGHTS, next_factor};
 /// Phase of the fastest undamped swing up to which its amplitude does not grow in a step.
 pub const STABLE_PHASE: f64 = 5.9;
 
+/// Error between the ends of a step, over what it may be, below which it does not limit the next: that may be twice as long.
+pub const SAYS_NOTHING: f64 = 1.0 / 512.0;
+
 /// Explicit steps with their stages.
 #[derive(Clone, Debug)]
 pub struct Explicit {
@@ -77,9 +80,29 @@ impl Stepper for Explicit {
         self.end_powers.copy_from_slice(&rates.powers);
     }
 
-    fn fill(&mut self, rates: &mut Rates<'_>, at: (f64, &Vec<f64>), h: f64, end: &[f64]) {
+    fn fill(
+        &mut self,
+        rates: &mut Rates<'_>,
+        at: (f64, &Vec<f64>),
+        h: f64,
+        scale: &Scale,
+        end: &[f64],
+    ) -> f64 {
+        let system = rates.system;
         let mut f = |t: f64, y: &Vec<f64>, to: &mut Vec<f64>| rates.derivative(t, y, to);
         self.stages.fill(&mut f, at, h, end);
+        let error =
+            self.stages.error_between(&mut f, at, h, &|y, error| scale.worst(system, error, [y, end]));
+        // A step cut short says nothing about the next.
+        if error > SAYS_NOTHING {
+            self.h = self.h.min(h * next_factor(error));
+        }
+        error
+    }
+
+    fn shorten(&mut self, h: f64, error: f64) {
+        self.h = h * next_factor(error).min(0.9);
+        self.rejected += 1;
     }
 
     fn component(&self, share: f64, state: &[f64], i: usize) -> f64 {

@@ -30,55 +30,45 @@ impl Extremes {
 
     /// Takes values and rates at the instant last evaluated, where a stretch of time begins.
     pub fn begin(&mut self, rates: &Rates<'_>, t: f64) {
-        self.observe(rates, t);
-        std::mem::swap(&mut self.before, &mut self.now);
+        self.look(rates);
+        self.advance(t);
     }
 
-    /// Takes those at the end of a step, and what lies inside it; whether the step's polynomial had to be made.
-    pub fn pass(
-        &mut self,
-        rates: &mut Rates<'_>,
-        stepper: &mut impl Stepper,
-        at: (f64, &Vec<f64>),
-        h: f64,
-        end: &[f64],
-    ) -> bool {
-        self.observe(rates, at.0 + h);
-        let mut is_filled = false;
-        for row in 0..self.rows.len() {
-            for turn in turns(self.before[row], self.now[row], h) {
-                if !self.could_exceed(row, turn) {
-                    continue;
-                }
-                if !is_filled {
-                    stepper.fill(rates, at, h, end);
-                    is_filled = true;
-                }
-                let value = |share: f64| value_at(rates, stepper, at.1, row, share);
-                let (share, value) = refined(value, turn.share);
-                note(&mut self.rows[row], value, at.0 + share * h);
-            }
-        }
-        std::mem::swap(&mut self.before, &mut self.now);
-        is_filled
-    }
-
-    fn observe(&mut self, rates: &Rates<'_>, t: f64) {
+    /// Looks at values and rates at the instant last evaluated, the end of a step.
+    pub fn look(&mut self, rates: &Rates<'_>) {
         let system = rates.system;
         let links = system.links.iter().map(|link| rates.link_torque(link));
         let speeds = rates.omega.iter().copied().zip(rates.acceleration.iter().copied());
-        for ((now, row), found) in self.now.iter_mut().zip(&mut self.rows).zip(links.chain(speeds)) {
-            *now = found;
-            note(row, found.0, t);
+        self.now.iter_mut().zip(links.chain(speeds)).for_each(|(now, found)| *now = found);
+    }
+
+    /// Takes what lies inside a step from an instant, by the polynomial that was made of it.
+    pub fn take(&mut self, rates: &Rates<'_>, stepper: &impl Stepper, (t, state): (f64, &Vec<f64>), h: f64) {
+        for row in 0..self.rows.len() {
+            for turn in self.inside(row, h).collect::<Vec<_>>() {
+                let value = |share: f64| value_at(rates, stepper, state, row, share);
+                let (share, value) = refined(value, turn.share);
+                note(&mut self.rows[row], value, t + share * h);
+            }
         }
     }
 
-    /// Whether a turn of the cubic may be a new extreme.
-    fn could_exceed(&self, row: usize, turn: Turn) -> bool {
-        let [most, _, least, _] = self.rows[row];
-        let ends = 0.5 * (self.before[row].0 + self.now[row].0);
-        let bold = turn.value + DOUBT * (turn.value - ends);
-        bold > most || bold < least
+    /// Takes the end of the step, and lets it be the start of the next.
+    pub fn advance(&mut self, t: f64) {
+        for (row, now) in self.rows.iter_mut().zip(&self.now) {
+            note(row, now.0, t);
+        }
+        std::mem::swap(&mut self.before, &mut self.now);
+    }
+
+    /// Turns of the cubic over a step that may be new extremes.
+    fn inside(&self, row: usize, h: f64) -> impl Iterator<Item = Turn> {
+        let (before, now, [most, _, least, _]) = (self.before[row], self.now[row], self.rows[row]);
+        let (most, least, ends) = (most.max(now.0), least.min(now.0), 0.5 * (before.0 + now.0));
+        turns(before, now, h).filter(move |turn| {
+            let bold = turn.value + DOUBT * (turn.value - ends);
+            bold > most || bold < least
+        })
     }
 }
 

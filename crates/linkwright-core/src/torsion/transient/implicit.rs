@@ -13,7 +13,7 @@
 //! Source: Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8, and their program RADAU5, whose
 //! transformation, error estimate and choice of steps these are.
 
-use super::explicit::fitting;
+use super::explicit::{SAYS_NOTHING, fitting};
 use super::matrix::{Complex, Factored};
 use super::rates::Rates;
 use super::stepper::{Scale, Stepper};
@@ -51,6 +51,11 @@ const POLYNOMIAL: [[f64; 3]; 3] = [
     [13.0 / 3.0 - 7.0 * ROOT / 3.0, -23.0 / 3.0 + 22.0 * ROOT / 3.0, 10.0 / 3.0 - 5.0 * ROOT],
     [1.0 / 3.0, -8.0 / 3.0, 10.0 / 3.0],
 ];
+
+/// Largest error of the polynomial through the stages over the estimate of the step's error. Both have the leading term of
+/// p′ − f = K (x − c₁)(x − c₂)(x − 1): its integral over the step is largest at c₁ with 0.0068 K h, and the estimate is h/γ
+/// times its value at the start, 0.1 K h/3.64.
+const POLYNOMIAL_ERROR: f64 = 0.25;
 
 /// Newton's corrections of a step; RADAU5 allows seven.
 const CORRECTIONS: usize = 7;
@@ -343,7 +348,29 @@ impl Stepper for Implicit {
         rates.derivative(t_end, end, &mut self.end);
     }
 
-    fn fill(&mut self, _: &mut Rates<'_>, _: (f64, &Vec<f64>), _: f64, _: &[f64]) {}
+    fn fill(
+        &mut self,
+        rates: &mut Rates<'_>,
+        (_, state): (f64, &Vec<f64>),
+        h: f64,
+        scale: &Scale,
+        end: &[f64],
+    ) -> f64 {
+        // The first sides still hold the estimate.
+        let worst = POLYNOMIAL_ERROR * scale.worst(rates.system, &self.sides[0], [state, end]);
+        if worst > SAYS_NOTHING {
+            self.h = self.h.min(h * shortened(worst));
+        }
+        worst
+    }
+
+    fn shorten(&mut self, h: f64, error: f64) {
+        self.h = h * shortened(error).min(0.9);
+        // The polynomial of a step that was not taken does not go on.
+        self.last = None;
+        self.before = None;
+        self.rejected += 1;
+    }
 
     fn component(&self, share: f64, state: &[f64], i: usize) -> f64 {
         let [a, b, c] = &self.polynomial;
@@ -365,6 +392,11 @@ impl Stepper for Implicit {
     fn rejected(&self) -> usize {
         self.rejected
     }
+}
+
+/// Factor for a step whose polynomial had an error, which falls with h⁴.
+fn shortened(error: f64) -> f64 {
+    if error.is_nan() { 0.2 } else { (0.9 * error.powf(-0.25)).clamp(0.2, 8.0) }
 }
 
 fn sum(to: &mut [f64], a: &[f64], b: &[f64]) {
@@ -438,7 +470,7 @@ mod tests {
             rates.enter(0.0);
             let mut state = rates.state(&[0.0, 1.0], &[0.0; 2]);
             let mut end = state.clone();
-            let (h, scale) = (1.0 / f64::from(steps), Scale::new(1e-3, &rates, omega));
+            let (h, scale) = (1.0 / f64::from(steps), Scale::new([1e-3; 2], &rates, omega));
             let mut stepper = Implicit::new(&rates);
             stepper.begin(&mut rates, 0.0, &state, h);
             for i in 0..steps {

@@ -207,12 +207,8 @@ impl<'a> Rates<'a> {
     /// Torque in a link from components of a state.
     pub fn link_torque_at(&self, link: &Link, state: impl Fn(usize) -> f64) -> f64 {
         let n = self.system.len();
-        let [a, b] = link.ends;
-        let aside = |i: usize, half: usize| {
-            if i == n || (i == 0 && self.relative) { 0.0 } else { state(i + half) }
-        };
-        let twist = link.ratio * (aside(a, 0) - aside(b, 0));
-        let rate = link.ratio * (aside(a, n) - aside(b, n));
+        let (twist, rate) =
+            (link.twist(n, self.relative, &state), link.twist(n, self.relative, |i| state(n + i)));
         link.elastic(self.system, twist).0 + link.damping * rate
     }
 
@@ -335,6 +331,13 @@ fn couple(matrix: &mut [f64], n: usize, [a, b]: [usize; 2], stiffness: f64) {
 }
 
 impl Link {
+    /// Twist at its own speed from the angles of a state of n masses; from its speeds the rate of twist.
+    pub fn twist(&self, n: usize, relative: bool, state: impl Fn(usize) -> f64) -> f64 {
+        let aside = |i: usize| if i == n || (i == 0 && relative) { 0.0 } else { state(i) };
+        let [a, b] = self.ends;
+        self.ratio * (aside(a) - aside(b))
+    }
+
     /// Elastic torque at a twist, and its slope.
     #[inline(always)]
     fn elastic(&self, system: &System, twist: f64) -> (f64, f64) {

@@ -1,9 +1,12 @@
 //! What a method of integration can do, and how exact it has to be.
 
 use super::rates::Rates;
+use super::system::System;
+use crate::rk::{over, worse};
 
-/// Steps through a motion. In order for each step: [`Stepper::step`], [`Stepper::accept`], if needed [`Stepper::fill`] and then
-/// [`Stepper::component`], [`Stepper::work`], [`Stepper::advance`].
+/// Steps through a motion. In order for each step: [`Stepper::step`], [`Stepper::accept`], [`Stepper::fill`], and then
+/// [`Stepper::component`], [`Stepper::work`], [`Stepper::advance`]. Where the polynomial errs too much, [`Stepper::shorten`],
+/// and the step is taken again.
 pub trait Stepper {
     /// Starts anew at an event, with a length to try first.
     fn begin(&mut self, rates: &mut Rates<'_>, t: f64, state: &[f64], first: f64);
@@ -21,8 +24,18 @@ pub trait Stepper {
     /// Evaluates the equations at the end of the step.
     fn accept(&mut self, rates: &mut Rates<'_>, t_end: f64, end: &[f64]);
 
-    /// Makes the polynomial between the ends of the step.
-    fn fill(&mut self, rates: &mut Rates<'_>, at: (f64, &Vec<f64>), h: f64, end: &[f64]);
+    /// Makes the polynomial between the ends of the step; its largest error over what it may be.
+    fn fill(
+        &mut self,
+        rates: &mut Rates<'_>,
+        at: (f64, &Vec<f64>),
+        h: f64,
+        scale: &Scale,
+        end: &[f64],
+    ) -> f64;
+
+    /// Gives up a step of a length whose polynomial had an error.
+    fn shorten(&mut self, h: f64, error: f64);
 
     /// One number of the state at a share 0…1 of the step.
     fn component(&self, share: f64, state: &[f64], i: usize) -> f64;
@@ -50,8 +63,10 @@ const SMALL: f64 = 0.01;
 /// How large an error of each number of the state may be.
 #[derive(Clone, Copy, Debug)]
 pub struct Scale {
-    /// Relative accuracy of a step.
+    /// Relative accuracy of a step as its method estimates it.
     pub accuracy: f64,
+    /// Relative accuracy between the ends of a step.
+    between: f64,
     n: usize,
     relative: bool,
     speed_floor: f64,
@@ -62,11 +77,12 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// For n masses whose fastest swing is about `omega`.
-    pub fn new(accuracy: f64, rates: &Rates<'_>, omega: f64) -> Self {
+    /// For masses whose fastest swing is about `omega`, with the accuracies of a step's estimate and between its ends.
+    pub fn new([accuracy, between]: [f64; 2], rates: &Rates<'_>, omega: f64) -> Self {
         let (n, relative) = (rates.system.len(), rates.is_relative());
         Scale {
             accuracy,
+            between,
             n,
             relative,
             speed_floor: TWIST_FLOOR * omega.max(SLOWEST),
@@ -79,14 +95,38 @@ impl Scale {
     /// Error that one number of the state, of a size, may have.
     #[inline(always)]
     pub fn of(&self, index: usize, size: f64) -> f64 {
+        self.accuracy * self.counted(index, size)
+    }
+
+    /// Largest error between the ends of a step over what it may be, of the numbers of the state and of the twist of each link,
+    /// which may be small beside the angles; their sizes are the larger of two states.
+    pub fn worst(&self, system: &System, error: &[f64], states: [&[f64]; 2]) -> f64 {
+        let size = |value: &dyn Fn(&[f64]) -> f64| value(states[0]).abs().max(value(states[1]).abs());
+        let numbers = error.iter().enumerate().map(|(i, &error)| {
+            let size = size(&|state| state[i]);
+            over(error, self.between * self.counted(i, size), size)
+        });
+        let links = system.links.iter().map(|link| {
+            let twist = |list: &[f64]| link.twist(self.n, self.relative, |i| list[i]);
+            let size = size(&twist);
+            let angle =
+                link.ratio * states[1][..self.n].iter().skip(1).fold(0.0, |most: f64, x| most.max(x.abs()));
+            let tolerance = self.between * size.max(SMALL * self.twist).max(TWIST_FLOOR);
+            over(twist(error), tolerance, size.max(angle))
+        });
+        numbers.chain(links).fold(0.0, worse)
+    }
+
+    /// Size to which the accuracy of one number is relative.
+    #[inline(always)]
+    fn counted(&self, index: usize, size: f64) -> f64 {
         let leads = self.relative && (index == 0 || index == self.n);
-        let size = match (leads, index < self.n) {
+        match (leads, index < self.n) {
             (true, true) => 1.0,
             (false, true) => size.max(SMALL * self.twist).max(TWIST_FLOOR),
             (true, false) => size.max(SMALL * self.speed).max(self.speed_floor),
             (false, false) => size.max(SMALL * self.aside).max(self.speed_floor),
-        };
-        self.accuracy * size
+        }
     }
 
     /// Takes note of a state that was reached.

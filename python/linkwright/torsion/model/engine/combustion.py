@@ -24,6 +24,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.units import ENERGY, TEMPERATURE, positive
 from linkwright.torsion.model.engine.closed_cycle import ClosedGas, Rule
 from linkwright.torsion.model.engine.cycle_mesh import CycleMesh, closed_edges, mesh, open_edges
@@ -121,6 +122,12 @@ class Combustion(Gas):
 
     def cycle_pressure(self, cylinder: Cylinder, speeds: Array) -> CyclePressure:
         speeds = np.asarray(speeds, dtype=float)
+        if isinstance(self.walls, WallHeat) and not (speeds > 0).all():
+            raise InputError(
+                f"speeds: found {speeds.min():g} rad/s, expected speeds above 0: at rest a cycle never ends, "
+                "and [train.engine.gas.walls] takes all heat from the gas; give a lowest speed, or walls of "
+                "a share"
+            )
         points, share = self._points(speeds)
         cycle, wanted = self.operating_points(cylinder, points)
         motored = cycle.motored()
