@@ -247,6 +247,22 @@ def test_group_keeps_all_lengths_and_its_rates_are_derivatives() -> None:
     assert rates_error(motion) < 1e-10
 
 
+@pytest.mark.parametrize("pivot", [0.2176, 0.219, 0.221])
+def test_group_closes_up_to_its_limits(pivot: float) -> None:
+    # Towards a limit, where the places change as the root of the distance from it, as anywhere else.
+    changes = {"mechanism.joints.C.y": 0.0762, "mechanism.points.B.x": pivot}
+    chain = lw.replace(lw.read(EXAMPLES / "six_bar_chains/machine.toml"), changes)
+    ends = lw.closure(chain).ranges[0]
+    # A residual that rounding may leave moves the limit itself by less than 1e-9.
+    distances = np.geomspace(1e-9, 0.3, 2000)
+    compiled = compile_machine(chain)
+    for angles in (ends[0] + distances, ends[1] - distances):
+        assert (compiled.gaps(angles) > 0).all()
+    # The whole range is looked at.
+    swing = lw.linkage(chain).element("lever")
+    assert np.isfinite([swing.low, swing.high]).all()
+
+
 def test_group_stays_on_its_branch_in_whatever_order_it_is_asked() -> None:
     linkage = lw.read(TRIAD)
     shuffled = np.random.default_rng(1).permutation(TURN)

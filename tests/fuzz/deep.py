@@ -12,6 +12,7 @@ import re
 import resource
 import sys
 import time
+import traceback
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -60,6 +61,10 @@ def worker(pipe: Connection) -> None:
             kinds.run(kind, seed)
         except PromiseError as broken:
             pipe.send((broken.what, broken.inputs))
+        # A case that fails by itself, as by an error of Linkwright that it did not expect.
+        except Exception as error:
+            what = f"the case itself failed: {type(error).__name__}: {error}"
+            pipe.send((what, {"traceback.txt": traceback.format_exc()}))
         else:
             pipe.send(None)
 
