@@ -12,6 +12,7 @@ from linkwright.files.output import write_file
 from linkwright.machine.machine import Machine
 from linkwright.machine.plain import field_names
 from linkwright.machine.schema_walk import annotation_at, mark_of
+from linkwright.public import public
 from linkwright.units import Quantity, show, to_text
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 _INLINE = ("bodies", "loads")
 
 
+@public
 def write(machine: Machine, path: str | os.PathLike[str]) -> None:
     """Write a machine to a file.
 
@@ -39,6 +41,7 @@ def write(machine: Machine, path: str | os.PathLike[str]) -> None:
     write_file(path, dumps(machine))
 
 
+@public
 def dumps(machine: Machine) -> str:
     """Write a machine as a TOML text.
 

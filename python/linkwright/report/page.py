@@ -16,6 +16,7 @@ from linkwright.analysis.study import Study
 from linkwright.files.output import write_file
 from linkwright.files.write import dumps
 from linkwright.machine import InductionMotor
+from linkwright.public import public
 from linkwright.report.assumptions import assumptions
 from linkwright.report.figures import figures
 from linkwright.report.formulas import PAPER_1, Formula, formulas
@@ -37,6 +38,7 @@ _FOLDER = Path(__file__).with_name("templates")
 _INDEX = re.compile(r"\b([^\W\d_])_(\w+(?:,\w+)?)")
 
 
+@public
 def write_report(study: Study, path: str | os.PathLike[str], *, command: str = "") -> None:
     """Write the report of a study to a file.
 

@@ -142,8 +142,8 @@ def begins(
     if not free.any():
         return K, starts
     refined = _refined(crank, rocker, K, starts, free)
-    both = (np.concatenate(pair) for pair in zip((K, starts), refined, strict=True))
-    return _positive(*both, free)
+    K, starts = (np.concatenate(pair) for pair in zip((K, starts), refined, strict=True))
+    return _positive(K, starts, free)
 
 
 def _grid(crank_start: float | None, rocker_start: float | None) -> Floats:

@@ -35,6 +35,7 @@ from linkwright.analysis.cam.checks import alike
 from linkwright.analysis.cam.follower_load import CamCourse
 from linkwright.analysis.in_range import in_range
 from linkwright.errors import FindingError
+from linkwright.public import public_type
 from linkwright.units import LENGTH, RATIO, not_negative, positive
 
 Floats = NDArray[np.float64]
@@ -103,6 +104,7 @@ def pushes(course: CamCourse, friction: float, side: Floats, moving: Floats) -> 
     return Push(side * cos - rub * sin, side * sin + rub * cos, friction, moving)
 
 
+@public_type
 @dataclass(frozen=True)
 class StemGuide:
     """A straight guide of the stem.
@@ -168,6 +170,7 @@ class StemGuide:
         return Held(push.along - loss, near, far, loss)
 
 
+@public_type
 @dataclass(frozen=True)
 class ArmPivot:
     """The pivot of an oscillating follower.

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.analysis.cam.checks import alike
 from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError
-from linkwright.public import public
+from linkwright.public import public, public_type
 from linkwright.units import (
     ANGLE,
     ANGULAR_ACCELERATION,
@@ -37,6 +37,7 @@ from linkwright.units import (
 Floats = NDArray[np.float64]
 
 
+@public_type
 @dataclass(frozen=True)
 class FollowerLoad:
     """Inertia, closing spring, damper and load of a follower, in the unit of its lift.

@@ -25,7 +25,7 @@ from linkwright.analysis.cam.checks import alike
 from linkwright.analysis.in_range import in_range
 from linkwright.analysis.result import Result
 from linkwright.errors import FindingError, InputError
-from linkwright.public import public
+from linkwright.public import public, public_type
 from linkwright.units import FORCE, LENGTH, PRESSURE, Quantity, positive
 
 Floats = NDArray[np.float64]
@@ -42,6 +42,7 @@ SHEAR_MAX = math.sqrt(_Q) * (1.0 - _Q)
 """Largest shear over the largest pressure, 0.300."""
 
 
+@public_type
 @dataclass(frozen=True, slots=True)
 class Material:
     """An elastic material.

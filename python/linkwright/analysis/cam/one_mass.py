@@ -20,9 +20,11 @@ from dataclasses import dataclass
 from linkwright.analysis.in_range import in_range
 from linkwright.errors import InputError
 from linkwright.machine.follower_train import FollowerTrain
+from linkwright.public import public_type
 from linkwright.units import FORCE, MASS, RATIO, STIFFNESS, Quantity, not_negative, positive
 
 
+@public_type
 @dataclass(frozen=True, slots=True)
 class OneMass:
     """One mass on the stiffness of the follower train.

@@ -9,9 +9,11 @@ from linkwright.analysis.in_range import in_range
 from linkwright.errors import MachineError, Problem
 from linkwright.machine.base import suggestion
 from linkwright.machine.structure import Pair
+from linkwright.public import public_type
 from linkwright.units import DAMPING, LENGTH, RATIO, TORSIONAL_DAMPING, not_negative
 
 
+@public_type
 @dataclass(frozen=True, slots=True)
 class Friction:
     """Friction of one pair.
