@@ -30,12 +30,11 @@ def test_through_a_file(tmp_path: Path) -> None:
 @given(phase=st.floats(-10, 10), ratio=st.floats(1e-3, 1e3), name=st.text(max_size=20))
 def test_every_float_survives(phase: float, ratio: float, name: str) -> None:
     changes = {"mechanism.cranks.A2.phase": phase, "drive.gearbox.ratio": ratio, "name": name}
-    try:
-        machine = replace(read(TWO_CARTS), changes)
-    except InputError as error:
-        # A name that cannot be written; a number that is none, or beyond all measure.
-        assert not name.isprintable() or not max(abs(phase), abs(ratio)) <= 1e6, str(error)
+    if not name.isprintable():
+        with pytest.raises(InputError, match=r"^name"):
+            replace(read(TWO_CARTS), changes)
         return
+    machine = replace(read(TWO_CARTS), changes)
     assert loads(dumps(machine)) == machine
 
 
