@@ -343,3 +343,22 @@ def test_screw_is_closed_as_far_as_it_goes() -> None:
     assert np.array(found.ranges[0]) / (2 * np.pi) == pytest.approx([-0.05 / 0.004, 1.15 / 0.004], rel=1e-9)
     with pytest.raises(AssemblyError, match="closes only at crank angles"):
         lw.kinematics(lift, [2 * np.pi * 300])
+
+
+def test_the_path_of_a_point_that_stands_still_but_for_rounding() -> None:
+    # The rocker runs from the joint to its pivot, where S lies: placed by the rocker, not by the frame.
+    chain = machine(
+        FOUR_BAR
+        + "[mechanism.joints]\nC = { x = 0.1, y = 0.1 }\n[mechanism.bars]\n"
+        + 'coupler = { start = "A", end = "C", length = 0.12 }\n'
+        + 'rocker = { start = "C", end = "B", length = 0.11 }\n'
+        + '[mechanism.rigid_points]\nS = { link = "rocker", along = 0.11 }\n'
+    )
+    path = lw.kinematics(chain, TURN).points["S"].position
+    assert 0 < np.ptp(path, axis=0).max() < 1e-15
+    found = lw.coupler_curve(chain, "S")
+    assert (found.length, found.straight_length, found.double_points, found.cusps) == (0.0, 0.0, (), ())
+    assert (found.x_min, found.y_min) == pytest.approx((0.16, 0.0), abs=1e-15)
+    assert np.isnan(found.curvature).all()
+    # Its neighbour moves.
+    assert lw.coupler_curve(chain, "C").length > 0.1
