@@ -48,7 +48,7 @@ from linkwright.analysis.topper.cautions import topper_cautions, topper_findings
 from linkwright.analysis.topper.topper import TopperStudy, topper
 from linkwright.analysis.transient import Transient, transient
 from linkwright.analysis.unit_cautions import unit_cautions
-from linkwright.engine import drive_inertia
+from linkwright.engine import compile_machine, drive_inertia
 from linkwright.machine import ConstantSpeedMotor, Machine
 from linkwright.public import public
 
@@ -270,7 +270,7 @@ def _driven(machine: Machine, found: Findings, accuracy: float, step: float | No
     if reduced is None:
         return Study(machine)
     # Without inertia at some angle there is no energy to stay constant.
-    limit = constant_energy_of(reduced) if has_inertia(reduced) else None
+    limit = constant_energy_of(reduced, compile_machine(machine).first()) if has_inertia(reduced) else None
     if not _has_motor(machine):
         return Study(machine, reduced, limit, warnings=cautions(machine, reduced, None))
     steady = found.of(steady_state, machine, accuracy=accuracy, n=_INTERVALS)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
-from linkwright.errors import MachineError, Problem
+from linkwright.errors import InputError, MachineError, Problem
 from linkwright.machine.base import Description, suggestion
 from linkwright.machine.machine import Machine
 from linkwright.machine.plain import field_names, keys, look
@@ -118,9 +118,8 @@ def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
     Raises
     ------
     MachineError
-        An address does not exist; the remedy names close ones. A table has no such entries.
-    InputError
-        A value is no number where a number belongs.
+        An address does not exist; the remedy names close ones. A table has no such entries, or a value is no
+        number where a number belongs.
     """
     tree: dict[str, Any] = {}
     for address, value in entries.items():
@@ -194,10 +193,13 @@ def _checked(machine: Machine, place: tuple[str, ...], value: Any) -> Any:
 
 def _numbers_of(address: str, value: Any, kind: Kind) -> Any:
     """A number of usual size, or numbers over many machines, each of which may have none."""
-    if not (isinstance(value, Number) or (isinstance(value, np.ndarray) and value.ndim == 0)):
-        return array(address, value, finite=False)
-    found = number(address, value)
-    if abs(found) > kind.most:
+    is_single = isinstance(value, Number) or (isinstance(value, np.ndarray) and value.ndim == 0)
+    try:
+        found = number(address, value) if is_single else array(address, value, finite=False)
+    except InputError:
+        expected = f"{kind.word} as a finite number in SI, or an array of numbers"
+        raise MachineError([Problem(address, shown(value), expected)]) from None
+    if is_single and abs(found) > kind.most:
         expected = f"{kind.word} of at most {kind.most:g} {kind.unit}".rstrip()
         raise MachineError([Problem(address, f"{found:g}", expected)])
     # A whole number stays one.
