@@ -26,6 +26,16 @@ def test_dynamic_factor_at_constant_energy(name: str) -> None:
     assert constant_energy_of(lw.reduction(machine, n=1440)).dynamism == pytest.approx(dense, rel=1e-6)
 
 
+@pytest.mark.parametrize(("name", "peaks"), [("roller_one_cart", 1e-2), ("topper_crank", 1e-4)])
+def test_envelopes_of_samples_err_by_what_is_told(name: str, peaks: float) -> None:
+    machine = lw.read(f"machines/{name}.toml")
+    coarse, fine = (lw.envelope(lw.forces(machine, n=n)) for n in (360, 14_400))
+    for a, b in zip(coarse, fine, strict=True):
+        assert abs(a.peak) == pytest.approx(abs(b.peak), rel=peaks)
+        assert a.rms == pytest.approx(b.rms, rel=2e-4)
+        assert a.mean == pytest.approx(b.mean, abs=1e-5 * b.rms)
+
+
 def test_peak_of_a_run_up() -> None:
     run = lw.run_up(lw.read("machines/roller_two_carts.toml"))
     speeds = run.motion.at(np.linspace(0.0, run.time, 300_001))[1]

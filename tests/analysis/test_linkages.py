@@ -10,7 +10,7 @@ import pytest
 import linkwright as lw
 from linkwright.analysis.closure import require_one_turn
 from linkwright.engine import compile_machine
-from linkwright.errors import AssemblyError
+from linkwright.errors import AssemblyError, InputError
 from linkwright.files import loads
 
 HEAD = 'format = 1\nname = "linkage"\n'
@@ -362,3 +362,12 @@ def test_the_path_of_a_point_that_stands_still_but_for_rounding() -> None:
     assert np.isnan(found.curvature).all()
     # Its neighbour moves.
     assert lw.coupler_curve(chain, "C").length > 0.1
+
+
+def test_circuits_name_the_change_point_that_ties_them() -> None:
+    kite = machine(
+        "[mechanism.points]\nB = { x = 0.3 }\n[mechanism.cranks]\nA = { radius = 0.1 }\n[mechanism.rockers]\n"
+        + 'R = { crank = "A", pivot = "B", coupler = 0.3, rocker = 0.1 }\n'
+    )
+    with pytest.raises(InputError, match=r"a change point of R at 0°, 180°.*change a length"):
+        lw.circuits(kite)
