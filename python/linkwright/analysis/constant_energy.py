@@ -96,7 +96,8 @@ def _exactly(compiled: Compiled) -> float:
 
     def acceleration(phi: Floats) -> Floats:
         J, J_d1 = compiled.reductions(phi)[:2]
-        return (J_d1 / J**2)[None]
+        found: Floats = (J_d1 / J**2)[None]
+        return found
 
     turn = turn_curve(acceleration, np.unique(compiled.kinks()), "angular acceleration at constant energy")
     return max(abs(turn.extreme(sign)[0]) for sign in (1, -1))

@@ -14,7 +14,7 @@ import re
 import secrets
 import stat
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass
 from errno import EDQUOT, EFBIG, ENOSPC
 from pathlib import Path
@@ -271,10 +271,13 @@ def _remove_stale(folder: Path) -> None:
     here = _computer()
     for place in folder.glob(f"{_PART}*"):
         name = _PART_NAME.match(place.name)
-        if name is not None and name[1] == here and not _is_alive(int(name[2])):
-            # What cannot be removed hinders nobody.
-            with suppress(OSError):
-                place.unlink()
+        if name is not None and name[1] == here and not _is_alive(int(name[2])) and _is_ours(place):
+            place.unlink(missing_ok=True)
+
+
+def _is_ours(place: Path) -> bool:
+    """Whether a file is of this user: in a folder of all, such as /tmp, others' files cannot be removed."""
+    return os.name == "nt" or (place.exists() and place.lstat().st_uid == os.getuid())
 
 
 def _is_alive(process: int) -> bool:

@@ -195,11 +195,13 @@ def _numbers_of(address: str, value: Any, kind: Kind) -> Any:
     """A number of usual size, or numbers over many machines, each of which may have none."""
     is_single = isinstance(value, Number) or (isinstance(value, np.ndarray) and value.ndim == 0)
     try:
-        found = number(address, value) if is_single else array(address, value, finite=False)
+        if not is_single:
+            return array(address, value, finite=False)
+        found = number(address, value)
     except InputError:
         expected = f"{kind.word} as a finite number in SI, or an array of numbers"
         raise MachineError([Problem(address, shown(value), expected)]) from None
-    if is_single and abs(found) > kind.most:
+    if abs(found) > kind.most:
         expected = f"{kind.word} of at most {kind.most:g} {kind.unit}".rstrip()
         raise MachineError([Problem(address, f"{found:g}", expected)])
     # A whole number stays one.
