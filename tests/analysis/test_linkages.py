@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError
+from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.linkages.closure import require_one_turn
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.read import loads
@@ -247,6 +247,22 @@ def test_group_keeps_all_lengths_and_its_rates_are_derivatives() -> None:
     assert rates_error(motion) < 1e-10
 
 
+@pytest.mark.parametrize("pivot", [0.2176, 0.219, 0.221])
+def test_group_closes_up_to_its_limits(pivot: float) -> None:
+    # Towards a limit, where the places change as the root of the distance from it, as anywhere else.
+    changes = {"mechanism.joints.C.y": 0.0762, "mechanism.points.B.x": pivot}
+    chain = lw.replace(lw.read(EXAMPLES / "six_bar_chains/machine.toml"), changes)
+    ends = lw.closure(chain).ranges[0]
+    # A residual that rounding may leave moves the limit itself by less than 1e-9.
+    distances = np.geomspace(1e-9, 0.3, 2000)
+    compiled = compile_machine(chain)
+    for angles in (ends[0] + distances, ends[1] - distances):
+        assert (compiled.gaps(angles) > 0).all()
+    # The whole range is looked at.
+    swing = lw.linkage(chain).element("lever")
+    assert np.isfinite([swing.low, swing.high]).all()
+
+
 def test_group_stays_on_its_branch_in_whatever_order_it_is_asked() -> None:
     linkage = lw.read(TRIAD)
     shuffled = np.random.default_rng(1).permutation(TURN)
@@ -327,3 +343,31 @@ def test_screw_is_closed_as_far_as_it_goes() -> None:
     assert np.array(found.ranges[0]) / (2 * np.pi) == pytest.approx([-0.05 / 0.004, 1.15 / 0.004], rel=1e-9)
     with pytest.raises(AssemblyError, match="closes only at crank angles"):
         lw.kinematics(lift, [2 * np.pi * 300])
+
+
+def test_the_path_of_a_point_that_stands_still_but_for_rounding() -> None:
+    # The rocker runs from the joint to its pivot, where S lies: placed by the rocker, not by the frame.
+    chain = machine(
+        FOUR_BAR
+        + "[mechanism.joints]\nC = { x = 0.1, y = 0.1 }\n[mechanism.bars]\n"
+        + 'coupler = { start = "A", end = "C", length = 0.12 }\n'
+        + 'rocker = { start = "C", end = "B", length = 0.11 }\n'
+        + '[mechanism.rigid_points]\nS = { link = "rocker", along = 0.11 }\n'
+    )
+    path = lw.kinematics(chain, TURN).points["S"].position
+    assert 0 < np.ptp(path, axis=0).max() < 1e-15
+    found = lw.coupler_curve(chain, "S")
+    assert (found.length, found.straight_length, found.double_points, found.cusps) == (0.0, 0.0, (), ())
+    assert (found.x_min, found.y_min) == pytest.approx((0.16, 0.0), abs=1e-15)
+    assert np.isnan(found.curvature).all()
+    # Its neighbour moves.
+    assert lw.coupler_curve(chain, "C").length > 0.1
+
+
+def test_circuits_name_the_change_point_that_ties_them() -> None:
+    kite = machine(
+        "[mechanism.points]\nB = { x = 0.3 }\n[mechanism.cranks]\nA = { radius = 0.1 }\n[mechanism.rockers]\n"
+        + 'R = { crank = "A", pivot = "B", coupler = 0.3, rocker = 0.1 }\n'
+    )
+    with pytest.raises(InputError, match=r"a change point of R at 0°, 180°.*change a length"):
+        lw.circuits(kite)

@@ -62,7 +62,7 @@ ROWS: tuple[Row, ...] = (
     ("forces", "pressure_angle", (-1, 1.6), lambda x: lw.forces(CART, speed=1.0, pressure_angle=x)),
     (
         "forces",
-        "friction",
+        "radius",
         (-1,),
         lambda x: lw.forces(CART, speed=1.0, friction={pin(): lw.Friction(radius=x)}),
     ),

@@ -162,9 +162,49 @@ def test_a_killed_run_tears_no_file(tmp_path: Path, nth: int) -> None:
     found = seen(folder.path)
     assert set(found) == set("abc")
     assert set(found.values()) <= {"old", "new" * 100_000}
-    # What it left behind is no obstacle.
+    # What it left behind is no obstacle, and does not stay.
+    assert bool(leftovers(folder.path)) == (nth < 9)
     folder.write(dict.fromkeys("abc", "last"))
     assert seen(folder.path) == dict.fromkeys("abc", "last")
+    assert leftovers(folder.path) == []
+
+
+@pytest.mark.skipif(os.name == "nt", reason="asks whether a process is alive")
+def test_what_others_are_writing_is_left_alone(tmp_path: Path) -> None:
+    with trial(tmp_path / "cam.dxf") as part:
+        part.write_text("unfinished")
+        computer, process = part.name.removeprefix(".linkwright-part-").split("-")[:2]
+        assert int(process) == os.getpid()
+        # Of another computer; not of ours.
+        others = [f".linkwright-part-{int(computer, 16) ^ 1:08x}-1-0badcafe", ".linkwright-part-notes.txt"]
+        for name in others:
+            (tmp_path / name).write_text("others")
+        write_file(tmp_path / "a", "new")
+        assert part.read_text() == "unfinished"
+    assert sorted(leftovers(tmp_path)) == sorted(others)
+
+
+@pytest.mark.parametrize("nth", [1, 2, 3])
+def test_an_interrupt_while_writing_leaves_nothing_behind(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, nth: int
+) -> None:
+    sync, unlink, calls = os.fsync, Path.unlink, iter(range(1, 100))
+
+    def interrupted(file: int) -> None:
+        sync(file)
+        if next(calls) == nth:
+            raise KeyboardInterrupt
+
+    def again(path: Path, *, missing_ok: bool = False) -> None:
+        # A second one, amid the removal.
+        monkeypatch.setattr(Path, "unlink", unlink)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "fsync", interrupted)
+    monkeypatch.setattr(Path, "unlink", again)
+    with pytest.raises(KeyboardInterrupt):
+        OutputFolder(tmp_path).write(dict.fromkeys("abc", "new"))
+    assert leftovers(tmp_path) == []
 
 
 def test_a_killed_first_run_leaves_a_folder_of_ours(tmp_path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
 import pytest
@@ -34,9 +33,12 @@ def test_through_a_file(tmp_path: Path) -> None:
 @given(phase=st.floats(-10, 10), ratio=st.floats(1e-3, 1e3), name=st.text(max_size=20))
 def test_every_float_survives(phase: float, ratio: float, name: str) -> None:
     changes = {"mechanism.cranks.A2.phase": phase, "drive.gearbox.ratio": ratio, "name": name}
+    if not name.isprintable():
+        with pytest.raises(InputError, match=r"^name"):
+            replace(read(TWO_CARTS), changes)
+        return
     machine = replace(read(TWO_CARTS), changes)
-    if name.isprintable() and all(math.isfinite(each) for each in (phase, ratio)):
-        assert loads(dumps(machine)) == machine
+    assert loads(dumps(machine)) == machine
 
 
 def test_only_what_was_given_is_written() -> None:
@@ -46,7 +48,7 @@ def test_only_what_was_given_is_written() -> None:
 
 
 def test_many_machines_are_not_one_file() -> None:
-    many = replace(read(TWO_CARTS), {"mechanism.cranks.A2.phase": object()})
+    many = replace(read(TWO_CARTS), {"mechanism.cranks.A2.phase": [0.1, 0.2]})
     with pytest.raises(InputError, match=r"mechanism\.cranks\.A2\.phase"):
         dumps(many)
 

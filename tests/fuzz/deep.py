@@ -12,8 +12,9 @@ import re
 import resource
 import sys
 import time
+import traceback
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
@@ -60,6 +61,10 @@ def worker(pipe: Connection) -> None:
             kinds.run(kind, seed)
         except PromiseError as broken:
             pipe.send((broken.what, broken.inputs))
+        # A case that fails by itself, as by an error of Linkwright that it did not expect.
+        except Exception as error:
+            what = f"the case itself failed: {type(error).__name__}: {error}"
+            pipe.send((what, {"traceback.txt": traceback.format_exc()}))
         else:
             pipe.send(None)
 
@@ -96,15 +101,16 @@ class Runner:
         self.pipe.close()
 
 
-def cases(seed: int, only: str | None) -> Iterator[tuple[str, int]]:
+def cases(seed: int, only: Sequence[str]) -> Iterator[tuple[str, int]]:
     """Kinds by their weights and seeds, without end."""
-    names = [only] if only else [name for name, kind in kinds.KINDS.items() for _ in range(kind.weight)]
+    wanted = {name: kind for name, kind in kinds.KINDS.items() if not only or name in only}
+    names = [name for name, kind in wanted.items() for _ in range(kind.weight)]
     random = np.random.default_rng(seed)
     while True:
         yield names[random.integers(len(names))], int(random.integers(1 << 62))
 
 
-def run(minutes: float, jobs: int, seed: int, only: str | None, out: Path) -> Tally:
+def run(minutes: float, jobs: int, seed: int, only: Sequence[str], out: Path) -> Tally:
     """Run random cases until the time is over.
 
     Parameters
@@ -115,8 +121,8 @@ def run(minutes: float, jobs: int, seed: int, only: str | None, out: Path) -> Ta
         Processes at a time.
     seed : int
         Where the cases start; the same seed gives the same cases.
-    only : str or None
-        The one kind to run.
+    only : sequence of str
+        The kinds to run; all if empty.
     out : Path
         Folder for what breaks.
 
@@ -195,12 +201,16 @@ def main() -> None:
     parser.add_argument(
         "--start", type=int, default=int(time.time()), help="where the cases start (default: the time)"
     )
-    parser.add_argument("--kind", choices=list(kinds.KINDS), help="this kind alone")
+    parser.add_argument(
+        "--kind", choices=list(kinds.KINDS), action="append", default=[], help="this kind; may be given again"
+    )
     parser.add_argument("--seed", type=int, help="with --kind: this one case, here")
     parser.add_argument("--out", type=Path, default=Path("out/deep"), help="folder for what breaks")
     given = parser.parse_args()
     if given.seed is not None:
-        kinds.run(given.kind or parser.error("--seed goes with --kind"), given.seed)
+        if len(given.kind) != 1:
+            parser.error("--seed goes with one --kind")
+        kinds.run(given.kind[0], given.seed)
         return
     tally = run(given.minutes, given.jobs, given.start, given.kind, given.out)
     print(tally.table())

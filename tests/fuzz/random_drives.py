@@ -1,9 +1,15 @@
-"""Random machines from motor to load: cranks with sliders, rockers and levers, bodies, all kinds of loads."""
+"""Random machines from motor to load: cranks with sliders, rockers and levers, bodies, all kinds of loads.
+
+The sizes spread over decades, the way careless files do: light and heavy cranks, motors with and without
+inertia, springs from soft to nearly rigid, gearboxes that tell the directions apart. Every machine is valid;
+whether it moves is for the analysis to find.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from numpy.random import Generator
 from random_parts import log_uniform
 
@@ -13,16 +19,25 @@ Table = dict[str, Any]
 def random_drive(random: Generator) -> Table:
     """A machine that closes all round, with a motor that may or may not carry it.
 
-    Inertia, load and steepness of the motor vary over some decades each, together over twelve.
+    Inertia, load and steepness of the motor vary over some decades each, together over twelve. Of every other
+    machine the loads and the motor are of the size that its inertia, its weight or neither calls for.
     """
     mechanism, carriers, slides = _linkage(random)
+    r = mechanism["cranks"]["A"]["radius"]
+    ratio = float(random.choice([1.0, 3.0, 9.8, 40.0]))
+    size, speed = log_uniform(random, 10.0, 3000.0), log_uniform(random, 5.0, 400.0)
+    torque = log_uniform(random, 0.5, 3000.0)
+    if random.random() < 0.5:
+        speed = log_uniform(random, 1.0, 60.0) * ratio
+        size = log_uniform(random, 1.0, 1e3) * (1.0 + r * speed / ratio)
+        torque = size * r * log_uniform(random, 0.3, 30.0) / ratio
     return {
         "format": 1,
         "name": "Random machine",
-        "drive": _drive(random),
+        "drive": _drive(random, ratio, torque, speed),
         "mechanism": mechanism,
         "bodies": _bodies(random, carriers),
-        "loads": _loads(random, carriers, slides),
+        "loads": _loads(random, slides, r, size),
     }
 
 
@@ -32,21 +47,29 @@ def _linkage(random: Generator) -> tuple[Table, list[str], list[str]]:
     points: Table = {}
     parts: dict[str, Table] = {"cranks": {"A": {"radius": r, "phase": random.uniform(-3.0, 3.0)}}}
     carriers, slides = ["A"], ["A"]
+    pins = ["A"]
+    if random.random() < 0.3:
+        second = {"radius": r * random.uniform(0.5, 1.5), "phase": random.uniform(0.0, 2 * np.pi)}
+        parts["cranks"]["A2"] = second
+        pins.append("A2")
     for k in range(random.integers(1, 4)):
         kind = ("slider", "slider", "rocker", "lever")[random.integers(4)]
         if kind == "slider":
             name = f"S{k}"
-            rod = r * random.uniform(1.6, 6.0)
-            offset = float(random.choice([0.0, random.uniform(-0.5, 0.5) * r]))
-            angle = random.uniform(-3.0, 3.0)
-            slider = {"crank": "A", "rod": rod, "offset": offset, "angle": angle}
+            pin = pins[random.integers(len(pins))]
+            reach = parts["cranks"][pin]["radius"]
+            rod = reach * random.uniform(1.6, 6.0)
+            offset = float(random.choice([0.0, random.uniform(-0.5, 0.5) * reach]))
+            angle = float(random.choice([0.0, np.pi / 2, random.uniform(-3.0, 3.0)]))
+            slider = {"crank": pin, "rod": rod, "offset": offset, "angle": angle}
             parts.setdefault("sliders", {})[name] = slider
             carriers += [name, f"{name}.rod"]
             slides.append(name)
         elif kind == "rocker":
             name = f"R{k}"
             frame, coupler, rocker = _crank_rocker(random, r)
-            points[f"P{k}"] = {"x": frame, "y": 0.0}
+            way = float(random.choice([0.0, random.uniform(0.0, 2 * np.pi)]))
+            points[f"P{k}"] = {"x": frame * np.cos(way), "y": frame * np.sin(way)}
             side = str(random.choice(["left", "right"]))
             four_bar = {"crank": "A", "pivot": f"P{k}", "coupler": coupler, "rocker": rocker}
             parts.setdefault("rockers", {})[name] = {**four_bar, "assembly": side}
@@ -72,7 +95,10 @@ def _crank_rocker(random: Generator, r: float) -> tuple[float, float, float]:
 
 def _bodies(random: Generator, carriers: list[str]) -> Table:
     bodies: Table = {
-        "A": {"mass": log_uniform(random, 0.1, 100.0), "inertia": log_uniform(random, 1e-3, 30.0)}
+        "A": {
+            "mass": log_uniform(random, 0.1, 100.0),
+            "inertia": float(random.choice([0.0, log_uniform(random, 1e-3, 30.0)])),
+        }
     }
     for name in carriers[1:]:
         if random.random() < 0.6:
@@ -80,45 +106,66 @@ def _bodies(random: Generator, carriers: list[str]) -> Table:
     return bodies
 
 
-def _loads(random: Generator, carriers: list[str], slides: list[str]) -> Table:
+def _loads(random: Generator, slides: list[str], r: float, size: float) -> Table:
     """Some loads on what moves; forces are of one size, stiffness and damping of many."""
     loads: Table = {"gravity": {"kind": "gravity"}} if random.random() < 0.5 else {}
-    size = log_uniform(random, 10.0, 3000.0)
     for k in range(random.integers(0, 4)):
         on = slides[random.integers(len(slides))]
-        kind = str(random.choice(["dry", "viscous", "force", "spring", "formula"]))
-        if kind == "dry":
-            loads[f"l{k}"] = {"kind": kind, "on": on, "force": size}
-        elif kind == "viscous":
-            loads[f"l{k}"] = {"kind": kind, "on": on, "damping": size / log_uniform(random, 0.1, 10.0)}
-        elif kind == "force":
-            loads[f"l{k}"] = {"kind": kind, "on": on, "force": size, "direction": random.uniform(-3.0, 3.0)}
-        elif kind == "spring":
-            spring = {"stiffness": log_uniform(random, 1e2, 1e6), "free_length": random.uniform(0.0, 0.5)}
-            loads[f"l{k}"] = {"kind": kind, "between": [on, "O"], **spring}
-        else:
-            text = f"-{size!r}*(0.3 + sin(phi)^2)*tanh(omega)"
-            loads[f"l{k}"] = {"kind": kind, "on": "A", "torque": text}
+        loads[f"l{k}"] = _load(random, on, r, size)
     return loads
 
 
-def _drive(random: Generator) -> Table:
-    ratio = float(random.choice([1.0, 3.0, 9.8, 40.0]))
-    torque, speed = log_uniform(random, 0.5, 3000.0), log_uniform(random, 5.0, 400.0)
-    motor: Table = {"kind": "dc", "speed_no_load": speed, "torque_stall": torque}
-    if random.random() < 0.6:
-        slip = log_uniform(random, 0.005, 0.08)
-        motor = {
-            "kind": "induction",
-            "speed_synchronous": speed,
-            "speed_rated": speed * (1.0 - slip),
-            "torque_rated": torque,
-            "torque_breakdown": torque * random.uniform(1.8, 3.2),
-        }
+def _load(random: Generator, on: str, r: float, size: float) -> Table:
+    """One load on a member."""
+    kind = str(random.choice(["dry", "viscous", "force", "spring", "formula", "member formula", "fan"]))
+    if kind == "dry":
+        return {"kind": kind, "on": on, "force": size}
+    if kind == "viscous":
+        return {"kind": kind, "on": on, "damping": size / log_uniform(random, 0.1, 10.0)}
+    if kind == "force":
+        return {"kind": kind, "on": on, "force": size, "direction": random.uniform(-3.0, 3.0)}
+    if kind == "spring":
+        by_size = log_uniform(random, 0.01, 30.0) * size / r
+        stiffness = float(random.choice([by_size, log_uniform(random, 1e2, 1e6)]))
+        free = float(random.choice([r * random.uniform(0.5, 2.0), random.uniform(0.0, 0.5)]))
+        return {"kind": kind, "between": [on, "O"], "stiffness": stiffness, "free_length": free}
+    if kind == "formula":
+        return {"kind": kind, "on": "A", "torque": f"-{size!r}*(0.3 + sin(phi)^2)*tanh(omega)"}
+    if kind == "fan":
+        return {"kind": "torque_speed", "speed": [0.0, 20.0, 60.0], "torque": [0.0, 0.2 * size * r, size]}
+    constants = {"constants": {"c": 0.3 * size}}
+    if on.startswith("S"):
+        return {"kind": "formula", "on": on, "force": "-c*tanh(20*v)", **constants}
+    return {"kind": "formula", "on": on, "force": "-c*vx", "direction": 0.0, **constants}
+
+
+def _drive(random: Generator, ratio: float, torque: float, speed: float) -> Table:
+    """A motor of any kind, with or without inertia, behind a gearbox."""
+    motor = _motor(random, torque, speed)
+    inertia = log_uniform(random, 1e-4, 3.0), log_uniform(random, 1e-5, 10.0) * torque / speed
     if random.random() < 0.8:
-        motor["inertia"] = log_uniform(random, 1e-4, 3.0)
-    gearbox = {"ratio": ratio, "efficiency": float(random.choice([1.0, 0.9, 0.7]))}
+        motor["inertia"] = inertia[random.integers(2)]
+    gearbox: Table = {"ratio": ratio, "efficiency": float(random.choice([1.0, 0.9, 0.7]))}
+    if random.random() < 0.3:
+        gearbox["reverse"] = ("same", 1.2)[random.integers(2)]
     drive: Table = {"motor": motor, "gearbox": gearbox}
     if random.random() < 0.3:
         drive["flywheel"] = {"inertia": log_uniform(random, 0.01, 300.0)}
     return drive
+
+
+def _motor(random: Generator, torque: float, speed: float) -> Table:
+    kind = str(random.choice(["dc", "induction", "induction", "started", "table"]))
+    if kind == "dc":
+        return {"kind": "dc", "speed_no_load": speed, "torque_stall": torque}
+    if kind == "table":
+        speeds, torques = [0.0, 0.4 * speed, 0.8 * speed, 1.2 * speed], [0.8, 1.0, 0.4, -0.8]
+        return {"kind": "table", "speed": speeds, "torque": [torque * share for share in torques]}
+    motor: Table = {
+        "kind": "induction",
+        "speed_synchronous": speed,
+        "speed_rated": speed * (1.0 - log_uniform(random, 0.005, 0.08)),
+        "torque_rated": torque,
+        "torque_breakdown": torque * random.uniform(1.8, 3.5),
+    }
+    return motor | ({"torque_start": torque * random.uniform(1.2, 1.7)} if kind == "started" else {})

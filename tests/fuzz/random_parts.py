@@ -14,6 +14,7 @@ from scipy.linalg import eigh
 
 import linkwright as lw
 from linkwright.kernel.errors import FindingError, LinkwrightError
+from linkwright.kernel.units import LENGTH
 from linkwright.torsion.response.excited import excited
 from linkwright.torsion.response.forced import ForcedVibration, responded
 
@@ -193,12 +194,23 @@ def random_topper(random: Generator) -> dict[str, Any]:
     return {"format": 1, "name": "topper", "topper": topper}
 
 
+# No edge is longer [m]; what hardly advances may need more.
+EDGE_MAX = 0.99 * LENGTH.most
+
+
 def topper(random: Generator) -> None:
     """An edge of the exact length cuts every head whole, and a shorter one does not."""
     description = random_topper(random)
     inputs = {"topper": repr(description["topper"])}
     with suppress(FindingError), watched(inputs):
-        length = lw.topper(lw.Machine.model_validate(description)).length_exact
+        whole = lw.topper(lw.Machine.model_validate(description))
+        length = whole.length_exact
+        if not np.isfinite(length):
+            if not whole.obstacle:
+                raise PromiseError(f"an exact length of {length} m, and no word why", inputs)
+            return
+        if length > EDGE_MAX:
+            return
         for factor in (1.0 + 1e-6, 0.98):
             given = {**description, "topper": {**description["topper"], "edge_length": factor * length}}
             found = lw.topper(lw.Machine.model_validate(given))

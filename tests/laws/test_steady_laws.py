@@ -1,4 +1,7 @@
-"""Laws of steady motion on hard machines, on random machines, in batches, and against SciPy."""
+"""Laws of steady motion on hard machines, on random machines, and in batches.
+
+`drive` in `tests/fuzz/drive_laws.py` integrates the motion of such machines by SciPy, too.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from random_machines import random_machine
-from scipy.integrate import solve_ivp
+from random_drives import random_drive
 from scipy.optimize import brentq
 from steady_laws import violations
 
@@ -40,6 +42,10 @@ def test_hard_machines(path: Path) -> None:
     _agree(steady, finer, max(1e-8, 3 * steady.accuracy))
 
 
+def random_machine(seed: int) -> Machine:
+    return Machine.model_validate(random_drive(np.random.default_rng(seed)))
+
+
 def _agree(a: SteadyState, b: SteadyState, accuracy: float) -> None:
     """All measures and curves of two solutions."""
     peak = max(abs(b.acceleration_min), abs(b.acceleration_max), 1e-4 * b.speed_max**2)
@@ -68,37 +74,6 @@ def test_laws_hold_on_random_machines() -> None:
         assert 0 <= steady.multiplier < 1, seed
         runs += 1
     assert runs > 90
-
-
-@pytest.mark.parametrize("seed", range(200, 215))
-def test_scipy_agrees(seed: int) -> None:
-    """Radau of SciPy from kink to kink gives the same curve and comes back to the start."""
-    machine = random_machine(seed)
-    try:
-        steady = steady_state(machine)
-    except FindingError:
-        pytest.skip("does not run")
-    compiled = compile_machine(machine)
-
-    def acceleration(phi: float, u: Floats) -> list[float]:
-        omega = np.sqrt(2 * np.maximum(u, 1e-12))
-        J, J_d1, load, dry, viscous = compiled.reductions(np.array([phi]))[:, 0]
-        net = compiled.motor_torques(omega)[1][0] - load - dry - viscous * omega[0]
-        net -= float(compiled.speed_load(omega)[0])
-        if compiled.has_laws:
-            net -= compiled.law_torques(phi, omega)[0, 0]
-        return [(net - J_d1 * u[0]) / J]
-
-    u, speeds = np.array([0.5 * steady.speed[0] ** 2]), []
-    for low, high in pairwise(np.unique(compiled.kinks())):
-        inside = (steady.crank_angle >= low) & (steady.crank_angle < high)
-        at = np.append(steady.crank_angle[inside], high)
-        path = solve_ivp(acceleration, (low, high), u, "Radau", at, rtol=1e-9, atol=1e-12 * float(u[0]))
-        speeds.append(np.sqrt(2 * path.y[0, :-1]))
-        u = path.y[:, -1]
-    # 1e-9 a step over some hundred steps, and dense output of order 3.
-    assert np.concatenate(speeds) == pytest.approx(steady.speed[:-1], rel=3e-6)
-    assert np.sqrt(2 * u[0]) == pytest.approx(steady.speed[0], rel=1e-6)
 
 
 def _slider_crank(**motor: object) -> Machine:

@@ -10,6 +10,7 @@ import pickle
 import warnings
 from collections.abc import Callable, Iterator
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,9 @@ from numpy.exceptions import ComplexWarning
 
 import linkwright as lw
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.kernel.errors import LinkwrightError
+from linkwright.kernel.errors import InputError, LinkwrightError, MachineError
 from linkwright.kernel.public.arguments import checks_of
+from linkwright.machine.write import dumps as lw_dumps
 from linkwright.topping.verdict import PAPER
 
 TURN = np.linspace(0.0, 6.0, 7)
@@ -49,7 +51,17 @@ def _calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
     rise = _law()
     lift = tuple(rise.at(TURN, k) for k in range(3))
     calls: dict[str, dict[str, Any]] = {
+        "Friction": {"coefficient": 0.1, "radius": 0.01, "viscous": 0.0, "length": 0.0},
+        "OneMass": {"mass": 1.0, "stiffness": 100.0, "damping_ratio": 0.05, "preload": 0.0},
+        "FollowerLoad": {"mass": 1.0, "spring_rate": 1e4, "preload": 100.0, "damping": 0.0, "load": TURN},
+        "StemGuide": {"length": 0.1, "overhang": 0.05, "coefficient": 0.1, "diameter": 0.01},
+        "ArmPivot": {"arm": 0.1, "coefficient": 0.1, "radius": 0.01},
+        "Material": {"modulus": 206e9, "poisson": 0.3},
         "addresses": {"machine": cart},
+        "get": {"machine": cart, "address": "drive"},
+        "replace": {"machine": cart, "entries": {"bodies.cart1.mass": 500.0}},
+        "read": {"path": "machines/topper.toml", "overrides": (), "allow_outside": False},
+        "loads": {"text": "format = 1", "overrides": (), "path": "", "allow_outside": False},
         "kinematics": {"machine": cart, "angles": TURN, "third": False},
         "motions": {"machine": cart, "angles": TURN, "slides": ["cart1"], "out": None},
         "coupler_curve": {"machine": cart, "point": "A1", "straight": 0.001},
@@ -238,9 +250,47 @@ def _open_parts(value: Any, place: str) -> Iterator[str]:
             yield from _open_parts(getattr(value, field.name), f"{place}.{field.name}")
 
 
+# Parts of a machine, and what a number or a table in its place must do.
+PLACES = ("mechanism.cranks.A1", "mechanism.cranks.A1.radius", "bodies", "drive.motor.kind", "loads", "name")
+
+
+@pytest.mark.parametrize("address", PLACES)
+def test_whatever_is_put_into_a_machine_is_refused_by_its_address_or_can_be_used(address: str) -> None:
+    for word, value in WRONG.items():
+        try:
+            changed = lw.replace(_machine("roller_one_cart"), {address: value})
+            lw.steady_state(changed, n=8)
+        except LinkwrightError:
+            continue
+        except Exception as error:
+            raise AssertionError(f"{address} = {word}: {type(error).__name__}: {error}") from error
+
+
+def test_a_table_that_is_put_into_a_machine_is_checked() -> None:
+    cart = _machine("roller_one_cart")
+    given = {"radius": 0.31, "phase": 0.1}
+    assert lw.get(lw.replace(cart, {"mechanism.cranks.A1": given}), "mechanism.cranks.A1.radius") == 0.31
+    for wrong, key in (({"radius": "x"}, "radius"), ({"radius": 1.0, "foo": 2}, "foo")):
+        with pytest.raises(MachineError, match=rf"^mechanism\.cranks\.A1\.{key}\n"):
+            lw.replace(cart, {"mechanism.cranks.A1": wrong})
+
+
+@pytest.mark.parametrize("value", [None, 1j, [[1.0], [1.0, 2.0]], np.nan, b"abc", {"a": 1}])
+def test_what_is_written_and_where_is_named(value: Any, tmp_path: Path) -> None:
+    cart = _machine("roller_one_cart")
+    for function, right in ((lw.write, cart), (lw.write_report, lw.study(cart))):
+        name = next(iter(inspect.signature(function).parameters))
+        with pytest.raises(InputError, match=rf"^{name}: found "):
+            function(value, tmp_path / "file")
+        with pytest.raises(InputError, match=r"^path: found "):
+            function(right, value)
+
+
 @pytest.mark.parametrize("name", sorted(_calls()))
 def test_results_stay_as_they_are_and_can_be_pickled(name: str) -> None:
     function, call = _calls()[name]
+    if name == "loads":
+        call = {**call, "text": lw_dumps(_machine("roller_one_cart"))}
     result = function(**call)
     assert type(pickle.loads(pickle.dumps(result))) is type(result)
     copy.deepcopy(result)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import End, Transient, transient
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError
+from linkwright.kernel.numerics.roots import minima
 from linkwright.kernel.public import public
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
@@ -209,9 +210,7 @@ def _settled(motion: Transient, steady: SteadyState, band: float) -> tuple[float
         angle, speed = motion.at(time)
         return np.abs(speed - _steady_speed(steady, angle)) - limit
 
-    # Eight looks a step of the solver, which itself takes some twenty a turn.
-    even = [np.linspace(a, b, 8, endpoint=False) for a, b in _spans(motion.time)]
-    looks = np.concatenate([*even, motion.time[-1:]])
+    looks = _looks(motion)
     outside = np.flatnonzero(excess(looks) > 0)
     if not len(outside):
         return 0.0, 0.0
@@ -227,8 +226,21 @@ def _settled(motion: Transient, steady: SteadyState, band: float) -> tuple[float
 
 
 def _peak(motion: Transient, until: float) -> float:
-    """Greatest speed up to a time, from five hundred looks."""
-    return float(motion.at(np.linspace(0.0, until, 501))[1].max())
+    """Greatest speed up to a time: that of the motion between the solver's steps, to rounding."""
+    looks = _looks(motion, until)
+    speed = motion.at(looks)[1]
+    inner = np.flatnonzero((speed[1:-1] >= speed[:-2]) & (speed[1:-1] >= speed[2:])) + 1
+    peak = float(speed.max())
+    if len(inner):
+        _, least = minima(lambda time: -motion.at(time)[1], looks[inner - 1], looks[inner + 1])
+        peak = max(peak, float(-least.min()))
+    return peak
+
+
+def _looks(motion: Transient, until: float = np.inf) -> Floats:
+    """Eight looks a step of the solver, which itself takes some twenty a turn, up to a time."""
+    every = np.unique(np.concatenate([np.linspace(a, b, 9) for a, b in _spans(motion.time)]))
+    return np.append(every[every < until], min(until, float(every[-1])))
 
 
 def _spans(time: Floats) -> list[tuple[float, float]]:

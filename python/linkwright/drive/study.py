@@ -25,6 +25,7 @@ from linkwright.drive.step_method import StepMotion, step_method
 from linkwright.drive.transient import Transient, transient
 from linkwright.kernel.findings import Findings
 from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
 
 # Intervals of the turn for all curves, a quarter of a degree: what the constant-energy limit and the run-up
 # ask of the curves that they are given.
@@ -79,7 +80,7 @@ def drive_study(machine: Machine, found: Findings, accuracy: float, step: float 
     if reduced is None:
         return DriveStudy(machine)
     # Without inertia at some angle there is no energy to stay constant.
-    limit = constant_energy_of(reduced) if has_inertia(reduced) else None
+    limit = constant_energy_of(reduced, compile_machine(machine).first()) if has_inertia(reduced) else None
     if not has_motor(machine):
         return DriveStudy(machine, reduced, limit, warnings=cautions(machine, reduced, None))
     steady = found.of(steady_state, machine, accuracy=accuracy, n=INTERVALS)

@@ -60,6 +60,13 @@ def envelope(result: Forces) -> list[Extent]:
     list of Extent
         Driving torque, force and moment on the frame, each crank's torque where there are several, then the
         pairs. Angles that a finding names are left out.
+
+    Notes
+    -----
+    All are those of the angles of the result. With the 360 intervals that `forces` has unless it is told
+    otherwise, peaks are within 1 % of those of 14 400 on the machines that are shipped, where dry friction
+    jumps beside a peak; within 0.01 % where nothing jumps. Root mean squares are within 0.02 %, means within
+    1e-5 of these.
     """
     return [_extent(result, *each) for each in _quantities(result)]
 

@@ -7,11 +7,13 @@ from dataclasses import dataclass
 
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineError, Problem
+from linkwright.kernel.public import public_type
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import DAMPING, LENGTH, RATIO, TORSIONAL_DAMPING, not_negative
 from linkwright.linkages.model.structure import Pair
 
 
+@public_type
 @dataclass(frozen=True, slots=True)
 class Friction:
     """Friction of one pair.

@@ -112,8 +112,9 @@ def _slots(compiled: Compiled, machine: Machine) -> dict[str, int]:
     """
     if _TIED.intersection(row[0] for row in compiled.rows):
         raise InputError(
-            f"{machine.name}: circuits are found for linkages of cranks and dyads; this one has change "
-            "points, gears on moving links or a group, which are followed in the given assembly alone"
+            f"{machine.name}: circuits are found for linkages of cranks and dyads; this one has "
+            f"{_tied(compiled)}, followed in the given assembly alone; change a length by more than 1e-8 to "
+            "leave a change point, or give another assembly and look at its closure"
         )
     slots = {each.name: each.row[_SIGNS[each.row[0]]] for each in dyads_of(compiled) if each.row[0] in _SIGNS}
     if len(slots) > _DYADS_MAX:
@@ -122,6 +123,16 @@ def _slots(compiled: Compiled, machine: Machine) -> dict[str, int]:
             f"{_DYADS_MAX}"
         )
     return slots
+
+
+def _tied(compiled: Compiled) -> str:
+    """What keeps assemblies from being exchanged, change points with their crank angles."""
+    points = [
+        f"a change point of {each.name} at {', '.join(f'{np.degrees(x):.4g}°' for x in each.change_points)}"
+        for each in dyads_of(compiled)
+        if len(each.change_points)
+    ]
+    return " and ".join(points) or "gears on moving links or a group"
 
 
 # A branch, and at each of its ends the crank angle and the dyad that limits it.

@@ -33,6 +33,9 @@ _STRAIGHT = 1e-3
 # Speed of the point, over its greatest, at which its path has a cusp: its square is known to rounding.
 _STANDS = 1e-7
 
+# Extent of a path, over the size of the machine, that is rounding.
+_ROUNDING = 1e-12
+
 # Rounds of Newton for a double point; from a degree's polygon four suffice.
 _ROUNDS = 20
 
@@ -65,7 +68,7 @@ class CouplerCurve(Result):
     x, y : ndarray
         The path [m].
     curvature : ndarray
-        Positive where it bends to the left [1/m].
+        Positive where it bends to the left; NaN where the point stands still [1/m].
     point : str
         Name of the point.
     is_closed : bool
@@ -122,7 +125,8 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
     Returns
     -------
     CouplerCurve
-        Over the period; of a mechanism with limits, over the first range in which it closes.
+        Over the period; of a mechanism with limits, over the first range in which it closes. Of a point that
+        stands still but for rounding: its place, length 0, and nothing else.
 
     Raises
     ------
@@ -142,7 +146,8 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
     if not where.moves:
         raise closure_error(where, machine)
     cycle = Cycle.of(where, turns_to_repeat(compiled) if where.turns_fully else None)
-    return _Path(compiled, compiled.points[point], cycle).result(point, straight)
+    path = _Path(compiled, compiled.points[point], cycle)
+    return path.standing(point) if path.stands() else path.result(point, straight)
 
 
 class _Path:
@@ -182,6 +187,36 @@ class _Path:
             straight_error=error,
             double_points=tuple(self._double_points()),
             cusps=tuple(self._cusps()),
+        )
+
+    def stands(self) -> bool:
+        """Whether the point moves by rounding alone: then its path is noise, full of crossings."""
+        every = [(POINT, index) for index in self.compiled.points.values()]
+        places = evaluate(self.compiled, every, self.cycle.angles[:1])
+        size = max(float(np.abs(each[:2]).max()) for each in places)
+        return bool(np.ptp(self.place, axis=0).max() <= _ROUNDING * size)
+
+    def standing(self, point: str) -> CouplerCurve:
+        """What is known of a point that stands still: where it is."""
+        (x, y), start = self.table[:2], float(self.cycle.angles[0])
+        return CouplerCurve(
+            crank_angle=self.cycle.angles,
+            x=x,
+            y=y,
+            curvature=np.full_like(x, np.nan),
+            point=point,
+            is_closed=self.cycle.repeats,
+            length=0.0,
+            x_min=float(x.min()),
+            x_max=float(x.max()),
+            y_min=float(y.min()),
+            y_max=float(y.max()),
+            straight_length=0.0,
+            straight_from=start,
+            straight_to=start,
+            straight_error=0.0,
+            double_points=(),
+            cusps=(),
         )
 
     def _length(self) -> float:

@@ -1,24 +1,32 @@
 """Addresses of entries: read, list and exchange the numbers of a machine by address.
 
-An exchange is not checked, and the new value may be an array: that is how a batch describes many machines
-at once.
+An exchanged number is not checked against the rest of the machine, and it may be an array: that is how a
+batch describes many machines at once. A table that is exchanged is checked by itself.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from numbers import Number
 from typing import Any
+
+import numpy as np
+from pydantic import TypeAdapter, ValidationError
 
 from linkwright.kernel.description.base import Description, suggestion
 from linkwright.kernel.description.plain import field_names, keys, look
-from linkwright.kernel.description.schema_walk import annotation_at, mark_of
+from linkwright.kernel.description.problems import problems
+from linkwright.kernel.description.schema_walk import annotation_at, mark_of, words_of
 from linkwright.kernel.description.text import join, split
-from linkwright.kernel.errors import MachineError, Problem
+from linkwright.kernel.errors import InputError, MachineError, Problem
+from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import array, number, shown
 from linkwright.kernel.public.immutable import held
-from linkwright.kernel.units import Kind
+from linkwright.kernel.units import COUNT, Kind, Quantity, QuantityList
 from linkwright.machine.machine import Machine
 
 
+@public
 def addresses(machine: Machine) -> dict[str, float]:
     """All numbers of a machine.
 
@@ -35,6 +43,7 @@ def addresses(machine: Machine) -> dict[str, float]:
     return {join(place): value for place, value in _numbers(machine, ()) if place != ("format",)}
 
 
+@public
 def get(machine: Machine, address: str) -> Any:
     """The entry at an address.
 
@@ -55,8 +64,13 @@ def get(machine: Machine, address: str) -> Any:
     MachineError
         There is no such entry.
     """
+    return _at(machine, known_place(machine, address))
+
+
+def _at(machine: Machine, place: tuple[str, ...]) -> Any:
+    """What stands below some keys."""
     node: Any = machine
-    for key in known_place(machine, address):
+    for key in place:
         node = look(node, key)
     return node
 
@@ -85,15 +99,16 @@ def kind(machine: Machine, address: str) -> Kind | None:
     return mark.kind if mark else None
 
 
+@public
 def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
-    """Copy of a machine with some entries exchanged, unchecked.
+    """Copy of a machine with some entries exchanged, not checked against each other.
 
     Parameters
     ----------
     machine : Machine
         The machine; it stays as it is.
     entries : Mapping
-        Address → new value in SI, a number or an array over many machines.
+        Address → new value in SI, a number or an array over many machines; or a table, as in a machine file.
 
     Returns
     -------
@@ -103,7 +118,8 @@ def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
     Raises
     ------
     MachineError
-        An address does not exist; the remedy names close ones.
+        An address does not exist; the remedy names close ones. A table has no such entries, or a value is no
+        number where a number belongs.
     """
     tree: dict[str, Any] = {}
     for address, value in entries.items():
@@ -111,7 +127,7 @@ def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
         branch = tree
         for key in place[:-1]:
             branch = branch.setdefault(key, {})
-        branch[place[-1]] = _Leaf(value)
+        branch[place[-1]] = _Leaf(_checked(machine, place, value))
     changed: Machine = _rebuilt(machine, tree)
     return changed
 
@@ -152,6 +168,44 @@ def known_place(machine: Machine, address: str) -> tuple[str, ...]:
             raise MachineError([Problem(address, "no such entry", "the address of an entry", remedy)])
         node = look(node, key)
     return place
+
+
+def _checked(machine: Machine, place: tuple[str, ...], value: Any) -> Any:
+    """A new value that has the form of what belongs there."""
+    if isinstance(value, Description):
+        return value
+    address, annotation = join(place), annotation_at(Machine, place, machine)
+    mark, old = mark_of(annotation), _at(machine, place)
+    is_number = isinstance(mark, Quantity) or (isinstance(old, Number) and not isinstance(old, bool))
+    if value is not None and is_number:
+        return _numbers_of(address, value, mark.kind if isinstance(mark, Quantity) else COUNT)
+    if isinstance(value, np.ndarray) and not isinstance(mark, QuantityList):
+        raise MachineError([Problem(address, shown(value), words_of(annotation))])
+    # What is no number is a table, a list, a word or a choice: each as in a machine file.
+    try:
+        return TypeAdapter(annotation).validate_python(value)
+    except ValidationError as error:
+        data: Any = value
+        for key in reversed(place):
+            data = {key: data}
+        raise MachineError(problems(error, Machine, data, place)) from None
+
+
+def _numbers_of(address: str, value: Any, kind: Kind) -> Any:
+    """A number of usual size, or numbers over many machines, each of which may have none."""
+    is_single = isinstance(value, Number) or (isinstance(value, np.ndarray) and value.ndim == 0)
+    try:
+        if not is_single:
+            return array(address, value, finite=False)
+        found = number(address, value)
+    except InputError:
+        expected = f"{kind.word} as a finite number in SI, or an array of numbers"
+        raise MachineError([Problem(address, shown(value), expected)]) from None
+    if abs(found) > kind.most:
+        expected = f"{kind.word} of at most {kind.most:g} {kind.unit}".rstrip()
+        raise MachineError([Problem(address, f"{found:g}", expected)])
+    # A whole number stays one.
+    return value if isinstance(value, int) else found
 
 
 class _Leaf:

@@ -19,6 +19,7 @@ from linkwright.kernel.files.lines import key_lines, line_of
 from linkwright.kernel.files.points import Column, with_points
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import DEPTH, FILE_BYTES
+from linkwright.kernel.public import public
 from linkwright.kernel.units import show
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.overrides import Override, apply, parse_all
@@ -36,6 +37,7 @@ _TWICE = re.compile("Cannot (overwrite a value|declare .* twice)|Duplicate")
 _LINE_IN_MESSAGE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 
+@public
 def read(path: str | os.PathLike[str], overrides: Overrides = (), *, allow_outside: bool = False) -> Machine:
     """Read a machine file.
 
@@ -98,6 +100,7 @@ def read_as(
     return loads_as(model, _text(Path(path)), overrides, path=str(path), allow_outside=allow_outside)
 
 
+@public
 def loads(text: str, overrides: Overrides = (), *, path: str = "", allow_outside: bool = False) -> Machine:
     """Read a machine from a TOML text.
 

@@ -11,6 +11,7 @@ from linkwright.kernel.description.plain import field_names
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.output import write_file
+from linkwright.kernel.public import public
 from linkwright.kernel.units import Quantity, show, to_text
 from linkwright.machine.machine import Machine
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 _INLINE = ("bodies", "loads")
 
 
+@public
 def write(machine: Machine, path: str | os.PathLike[str]) -> None:
     """Write a machine to a file.
 
@@ -39,6 +41,7 @@ def write(machine: Machine, path: str | os.PathLike[str]) -> None:
     write_file(path, dumps(machine))
 
 
+@public
 def dumps(machine: Machine) -> str:
     """Write a machine as a TOML text.
 

@@ -7,6 +7,8 @@
 | `expression` | Four-bar for a function y(x) |
 | `four_bar` | What the lengths say; whether positions can be reached one after another |
 | `freudenstein` | Four-bar for a function y(x) |
+| `function_fit` | The same for more points than can be met |
+| `function_refine` | The same for more points than can be met |
 | `function_generator` | Four-bar for a function y(x) |
 | `function_scale` | Four-bar for a function y(x) |
 | `line_kinds` | Linkages for straight lines from a catalogue |

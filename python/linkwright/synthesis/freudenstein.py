@@ -15,8 +15,7 @@ Source: F. Freudenstein, Approximate synthesis of four-bar linkages, Transaction
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,9 +29,6 @@ _GRID = {1: 144, 2: 24}
 
 # Steps of Levenberg–Marquardt; from a good start it takes about ten.
 _STEPS = 60
-
-# Solutions that are handed on; least squares of many points may have a long valley instead of a few minima.
-_MOST = 40
 
 # A fit whose residual is smaller than this meets its points: cos of angles to rounding.
 EXACT = 1e-11
@@ -53,12 +49,15 @@ class Fit:
         φ₀ and ψ₀ [rad].
     residual : float
         Root of the mean square of the equation's residuals [–].
+    found_by : int
+        Starts that ended there.
     """
 
     K: Floats
     crank_start: float
     rocker_start: float
     residual: float
+    found_by: int = 1
 
 
 def lengths(K: Floats, frame: float = 1.0) -> tuple[float, float, float] | None:
@@ -84,8 +83,10 @@ def lengths(K: Floats, frame: float = 1.0) -> tuple[float, float, float] | None:
     return (r, float(np.sqrt(square)), b) if square > 0 else None
 
 
-def solve(crank: Floats, rocker: Floats, crank_start: float | None, rocker_start: float | None) -> list[Fit]:
-    """All solutions that are found for pairs of angles.
+def solve(
+    crank: Floats, rocker: Floats, crank_start: float | None, rocker_start: float | None
+) -> tuple[list[Fit], int]:
+    """All solutions that are found for as many pairs of angles as there are unknowns.
 
     Parameters
     ----------
@@ -96,26 +97,31 @@ def solve(crank: Floats, rocker: Floats, crank_start: float | None, rocker_start
 
     Returns
     -------
-    list of Fit
-        One if both are given; else the distinct ones, the smallest residual first.
+    tuple
+        The distinct solutions, and how many starts there were.
     """
     free = np.array([crank_start is None, rocker_start is None])
     starts = _grid(crank_start, rocker_start)
     K = _linear(crank, rocker, starts)
     if free.any():
         K, starts = _positive(*_refined(crank, rocker, K, starts, free), free)
-    residuals = np.sqrt(np.mean(_residuals(crank, rocker, K, starts)[0] ** 2, axis=1))
-    order = np.argsort(residuals, kind="stable")
-    found: list[Fit] = []
-    for i in order:
-        if np.isfinite(residuals[i]):
-            phi, psi = (float(np.angle(np.exp(1j * start))) for start in starts[i])
-            found.append(Fit(K[i], phi, psi, float(residuals[i])))
-    return _distinct(found)
+    residuals = residual(crank, rocker, K, starts)
+    found = []
+    for i in np.flatnonzero(residuals < EXACT):
+        phi, psi = (float(np.angle(np.exp(1j * start))) for start in starts[i])
+        found.append(Fit(K[i], phi, psi, float(residuals[i])))
+    return _distinct(found), len(residuals)
 
 
-def scan(crank: Floats, rocker: Floats, crank_start: float | None, rocker_start: float | None) -> list[Fit]:
-    """Least-squares fits for start angles all over, for a choice by something else than the residual.
+def residual(crank: Floats, rocker: Floats, K: Floats, starts: Floats) -> Floats:
+    """Root of the mean square of the residuals of linkages K (m, 3) with start angles (m, 2), (m,) [–]."""
+    return np.asarray(np.sqrt(np.mean(_residuals(crank, rocker, K, starts)[0] ** 2, axis=1)))
+
+
+def begins(
+    crank: Floats, rocker: Floats, crank_start: float | None, rocker_start: float | None
+) -> tuple[Floats, Floats]:
+    """Where a search for something else than the least residual begins: all over, and at what has it.
 
     Parameters
     ----------
@@ -126,23 +132,23 @@ def scan(crank: Floats, rocker: Floats, crank_start: float | None, rocker_start:
 
     Returns
     -------
-    list of Fit
-        The smallest residual first.
+    tuple of ndarray
+        K (m, 3) by linear least squares for start angles all round, then refined from there; the start angles
+        (m, 2) [rad].
     """
-    starts = _grid(crank_start, rocker_start, {1: 720, 2: 90})
+    starts = _grid(crank_start, rocker_start)
     K = _linear(crank, rocker, starts)
-    residuals = np.sqrt(np.mean(_residuals(crank, rocker, K, starts)[0] ** 2, axis=1))
-    rows = [
-        (K[i], float(starts[i, 0]), float(starts[i, 1]), float(residuals[i])) for i in residuals.argsort()
-    ]
-    return [Fit(*row) for row in rows]
+    free = np.array([crank_start is None, rocker_start is None])
+    if not free.any():
+        return K, starts
+    refined = _refined(crank, rocker, K, starts, free)
+    K, starts = (np.concatenate(pair) for pair in zip((K, starts), refined, strict=True))
+    return _positive(K, starts, free)
 
 
-def _grid(
-    crank_start: float | None, rocker_start: float | None, per_turn: Mapping[int, int] = _GRID
-) -> Floats:
-    """Start angles to begin with, (m, 2); so many a turn, by how many are free."""
-    n = per_turn.get((crank_start is None) + (rocker_start is None), 1)
+def _grid(crank_start: float | None, rocker_start: float | None) -> Floats:
+    """Start angles to begin with, (m, 2)."""
+    n = _GRID.get((crank_start is None) + (rocker_start is None), 1)
     turn = np.linspace(-np.pi, np.pi, n, endpoint=False)
     axes = [turn if start is None else np.array([start]) for start in (crank_start, rocker_start)]
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -213,10 +219,11 @@ def _distinct(fits: list[Fit]) -> list[Fit]:
     """Solutions that differ in their start angles, or in K."""
     kept: list[Fit] = []
     for fit in fits:
-        if not any(_alike(fit, other) for other in kept):
+        same = next((k for k, other in enumerate(kept) if _alike(fit, other)), None)
+        if same is None:
             kept.append(fit)
-        if len(kept) == _MOST:
-            break
+        else:
+            kept[same] = replace(kept[same], found_by=kept[same].found_by + 1)
     return kept
 
 

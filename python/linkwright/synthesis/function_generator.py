@@ -21,7 +21,8 @@ from linkwright.kernel.public import public
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, side_of
-from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, scan, solve
+from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, solve
+from linkwright.synthesis.function_fit import nearest
 from linkwright.synthesis.function_scale import Scale
 from linkwright.synthesis.task import FunctionTask
 from linkwright.synthesis.transmission import Transmits
@@ -29,8 +30,8 @@ from linkwright.synthesis.verify import require_met
 
 Floats = NDArray[np.float64]
 
-# Usable linkages among which the one of the least error is chosen; they come in the order of their residuals.
-_ENOUGH = 40
+# Starts that end at the least error before it counts as the least there is.
+_SURE = 3
 
 SOURCE = "Synthesised by linkwright as a function generator"
 
@@ -61,6 +62,8 @@ class FunctionGenerator(Transmits):
         Least transmission angle over the range [rad].
     solutions : int
         Linkages that were found; this is the one with the least structural error.
+    starts, found_by : int
+        Starts of the search, and how many of them ended at this linkage.
     points : ndarray, shape (n,)
         Arguments of the points.
     x, wanted, generated : ndarray, shape (m,)
@@ -84,11 +87,25 @@ class FunctionGenerator(Transmits):
     angle_error_points: float
     transmission_angle_min: float
     solutions: int
+    starts: int
+    found_by: int
     x: Floats
     wanted: Floats
     generated: Floats
     points: Floats
     machine: Machine
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What to know of the search and of the linkage."""
+        is_search = self.starts > 1 and len(self.points) > 3
+        if not is_search or self.found_by >= _SURE:
+            return super().warnings
+        told = (
+            f"only {self.found_by} of {self.starts} starts ended at this linkage: there may be a better one; "
+            "give crank_start or rocker_start near the ones found to look there"
+        )
+        return (told, *super().warnings)
 
 
 @public
@@ -104,7 +121,8 @@ def function_generator(task: FunctionTask) -> FunctionGenerator:
     -------
     FunctionGenerator
         Of all linkages that meet the points and can be driven through the range, the one with the least
-        structural error.
+        structural error. More points than unknowns say where the search begins, by least squares of the
+        structural error there; then its largest value over the range is made least.
 
     Raises
     ------
@@ -119,23 +137,34 @@ def function_generator(task: FunctionTask) -> FunctionGenerator:
     853–861.
     """
     scale = Scale.of(task)
-    fits = solve(scale.crank, scale.rocker, task.crank_start, task.rocker_start)
-    if len(scale.points) == task.unknowns:
-        fits = [fit for fit in fits if fit.residual < EXACT]
+    exact = len(scale.points) == task.unknowns
+    if exact:
+        fits, n_starts = solve(scale.crank, scale.rocker, task.crank_start, task.rocker_start)
+    else:
+        fits, n_starts = nearest(task, scale)
     if not fits:
-        raise SynthesisError(
-            f"no linkage meets the {len(scale.points)} points: Freudenstein's equation has no real solution "
-            "for them; change crank_range or rocker_range, or ask for fewer points"
-        )
+        raise SynthesisError(_no_solution(task, scale, n_starts, exact=exact))
     results, reasons = _usable(task, scale, fits)
-    if not results and len(scale.points) > task.unknowns > 3:
-        # The best fits break a limit; among the others the best that keeps it.
-        others = scan(scale.crank, scale.rocker, task.crank_start, task.rocker_start)
-        results = _usable(task, scale, others)[0]
     if not results:
         raise SynthesisError(_none(fits, reasons))
     best = min(results, key=lambda each: each.angle_error_max)
-    return FunctionGenerator(**{**vars(best), "solutions": len(results)})
+    return FunctionGenerator(**{**vars(best), "solutions": len(results), "starts": n_starts})
+
+
+def _no_solution(task: FunctionTask, scale: Scale, n_starts: int, *, exact: bool) -> str:
+    """That no start led anywhere, and what to change."""
+    n = len(scale.points)
+    if exact:
+        return (
+            f"no linkage meets the {n} points: Freudenstein's equation has no real solution for them; change "
+            "crank_range or rocker_range, or ask for fewer points"
+        )
+    return (
+        f"none of {n_starts} starts ended at a linkage that keeps all limits over the range "
+        f"(length_ratio_max {task.length_ratio_max:g}, transmission angle at least "
+        f"{np.degrees(task.transmission_angle_min):.4g}°); raise length_ratio_max, lower "
+        "transmission_angle_min, change crank_range or rocker_range"
+    )
 
 
 def _usable(task: FunctionTask, scale: Scale, fits: list[Fit]) -> tuple[list[FunctionGenerator], list[str]]:
@@ -147,8 +176,6 @@ def _usable(task: FunctionTask, scale: Scale, fits: list[Fit]) -> tuple[list[Fun
             results.append(_generator(task, scale, fit))
         except SynthesisError as reason:
             reasons.append(str(reason))
-        if len(results) == _ENOUGH:
-            break
     return results, reasons
 
 
@@ -217,6 +244,8 @@ def _analysed(
         angle_error_points=float(np.abs(np.angle(np.exp(1j * at_points))).max()),
         transmission_angle_min=mu,
         solutions=1,
+        starts=1,
+        found_by=fit.found_by,
         x=scale.x,
         wanted=scale.wanted,
         generated=scale.wanted + errors * scale.per_angle,

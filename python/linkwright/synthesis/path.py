@@ -82,6 +82,8 @@ class PathGenerator(Transmits):
         Linkages computed a second, by the clock.
     seed : int
         Start of the random numbers.
+    limited_by : tuple of str
+        Keys of the task's limits at which the linkage stands; none if its error is rounding.
     crank_angles : ndarray, shape (n,)
         Crank angles of the points in the machine [rad].
     x, y : ndarray, shape (n,)
@@ -110,6 +112,7 @@ class PathGenerator(Transmits):
     evaluated: int
     rate: float
     seed: int
+    limited_by: tuple[str, ...]
     crank_angles: Floats
     x: Floats
     y: Floats
@@ -119,13 +122,16 @@ class PathGenerator(Transmits):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What to know of the search and of the linkage."""
-        if self.found_by >= _SURE:
-            return super().warnings
-        told = (
-            f"only {self.found_by} of {self.starts} starts ended at this error: there may be a better "
-            "linkage; raise population"
-        )
-        return (told, *super().warnings)
+        told = []
+        if self.found_by < _SURE:
+            told.append(
+                f"only {self.found_by} of {self.starts} starts ended at this error: there may be a better "
+                "linkage; raise population"
+            )
+        if self.limited_by:
+            keys = " and ".join(self.limited_by)
+            told.append(f"the linkage stands at its limit of {keys}: a wider one may allow a smaller error")
+        return (*told, *super().warnings)
 
 
 @public
@@ -255,6 +261,7 @@ def _result(model: PathModel, row: Linkages, effort: _Effort) -> PathGenerator:
         evaluated=effort.evaluated,
         rate=effort.rate,
         seed=task.seed,
+        limited_by=() if rms <= max(task.accuracy, _ROUNDING) * model.size else model.binding(row),
         crank_angles=angles,
         x=table[0].copy(),
         y=table[1].copy(),

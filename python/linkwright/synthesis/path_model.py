@@ -12,6 +12,7 @@ lengths are over the size of the path, its middle at zero.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +29,9 @@ _REACH = 4.0
 
 # Step of the differences by which constraints are linearised: the root of rounding.
 _STEP = 1e-8
+
+# A limit with less to spare than this holds the linkage: sizes of the path, or a share of the limit.
+_AT_LIMIT = 1e-5
 
 # A constraint counts as broken this much before it is, so that what is found keeps it in spite of rounding.
 MARGIN = 1e-9
@@ -136,22 +140,30 @@ class PathModel:
 
     def excess(self, p: Floats, is_double: Bools) -> Floats:
         """By how much each constraint is broken, negative where it is kept, (m, constraints)."""
+        return np.stack([excess for _, excess in self._limits(p, is_double)], axis=1)
+
+    def _limits(self, p: Floats, is_double: Bools) -> Iterator[tuple[str, Floats]]:
+        """Each constraint by the key of the task that sets it, with its excess, (m,)."""
         lengths, _ = shape(p[:, :3], is_double)
         s, z, t = (each[:, 0] for each in self.pose(p))
         frame = np.maximum(np.abs(s), 1e-300)
         sizes = np.column_stack([frame, frame[:, None] * lengths])
         point = z * np.conj(s) / frame
-        rows = []
         for pivot in (t, s + t):
             for value, (low, high) in zip((pivot.real, pivot.imag), self._box, strict=True):
-                rows.append(np.maximum(low - value, value - high))
-        rows += [size - self._longest for size in sizes.T[1:]]
-        rows += [np.abs(along) - self._longest for along in (point.real, point.imag)]
-        rows += [frame - self._frame_max] if np.isfinite(self._frame_max) else []
-        rows.append(np.log(sizes.max(axis=1) / sizes.min(axis=1) / self.task.length_ratio_max))
+                yield "pivots", np.maximum(low - value, value - high)
+        for length in (*sizes.T[1:], np.abs(point.real), np.abs(point.imag)):
+            yield "length_max", length - self._longest
+        if np.isfinite(self._frame_max):
+            yield "length_max", frame - self._frame_max
+        yield "length_ratio_max", np.log(sizes.max(axis=1) / sizes.min(axis=1) / self.task.length_ratio_max)
         if self.task.transmission_angle_min > 0:
-            rows.append(self.task.transmission_angle_min - worst_transmission(*sizes.T))
-        return np.stack(rows, axis=1)
+            yield "transmission_angle_min", self.task.transmission_angle_min - worst_transmission(*sizes.T)
+
+    def binding(self, row: Linkages) -> tuple[str, ...]:
+        """Keys of the limits at which a single row, which keeps all of them, stands."""
+        limits = self._limits(row.p, row.is_double)
+        return tuple(dict.fromkeys(key for key, excess in limits if excess[0] > -_AT_LIMIT))
 
     def penalties(self, p: Floats, is_double: Bools, shift: Floats) -> tuple[Floats, Floats]:
         """What is broken of constraints that are shifted, and its derivatives, (m, c) and (m, c, 9)."""

@@ -61,7 +61,7 @@ def starts(model: PathModel, count: int) -> Linkages:
     Linkages
         The starts; they may break constraints.
     """
-    shares = _sequence(count * TRIALS, 4 if model.timed is not None else 8, model.task.seed)
+    shares = sequence(count * TRIALS, 4 if model.timed is not None else 8, model.task.seed)
     number = np.arange(count * TRIALS)
     size = max(1, _TOGETHER // (TRIALS * len(model.target)))
     groups = [slice(i * TRIALS, min(i + size, count) * TRIALS) for i in range(0, count, size)]
@@ -74,7 +74,7 @@ def starts(model: PathModel, count: int) -> Linkages:
     )
 
 
-def _sequence(count: int, dimensions: int, seed: int) -> Floats:
+def sequence(count: int, dimensions: int, seed: int) -> Floats:
     """Points of the unit cube that fill it evenly, shifted at random, (count, dimensions)."""
     golden = 2.0
     # The root of x^{d+1} = x + 1; the iteration contracts by more than a half.

@@ -213,7 +213,7 @@ class PathTask(Task):
         0.0, description="Least transmission angle in the turn."
     )
     length_ratio_max: Annotated[float, positive(RATIO)] = Field(
-        10.0, description="Longest over shortest link, at most."
+        20.0, description="Longest over shortest link, at most."
     )
     length_max: PositiveLength | None = Field(
         None, description="Longest link; without it, four sizes of the path."

@@ -70,23 +70,26 @@ impl Follower<'_> {
         self.group.unknowns.iter().map(place).collect()
     }
 
-    /// One step of the grid, halved as often as the prediction asks; the places at its end, or how far it
-    /// came.
-    fn step(&mut self, from: f64, to: f64) -> Result<Places, (f64, Places)> {
-        let mut at = from;
-        let mut step = to - from;
-        let mut last: Vec<Vec2<f64>> = self.group.unknowns.iter().map(|&k| self.m.points[k].p).collect();
+    /// One step of the grid, halved as often as the prediction asks; adds every place on the way, and tells
+    /// whether it came to the end.
+    ///
+    /// Towards a limit the places change as the root of the distance from it. Parts of a step that shrink with
+    /// that distance are what the table needs there: from a straight line over a whole step Newton overshoots.
+    fn step(&mut self, to: f64, way: &mut Vec<(f64, Places)>) -> bool {
+        let mut at = way[way.len() - 1].0;
+        let mut step = to - at;
         let mut halved = 0;
-        loop {
+        while halved <= HALVINGS {
             poll();
             let guess = self.predicted(step);
             let kept = self.m.clone();
             match self.at(at + step, &guess) {
                 Some(found) if distance(&found, &guess) <= PREDICTION * self.size => {
-                    at += step;
-                    last = found;
-                    if (to - at).abs() <= 1e-12 {
-                        return Ok(last);
+                    let arrived = (to - at - step).abs() <= 1e-12;
+                    at = if arrived { to } else { at + step };
+                    way.push((at, found));
+                    if arrived {
+                        return true;
                     }
                     step = to - at;
                     halved = 0;
@@ -95,58 +98,49 @@ impl Follower<'_> {
                     self.m = kept;
                     step *= 0.5;
                     halved += 1;
-                    if halved > HALVINGS {
-                        return Err((at, last));
-                    }
                 }
             }
         }
+        false
+    }
+
+    /// Follows the group from its first place forward (+1) or back (−1): the places on the way, and the turns
+    /// after which it is back where it began.
+    fn follow(&mut self, first: (f64, Places), sign: f64) -> (Vec<(f64, Places)>, Option<u32>) {
+        let start = first.0;
+        let mut way = vec![first];
+        for k in 1..=STEPS * TURNS_MAX {
+            if !self.step(start + sign * TAU * f64::from(k) / f64::from(STEPS), &mut way) {
+                break;
+            }
+            let last = way.len() - 1;
+            if k % STEPS == 0 && distance(&way[last].1, &way[0].1) <= 1e-9 * self.size {
+                // The last place is the first again.
+                way.pop();
+                return (way, Some(k / STEPS));
+            }
+        }
+        (way, None)
     }
 }
 
-/// Follows a group from places near its first position at crank angle `phi`, forward until it repeats, and
-/// back if it does not. `None` if it does not close at the first angle.
+/// Follows one group of a mechanism from places near its first position at crank angle `phi`, forward until it
+/// repeats, and back if it does not. `None` if it does not close at the first angle.
 pub fn follow(mechanism: &Mechanism, element: usize, q: &[f64], phi: f64, near: &[f64]) -> Option<Path> {
     let Element::Group(group) = &mechanism.elements[element] else {
         return None;
     };
     let m = Motion::new(mechanism, q);
-    let guess: Vec<Vec2<f64>> = near.chunks_exact(2).map(|p| Vec2::new(p[0], p[1])).collect();
+    let guess: Places = near.chunks_exact(2).map(|p| Vec2::new(p[0], p[1])).collect();
     let size = group.length_scale(q);
     let mut follower = Follower { mechanism, element, group, q, m, size };
     let first = follower.at(phi, &guess)?;
-    let mut forward = vec![(phi, first.clone())];
-    for k in 1..=STEPS * TURNS_MAX {
-        let (from, _) = forward[forward.len() - 1];
-        let to = phi + TAU * f64::from(k) / f64::from(STEPS);
-        match follower.step(from, to) {
-            Ok(found) if k % STEPS == 0 && distance(&found, &first) <= 1e-9 * size => {
-                return Some(path(&forward, Some(k / STEPS)));
-            }
-            Ok(found) => forward.push((to, found)),
-            Err((at, found)) => {
-                if at > from {
-                    forward.push((at, found));
-                }
-                break;
-            }
-        }
+    let (forward, turns) = follower.follow((phi, first.clone()), 1.0);
+    if turns.is_some() {
+        return Some(path(&forward, turns));
     }
     let first = follower.at(phi, &first)?;
-    let mut back = vec![(phi, first)];
-    for k in 1..=STEPS * TURNS_MAX {
-        let (from, _) = back[back.len() - 1];
-        let to = phi - TAU * f64::from(k) / f64::from(STEPS);
-        match follower.step(from, to) {
-            Ok(found) => back.push((to, found)),
-            Err((at, found)) => {
-                if at < from {
-                    back.push((at, found));
-                }
-                break;
-            }
-        }
-    }
+    let (mut back, _) = follower.follow((phi, first), -1.0);
     back.reverse();
     back.pop();
     back.extend(forward);

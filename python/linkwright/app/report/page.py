@@ -17,10 +17,12 @@ from linkwright.kernel.files.output import write_file
 from linkwright.kernel.page.formulas import PAPER_1, Formula, formulas
 from linkwright.kernel.page.html import embedded, environment, picture
 from linkwright.kernel.page.quantities import number
+from linkwright.kernel.public import public
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
 
 
+@public
 def write_report(study: Study, path: str | os.PathLike[str], *, command: str = "") -> None:
     """Write the report of a study to a file.
 

@@ -34,6 +34,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.cam.dynamics.follower_load import CamCourse
 from linkwright.cam.profile.checks import alike
 from linkwright.kernel.errors import FindingError
+from linkwright.kernel.public import public_type
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import LENGTH, RATIO, not_negative, positive
 
@@ -103,6 +104,7 @@ def pushes(course: CamCourse, friction: float, side: Floats, moving: Floats) -> 
     return Push(side * cos - rub * sin, side * sin + rub * cos, friction, moving)
 
 
+@public_type
 @dataclass(frozen=True)
 class StemGuide:
     """A straight guide of the stem.
@@ -168,6 +170,7 @@ class StemGuide:
         return Held(push.along - loss, near, far, loss)
 
 
+@public_type
 @dataclass(frozen=True)
 class ArmPivot:
     """The pivot of an oscillating follower.

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.cam.profile.checks import alike
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.public import public
+from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import (
     ANGLE,
@@ -37,6 +37,7 @@ from linkwright.kernel.units import (
 Floats = NDArray[np.float64]
 
 
+@public_type
 @dataclass(frozen=True)
 class FollowerLoad:
     """Inertia, closing spring, damper and load of a follower, in the unit of its lift.

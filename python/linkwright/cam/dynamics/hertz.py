@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.cam.profile.checks import alike
 from linkwright.kernel.errors import FindingError, InputError
-from linkwright.kernel.public import public
+from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FORCE, LENGTH, PRESSURE, Quantity, positive
@@ -42,6 +42,7 @@ SHEAR_MAX = math.sqrt(_Q) * (1.0 - _Q)
 """Largest shear over the largest pressure, 0.300."""
 
 
+@public_type
 @dataclass(frozen=True, slots=True)
 class Material:
     """An elastic material.

@@ -19,10 +19,12 @@ from dataclasses import dataclass
 
 from linkwright.cam.model.follower_train import FollowerTrain
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.public import public_type
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import FORCE, MASS, RATIO, STIFFNESS, Quantity, not_negative, positive
 
 
+@public_type
 @dataclass(frozen=True, slots=True)
 class OneMass:
     """One mass on the stiffness of the follower train.

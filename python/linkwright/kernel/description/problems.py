@@ -16,7 +16,9 @@ from linkwright.kernel.errors import Problem
 from linkwright.kernel.units import show
 
 
-def problems(error: ValidationError, model: type[BaseModel], data: object) -> list[Problem]:
+def problems(
+    error: ValidationError, model: type[BaseModel], data: object, at: tuple[str, ...] = ()
+) -> list[Problem]:
     """All problems that an error holds.
 
     Parameters
@@ -27,14 +29,18 @@ def problems(error: ValidationError, model: type[BaseModel], data: object) -> li
         The model that was to be made.
     data : object
         What it was to be made of.
+    at : tuple of str
+        Keys down to the part of it that was checked, if that was not the whole.
 
     Returns
     -------
     list of Problem
         Without file and line, each once.
     """
-    found = (_problem(each, model, data) for each in error.errors(include_url=False))
-    return list(dict.fromkeys(found))
+    details = error.errors(include_url=False)
+    for each in details:
+        each["loc"] = (*at, *each["loc"])
+    return list(dict.fromkeys(_problem(each, model, data) for each in details))
 
 
 def _problem(error: ErrorDetails, model: type[BaseModel], data: object) -> Problem:

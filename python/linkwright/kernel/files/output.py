@@ -9,6 +9,8 @@ leads to may lie anywhere.
 from __future__ import annotations
 
 import os
+import platform
+import re
 import secrets
 import stat
 from collections.abc import Iterator, Mapping
@@ -16,6 +18,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from errno import EDQUOT, EFBIG, ENOSPC
 from pathlib import Path
+from zlib import crc32
 
 from linkwright.kernel.errors import InputError
 
@@ -24,8 +27,10 @@ MARKER = ".linkwright"
 
 _HEAD = "# Files that Linkwright wrote into this folder: it replaces these and no others.\n"
 
-# What every file that is not finished is called; an interrupted run may leave some behind.
+# What every file that is not finished is called, before the computer and the process that write it. A run
+# that is killed leaves it behind, and the next one that writes into the folder removes it.
 _PART = ".linkwright-part-"
+_PART_NAME = re.compile(re.escape(_PART) + r"([0-9a-f]{8})-(\d+)-[0-9a-f]{8}\b")
 
 # Names that Windows keeps for devices, whatever follows a point (Microsoft, Naming Files, Paths, Namespaces).
 _DEVICES = frozenset(
@@ -85,6 +90,7 @@ def trial(path: Path) -> Iterator[Path]:
     """
     if os.path.lexists(path):
         _require_file(path)
+    _remove_stale(path.parent)
     part = _part(path)
     try:
         yield part
@@ -92,7 +98,7 @@ def trial(path: Path) -> Iterator[Path]:
             os.fsync(file.fileno())
         part.replace(path)
     finally:
-        part.unlink(missing_ok=True)
+        _remove([part])
 
 
 @dataclass(frozen=True)
@@ -236,6 +242,8 @@ def file_names(words: Mapping[str, str]) -> dict[str, str]:
 
 def _write_all(contents: Mapping[Path, str | bytes]) -> None:
     """Bring all to the disk under other names, then rename one after the other."""
+    for folder in {place.parent for place in contents}:
+        _remove_stale(folder)
     parts: dict[Path, Path] = {}
     try:
         for place, content in contents.items():
@@ -244,8 +252,50 @@ def _write_all(contents: Mapping[Path, str | bytes]) -> None:
         for place, part in parts.items():
             part.replace(place)
     finally:
-        for part in parts.values():
-            part.unlink(missing_ok=True)
+        _remove(list(parts.values()))
+
+
+def _remove(parts: list[Path]) -> None:
+    """Remove what is not finished, all of it though an interrupt comes meanwhile."""
+    try:
+        while parts:
+            parts[-1].unlink(missing_ok=True)
+            parts.pop()
+    except KeyboardInterrupt:
+        _remove(parts)
+        raise
+
+
+def _remove_stale(folder: Path) -> None:
+    """Remove what runs on this computer that were killed left in a folder."""
+    here = _computer()
+    for place in folder.glob(f"{_PART}*"):
+        name = _PART_NAME.match(place.name)
+        if name is not None and name[1] == here and not _is_alive(int(name[2])) and _is_ours(place):
+            place.unlink(missing_ok=True)
+
+
+def _is_ours(place: Path) -> bool:
+    """Whether a file is of this user: in a folder of all, such as /tmp, others' files cannot be removed."""
+    return os.name == "nt" or (place.exists() and place.lstat().st_uid == os.getuid())
+
+
+def _is_alive(process: int) -> bool:
+    """Whether a process runs on this computer; where none can be asked without harm, all are taken to."""
+    if os.name == "nt":
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):
+        return True
+    return True
+
+
+def _computer() -> str:
+    """A short sign for this computer: a folder may be shared with others, whose processes are not seen."""
+    return f"{crc32(platform.node().encode()):08x}"
 
 
 def _bytes(content: str | bytes) -> bytes:
@@ -255,7 +305,7 @@ def _bytes(content: str | bytes) -> bytes:
 
 def _part(place: Path) -> Path:
     """A free name in the folder of a file, with its ending."""
-    return place.with_name(f"{_PART}{secrets.token_hex(8)}{place.suffix}")
+    return place.with_name(f"{_PART}{_computer()}-{os.getpid()}-{secrets.token_hex(4)}{place.suffix}")
 
 
 def _write_part(part: Path, place: Path, data: bytes) -> None:

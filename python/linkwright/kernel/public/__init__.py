@@ -21,6 +21,26 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 
+T = TypeVar("T")
+
+
+def public_type(kind: type[T]) -> type[T]:
+    """Check what a frozen dataclass is made of by its annotations.
+
+    Parameters
+    ----------
+    kind : type
+        A dataclass of the package that users make themselves.
+
+    Returns
+    -------
+    type
+        The same class.
+    """
+    kind.__init__ = public(kind.__init__)  # type: ignore[method-assign]
+    return kind
+
+
 def public(function: Callable[P, R]) -> Callable[P, R]:
     """Check the arguments of a function by its annotations, and freeze what it returns.
 

@@ -11,6 +11,9 @@ a complex number, a text or a list of lists of different length is refused with 
 | `ArrayLike` | numbers, one or an array of them |
 | `Column` | a number, or a list of them |
 | `Floats`, `Sequence[float]` | a list of finite numbers |
+| `os.PathLike[str]` | the name of a file |
+| `Overrides` | texts ``PATH=VALUE``, or path → value |
+| `Machine`, `Study` | what `read` and `study` give |
 """
 
 from __future__ import annotations
@@ -19,6 +22,7 @@ import inspect
 import math
 import numbers
 import operator
+import os
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
@@ -232,6 +236,8 @@ def checks_of(function: Callable[..., Any]) -> dict[str, Check]:
 def _check(annotation: str, default: Any) -> Check | None:
     """The check that an annotation asks for; None if it asks for none."""
     kinds = set(annotation.split(" | "))
+    if kinds & _KINDS.keys() and kinds <= _KINDS.keys() | {"None"}:
+        return _of_kinds(kinds)
     if {"float", "Floats"} <= kinds:
         kinds |= {"Column"}
     check = next((_CHECKS[kind] for kind in _CHECKS if kind in kinds), None)
@@ -306,7 +312,52 @@ def _text(name: str, value: Any) -> str:
     return value
 
 
+def _path(name: str, value: Any) -> Any:
+    """The name of a file; whether there is one the function sees."""
+    if not isinstance(value, str | os.PathLike):
+        raise _wrong(name, value, "the name of a file")
+    return value
+
+
+def _overrides(name: str, value: Any) -> Any:
+    """Entries beside a file; what they say is read where they are applied."""
+    if isinstance(value, Mapping):
+        return _mapping(name, value)
+    is_list = isinstance(value, str) or (isinstance(value, list | tuple) and all(map(_is_text, value)))
+    if not is_list:
+        raise _wrong(name, value, "texts PATH=VALUE, or a dictionary of values by their paths")
+    return value
+
+
+def _is_text(value: Any) -> bool:
+    return isinstance(value, str)
+
+
+# Classes of the package that arguments may be, by their names as they lie in layers above.
+_KINDS = {
+    "Machine": "a machine, such as read() gives",
+    "Study": "a study, such as study() gives",
+    "FreeVibration": "a free vibration",
+}
+
+
+def _of_kinds(kinds: set[str]) -> Check:
+    """Checks that something is of one of some classes."""
+    expected = " or ".join(words for kind, words in _KINDS.items() if kind in kinds)
+
+    def check(name: str, value: Any) -> Any:
+        is_none = value is None and "None" in kinds
+        if not is_none and kinds.isdisjoint(each.__name__ for each in type(value).__mro__):
+            raise _wrong(name, value, expected)
+        return value
+
+    return check
+
+
 _CHECKS: dict[str, Check] = {
+    "os.PathLike[str]": _path,
+    "Overrides": _overrides,
+    "Mapping[str, Any]": _mapping,
     "Mapping[str, ArrayLike]": _mapping,
     "Mapping[str, Mapping[str, Any]]": _mapping,
     "ArrayLike": _one_or_more,

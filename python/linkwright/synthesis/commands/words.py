@@ -48,6 +48,8 @@ def words(name: str, value: Any) -> str:
     """A value for people: angles in degrees, lengths in metres."""
     if value is None:
         return "–"
+    if isinstance(value, tuple | list):
+        return ", ".join(map(str, value)) or "–"
     if isinstance(value, bool):
         return "yes" if value else "no"
     if not isinstance(value, int | float):
