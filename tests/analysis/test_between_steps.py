@@ -90,8 +90,8 @@ def test_trains(seed: int, method: str) -> None:
         assert np.abs((found.angle - found.angle[0]) - (angle - angle[0])).max() <= accuracy * twist
         assert np.abs(found.speed - speed).max() <= accuracy * np.abs(speed).max()
         off = np.abs(found.torque - torque).max(axis=1) / np.abs(torque).max(axis=1)
-        # SciPy holds the angles themselves, to 1e-13 of them, and a twist is the small difference of two: both
-        # methods are off by the same 1.6e-10 in the stiffest shaft.
+        # SciPy holds the angles themselves, to 1e-13 of them, and a twist is the small difference of two;
+        # both methods are off by the same 1.6e-10 in the stiffest shaft.
         known = 1e-13 * np.abs(angle).max() * train.k / np.abs(torque).max(axis=1)
         assert (off <= accuracy + known).all()
 
