@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import End, Transient, transient
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError
-from linkwright.kernel.numerics.roots import minima
+from linkwright.kernel.numerics.roots import minima, zeros
 from linkwright.kernel.public import public
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
@@ -216,13 +216,10 @@ def _settled(motion: Transient, steady: SteadyState, band: float) -> tuple[float
         return 0.0, 0.0
     if outside[-1] == len(looks) - 1:
         return None
-    low, high = looks[outside[-1]], looks[outside[-1] + 1]
-    # Fifty halvings of a few milliseconds reach rounding.
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if excess(np.array([middle]))[0] > 0 else (low, middle)
-    angle = motion.at(np.array([high]))[0][0]
-    return float(angle - motion.crank_angle[0]) / (2 * np.pi), float(high)
+    ends = zeros(excess, looks[outside[-1:]], looks[outside[-1:] + 1])
+    settled = np.maximum(*ends)
+    angle = motion.at(settled)[0][0]
+    return float(angle - motion.crank_angle[0]) / (2 * np.pi), float(settled[0])
 
 
 def _peak(motion: Transient, until: float) -> float:
@@ -239,9 +236,6 @@ def _peak(motion: Transient, until: float) -> float:
 
 def _looks(motion: Transient, until: float = np.inf) -> Floats:
     """Eight looks a step of the solver, which itself takes some twenty a turn, up to a time."""
-    every = np.unique(np.concatenate([np.linspace(a, b, 9) for a, b in _spans(motion.time)]))
+    even = [np.linspace(a, b, 8, endpoint=False) for a, b in pairwise(motion.time)]
+    every = np.concatenate([*even, motion.time[-1:]])
     return np.append(every[every < until], min(until, float(every[-1])))
-
-
-def _spans(time: Floats) -> list[tuple[float, float]]:
-    return [(float(a), float(b)) for a, b in pairwise(time)]

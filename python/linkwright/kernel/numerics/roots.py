@@ -66,6 +66,12 @@ def zeros(function: Function, low: Floats, high: Floats) -> tuple[Floats, Floats
     return np.where(better, a, b), np.where(better, b, a)
 
 
+def zero(function: Callable[[float], float], low: float, high: float) -> float:
+    """The zero of a function of one number between two at which it has different signs."""
+    near, _ = zeros(lambda x: np.array([function(float(x[0]))]), np.array([low]), np.array([high]))
+    return float(near[0])
+
+
 def _share(a: Floats, b: Floats, c: Floats, fa: Floats, fb: Floats, fc: Floats) -> Floats:
     """Where the next look is between a and b: inverse quadratic if that is safe, else the middle."""
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.files.library import library_path
+from linkwright.kernel.numerics.roots import zero
 from linkwright.machine.read import read
 from linkwright.papers.paper4.conclusions import conclusions
 from linkwright.papers.paper4.formulas import LeverFormula, Unit
@@ -136,7 +137,7 @@ def paper4() -> Paper4:
 
 
 def _closing(printed: LeverFormula) -> tuple[float, float]:
-    """Crank angles from 12 o'clock between which link and lever reach, by bisection of l_d = l_4 + l_5."""
+    """Crank angles from 12 o'clock between which link and lever reach, where l_d = l_4 + l_5."""
     (top, _), (bottom, _) = printed.unit.ends()
 
     def spare(phi: float) -> float:
@@ -144,11 +145,7 @@ def _closing(printed: LeverFormula) -> tuple[float, float]:
 
     edges = []
     for far in (bottom, bottom - 2 * np.pi if bottom > top else bottom + 2 * np.pi):
-        good, bad = top, far
-        for _ in range(60):
-            middle = 0.5 * (good + bad)
-            good, bad = (middle, bad) if spare(middle) >= 0 else (good, middle)
-        edges.append(good)
+        edges.append(zero(spare, top, far))
     low, high = sorted(edges)
     # The machine file counts from 12 o'clock.
     return float((low - np.pi / 2) % (2 * np.pi)), float((high - np.pi / 2) % (2 * np.pi))

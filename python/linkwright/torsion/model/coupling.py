@@ -16,6 +16,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import Checked, fault
 from linkwright.kernel.description.curve import curve_faults, not_rising
+from linkwright.kernel.numerics.roots import zeros
 from linkwright.kernel.units import POWER, Angles, Torques, positive
 from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveStiffness, PositiveTorque
 
@@ -88,13 +89,14 @@ class Coupling(Checked):
         n = np.minimum(np.searchsorted(torques, size, side="right") - 1, len(twist) - 2)
         h, rise = twist[n + 1] - twist[n], torques[n + 1] - torques[n]
         piece = (rise, h * slopes[n], h * slopes[n + 1])
-        low, high = np.zeros_like(size), np.ones_like(size)
-        # The curve rises everywhere, so that bisection finds the twist to the last digit.
-        for _ in range(54):
-            z = 0.5 * (low + high)
-            below = torques[n] + _hermite(z, *piece)[0] < size
-            low, high = np.where(below, z, low), np.where(below, high, z)
-        found: Floats = _hermite(0.5 * (low + high), *piece)[1] / h
+
+        # The curve rises everywhere, so that there is one twist.
+        def beyond(z: Floats) -> Floats:
+            over: Floats = torques[n] + _hermite(z, *piece)[0] - size
+            return over
+
+        z, _ = zeros(beyond, np.zeros_like(size), np.ones_like(size))
+        found: Floats = _hermite(z, *piece)[1] / h
         return found
 
     def curve(self) -> tuple[Floats, Floats, Floats]:

@@ -22,6 +22,8 @@ from functools import cache
 
 import numpy as np
 
+from linkwright.kernel.numerics.roots import zero
+
 # Points of one Gauss-Legendre rule; an interval is halved until two rules agree to this.
 _POINTS = 16
 _AGREE = 1e-13
@@ -72,13 +74,13 @@ def cone_place(
         Outside and inside, at its two ends [m].
     """
     whole = cone_integral(1.0, diameters, bores)
-    low, high = 0.0, 1.0
-    # The twist grows steadily along the cone; sixty halvings reach the last bit.
-    for _ in range(60):
-        z = (low + high) / 2
+
+    # The twist grows steadily along the cone.
+    def beyond(z: float) -> float:
         part = cone_integral(z, (diameters[0], _at(diameters, z)), (bores[0], _at(bores, z)))
-        low, high = (z, high) if part < share * whole else (low, z)
-    return (low + high) / 2
+        return part - share * whole
+
+    return zero(beyond, 0.0, 1.0)
 
 
 def _at(ends: tuple[float, float], share: float) -> float:
