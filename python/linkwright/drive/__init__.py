@@ -7,6 +7,7 @@
 | `characteristic` | The motor's characteristic and the mean load that it works against |
 | `constant_energy` | How unevenly would it turn without motor and load? |
 | `crank_speed` | At which speed of the crank a command computes, and where that speed comes from |
+| `evenness` | The coefficients δ, H and k_p of a motion |
 | `figures/` | Figures of drives |
 | `model/` | Motors, gearbox, coupling, brake, flywheel |
 | `reduction` | What inertia and what load does the crank feel? |

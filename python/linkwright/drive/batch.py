@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.drive import evenness
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.sound_loads import require_same_turns
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
@@ -96,7 +97,7 @@ class SteadyStates:
     @property
     def speed_mean_extremes(self) -> Floats:
         """(ω_max + ω_min)/2 [rad/s]."""
-        return 0.5 * (self.speed_max + self.speed_min)
+        return evenness.mean_of_extremes(self.speed_min, self.speed_max)
 
     @property
     def speed_mean_time(self) -> Floats:
@@ -106,18 +107,17 @@ class SteadyStates:
     @property
     def unevenness(self) -> Floats:
         """δ with the mean of the extremes [–]."""
-        return (self.speed_max - self.speed_min) / self.speed_mean_extremes
+        return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
 
     @property
     def dynamism(self) -> Floats:
         """H with the mean of the extremes [–]."""
-        steepest = np.maximum(np.abs(self.acceleration_min), np.abs(self.acceleration_max))
-        return steepest / self.speed_mean_extremes**2
+        return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
 
     @property
     def motion_coefficient(self) -> Floats:
         """k_p = δ² + H [–]."""
-        return self.unevenness**2 + self.dynamism
+        return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
     def to_frame(self) -> pd.DataFrame:
         """Entries and results as a table, a row for each machine (needs pandas)."""

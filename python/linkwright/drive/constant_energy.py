@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.drive import evenness
 from linkwright.drive.reduction import NO_INERTIA, Reduction, reduction
 from linkwright.kernel.errors import SteadyStateError
 from linkwright.kernel.numerics.turn_fit import turn_curve
@@ -42,7 +43,7 @@ class ConstantEnergy(Result):
     @property
     def motion_coefficient(self) -> float:
         """k_p = δ² + H [–], paper 1 (15)."""
-        return self.unevenness**2 + self.dynamism
+        return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
 
 @public
@@ -86,9 +87,10 @@ def constant_energy_of(reduced: Reduction, compiled: Compiled | None = None) -> 
     if not reduced.inertia_min > 0:
         raise SteadyStateError(NO_INERTIA)
     slow, fast = np.sqrt(2 / reduced.inertia_max), np.sqrt(2 / reduced.inertia_min)
-    mean = 0.5 * (slow + fast)
+    mean = evenness.mean_of_extremes(float(slow), float(fast))
     peak = _by_samples(reduced) if compiled is None else _exactly(compiled)
-    return ConstantEnergy(unevenness=float((fast - slow) / mean), dynamism=float(peak / mean**2))
+    delta = evenness.unevenness(float(slow), float(fast), mean)
+    return ConstantEnergy(unevenness=delta, dynamism=evenness.dynamism(-peak, peak, mean))
 
 
 def _exactly(compiled: Compiled) -> float:

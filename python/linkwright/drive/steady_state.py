@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.drive import evenness
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import NO_INERTIA, mean_laws, mean_over_turn
 from linkwright.drive.sound_loads import require_same_turns, require_sound_loads
@@ -168,7 +169,7 @@ class SteadyState(Result):
     @property
     def speed_mean_extremes(self) -> float:
         """(ω_max + ω_min)/2 [rad/s]."""
-        return 0.5 * (self.speed_max + self.speed_min)
+        return evenness.mean_of_extremes(self.speed_min, self.speed_max)
 
     @property
     def speed_mean_time(self) -> float:
@@ -178,32 +179,32 @@ class SteadyState(Result):
     @property
     def unevenness(self) -> float:
         """δ = (ω_max − ω_min)/ω_m with the mean of the extremes [–], paper 1 (13)."""
-        return (self.speed_max - self.speed_min) / self.speed_mean_extremes
+        return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
 
     @property
     def dynamism(self) -> float:
         """H = |ε|_max/ω_m² with the mean of the extremes [–], paper 1 (14)."""
-        return self._steepest / self.speed_mean_extremes**2
+        return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
 
     @property
     def motion_coefficient(self) -> float:
         """k_p = δ² + H with the mean of the extremes [–], paper 1 (15)."""
-        return self.unevenness**2 + self.dynamism
+        return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
     @property
     def unevenness_time(self) -> float:
         """δ with the mean over time [–]."""
-        return (self.speed_max - self.speed_min) / self.speed_mean_time
+        return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_time)
 
     @property
     def dynamism_time(self) -> float:
         """H with the mean over time [–]."""
-        return self._steepest / self.speed_mean_time**2
+        return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_time)
 
     @property
     def motion_coefficient_time(self) -> float:
         """k_p with the mean over time [–]."""
-        return self.unevenness_time**2 + self.dynamism_time
+        return evenness.motion_coefficient(self.unevenness_time, self.dynamism_time)
 
     @property
     def is_stable(self) -> bool:
@@ -219,10 +220,6 @@ class SteadyState(Result):
     def efficiency(self) -> float | None:
         """Work taken by the loads over work of the motor [–]; None without any work of the motor."""
         return self.energy_load / self.energy_motor if self.energy_motor > 0 else None
-
-    @property
-    def _steepest(self) -> float:
-        return max(abs(self.acceleration_min), abs(self.acceleration_max))
 
 
 @public

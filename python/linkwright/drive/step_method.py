@@ -21,6 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.drive import evenness
 from linkwright.drive.sound_loads import require_same_turns
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError, require_within
 from linkwright.kernel.limits import STEPS
@@ -73,23 +74,22 @@ class StepMotion(Result):
     @property
     def speed_mean_extremes(self) -> float:
         """(ω_max + ω_min)/2 [rad/s]."""
-        return 0.5 * (self.speed_max + self.speed_min)
+        return evenness.mean_of_extremes(self.speed_min, self.speed_max)
 
     @property
     def unevenness(self) -> float:
         """δ [–]."""
-        return (self.speed_max - self.speed_min) / self.speed_mean_extremes
+        return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
 
     @property
     def dynamism(self) -> float:
         """H [–]."""
-        steepest = max(abs(self.acceleration_min), abs(self.acceleration_max))
-        return steepest / self.speed_mean_extremes**2
+        return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
 
     @property
     def motion_coefficient(self) -> float:
         """k_p = δ² + H [–]."""
-        return self.unevenness**2 + self.dynamism
+        return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
 
 @public
