@@ -56,10 +56,10 @@ const BOTTOM_STEPS: usize = 8;
 /// Newton steps to a zero: the guess is good to (2π/48)² ~ 1e-2, Newton squares it: 1e-4, 1e-8, 1e-16.
 const POLISHES: usize = 4;
 
-/// Newton steps to a zero beside the bottom of a dip. From outside Newton on what bends one way goes to it
-/// without passing it, at first by halves.
-const POLISHES_OF_PAIR: usize = 10;
-const OUTSIDE: f64 = 1.5;
+/// Where the quantity bends, Newton is kept inside a bracket that shrinks, until it moves by less than this
+/// \[rad\], with at most so many steps.
+const POLISHED: f64 = 1e-12;
+const POLISHES_MAX: usize = 60;
 
 /// An interval in which a watched quantity changes sign, and where about.
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +67,8 @@ struct Bracket {
     low: f64,
     high: f64,
     guess: f64,
+    /// Sign of the quantity at the low end.
+    sign: f64,
 }
 
 /// An interval at whose ends a watched quantity of one sign goes towards zero, with its slopes there.
@@ -245,7 +247,12 @@ impl<R: Real> Machine<'_, R> {
                 let (a, b) = (at(values, i), at(values, i + 1));
                 if a * b < 0.0 {
                     let (low, width) = (scan_angle(i), TAU / SCAN as f64);
-                    brackets[lane].push(Bracket { low, high: low + width, guess: low + a / (a - b) * width });
+                    brackets[lane].push(Bracket {
+                        low,
+                        high: low + width,
+                        guess: low + a / (a - b) * width,
+                        sign: a.signum(),
+                    });
                     continue;
                 }
                 let dip =
@@ -258,30 +265,25 @@ impl<R: Real> Machine<'_, R> {
         for nth in 0..dips.iter().map(Vec::len).max().unwrap_or(0) {
             self.split(watch, nth, &dips, &mut pairs, m);
         }
-        self.roots(watch, &brackets, POLISHES, lanes, m);
-        self.roots(watch, &pairs, POLISHES_OF_PAIR, lanes, m);
+        self.roots(watch, &brackets, lanes, m);
+        self.roots(watch, &pairs, lanes, m);
     }
 
     /// Adds the zeros in the brackets of each lane to its list.
     #[inline(always)]
-    fn roots(
-        &self,
-        watch: Watch,
-        brackets: &[Vec<Bracket>],
-        polishes: usize,
-        lanes: &mut [Vec<f64>],
-        m: &mut Motion<R>,
-    ) {
-        let (mut low, mut high, mut guess) = (vec![0.0; R::LANES], vec![0.0; R::LANES], vec![0.0; R::LANES]);
+    fn roots(&self, watch: Watch, brackets: &[Vec<Bracket>], lanes: &mut [Vec<f64>], m: &mut Motion<R>) {
+        let [mut low, mut high, mut guess, mut sign] =
+            [const { Vec::new() }; 4].map(|_: Vec<f64>| vec![0.0; R::LANES]);
         for nth in 0..brackets.iter().map(Vec::len).max().unwrap_or(0) {
             for lane in 0..R::LANES {
                 if let Some(bracket) = brackets[lane].get(nth) {
-                    (low[lane], high[lane], guess[lane]) = (bracket.low, bracket.high, bracket.guess);
+                    (low[lane], high[lane]) = (bracket.low, bracket.high);
+                    (guess[lane], sign[lane]) = (bracket.guess, bracket.sign);
                 }
             }
             let root = R::outline(
                 #[inline(always)]
-                || self.polish(watch, [R::load(&low), R::load(&high)], R::load(&guess), polishes, m),
+                || self.polish(watch, [R::load(&low), R::load(&high), R::load(&sign)], R::load(&guess), m),
             );
             root.store(&mut guess);
             for lane in 0..R::LANES {
@@ -332,12 +334,23 @@ impl<R: Real> Machine<'_, R> {
 
     /// Newton from a linear guess, kept inside the bracket.
     #[inline(always)]
-    fn polish(&self, watch: Watch, [low, high]: [R; 2], guess: R, polishes: usize, m: &mut Motion<R>) -> R {
-        let mut phi = guess;
-        for _ in 0..polishes {
+    fn polish(&self, watch: Watch, [low, high, sign]: [R; 3], guess: R, m: &mut Motion<R>) -> R {
+        let (mut phi, mut low, mut high) = (guess, low, high);
+        let (zero, mut change) = (R::splat(0.0), R::splat(f64::INFINITY));
+        for polish in 0..POLISHES_MAX {
+            if polish >= POLISHES && change.max_lane() < POLISHED {
+                break;
+            }
             self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
             let (value, slope) = self.watched(watch, phi, m);
-            phi = (phi - value / slope).max(low).min(high);
+            // On the lower side of the zero the value has the sign that it has at the low end.
+            let below = zero.select_lt(value * sign, R::splat(1.0), zero);
+            (low, high) = (zero.select_lt(below, phi, low), zero.select_lt(below, high, phi));
+            let newton = phi - value / slope;
+            let middle = (low + high) * 0.5;
+            let inside = newton.select_lt(low, middle, high.select_lt(newton, middle, newton));
+            let next = value.abs().select_lt(R::splat(f64::MIN_POSITIVE), phi, inside);
+            (change, phi) = ((next - phi).abs(), next);
         }
         if let Watch::Anchor(from, to, free_length) = watch {
             // Where the spring stays long its extremes are smooth: no break there.
@@ -378,11 +391,16 @@ impl Dip {
         let high = self.low + width;
         let guess = |end: f64, value: f64| {
             let share = (depth.abs() / (depth.abs() + value.abs())).sqrt();
-            bottom + (end - bottom) * (OUTSIDE * share).min(1.0)
+            bottom + (end - bottom) * share
         };
         [
-            Bracket { low: self.low, high: bottom, guess: guess(self.low, self.values[0]) },
-            Bracket { low: bottom, high, guess: guess(high, self.values[1]) },
+            Bracket {
+                low: self.low,
+                high: bottom,
+                guess: guess(self.low, self.values[0]),
+                sign: self.values[0].signum(),
+            },
+            Bracket { low: bottom, high, guess: guess(high, self.values[1]), sign: -self.values[0].signum() },
         ]
     }
 }
