@@ -242,7 +242,7 @@ def test_a_row_that_does_not_converge_is_refused(free_length: float) -> None:
 @pytest.mark.parametrize("half_width", np.radians([3.0, 1.0, 0.3, 0.05]))
 @pytest.mark.parametrize("phase", np.linspace(0.0, 0.4, 7))
 def test_a_switch_that_closes_and_opens_within_degrees_is_seen(half_width: float, phase: float) -> None:
-    """A force that acts within some degrees of the outer dead centre has its kinks there, wherever that is."""
+    """A force that acts within some degrees of the outer dead centre has its kinks there."""
     r, rod = 0.2, 0.8
     reach = r * np.cos(half_width) + np.sqrt(rod**2 - (r * np.sin(half_width)) ** 2)
     machine = Machine.model_validate(

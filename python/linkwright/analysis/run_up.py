@@ -174,8 +174,8 @@ def _too_slow(motion: Transient, steady: SteadyState, band: float) -> str:
             return (
                 f"does not come up to the steady motion of {steady.speed_mean_time:.4g} rad/s: after "
                 f"{motion.turns:.0f} turns it turns at {end:.4g} rad/s, within another steady motion from "
-                f"{other.speed_min:.4g} to {other.speed_max:.4g} rad/s; choose a motor with more torque at low "
-                "speed, or start at a higher run_up.speed_start"
+                f"{other.speed_min:.4g} to {other.speed_max:.4g} rad/s; choose a motor with more torque at "
+                "low speed, or start at a higher run_up.speed_start"
             )
     off = abs(motion.speed[-1] / _steady_speed(steady, motion.crank_angle[-1:])[0] - 1)
     return (
