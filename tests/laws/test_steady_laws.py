@@ -214,6 +214,32 @@ def test_a_row_that_does_not_converge_is_refused(free_length: float) -> None:
         steady_state(lw.replace(machine, {"loads.spring.free_length": free_length}))
 
 
+@pytest.mark.parametrize("half_width", np.radians([3.0, 1.0, 0.3, 0.05]))
+@pytest.mark.parametrize("phase", np.linspace(0.0, 0.4, 7))
+def test_a_switch_that_closes_and_opens_within_degrees_is_seen(half_width: float, phase: float) -> None:
+    """A force that acts within some degrees of the outer dead centre has its kinks there."""
+    r, rod = 0.2, 0.8
+    reach = r * np.cos(half_width) + np.sqrt(rod**2 - (r * np.sin(half_width)) ** 2)
+    machine = Machine.model_validate(
+        {
+            "format": 1,
+            "name": "latch",
+            "mechanism": {
+                "cranks": {"A": {"radius": r, "phase": phase}},
+                "sliders": {"S": {"crank": "A", "rod": rod}},
+            },
+            "bodies": {"A": {"inertia": 2.0}, "S": {"mass": 10.0}},
+            "loads": {"latch": {"kind": "formula", "on": "S", "force": f"-5000*step(s - {float(reach)!r})"}},
+            "drive": {"motor": {"kind": "dc", "speed_no_load": 20.0, "torque_stall": 400.0}},
+        }
+    )
+    kinks = compile_machine(machine).kinks()
+    for side in (-half_width, half_width):
+        at = (side - phase) % (2 * np.pi)
+        assert np.abs(kinks - at).min() < 1e-9
+    assert not violations(machine, steady_state(machine), AGREES)
+
+
 @pytest.mark.parametrize("stiffness", [1e5, 1e6])
 def test_stiff_springs_at_fine_accuracy(stiffness: float) -> None:
     """No point of the curves lies outside the extremes, and the laws hold."""

@@ -43,9 +43,41 @@ const SHORT: f64 = 0.1;
 /// A point rests where its path speed p′ falls below this share of p″.
 const AT_REST: f64 = 1e-6;
 
-/// Angles at which zeros are looked for. Two zeros between neighbours go unseen: that costs accuracy:
-/// the comparison of meshes may then err by some tens of times the accuracy asked for.
+/// Angles at which zeros are looked for. Two zeros between neighbours are found where the cubic through
+/// values and slopes dips towards zero.
 const SCAN: usize = 48;
+
+/// The bottom of a dip is looked for where the cubic falls below this share of the smaller value beside it.
+const DIP: f64 = 0.5;
+
+/// Steps of the secant towards the bottom of a dip.
+const BOTTOM_STEPS: usize = 8;
+
+/// Newton steps to a zero: the guess is good to (2π/48)² ~ 1e-2, Newton squares it: 1e-4, 1e-8, 1e-16.
+const POLISHES: usize = 4;
+
+/// Where the quantity bends, Newton is kept inside a bracket that shrinks, until it moves by less than this
+/// \[rad\], with at most so many steps.
+const POLISHED: f64 = 1e-12;
+const POLISHES_MAX: usize = 60;
+
+/// An interval in which a watched quantity changes sign, and where about.
+#[derive(Clone, Copy, Debug)]
+struct Bracket {
+    low: f64,
+    high: f64,
+    guess: f64,
+    /// Sign of the quantity at the low end.
+    sign: f64,
+}
+
+/// An interval at whose ends a watched quantity of one sign goes towards zero, with its slopes there.
+#[derive(Clone, Copy, Debug)]
+struct Dip {
+    low: f64,
+    values: [f64; 2],
+    slopes: [f64; 2],
+}
 
 /// Share of a scan interval by which the scan is shifted, so that the round angles at which dead centres
 /// tend to lie (0°, 90°, …) fall inside intervals.
@@ -154,7 +186,7 @@ impl<R: Real> Machine<'_, R> {
                 #[inline(always)]
                 || self.scan(&watches, m),
             );
-            for (watch, values) in watches.iter().zip(scan.chunks_exact(SCAN * R::LANES)) {
+            for (watch, values) in watches.iter().zip(scan.chunks_exact(2 * SCAN * R::LANES)) {
                 self.zeros(*watch, values, &mut lanes, m);
             }
         }
@@ -186,15 +218,18 @@ impl<R: Real> Machine<'_, R> {
         }
     }
 
-    /// All watched quantities over the scan angles: watch by watch, angle by angle, lane by lane.
+    /// All watched quantities over the scan angles with their slopes: watch by watch, values before slopes,
+    /// angle by angle, lane by lane.
     #[inline(always)]
     fn scan(&self, watches: &[Watch], m: &mut Motion<R>) -> Vec<f64> {
-        let mut values = vec![0.0; watches.len() * SCAN * R::LANES];
+        let mut values = vec![0.0; watches.len() * 2 * SCAN * R::LANES];
         for i in 0..SCAN {
             let phi = R::splat(scan_angle(i));
             self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
             for (w, watch) in watches.iter().enumerate() {
-                self.watched(*watch, phi, m).0.store(&mut values[(w * SCAN + i) * R::LANES..]);
+                let (value, slope) = self.watched(*watch, phi, m);
+                value.store(&mut values[(2 * w * SCAN + i) * R::LANES..]);
+                slope.store(&mut values[((2 * w + 1) * SCAN + i) * R::LANES..]);
             }
         }
         values
@@ -203,24 +238,52 @@ impl<R: Real> Machine<'_, R> {
     /// Adds the zeros of one watched quantity to each lane's list.
     #[inline(always)]
     fn zeros(&self, watch: Watch, values: &[f64], lanes: &mut [Vec<f64>], m: &mut Motion<R>) {
-        let at = |i: usize, lane: usize| values[(i % SCAN) * R::LANES + lane];
-        let brackets: Vec<Vec<usize>> = (0..R::LANES)
-            .map(|lane| (0..SCAN).filter(|&i| at(i, lane) * at(i + 1, lane) < 0.0).collect())
-            .collect();
-        let most = brackets.iter().map(Vec::len).max().unwrap_or(0);
-        let mut low = vec![0.0; R::LANES];
-        let mut guess = vec![0.0; R::LANES];
-        for nth in 0..most {
+        let (values, slopes) = values.split_at(SCAN * R::LANES);
+        let (mut brackets, mut dips) = (vec![Vec::new(); R::LANES], vec![Vec::new(); R::LANES]);
+        let mut pairs = vec![Vec::new(); R::LANES];
+        for lane in 0..R::LANES {
+            let at = |list: &[f64], i: usize| list[(i % SCAN) * R::LANES + lane];
+            for i in 0..SCAN {
+                let (a, b) = (at(values, i), at(values, i + 1));
+                if a * b < 0.0 {
+                    let (low, width) = (scan_angle(i), TAU / SCAN as f64);
+                    brackets[lane].push(Bracket {
+                        low,
+                        high: low + width,
+                        guess: low + a / (a - b) * width,
+                        sign: a.signum(),
+                    });
+                    continue;
+                }
+                let dip =
+                    Dip { low: scan_angle(i), values: [a, b], slopes: [at(slopes, i), at(slopes, i + 1)] };
+                if dip.is_deep() {
+                    dips[lane].push(dip);
+                }
+            }
+        }
+        for nth in 0..dips.iter().map(Vec::len).max().unwrap_or(0) {
+            self.split(watch, nth, &dips, &mut pairs, m);
+        }
+        self.roots(watch, &brackets, lanes, m);
+        self.roots(watch, &pairs, lanes, m);
+    }
+
+    /// Adds the zeros in the brackets of each lane to its list.
+    #[inline(always)]
+    fn roots(&self, watch: Watch, brackets: &[Vec<Bracket>], lanes: &mut [Vec<f64>], m: &mut Motion<R>) {
+        let [mut low, mut high, mut guess, mut sign] =
+            [const { Vec::new() }; 4].map(|_: Vec<f64>| vec![0.0; R::LANES]);
+        for nth in 0..brackets.iter().map(Vec::len).max().unwrap_or(0) {
             for lane in 0..R::LANES {
-                if let Some(&i) = brackets[lane].get(nth) {
-                    let (a, b) = (at(i, lane), at(i + 1, lane));
-                    low[lane] = scan_angle(i);
-                    guess[lane] = low[lane] + a / (a - b) * TAU / SCAN as f64;
+                if let Some(bracket) = brackets[lane].get(nth) {
+                    (low[lane], high[lane]) = (bracket.low, bracket.high);
+                    (guess[lane], sign[lane]) = (bracket.guess, bracket.sign);
                 }
             }
             let root = R::outline(
                 #[inline(always)]
-                || self.polish(watch, R::load(&low), R::load(&guess), m),
+                || self.polish(watch, [R::load(&low), R::load(&high), R::load(&sign)], R::load(&guess), m),
             );
             root.store(&mut guess);
             for lane in 0..R::LANES {
@@ -231,16 +294,63 @@ impl<R: Real> Machine<'_, R> {
         }
     }
 
-    /// Newton from a linear guess, kept inside the bracket.
+    /// Goes to the bottom of one dip a lane, and adds brackets on either side where it lies beyond zero.
     #[inline(always)]
-    fn polish(&self, watch: Watch, low: R, guess: R, m: &mut Motion<R>) -> R {
-        let high = low + TAU / SCAN as f64;
-        let mut phi = guess;
-        // The guess is good to (2π/48)² ~ 1e-2; Newton squares it: 1e-4, 1e-8, 1e-16.
-        for _ in 0..4 {
+    fn split(
+        &self,
+        watch: Watch,
+        nth: usize,
+        dips: &[Vec<Dip>],
+        brackets: &mut [Vec<Bracket>],
+        m: &mut Motion<R>,
+    ) {
+        let width = TAU / SCAN as f64;
+        let of = |lane: usize| dips[lane].get(nth).copied().unwrap_or(Dip::NONE);
+        let load = |of: &dyn Fn(usize) -> f64| R::load(&(0..R::LANES).map(of).collect::<Vec<_>>());
+        let sign = load(&|lane| of(lane).values[0].signum());
+        let (mut low, mut high) = (load(&|lane| of(lane).low), load(&|lane| of(lane).low + width));
+        let (mut falls, mut rises) = (load(&|lane| of(lane).slopes[0]), load(&|lane| of(lane).slopes[1]));
+        (falls, rises) = (falls * sign, rises * sign);
+        let (zero, mut bottom, mut least) = (R::splat(0.0), low, R::splat(f64::INFINITY));
+        for _ in 0..BOTTOM_STEPS {
+            let phi = (low * rises - high * falls) / (rises - falls);
             self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
             let (value, slope) = self.watched(watch, phi, m);
-            phi = (phi - value / slope).max(low).min(high);
+            let (value, slope) = (value * sign, slope * sign);
+            bottom = value.select_lt(least, phi, bottom);
+            least = least.min(value);
+            (low, falls) = (slope.select_lt(zero, phi, low), slope.select_lt(zero, slope, falls));
+            (high, rises) = (slope.select_lt(zero, high, phi), slope.select_lt(zero, rises, slope));
+        }
+        let (mut place, mut depth) = (vec![0.0; R::LANES], vec![0.0; R::LANES]);
+        bottom.store(&mut place);
+        least.store(&mut depth);
+        for (lane, brackets) in brackets.iter_mut().enumerate() {
+            if let Some(dip) = dips[lane].get(nth).filter(|_| depth[lane] < 0.0) {
+                brackets.extend(dip.halves(place[lane], depth[lane], width));
+            }
+        }
+    }
+
+    /// Newton from a linear guess, kept inside the bracket.
+    #[inline(always)]
+    fn polish(&self, watch: Watch, [low, high, sign]: [R; 3], guess: R, m: &mut Motion<R>) -> R {
+        let (mut phi, mut low, mut high) = (guess, low, high);
+        let (zero, mut change) = (R::splat(0.0), R::splat(f64::INFINITY));
+        for polish in 0..POLISHES_MAX {
+            if polish >= POLISHES && change.max_lane() < POLISHED {
+                break;
+            }
+            self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
+            let (value, slope) = self.watched(watch, phi, m);
+            // On the lower side of the zero the value has the sign that it has at the low end.
+            let below = zero.select_lt(value * sign, R::splat(1.0), zero);
+            (low, high) = (zero.select_lt(below, phi, low), zero.select_lt(below, high, phi));
+            let newton = phi - value / slope;
+            let middle = (low + high) * 0.5;
+            let inside = newton.select_lt(low, middle, high.select_lt(newton, middle, newton));
+            let next = value.abs().select_lt(R::splat(f64::MIN_POSITIVE), phi, inside);
+            (change, phi) = ((next - phi).abs(), next);
         }
         if let Watch::Anchor(from, to, free_length) = watch {
             // Where the spring stays long its extremes are smooth: no break there.
@@ -254,6 +364,44 @@ impl<R: Real> Machine<'_, R> {
             phi = speed.select_lt(bend * (AT_REST * AT_REST), phi, R::splat(f64::NAN));
         }
         phi
+    }
+}
+
+impl Dip {
+    /// A lane without one; nothing of it is used.
+    const NONE: Dip = Dip { low: 0.0, values: [1.0; 2], slopes: [-1.0, 1.0] };
+
+    /// Whether the cubic through values and slopes comes near zero or beyond.
+    fn is_deep(&self) -> bool {
+        let [a, b] = self.values.map(f64::abs);
+        let sign = self.values[0].signum();
+        let [left, right] = self.slopes.map(|slope| slope * sign * TAU / SCAN as f64);
+        if !(left < 0.0 && right > 0.0) {
+            return false;
+        }
+        (1..8).any(|i| {
+            let x = f64::from(i) / 8.0;
+            let (y, up) = (1.0 - x, x * x * (3.0 - 2.0 * x));
+            a * (1.0 - up) + b * up + left * x * y * y - right * x * x * y < DIP * a.min(b)
+        })
+    }
+
+    /// The brackets on either side of a bottom beyond zero, with the zeros of parabolas.
+    fn halves(&self, bottom: f64, depth: f64, width: f64) -> [Bracket; 2] {
+        let high = self.low + width;
+        let guess = |end: f64, value: f64| {
+            let share = (depth.abs() / (depth.abs() + value.abs())).sqrt();
+            bottom + (end - bottom) * share
+        };
+        [
+            Bracket {
+                low: self.low,
+                high: bottom,
+                guess: guess(self.low, self.values[0]),
+                sign: self.values[0].signum(),
+            },
+            Bracket { low: bottom, high, guess: guess(high, self.values[1]), sign: -self.values[0].signum() },
+        ]
     }
 }
 

@@ -20,7 +20,7 @@ use crate::table::Table;
 
 /// Number of the language in which machines, cams and trains cross the border: kinds of rows, order of lists and of
 /// results. It goes up with every change of these, here and in `linkwright.kernel.core.core_format`.
-pub const FORMAT: u32 = 10;
+pub const FORMAT: u32 = 11;
 
 /// What a machine consists of.
 #[derive(Clone, Debug)]

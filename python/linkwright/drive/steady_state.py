@@ -409,6 +409,7 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
         sweeps=0,
         steps=0,
         method="constant speed",
+        others=(),
         **still,
     )
 
