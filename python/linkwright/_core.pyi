@@ -117,7 +117,7 @@ def transient(
     accuracy: float,
 ) -> tuple[int, tuple[float, float], int, list[_Floats]]:
     """How it ended; drive and load torque there; evaluations; t, φ, ω, ε at the ends of the steps, and of
-    each step seven factors of the angle and seven of the speed (`Stages::component` in `rk.rs`)."""
+    each step seven factors of the angle and seven of the speed (`Stages::component` in `kernel/rk.rs`)."""
 
 def kinks(plan: Plan, q: _Floats) -> _Floats:
     """Crank angles between which the reduced machine is smooth, from 0 to 2π."""

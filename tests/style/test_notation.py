@@ -43,7 +43,7 @@ def words_of_python() -> set[str]:
 @cache
 def words_of_core() -> set[str]:
     """All identifiers of the core, without its comments."""
-    texts = (path.read_text(encoding="utf-8") for path in CORE.glob("*.rs"))
+    texts = (path.read_text(encoding="utf-8") for path in CORE.rglob("*.rs"))
     code = (re.sub(r"//.*", "", text) for text in texts)
     return {word for text in code for word in re.findall(r"\b[A-Za-z_]\w*\b", text)}
 

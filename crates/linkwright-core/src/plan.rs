@@ -3,40 +3,25 @@
 //! A plan says *what* is there and in which slot of the parameter list each number is found; the numbers
 //! come separately, so that a batch of machines shares one plan. The rows are described at each `decode_*`.
 
-use crate::drive::{Drive, Motor, Span};
-use crate::error::PlanError;
-use crate::formula::{Degree, Formula, Op, Variable};
-use crate::further::Further;
-use crate::law::{Carrier, FormulaLoad, Law};
+use crate::drive::loads::{Body, Carrier, ForceElement, FormulaLoad, Law, Load};
+use crate::drive::motor::{Drive, Motor, Span};
+use crate::drive::structure::Plan;
+use crate::kernel::error::PlanError;
+use crate::kernel::formula::{Degree, Formula, Op, Variable};
+use crate::kernel::motion_law::MotionLaw;
+use crate::kernel::slot::Slot;
+use crate::kernel::table::Table;
 use crate::linkage::arm::{self, Arm};
 use crate::linkage::coupled::{self, AngleOf, Programme, Runner, Source, Sum, Turn};
+use crate::linkage::dyads::{Rocker, SliderRod};
 use crate::linkage::folding::{ChangePoint, Folding, FoldingRod, TERMS};
 use crate::linkage::group::{Bar, Carried, Condition, Group};
 use crate::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
-use crate::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod, Slot};
-use crate::motion_law::MotionLaw;
-use crate::reduce::{Body, Load};
-use crate::table::Table;
+use crate::linkage::mechanism::{Element, Fixed, Mechanism};
 
 /// Number of the language in which machines, cams and trains cross the border: kinds of rows, order of lists and of
 /// results. It goes up with every change of these, here and in `linkwright.kernel.core.core_format`.
 pub const FORMAT: u32 = 11;
-
-/// What a machine consists of.
-#[derive(Clone, Debug)]
-pub struct Plan {
-    pub mechanism: Mechanism,
-    pub bodies: Vec<Body>,
-    pub loads: Vec<Load>,
-    pub further: Vec<Further>,
-    pub drive: Drive,
-    pub tables: Vec<Table>,
-    pub formulas: Vec<Formula>,
-    /// Loads that depend on the speed in their own way, or on time.
-    pub laws: Vec<Law>,
-    /// How many parameters the plan refers to.
-    pub n_parameters: usize,
-}
 
 /// The integer tables of a plan, row by row, and the knots of its tables end to end.
 #[derive(Clone, Copy, Debug)]
@@ -149,18 +134,20 @@ impl Plan {
         let bodies = rows(code.bodies, ROW_WIDTH, "bodies")?
             .map(|row| decode_body(row, &bounds))
             .collect::<Result<_, _>>()?;
-        let (mut loads, mut further, mut speed_loads, mut laws) =
+        let (mut loads, mut force_elements, mut speed_loads, mut laws) =
             (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for row in rows(code.loads, ROW_WIDTH, "loads")? {
             match row[0] {
                 LOAD_TORQUE_SPEED => speed_loads.push(bounds.table(row[1])?),
-                LOAD_FURTHER..LOAD_DAMPER_TABLE => further.push(decode_further(row, &bounds)?),
+                LOAD_FORCE_ELEMENT..LOAD_DAMPER_TABLE => {
+                    force_elements.push(decode_force_element(row, &bounds)?)
+                }
                 LOAD_DAMPER_TABLE => laws.push(decode_damper(row, &bounds)?),
                 LOAD_FORMULA.. => {
                     let load = decode_formula_load(row, &bounds)?;
                     match formulas[load.formula].degree {
-                        Degree::Any | Degree::Of(0) => further.push(Further::Formula(load)),
-                        Degree::Of(1) => further.push(Further::ViscousFormula(load)),
+                        Degree::Any | Degree::Of(0) => force_elements.push(ForceElement::Formula(load)),
+                        Degree::Of(1) => force_elements.push(ForceElement::ViscousFormula(load)),
                         _ => laws.push(Law::Formula(load)),
                     }
                 }
@@ -178,7 +165,7 @@ impl Plan {
             },
             bodies,
             loads,
-            further,
+            force_elements,
             drive: decode_drive(code.drive, speed_loads, &bounds)?,
             tables,
             formulas,
@@ -194,8 +181,8 @@ const FIXED_POINT: i32 = 0;
 /// A load that depends on speed alone belongs to the drive, not to the reduction.
 const LOAD_TORQUE_SPEED: i32 = 12;
 
-/// The first of the loads that few machines have.
-const LOAD_FURTHER: i32 = 14;
+/// The first of the force elements.
+const LOAD_FORCE_ELEMENT: i32 = 14;
 
 /// A damper by a table is a law of its own.
 const LOAD_DAMPER_TABLE: i32 = 20;
@@ -583,29 +570,33 @@ fn decode_load(row: &[i32], b: &Bounds) -> Result<Load, PlanError> {
 /// `16 spring over length: from to table` · `17 torsional spring: link link stiffness cos sin` ·
 /// `18 torsional damper: link link damping` · `19 gas spring: from to force length column exponent`; of two
 /// links the second may be −1, the frame
-fn decode_further(row: &[i32], b: &Bounds) -> Result<Further, PlanError> {
+fn decode_force_element(row: &[i32], b: &Bounds) -> Result<ForceElement, PlanError> {
     Ok(match row[0] {
-        14 => Further::Follow {
+        14 => ForceElement::Follow {
             point: b.point(row[1])?,
             link: b.link(row[2])?,
             along: b.slot(row[3])?,
             across: b.slot(row[4])?,
         },
-        15 => Further::Damper { from: b.point(row[1])?, to: b.point(row[2])?, damping: b.slot(row[3])? },
-        16 => Further::SpringTable { from: b.point(row[1])?, to: b.point(row[2])?, table: b.table(row[3])? },
-        17 => Further::TorsionSpring {
+        15 => ForceElement::Damper { from: b.point(row[1])?, to: b.point(row[2])?, damping: b.slot(row[3])? },
+        16 => ForceElement::SpringTable {
+            from: b.point(row[1])?,
+            to: b.point(row[2])?,
+            table: b.table(row[3])?,
+        },
+        17 => ForceElement::TorsionSpring {
             link: b.link(row[1])?,
             other: b.link_or_frame(row[2])?,
             stiffness: b.slot(row[3])?,
             cos: b.slot(row[4])?,
             sin: b.slot(row[5])?,
         },
-        18 => Further::TorsionDamper {
+        18 => ForceElement::TorsionDamper {
             link: b.link(row[1])?,
             other: b.link_or_frame(row[2])?,
             damping: b.slot(row[3])?,
         },
-        19 => Further::GasSpring {
+        19 => ForceElement::GasSpring {
             from: b.point(row[1])?,
             to: b.point(row[2])?,
             force: b.slot(row[3])?,

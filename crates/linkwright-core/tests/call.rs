@@ -1,6 +1,6 @@
 //! A call ends when it is no longer wanted, and a panic in it becomes a failure with message and place.
 
-use linkwright_core::call::{Failure, Look, in_threads, keep_panic, poll, run};
+use linkwright_core::kernel::call::{Failure, Look, in_threads, keep_panic, poll, run};
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
 

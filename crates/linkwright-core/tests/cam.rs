@@ -3,7 +3,7 @@
 use linkwright_core::cam::search::{Cams, RESULTS, search};
 use linkwright_core::cam::shape::{Quantity, Shape};
 use linkwright_core::cam::{Cam, Dimensions, Kind};
-use linkwright_core::motion_law::{MotionLaw, Piece};
+use linkwright_core::kernel::motion_law::{MotionLaw, Piece};
 use std::f64::consts::{PI, TAU};
 
 const KINDS: [Kind; 4] =

@@ -3,13 +3,13 @@
 mod common;
 
 use common::{Builder, Built};
-use linkwright_core::batch::{Channel, Rows, motions, third};
-use linkwright_core::drive::Motor;
-use linkwright_core::jet::Jet;
-use linkwright_core::linkage::Motion;
+use linkwright_core::drive::batch::{Channel, Rows, motions, third};
+use linkwright_core::drive::motor::Motor;
+use linkwright_core::kernel::jet::Jet;
+use linkwright_core::kernel::plane::Angle;
+use linkwright_core::kernel::real::Real;
+use linkwright_core::linkage::motion::Motion;
 use linkwright_core::linkage::trace::follow;
-use linkwright_core::plane::Angle;
-use linkwright_core::real::Real;
 use std::f64::consts::TAU;
 
 fn place(built: &Built, phi: f64) -> Motion<f64> {

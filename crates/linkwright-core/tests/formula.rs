@@ -4,10 +4,10 @@
 mod common;
 
 use common::Random;
-use linkwright_core::dual::Dual;
-use linkwright_core::formula::{Degree, Formula, Inputs, Op, Variable};
-use linkwright_core::lanes::{Job, in_lanes};
-use linkwright_core::real::{Lift, Real};
+use linkwright_core::kernel::dual::Dual;
+use linkwright_core::kernel::formula::{Degree, Formula, Inputs, Op, Variable};
+use linkwright_core::kernel::lanes::{Job, in_lanes};
+use linkwright_core::kernel::real::{Lift, Real};
 
 /// An expression as a tree.
 enum Tree {

@@ -3,9 +3,9 @@
 mod common;
 
 use common::{Builder, Built};
-use linkwright_core::drive::Motor;
-use linkwright_core::linkage::Motion;
-use linkwright_core::plane::Angle;
+use linkwright_core::drive::motor::Motor;
+use linkwright_core::kernel::plane::Angle;
+use linkwright_core::linkage::motion::Motion;
 use std::f64::consts::PI;
 
 fn place(built: &Built, phi: f64) -> Motion<f64> {

@@ -3,10 +3,10 @@
 mod common;
 
 use common::{Builder, Built, Random, mixed};
-use linkwright_core::batch::{Channel, Rows, motions};
-use linkwright_core::drive::Motor;
-use linkwright_core::linkage::Motion;
-use linkwright_core::plane::Angle;
+use linkwright_core::drive::batch::{Channel, Rows, motions};
+use linkwright_core::drive::motor::Motor;
+use linkwright_core::kernel::plane::Angle;
+use linkwright_core::linkage::motion::Motion;
 
 fn place(built: &Built, phi: f64) -> Motion<f64> {
     let mut motion = Motion::new(&built.plan.mechanism, &built.q);
@@ -104,7 +104,7 @@ fn loops_close() {
             };
             let elements = &built.plan.mechanism.elements;
             for element in elements {
-                use linkwright_core::linkage::Element;
+                use linkwright_core::linkage::mechanism::Element;
                 let (found, exact) = match element {
                     Element::SliderRod(e) => (length(e.point, e.pin), built.q[e.rod]),
                     Element::Rocker(e) => (length(e.joint, e.pivot), built.q[e.rocker]),

@@ -3,14 +3,15 @@
 mod common;
 
 use common::{Builder, Built, Random, mixed, two_carts};
-use linkwright_core::batch::{QUANTITIES, Rows, row_of_steady, steady_rows};
-use linkwright_core::cycle::Machine;
-use linkwright_core::drive::Motor;
-use linkwright_core::linkage::{Element, Motion};
-use linkwright_core::reduce::Load;
-use linkwright_core::status::Status;
-use linkwright_core::steady::steady;
-use linkwright_core::transient::{End, Start, follow};
+use linkwright_core::drive::batch::{QUANTITIES, Rows, row_of_steady, steady_rows};
+use linkwright_core::drive::cycle::Machine;
+use linkwright_core::drive::loads::Load;
+use linkwright_core::drive::motor::Motor;
+use linkwright_core::drive::steady::steady;
+use linkwright_core::drive::transient::{End, Start, follow};
+use linkwright_core::kernel::status::Status;
+use linkwright_core::linkage::mechanism::Element;
+use linkwright_core::linkage::motion::Motion;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 const FOREVER: f64 = 1e9;

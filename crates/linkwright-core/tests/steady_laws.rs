@@ -6,16 +6,16 @@
 mod common;
 
 use common::{Builder, Built, Random};
-use linkwright_core::batch::{QUANTITIES, Rows, row_of_steady, steady_rows};
-use linkwright_core::drive::Motor;
-use linkwright_core::gauss::{B, C};
-use linkwright_core::lanes::in_lanes;
-use linkwright_core::linkage::Motion;
-use linkwright_core::plane::Angle;
-use linkwright_core::reading::{Curves, ReadCurves};
-use linkwright_core::reduce::Load;
-use linkwright_core::status::Status;
-use linkwright_core::steady::{Steady, steady};
+use linkwright_core::drive::batch::{QUANTITIES, Rows, row_of_steady, steady_rows};
+use linkwright_core::drive::loads::Load;
+use linkwright_core::drive::motor::Motor;
+use linkwright_core::drive::reading::{Curves, ReadCurves};
+use linkwright_core::drive::steady::{Steady, steady};
+use linkwright_core::kernel::gauss::{B, C};
+use linkwright_core::kernel::lanes::in_lanes;
+use linkwright_core::kernel::plane::Angle;
+use linkwright_core::kernel::status::Status;
+use linkwright_core::linkage::motion::Motion;
 use std::f64::consts::TAU;
 
 /// What errors may be, as a share of the peaks.
@@ -97,11 +97,13 @@ fn violation(built: &Built, found: &Steady) -> f64 {
     for (i, &phi) in nodes.iter().enumerate() {
         let omega = at_nodes.omega[i];
         let r = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut m);
-        let torque = |omega: f64| plan.drive_torque(q, omega) - r.load - r.dry - r.viscous * omega;
+        let torque =
+            |omega: f64| plan.drive.torque(&plan.tables, q, omega) - r.load - r.dry - r.viscous * omega;
         let epsilon = (torque(omega) - 0.5 * r.J_d1 * omega * omega) / r.J;
         // The torque at the next number above tells what rounding of the speed makes of it.
         let rounding = 1e-15 * (torque(omega * (1.0 + 1e-6)) - torque(omega)).abs() * 1e6 / r.J;
-        let rounding = rounding + 1e-14 * (plan.drive_torque(q, omega).abs() + r.load.abs()) / r.J;
+        let rounding =
+            rounding + 1e-14 * (plan.drive.torque(&plan.tables, q, omega).abs() + r.load.abs()) / r.J;
         worst = worst.max((at_nodes.epsilon[i] - epsilon).abs() / (AGREES * peak + 4.0 * rounding));
     }
     worst.max(outside(found, &at_ends, peak)).max(outside(found, &at_nodes, peak))

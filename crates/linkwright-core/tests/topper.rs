@@ -1,8 +1,8 @@
 //! Knives of toppers against closed forms, and the ways of the kernel against each other.
 
-use linkwright_core::lanes::{Job, scalar};
-use linkwright_core::motion_law::{MotionLaw, Piece};
-use linkwright_core::real::Real;
+use linkwright_core::kernel::lanes::{Job, scalar};
+use linkwright_core::kernel::motion_law::{MotionLaw, Piece};
+use linkwright_core::kernel::real::Real;
 use linkwright_core::topper::heads::{Heads, RESULTS, cover};
 use linkwright_core::topper::knife::{Head, Knife, Law};
 use linkwright_core::topper::needed::{Stations, needed};

@@ -1,6 +1,6 @@
 //! Motion of trains in time: closed forms, laws of energy and momentum, promised accuracy, work.
 
-use linkwright_core::error::PlanError;
+use linkwright_core::kernel::error::PlanError;
 use linkwright_core::torsion::transient::course::{Course, End, Method, Request, follow};
 use linkwright_core::torsion::transient::curve::Curve;
 use linkwright_core::torsion::transient::periodic::Periodic;

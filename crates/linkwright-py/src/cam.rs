@@ -4,7 +4,7 @@ use linkwright_core::cam::crossing::crossings;
 use linkwright_core::cam::search::{Cams, RESULTS, search};
 use linkwright_core::cam::shape::{Quantity, ROWS};
 use linkwright_core::cam::{Cam as CoreCam, Dimensions, Kind};
-use linkwright_core::motion_law::MotionLaw;
+use linkwright_core::kernel::motion_law::MotionLaw;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

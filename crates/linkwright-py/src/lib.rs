@@ -14,15 +14,16 @@ mod torsion_transient;
 use arrays::{as_indices, below, channels, column};
 use errors::plan_error;
 use guard::{filled, guarded, keep_panics, zeros};
-use linkwright_core::batch::{self, QUANTITIES, Rows};
-use linkwright_core::kinks as core_kinks;
-use linkwright_core::lanes::in_lanes;
+use linkwright_core::drive::batch::{self, QUANTITIES, Rows};
+use linkwright_core::drive::kinks as core_kinks;
+use linkwright_core::drive::reading::ReadCurves;
+use linkwright_core::drive::steady::{Failure, steady_with_others};
+use linkwright_core::drive::structure::Plan as CorePlan;
+use linkwright_core::drive::transient::{Start, follow};
+use linkwright_core::kernel::lanes::in_lanes;
 use linkwright_core::linkage::in_line::InLine as CoreInLine;
 use linkwright_core::linkage::trace;
-use linkwright_core::plan::{Encoded, Plan as CorePlan};
-use linkwright_core::reading::ReadCurves;
-use linkwright_core::steady::{Failure, steady_with_others};
-use linkwright_core::transient::{Start, follow};
+use linkwright_core::plan::Encoded;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -281,8 +282,9 @@ fn motor_torques<'py>(
     let q = plan.parameters(&q)?;
     let omega = omega.as_slice()?;
     let (motor, crank) = guarded(py, "torques of the motor", || {
-        let motor: Vec<f64> = omega.iter().map(|&omega| plan.0.motor_torque(q, omega)).collect();
-        let crank = motor.iter().map(|&torque| plan.0.geared_torque(q, torque)).collect();
+        let motor: Vec<f64> =
+            omega.iter().map(|&omega| plan.0.drive.motor_torque(&plan.0.tables, q, omega)).collect();
+        let crank = motor.iter().map(|&torque| plan.0.drive.geared_torque(q, torque)).collect();
         (motor, crank)
     })?;
     Ok((PyArray1::from_vec(py, motor), PyArray1::from_vec(py, crank)))

@@ -1,6 +1,6 @@
 //! Knives of toppers at the border.
 
-use linkwright_core::motion_law::MotionLaw;
+use linkwright_core::kernel::motion_law::MotionLaw;
 use linkwright_core::topper::heads::{Heads, RESULTS, cover};
 use linkwright_core::topper::knife::{Knife, Law};
 use pyo3::exceptions::PyValueError;

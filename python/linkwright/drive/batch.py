@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-# The first columns of the core's table (`linkwright-core`, module `batch`).
+# The first columns of the core's table (`linkwright-core`, module `drive::batch`).
 _COLUMNS = (
     "speed_min",
     "speed_max",

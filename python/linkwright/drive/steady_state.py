@@ -3,7 +3,7 @@ r"""Steady motion: the periodic solution of the machine's equation of motion, an
 .. math:: J \frac{du}{d\varphi} = M_d(\omega) - M_r(\varphi,\omega) - J' u, \qquad u = \tfrac12 \omega^2
 
 The solution is found by Newton on the turn-to-turn map, not by waiting for transients; the core says how
-(`linkwright-core`, module `cycle`).
+(`linkwright-core`, module `drive::cycle`).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from linkwright.machine.program.compiled import Compiled, compile_machine
 
 Floats = NDArray[np.float64]
 
-# Statuses of the core (`linkwright-core`, module `status`).
+# Statuses of the core (`linkwright-core`, module `kernel::status`).
 _DOES_NOT_CLOSE, _NO_STEADY_MOTION = 1, 2
 
 # Speeds of a turn at which the motor's torque is looked at for its extremes, and how often between the
@@ -317,7 +317,7 @@ def _peak(of: Callable[[Floats], Floats], low: float, high: float) -> float:
 
 
 def _from_core(scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled) -> SteadyState:
-    """The core's numbers by name; their order is that of `linkwright-core`, module `batch`."""
+    """The core's numbers by name; their order is that of `linkwright-core`, module `drive::batch`."""
     time, speed, acceleration, torque_motor, torque_drive, torque_load, inertia = curves
     low, high, drop, rise, period, multiplier, motor, drive, load, mean, rms, *places = scalars.tolist()
     low_at, high_at, drop_at, rise_at, reached, sweeps, steps, *others = places

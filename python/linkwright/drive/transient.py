@@ -24,7 +24,7 @@ Floats = NDArray[np.float64]
 
 
 class End(IntEnum):
-    """How a motion ended; numbers of `linkwright-core`, module `transient`."""
+    """How a motion ended; numbers of `linkwright-core`, module `drive::transient`."""
 
     TIME = 0
     TURNS = 1

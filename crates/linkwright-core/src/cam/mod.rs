@@ -29,8 +29,8 @@ pub mod crossing;
 pub mod search;
 pub mod shape;
 
-use crate::plane::Vec2;
-use crate::real::Real;
+use crate::kernel::plane::Vec2;
+use crate::kernel::real::Real;
 
 /// How the follower moves and what it touches the cam with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,10 +5,10 @@
 
 use super::shape::angles;
 use super::{Cam, Dimensions, Kind};
-use crate::call::{in_threads, poll};
-use crate::lanes::{Job, in_lanes};
-use crate::motion_law::MotionLaw;
-use crate::real::Real;
+use crate::kernel::call::{in_threads, poll};
+use crate::kernel::lanes::{Job, in_lanes};
+use crate::kernel::motion_law::MotionLaw;
+use crate::kernel::real::Real;
 use rayon::prelude::*;
 
 /// Results per cam: largest |tan γ|, infinite where the follower locks; least soundness, greatest and least bend of

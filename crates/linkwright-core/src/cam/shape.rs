@@ -5,11 +5,11 @@
 //! numbers), and every zero is enclosed before it is refined.
 
 use super::{Cam, Contact, Kind};
-use crate::dual::Dual;
-use crate::jet::Jet;
-use crate::lanes::{Job, in_lanes};
-use crate::motion_law::{MotionLaw, Piece};
-use crate::real::Real;
+use crate::kernel::dual::Dual;
+use crate::kernel::jet::Jet;
+use crate::kernel::lanes::{Job, in_lanes};
+use crate::kernel::motion_law::{MotionLaw, Piece};
+use crate::kernel::real::Real;
 use std::f64::consts::TAU;
 
 /// What is known at each angle.

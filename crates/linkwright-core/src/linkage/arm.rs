@@ -17,9 +17,9 @@
 //! Source of the fit: discrete orthogonality of Chebyshev polynomials, e.g. Trefethen, *Approximation Theory and
 //! Approximation Practice*, chapters 3–4; evaluation by Clenshaw's recurrence.
 
-use super::Slot;
-use crate::plane::Vec2;
-use crate::real::Real;
+use crate::kernel::plane::Vec2;
+use crate::kernel::real::Real;
+use crate::kernel::slot::Slot;
 use std::f64::consts::PI;
 
 /// Coefficients kept of each coordinate.

@@ -5,12 +5,13 @@
 //! the angle of the arc. The angle of a link counts as a coordinate once [`AngleOf`] has made it continuous.
 
 use super::guided::{Line, on_line};
-use super::{Motion, Slot};
-use crate::formula::{Formula, Inputs};
-use crate::jet::Jet;
-use crate::motion_law::MotionLaw;
-use crate::plane::{Angle, Vec2};
-use crate::real::Real;
+use super::motion::Motion;
+use crate::kernel::formula::{Formula, Inputs};
+use crate::kernel::jet::Jet;
+use crate::kernel::motion_law::MotionLaw;
+use crate::kernel::plane::{Angle, Vec2};
+use crate::kernel::real::Real;
+use crate::kernel::slot::Slot;
 
 /// What a term of a sum is proportional to.
 #[derive(Clone, Copy, Debug)]

@@ -20,10 +20,12 @@
 //! series ([`super::arm`]).
 
 use super::arm::{self, Arms};
+use super::dyads::Rocker;
 use super::guided::{GuidedRod, Series, bar, place_rod, rod_radicand};
-use super::{Motion, Rocker, Slot};
-use crate::plane::{Angle, Place, Vec2};
-use crate::real::Real;
+use super::motion::Motion;
+use crate::kernel::plane::{Angle, Place, Vec2};
+use crate::kernel::real::Real;
+use crate::kernel::slot::Slot;
 
 /// Coefficients kept of the series of S/δ.
 pub const TERMS: usize = 12;

@@ -19,10 +19,11 @@
 //! Multibody Systems*, chapter 2.
 
 use super::guided::{Line, bar};
-use super::{Motion, Slot};
-use crate::plane::{Angle, Place, Vec2};
-use crate::real::Real;
-use crate::table::Table;
+use super::motion::Motion;
+use crate::kernel::plane::{Angle, Place, Vec2};
+use crate::kernel::real::Real;
+use crate::kernel::slot::Slot;
+use crate::kernel::table::Table;
 use std::f64::consts::TAU;
 
 /// A point fixed to a bar of the group: `along`, `across` in lengths of the bar.

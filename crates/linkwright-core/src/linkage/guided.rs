@@ -1,9 +1,10 @@
 //! Dyads with a guide that may turn: a rod on a moving guide (RRP), a slotted lever (RPR), and two guides
 //! that cross (PRP, and RPP where the second guide is a slot at a fixed angle to the first).
 
-use super::{Motion, Slot};
-use crate::plane::{Place, Vec2};
-use crate::real::Real;
+use super::motion::Motion;
+use crate::kernel::plane::{Place, Vec2};
+use crate::kernel::real::Real;
+use crate::kernel::slot::Slot;
 
 /// A straight guide fixed to a link (or the frame): it passes `offset` to the left of point `through` and is
 /// turned from the link's direction by the angle with (`cos`, `sin`).

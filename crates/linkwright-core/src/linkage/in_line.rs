@@ -6,13 +6,15 @@
 //! that nearly meet goes on in which, and nothing is made up: the place is handed back as undecided.
 
 use super::arm::{self, Fold};
+use super::dyads::Rocker;
 use super::folding::{TERMS, radicand, square};
 use super::guided::{GuidedRod, Series, rod_radicand};
-use super::{Element, Mechanism, Motion, Rocker};
-use crate::jet::Jet;
-use crate::lanes::{Job, in_lanes};
-use crate::plane::{Angle, Vec2};
-use crate::real::Real;
+use super::mechanism::{Element, Mechanism};
+use super::motion::Motion;
+use crate::kernel::jet::Jet;
+use crate::kernel::lanes::{Job, in_lanes};
+use crate::kernel::plane::{Angle, Vec2};
+use crate::kernel::real::Real;
 use std::f64::consts::TAU;
 
 /// Terms of the radicand's series: two more than of S/δ.

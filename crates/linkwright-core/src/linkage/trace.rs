@@ -4,9 +4,10 @@
 //! at any angle afterwards.
 
 use super::group::Group;
-use super::{Element, Mechanism, Motion};
-use crate::call::poll;
-use crate::plane::{Angle, Place, Vec2};
+use super::mechanism::{Element, Mechanism};
+use super::motion::Motion;
+use crate::kernel::call::poll;
+use crate::kernel::plane::{Angle, Place, Vec2};
 use std::f64::consts::TAU;
 
 /// The motion of a group as it was followed.

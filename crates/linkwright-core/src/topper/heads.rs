@@ -4,9 +4,9 @@ use super::knife::{Head, Knife};
 use super::needed::{Stations, half_chord, needed};
 use super::retreat;
 use super::uncut::{Scratch, uncut};
-use crate::call::{in_threads, poll};
-use crate::lanes::{Job, in_lanes};
-use crate::real::Real;
+use crate::kernel::call::{in_threads, poll};
+use crate::kernel::lanes::{Job, in_lanes};
+use crate::kernel::real::Real;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 

@@ -1,7 +1,7 @@
 //! Where the edge of the knife is, seen from the centre of a head.
 
-use crate::motion_law::MotionLaw;
-use crate::real::Real;
+use crate::kernel::motion_law::MotionLaw;
+use crate::kernel::real::Real;
 use std::f64::consts::TAU;
 
 /// A periodic law over its phase \[rad\].

@@ -4,7 +4,7 @@
 //! over u up to the rim, where they have no length. Tops of parabolas through three stations are climbed by Newton.
 
 use super::knife::{Head, Knife};
-use crate::real::Real;
+use crate::kernel::real::Real;
 use std::f64::consts::PI;
 
 /// What a head needs.

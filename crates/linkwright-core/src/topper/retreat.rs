@@ -7,7 +7,7 @@
 use super::knife::{Head, Knife};
 use super::needed::Stations;
 use super::uncut::crossing;
-use crate::gauss::{B, C};
+use crate::kernel::gauss::{B, C};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// What is left of a head, and what it needs.

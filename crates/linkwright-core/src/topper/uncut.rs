@@ -6,8 +6,8 @@
 
 use super::knife::{Head, Knife};
 use super::needed::{Stations, half_chord};
-use crate::gauss::{B, C};
-use crate::real::Real;
+use crate::kernel::gauss::{B, C};
+use crate::kernel::real::Real;
 
 /// Length of u, and of the law's phase, that a part of Gauss's rule takes at most: of order 8, it leaves 1e-12 of a head.
 const PART: f64 = 0.25;

@@ -18,9 +18,9 @@
 //! Torsional Vibration Problems*, vol. 4.
 
 use super::Train;
-use crate::call::poll;
-use crate::lanes::{Job, in_lanes, scalar};
-use crate::real::Real;
+use crate::kernel::call::poll;
+use crate::kernel::lanes::{Job, in_lanes, scalar};
+use crate::kernel::real::Real;
 use std::ops::{Add, Mul};
 
 /// Real and imaginary part.

@@ -16,9 +16,9 @@
 //! Anal. Appl. 27 (2005) 153–175.
 
 use super::holzer::Holzer;
-use crate::call::poll;
-use crate::lanes::{Job, in_lanes};
-use crate::real::Real;
+use crate::kernel::call::poll;
+use crate::kernel::lanes::{Job, in_lanes};
+use crate::kernel::real::Real;
 
 /// Halvings at most before Aberth's iteration.
 const HALVINGS: usize = 8;
@@ -256,7 +256,7 @@ fn sort(list: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::scalar;
+    use crate::kernel::lanes::scalar;
     use crate::torsion::{Train, modes::modes, trees};
 
     fn chain(inertia: &[f64], stiffness: f64) -> Train {

@@ -10,7 +10,7 @@
 //! product is the characteristic polynomial p, whose derivative goes along.
 
 use super::Train;
-use crate::real::Real;
+use crate::kernel::real::Real;
 
 /// Share of an angle that is added to the next: nothing, unless that is zero, and then it has a sign and a reciprocal.
 const NUDGE: f64 = 1e-25;

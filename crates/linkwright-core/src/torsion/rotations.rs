@@ -8,7 +8,7 @@
 //! de Rijk, *A one-sided Jacobi algorithm*, SIAM J. Sci. Stat. Comput. 10 (1989) 359–371.
 
 use super::Train;
-use crate::call::poll;
+use crate::kernel::call::poll;
 
 /// Sweeps over all pairs at most; ten are usual.
 const SWEEPS: usize = 40;

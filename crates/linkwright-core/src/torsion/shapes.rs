@@ -17,9 +17,9 @@
 //! Parlett, *The Symmetric Eigenvalue Problem*, section 11.7, for the gap.
 
 use super::Train;
-use crate::call::poll;
-use crate::lanes::{Job, in_lanes};
-use crate::real::Real;
+use crate::kernel::call::poll;
+use crate::kernel::lanes::{Job, in_lanes};
+use crate::kernel::real::Real;
 
 /// A pivot is moved off zero by this share of the stiffness, so little that no other value changes: what the disc answers is then
 /// as good as infinite and the next one as good as held, without infinities to compute with.

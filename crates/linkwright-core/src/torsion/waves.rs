@@ -11,9 +11,9 @@
 //! Source: Zygmund, *Trigonometric Series*, chapter X, for the bounds.
 
 use super::forced::Complex;
-use crate::call::{in_threads, poll};
-use crate::lanes::{Job, in_lanes};
-use crate::real::Real;
+use crate::kernel::call::{in_threads, poll};
+use crate::kernel::lanes::{Job, in_lanes};
+use crate::kernel::real::Real;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::ops::Range;

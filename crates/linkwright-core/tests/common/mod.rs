@@ -1,19 +1,20 @@
 //! Machines for the tests, built as a plan with its parameters.
 #![allow(dead_code, unreachable_pub)]
 
-use linkwright_core::drive::{Drive, Motor, Span};
-use linkwright_core::formula::{Formula, Op, Variable};
+use linkwright_core::drive::loads::{Body, Load};
+use linkwright_core::drive::motor::{Drive, Motor, Span};
+use linkwright_core::drive::structure::Plan;
+use linkwright_core::kernel::formula::{Formula, Op, Variable};
+use linkwright_core::kernel::table::Table;
 use linkwright_core::linkage::arm::{self, Arm};
 use linkwright_core::linkage::coupled::{AngleOf, Law, Runner, Source, Sum, Turn};
+use linkwright_core::linkage::dyads::{Rocker, SliderRod};
 use linkwright_core::linkage::folding::{ChangePoint, Folding};
 use linkwright_core::linkage::group::{Bar, Carried, Condition, Group};
 use linkwright_core::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
 use linkwright_core::linkage::in_line::in_line;
+use linkwright_core::linkage::mechanism::{Element, Fixed, Mechanism};
 use linkwright_core::linkage::trace::{Path, follow};
-use linkwright_core::linkage::{Element, Fixed, Mechanism, Rocker, SliderRod};
-use linkwright_core::plan::Plan;
-use linkwright_core::reduce::{Body, Load};
-use linkwright_core::table::Table;
 
 /// A plan and the numbers that go with it.
 pub struct Built {
@@ -376,7 +377,7 @@ impl Builder {
             mechanism: self.mechanism,
             bodies: self.bodies,
             loads: self.loads,
-            further: vec![],
+            force_elements: vec![],
             drive,
             tables: self.tables,
             formulas: vec![],

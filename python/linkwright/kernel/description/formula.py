@@ -39,7 +39,7 @@ VARIABLES = frozenset({"phi", "t", "x", "y", "s", "psi"}) | SPEEDS
 # Names that stand for a number; g in m/s².
 NUMBERS = {"pi": 3.141592653589793, "g": 9.81}
 
-# Numbers that the core's stack holds, module `formula` there.
+# Numbers that the core's stack holds, module `kernel::formula` there.
 DEPTH = 16
 
 # Brackets and signs inside one another; far more than anyone writes, far less than Python's own limit.

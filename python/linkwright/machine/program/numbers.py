@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.description import formula
 
-# Variables and instructions of formulas in the order of the core's modules `formula` and `plan`.
+# Variables and instructions of formulas in the order of the core's modules `kernel::formula` and `plan`.
 _VARIABLES = ("phi", "omega", "t", "x", "y", "vx", "vy", "v", "s", "psi", "psi_dot")
 _INSTRUCTIONS = (
     *("number", "zero", "name", "+", "-", "*", "/", "negative", "power", "pow"),

@@ -6,7 +6,7 @@ use super::implicit::Implicit;
 use super::rates::Rates;
 use super::stepper::{Scale, Stepper};
 use super::system::System;
-use crate::call::poll;
+use crate::kernel::call::poll;
 
 /// What to follow.
 #[derive(Clone, Copy, Debug)]

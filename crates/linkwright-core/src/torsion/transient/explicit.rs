@@ -1,8 +1,8 @@
-//! Steps of order 8 by [`crate::rk`]: exact and cheap as long as no swing is much faster than those that matter.
+//! Steps of order 8 by [`crate::kernel::rk`]: exact and cheap as long as no swing is much faster than those that matter.
 
 use super::rates::Rates;
 use super::stepper::{Scale, Stepper};
-use crate::rk::{Stages, WEIGHTS, next_factor};
+use crate::kernel::rk::{Stages, WEIGHTS, next_factor};
 
 /// Phase of the fastest undamped swing up to which its amplitude does not grow in a step.
 pub const STABLE_PHASE: f64 = 5.9;

@@ -2,7 +2,7 @@
 
 use super::rates::Rates;
 use super::system::System;
-use crate::rk::{over, worse};
+use crate::kernel::rk::{over, worse};
 
 /// Steps through a motion. In order for each step: [`Stepper::step`], [`Stepper::accept`], [`Stepper::fill`], and then
 /// [`Stepper::component`], [`Stepper::work`], [`Stepper::advance`]. Where the polynomial errs too much, [`Stepper::shorten`],

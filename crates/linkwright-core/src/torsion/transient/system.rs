@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::periodic::Periodic;
 use super::torque::{Law, Shape, Torque};
-use crate::error::PlanError;
+use crate::kernel::error::PlanError;
 
 /// What twists between two masses, as seen at a part that turns `ratio` times as fast as they do.
 #[derive(Clone, Copy, Debug)]

@@ -1,0 +1,285 @@
+//! The error of a solved turn, measured: every step is done again in two halves.
+//!
+//! From the same start, two steps of half the length give the end of a step and the acceleration there some
+//! 500 times more accurately (order 9), so the difference is the error of the step itself. What errs in one
+//! step is carried on to the others by their growth and by the closure of the turn, like any disturbance.
+//! Where the motor is steep the curve may change fast behind the start of a step, though its end is right:
+//! there the parts of a half, a quarter, … of the step, from which the curve is read, are compared in the
+//! same way, down to where the steepness no longer matters.
+
+use crate::drive::cycle::{Machine, Step, Turn, stages_of_part};
+use crate::drive::layout::{bundle, unbundle};
+use crate::drive::measures::INTEGRALS;
+use crate::kernel::radau::{S, tail};
+use crate::kernel::real::Real;
+use crate::linkage::motion::Motion;
+
+/// Parts of a step that are looked at: the shortest is 2⁻²⁹ of it.
+const LEVELS: usize = 30;
+
+/// Parts of the coarsest step that are looked at in lanes with a machine each.
+const LEVELS_IN_LANES: usize = 3;
+
+/// Rounding of a value that a few dozen operations lead to, relative.
+const ROUNDING: f64 = 2e-15;
+
+/// Accelerations count against their peak, but at least against this share of ω², and torques and work
+/// against what makes it: a machine that turns evenly has none, and rounding is all that there is.
+const EVEN: f64 = 1e-4;
+
+/// What is wrong with a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excess {
+    /// Error per tolerance; good up to 1.
+    pub error: f64,
+    /// Halvings down to the shortest part of the step whose error exceeds the tolerance.
+    pub halvings: u32,
+}
+
+/// The measured error of a turn.
+#[derive(Clone, Debug)]
+pub struct Check {
+    /// For each step.
+    pub excess: Vec<Excess>,
+    /// Largest relative error of all speeds, accelerations and integrals.
+    pub reached: f64,
+}
+
+/// Differences of a step from its two halves.
+struct Differences<R> {
+    /// Error of its end, signed.
+    defect: R,
+    /// Error per tolerance.
+    error: R,
+    /// Halvings, see [`Excess`].
+    halvings: R,
+    /// Relative error.
+    relative: R,
+    /// Errors of its integrals.
+    integrals: [R; INTEGRALS],
+}
+
+/// What errors are compared with.
+#[derive(Clone, Copy)]
+struct Limits {
+    /// Relative accuracy asked for.
+    accuracy: f64,
+    /// What accelerations count against \[rad/s²\].
+    epsilon: f64,
+}
+
+impl<R: Real> Turn<R> {
+    /// Measures the error of a solved turn of one machine.
+    #[inline(always)]
+    pub fn check(&self, machine: &Machine<'_, R>, accuracy: f64, m: &mut Motion<R>) -> Check {
+        let limits = Limits { accuracy, epsilon: self.acceleration_scale() };
+        let differences: Vec<Differences<R>> = (0..self.steps.len())
+            .map(
+                #[inline(always)]
+                |k| self.differences(machine, k, limits, m),
+            )
+            .collect();
+        let column = |of: &dyn Fn(usize) -> R| unbundle(&(0..differences.len()).map(of).collect::<Vec<_>>());
+        let defect = column(&|k| differences[k].defect);
+        let mut check = Check {
+            excess: column(&|k| differences[k].error)
+                .into_iter()
+                .zip(column(&|k| differences[k].halvings))
+                .map(|(error, halvings)| Excess { error, halvings: halvings as u32 })
+                .collect(),
+            reached: column(&|k| differences[k].relative).into_iter().fold(0.0, f64::max),
+        };
+        self.add_carried(&mut check, &defect, limits);
+        for (i, size) in self.integral_sizes(machine).into_iter().enumerate() {
+            let parts = column(&|k| differences[k].integrals[i]);
+            add_integral(&mut check, &parts, size, accuracy);
+        }
+        check
+    }
+
+    /// What the errors of the integrals count against: the sum of their parts' sizes, so that nothing is lost
+    /// where they cancel, but at least what the acceleration of [`EVEN`] makes of them. Of a load that takes
+    /// nothing, or of a drive that idles, rounding is all that there is.
+    #[inline(always)]
+    fn integral_sizes(&self, machine: &Machine<'_, R>) -> [f64; INTEGRALS] {
+        let zero = R::splat(0.0);
+        let (mut sizes, mut least) = ([zero; INTEGRALS], [zero; INTEGRALS]);
+        for (k, step) in self.steps.iter().enumerate() {
+            let parts = machine.integrals(step, self.given_of(machine, k));
+            let torque = step.u * (2.0 * EVEN) / step.rows[S - 1].inverse;
+            let (at_motor, work) = (torque / machine.q[machine.plan.drive.ratio], torque * step.h);
+            let (impulse, heat) = (at_motor * parts[0], at_motor.squared() * parts[0]);
+            for (i, part) in [zero, work, work, work, impulse, heat].into_iter().enumerate() {
+                (sizes[i], least[i]) = (sizes[i] + parts[i].abs(), least[i] + part);
+            }
+        }
+        let total = |sum: R| unbundle(&[sum]).into_iter().sum::<f64>();
+        std::array::from_fn(|i| total(sizes[i]).max(total(least[i])))
+    }
+
+    /// Peak acceleration of the stages, or what counts in its place.
+    #[inline(always)]
+    fn acceleration_scale(&self) -> f64 {
+        let (mut epsilon, mut u) = (R::splat(0.0), R::splat(0.0));
+        for step in &self.steps {
+            for i in 0..S {
+                epsilon = epsilon.max(step.K[i].abs());
+                u = u.max(step.X[i]);
+            }
+        }
+        epsilon.max_lane().max(2.0 * EVEN * u.max_lane())
+    }
+
+    /// A step against its two halves, and so for its parts from the start on.
+    #[inline(always)]
+    fn differences(
+        &self,
+        machine: &Machine<'_, R>,
+        k: usize,
+        limits: Limits,
+        m: &mut Motion<R>,
+    ) -> Differences<R> {
+        let step = &self.steps[k];
+        let zero = R::splat(0.0);
+        let steepness = step.steepness();
+        let whole = machine.integrals(step, self.given_of(machine, k));
+        let mut d =
+            Differences { defect: zero, error: zero, halvings: zero, relative: zero, integrals: whole };
+        let (mut whole, mut x, mut share) = (*step, step.h, 1.0);
+        let quintic = step.quintic();
+        for level in 0..LEVELS {
+            x = x * 0.5;
+            share *= 0.5;
+            let (at, zero) = (R::splat(share), R::splat(0.0));
+            let X = stages_of_part(&quintic, zero, at);
+            let (first, given) = machine.advance_near(step.phi, step.u, x, X, m);
+            let X = stages_of_part(&quintic, at, at);
+            let (second, given_second) = machine.advance_near(step.phi + x, first.end(), x, X, m);
+            if level == 0 {
+                d.defect = second.end() - whole.end();
+                let halves = [machine.integrals(&first, &given), machine.integrals(&second, &given_second)];
+                for i in 0..INTEGRALS {
+                    d.integrals[i] = (halves[0][i] + halves[1][i] - d.integrals[i]).abs();
+                }
+            }
+            d.add_part(&whole, &second, steepness, level, limits);
+            whole = first;
+            if (steepness * x).max_lane() <= 1.0 {
+                break;
+            }
+        }
+        d
+    }
+
+    /// Adds what the errors of all steps make of the solution in each, carried on from step to step and
+    /// closed.
+    #[inline(always)]
+    fn add_carried(&self, check: &mut Check, defect: &[f64], limits: Limits) {
+        let growth: Vec<R> = self.steps.iter().map(|step| step.growth).collect();
+        let sizes: Vec<f64> = defect.iter().map(|d| d.abs()).collect();
+        let (carried, _) = self.layout.close(&growth, &bundle(&sizes));
+        let u: Vec<f64> = unbundle(&self.steps.iter().map(|step| step.u).collect::<Vec<_>>());
+        let steepness = unbundle(&self.steps.iter().map(Step::steepness).collect::<Vec<_>>());
+        let worst = sizes.iter().copied().fold(0.0, f64::max);
+        let mut is_bad = false;
+        for (k, delta) in unbundle(&carried).into_iter().map(f64::abs).enumerate() {
+            let relative = (0.5 * delta / u[k]).max(steepness[k] * delta / limits.epsilon);
+            check.reached = check.reached.max(relative);
+            is_bad |= relative > limits.accuracy;
+        }
+        if is_bad {
+            for (k, excess) in check.excess.iter_mut().enumerate() {
+                let is_rounding = sizes[k] <= 4.0 * ROUNDING * u[k];
+                if sizes[k] >= 0.3 * worst && !is_rounding {
+                    excess.error = excess.error.max(2.0);
+                }
+            }
+        }
+    }
+}
+
+impl<R: Real> Turn<R> {
+    /// The relative error of each lane's turn, estimated: in each lane the step whose acceleration has the
+    /// largest part of the highest degree is done again in halves, as in [`Turn::check`]; the errors of the
+    /// others are to its own as the squares of these parts, and all are carried on round the turn.
+    #[inline(always)]
+    pub fn estimate(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> R {
+        let zero = R::splat(0.0);
+        let (mut worst, mut of_worst) = (self.steps[0], R::splat(-1.0));
+        let (mut squares, mut epsilon, mut u) = (zero, zero, zero);
+        for step in &self.steps {
+            let coarse = tail(&step.K) * step.h;
+            squares = coarse.mul_add(coarse, squares);
+            worst.replace_where(of_worst, coarse, step);
+            of_worst = of_worst.max(coarse);
+            for i in 0..S {
+                epsilon = epsilon.max(step.K[i].abs());
+                u = u.max(step.X[i]);
+            }
+        }
+        let epsilon = epsilon.max(u * (2.0 * EVEN));
+        let (mut whole, mut x, mut share) = (worst, worst.h, 1.0);
+        let quintic = worst.quintic();
+        let (mut relative, mut carried) = (zero, zero);
+        let steepness = worst.steepness();
+        for level in 0..LEVELS_IN_LANES {
+            x = x * 0.5;
+            share *= 0.5;
+            let X = stages_of_part(&quintic, zero, R::splat(share));
+            let (first, _) = machine.advance_near(worst.phi, worst.u, x, X, m);
+            let X = stages_of_part(&quintic, R::splat(share), R::splat(share));
+            let (second, _) = machine.advance_near(worst.phi + x, first.end(), x, X, m);
+            let du = size(second.end() - whole.end());
+            let de = size(second.K[S - 1] - whole.K[S - 1]);
+            relative = relative.max(du / worst.u * 0.5).max(de / epsilon);
+            if level == 0 {
+                let of_all = squares / of_worst.squared().max(R::splat(f64::MIN_POSITIVE));
+                let remaining = (R::splat(1.0) - self.multiplier).max(R::splat(f64::MIN_POSITIVE));
+                carried = du * of_all / remaining;
+            }
+            whole = first;
+        }
+        relative.max(size(carried / worst.u * 0.5)).max(size(carried * steepness / epsilon))
+    }
+}
+
+/// The size of a difference; infinite for a NaN, which steps that do not converge leave.
+#[inline(always)]
+fn size<R: Real>(difference: R) -> R {
+    let infinity = R::splat(f64::INFINITY);
+    difference.abs().select_lt(infinity, difference.abs(), infinity)
+}
+
+/// Adds the errors of an integral; its size is that of its parts, so that nothing is lost where they cancel.
+fn add_integral(check: &mut Check, parts: &[f64], size: f64, accuracy: f64) {
+    let sum: f64 = parts.iter().sum();
+    if size <= 0.0 || sum <= ROUNDING * size {
+        return;
+    }
+    check.reached = check.reached.max(sum / size);
+    if sum > accuracy * size {
+        let worst = parts.iter().copied().fold(0.0, f64::max);
+        for (excess, part) in check.excess.iter_mut().zip(parts) {
+            if *part >= 0.3 * worst && *part > ROUNDING * size {
+                excess.error = excess.error.max(2.0);
+            }
+        }
+    }
+}
+
+impl<R: Real> Differences<R> {
+    /// Adds the difference of a part of the step from its two halves.
+    #[inline(always)]
+    fn add_part(&mut self, whole: &Step<R>, halves: &Step<R>, steepness: R, level: usize, limits: Limits) {
+        let u = whole.u;
+        let du = size(halves.end() - whole.end());
+        let de = size(halves.K[S - 1] - whole.K[S - 1]);
+        let of_speed = u * (2.0 * limits.accuracy).max(4.0 * ROUNDING);
+        let rounding = (steepness + 1.0) * u * (2.0 * ROUNDING);
+        let of_acceleration = R::splat(limits.accuracy * limits.epsilon).max(rounding);
+        let error = (du / of_speed).max(de / of_acceleration);
+        self.halvings = R::splat(1.0).select_lt(error, R::splat(level as f64), self.halvings);
+        self.error = self.error.max(error);
+        self.relative = self.relative.max((du / u * 0.5).max(de * (1.0 / limits.epsilon)));
+    }
+}

@@ -1,0 +1,505 @@
+//! One turn of steady motion: the periodic solution of the machine's equation of motion over the crank angle.
+//!
+//! ```text
+//! du/dφ = ε = [M_d(ω) − M_r(φ, ω) − J′(φ) u] / J(φ),   ω = √(2u),   u(2π) = u(0)
+//! ```
+//!
+//! u = ½ ω² is the state (paper 1, equation (1), divided by J): its derivative by the angle *is* the
+//! acceleration, so the acceleration is known as well as the solution is, also where a steep motor leaves
+//! little of it. The turn is divided from kink to kink into steps of [`crate::kernel::radau`]; the stages of all
+//! steps and the closure u(2π) = u(0) are solved together by Newton. Eliminating the stages step by step
+//! leaves the Newton step of the turn-to-turn map, and the product of the steps' growth is that map's
+//! derivative: the multiplier of a small disturbance over one turn (stable when below 1 in size).
+
+use crate::drive::law::Given;
+use crate::drive::layout::{Layout, bundle};
+use crate::drive::structure::Plan;
+use crate::kernel::call::poll;
+use crate::kernel::dual::Dual;
+use crate::kernel::plane::Angle;
+use crate::kernel::radau::{B, C, N, S, StageNewton, stage_newton, through, value};
+use crate::kernel::real::{Lift, Real};
+use crate::linkage::motion::Motion;
+use std::f64::consts::TAU;
+
+/// The reduced machine at one stage: all that the equation of motion needs besides u.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<R> {
+    /// 1/J \[1/(kg m²)\].
+    pub inverse: R,
+    /// J′/J \[1/rad\].
+    pub drift: R,
+    /// Resisting torque that does not depend on speed \[N m\].
+    pub load: R,
+    /// Viscous coefficient \[N m s/rad\].
+    pub viscous: R,
+}
+
+/// A step of the turn: where it starts, how long it is, its stages.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<R> {
+    /// Crank angle at its start \[rad\].
+    pub phi: R,
+    /// Length \[rad\].
+    pub h: R,
+    /// The machine at its stages.
+    pub rows: [Row<R>; S],
+    /// u at its start \[rad²/s²\].
+    pub u: R,
+    /// u at its stages.
+    pub X: [R; S],
+    /// ε at its stages \[rad/s²\].
+    pub K: [R; S],
+    /// ∂ε/∂u at its stages \[1/rad\].
+    pub D: [R; S],
+    /// Derivative of its end by its start.
+    pub growth: R,
+}
+
+/// A turn in steps, and what the solution took.
+#[derive(Clone, Debug)]
+pub struct Turn<R> {
+    /// The steps from φ = 0 to 2π.
+    pub steps: Vec<Step<R>>,
+    /// What the laws need to know at the stages, law by law, stage by stage, step by step.
+    pub given: Vec<Given<R>>,
+    /// What the lanes hold.
+    pub layout: Layout,
+    /// Derivative of the turn-to-turn map.
+    pub multiplier: R,
+    /// Newton sweeps over the turn.
+    pub sweeps: u32,
+    /// Largest relative correction of the last sweep, of the turn in each lane.
+    pub correction: R,
+}
+
+/// A machine with its parameters in lanes of `R`: what every function of a turn works on.
+#[derive(Clone, Copy)]
+pub struct Machine<'a, R> {
+    /// Its structure.
+    pub plan: &'a Plan,
+    /// Its numbers.
+    pub q: &'a [R],
+}
+
+/// Newton sweeps before giving up. From a good start 5 suffice; 40 leave room for damped ones.
+const SWEEPS_MAX: u32 = 40;
+
+/// A sweep may lower u at most to this share of itself, so that roots stay real.
+const SHRINK: f64 = 0.25;
+
+/// Newton sweeps of a step on its own.
+const STEP_SWEEPS: usize = 16;
+
+/// Relative correction after which the stages of a step have converged: the next would be its square.
+const CONVERGED: f64 = 1e-8;
+
+/// Largest correction of the last sweep that counts as converged at all.
+const SOLVED: f64 = 1e-6;
+
+impl<R: Real> Machine<'_, R> {
+    /// ε without laws, and its derivative by u.
+    #[inline(always)]
+    fn drive_acceleration(&self, row: &Row<R>, u: R) -> Dual<R> {
+        let u = Dual::variable(u);
+        let omega = (u * 2.0).sqrt();
+        let torque = self.plan.drive.torque(&self.plan.tables, self.q, omega);
+        let net = torque - Dual::constant(row.load) - Dual::constant(row.viscous) * omega;
+        net * Dual::constant(row.inverse) - Dual::constant(row.drift) * u
+    }
+
+    /// ε, and its derivative by u.
+    #[inline(always)]
+    pub fn acceleration(&self, row: &Row<R>, given: &[Given<R>], u: R) -> Dual<R> {
+        let free = self.drive_acceleration(row, u);
+        if given.is_empty() {
+            return free;
+        }
+        let taken = self.laws(given, (Dual::variable(u) * 2.0).sqrt());
+        free - taken * Dual::constant(row.inverse)
+    }
+
+    /// Resisting torque of all laws at a stage; no time counts, since no turn differs from another.
+    #[inline(always)]
+    pub fn laws<N: Lift<R>>(&self, given: &[Given<R>], omega: N) -> N {
+        N::outline(
+            #[inline(always)]
+            || self.plan.law_torque(self.q, given, omega, N::splat(f64::NAN)),
+        )
+    }
+
+    /// What the laws need to know at one stage of several.
+    #[inline(always)]
+    pub fn given_at<'a>(&self, given: &'a [Given<R>], stage: usize) -> &'a [Given<R>] {
+        let n = self.plan.laws.len();
+        &given[stage * n..(stage + 1) * n]
+    }
+
+    /// ε at the stages of a step, and its derivatives.
+    #[inline(always)]
+    fn accelerations(&self, rows: &[Row<R>; S], given: &[Given<R>], X: &[R; S]) -> ([R; S], [R; S]) {
+        let (mut f, mut d) = (*X, *X);
+        for i in 0..S {
+            let free = self.drive_acceleration(&rows[i], X[i]);
+            (f[i], d[i]) = (free.value, free.d);
+        }
+        if !given.is_empty() {
+            for i in 0..S {
+                let taken = self.laws(self.given_at(given, i), (Dual::variable(X[i]) * 2.0).sqrt());
+                (f[i], d[i]) = (f[i] - taken.value * rows[i].inverse, d[i] - taken.d * rows[i].inverse);
+            }
+        }
+        (f, d)
+    }
+
+    /// The reduced machine at a crank angle; what its laws need to know there is added to `given`.
+    #[inline(always)]
+    pub fn row(&self, phi: R, m: &mut Motion<R>, given: &mut Vec<Given<R>>) -> Row<R> {
+        let r = self.plan.reduce::<R, 2>(self.q, Angle::new(phi), 1.0, m);
+        if !self.plan.laws.is_empty() {
+            self.plan.give(self.q, phi, m, given);
+        }
+        let inverse = r.J.recip();
+        Row { inverse, drift: r.J_d1 * inverse, load: r.load + r.dry, viscous: r.viscous }
+    }
+
+    /// The stages of a step.
+    #[inline(always)]
+    fn rows(&self, phi: R, h: R, m: &mut Motion<R>, given: &mut Vec<Given<R>>) -> [Row<R>; S] {
+        let mut rows = [Row { inverse: h, drift: h, load: h, viscous: h }; S];
+        for i in 0..S {
+            rows[i] = self.row(h.mul_add(R::splat(C[i]), phi), m, given);
+        }
+        rows
+    }
+
+    /// A step of its own from (`phi`, `u`) on by `h`, and what its laws needed. This is how the solution is
+    /// read between the steps of the turn. Lanes that do not converge are NaN.
+    #[inline(always)]
+    pub fn advance(&self, phi: R, u: R, h: R, m: &mut Motion<R>) -> (Step<R>, Vec<Given<R>>) {
+        self.advance_near(phi, u, h, [u; S], m)
+    }
+
+    /// The same with stages to start from.
+    #[inline(always)]
+    pub fn advance_near(&self, phi: R, u: R, h: R, X: [R; S], m: &mut Motion<R>) -> (Step<R>, Vec<Given<R>>) {
+        let mut given = Vec::new();
+        let rows = R::outline(
+            #[inline(always)]
+            || self.rows(phi, h, m, &mut given),
+        );
+        let step = R::outline(
+            #[inline(always)]
+            || self.solve_step(Step { X, ..Step::at_rest(phi, h, rows, u) }, &given),
+        );
+        (step, given)
+    }
+
+    /// Newton for the stages of a step from its given start.
+    #[inline(always)]
+    fn solve_step(&self, mut step: Step<R>, given: &[Given<R>]) -> Step<R> {
+        let mut worst = R::splat(f64::INFINITY);
+        for _ in 0..STEP_SWEEPS {
+            let newton = self.step_newton(&mut step, given, worst);
+            let correction = step.take(&newton, R::splat(0.0), worst);
+            worst = worst.select_lt(R::splat(CONVERGED), worst, correction);
+            if worst.max_lane() < CONVERGED {
+                break;
+            }
+        }
+        // A NaN is not below the limit.
+        step.X[S - 1] = worst.select_lt(R::splat(SOLVED), step.X[S - 1], R::splat(f64::NAN));
+        step.K[S - 1] = worst.select_lt(R::splat(SOLVED), step.K[S - 1], R::splat(f64::NAN));
+        step
+    }
+
+    /// One Newton step for the stages of a step. Lanes whose last correction was small enough keep what they
+    /// have: no lane's bits depend on how long another takes.
+    #[inline(always)]
+    fn step_newton(&self, step: &mut Step<R>, given: &[Given<R>], correction: R) -> StageNewton<R> {
+        let limit = R::splat(CONVERGED);
+        let (f, d) = self.accelerations(&step.rows, given, &step.X);
+        let newton = stage_newton(step.u, step.h, &f, &d, &step.X);
+        for i in 0..S {
+            step.K[i] = correction.select_lt(limit, step.K[i], f[i]);
+            step.D[i] = correction.select_lt(limit, step.D[i], d[i]);
+        }
+        step.growth = correction.select_lt(limit, step.growth, newton.u[S - 1]);
+        newton
+    }
+
+    /// Steady speed of a crank with constant load: where the drive's torque balances mean load and viscous
+    /// drag, by Newton from the drive's starting speed. A first guess only, so it need not converge.
+    #[inline(always)]
+    fn guess_speed(&self, turn: &Turn<R>) -> R {
+        let (load, viscous) = turn.mean_load();
+        let start = self.q[self.plan.drive.speed_start];
+        let (low, high) = (start * 0.02, start * 3.0);
+        let mut omega = start;
+        for _ in 0..6 {
+            let w = Dual::variable(omega);
+            let mut net = self.plan.drive.torque(&self.plan.tables, self.q, w)
+                - Dual::constant(load)
+                - Dual::constant(viscous) * w;
+            if !turn.given.is_empty() {
+                net = net - turn.mean_laws(self, w);
+            }
+            let next = omega - net.value / net.d;
+            omega = next.max(low).min(high);
+        }
+        // Where a flat characteristic just balances the load this is 0/0: stay at the start then.
+        omega.select_lt(high * 2.0, omega, start)
+    }
+}
+
+impl<R: Real> Step<R> {
+    /// A step whose stages are still those of its start.
+    #[inline(always)]
+    fn at_rest(phi: R, h: R, rows: [Row<R>; S], u: R) -> Self {
+        let zero = R::splat(0.0);
+        Step { phi, h, rows, u, X: [u; S], K: [zero; S], D: [zero; S], growth: zero }
+    }
+
+    /// u at its end: the last stage.
+    #[inline(always)]
+    pub fn end(&self) -> R {
+        self.X[S - 1]
+    }
+
+    /// Quintic through u at its start and its stages, over the share of the step.
+    #[inline(always)]
+    pub fn quintic(&self) -> [R; N] {
+        let mut values = [self.u; N];
+        values[1..].copy_from_slice(&self.X);
+        through(&values)
+    }
+
+    /// Corrects the stages for a correction of the start; the largest relative correction.
+    #[inline(always)]
+    fn take(&mut self, newton: &StageNewton<R>, delta: R, last: R) -> R {
+        let (mut worst, limit) = (R::splat(0.0), R::splat(CONVERGED));
+        for i in 0..S {
+            let change = newton.u[i].mul_add(delta, newton.p[i]);
+            let next = (self.X[i] + change).max(self.X[i] * SHRINK);
+            let next = last.select_lt(limit, self.X[i], next);
+            // The tangent gives ε at the corrected stage to the square of the correction.
+            self.K[i] = self.D[i].mul_add(next - self.X[i], self.K[i]);
+            worst = worst.max(change.abs() / self.X[i]);
+            self.X[i] = next;
+        }
+        worst
+    }
+
+    /// Takes the other step's place, length and solution in the lanes where its `value` is larger.
+    #[inline(always)]
+    pub fn replace_where(&mut self, value: R, larger: R, other: &Self) {
+        self.phi = value.select_lt(larger, other.phi, self.phi);
+        self.h = value.select_lt(larger, other.h, self.h);
+        self.u = value.select_lt(larger, other.u, self.u);
+        for i in 0..S {
+            self.X[i] = value.select_lt(larger, other.X[i], self.X[i]);
+            self.K[i] = value.select_lt(larger, other.K[i], self.K[i]);
+            self.D[i] = value.select_lt(larger, other.D[i], self.D[i]);
+        }
+    }
+
+    /// Steepest ∂ε/∂u of its stages, in size \[1/rad\].
+    #[inline(always)]
+    pub fn steepness(&self) -> R {
+        let mut steepest = self.D[0].abs();
+        for d in &self.D[1..] {
+            steepest = steepest.max(d.abs());
+        }
+        steepest
+    }
+
+    /// How long the step takes \[s\]: ∫ dφ/ω.
+    #[inline(always)]
+    pub fn duration(&self) -> R {
+        let mut t = R::splat(0.0);
+        for i in 0..S {
+            t = (self.h * B[i] / (self.X[i] * 2.0).sqrt()) + t;
+        }
+        t
+    }
+}
+
+/// Stages of a part of a step, from share `from` on by share `length`, on the step's quintic; not below a
+/// share of what the part starts from, where a polynomial may swing.
+#[inline(always)]
+pub fn stages_of_part<R: Real>(quintic: &[R; N], from: R, length: R) -> [R; S] {
+    let mut X = [from; S];
+    let least = value(quintic, from) * SHRINK;
+    for i in 0..S {
+        X[i] = value(quintic, length.mul_add(R::splat(C[i]), from)).max(least);
+    }
+    X
+}
+
+impl<R: Real> Turn<R> {
+    /// Machines in lanes, each with its own steps between its own breaks, no longer than 2π/`n`; lanes with
+    /// fewer steps are filled up at 2π.
+    #[inline(always)]
+    pub fn of_machines(machine: &Machine<'_, R>, breaks: &[Vec<f64>], n: usize, m: &mut Motion<R>) -> Self {
+        let mut lanes: Vec<Vec<f64>> = breaks.iter().map(|breaks| divide(breaks, n)).collect();
+        let most = lanes.iter().map(Vec::len).max().unwrap_or(0);
+        for lane in &mut lanes {
+            lane.resize(most, TAU);
+        }
+        let across = |k: usize| R::load(&lanes.iter().map(|lane| lane[k]).collect::<Vec<_>>());
+        let edges: Vec<R> = (0..most).map(across).collect();
+        let steps = edges.windows(2).map(|ends| (ends[0], ends[1] - ends[0])).collect();
+        Self::tabulate(machine, steps, Layout::Machines, m)
+    }
+
+    /// One machine, its steps between the given angles in lanes, the last bundle filled up at 2π.
+    #[inline(always)]
+    pub fn of_steps(machine: &Machine<'_, R>, edges: &[f64], m: &mut Motion<R>) -> Self {
+        let (mut phi, mut h): (Vec<f64>, Vec<f64>) =
+            edges.windows(2).map(|ends| (ends[0], ends[1] - ends[0])).unzip();
+        let filled = phi.len().next_multiple_of(R::LANES);
+        phi.resize(filled, TAU);
+        h.resize(filled, 0.0);
+        let steps = bundle(&phi).into_iter().zip(bundle(&h)).collect();
+        Self::tabulate(machine, steps, Layout::Steps, m)
+    }
+
+    #[inline(always)]
+    fn tabulate(machine: &Machine<'_, R>, steps: Vec<(R, R)>, layout: Layout, m: &mut Motion<R>) -> Self {
+        let zero = R::splat(0.0);
+        let mut tabulated = Vec::with_capacity(steps.len());
+        let mut given = Vec::with_capacity(steps.len() * S * machine.plan.laws.len());
+        for (phi, h) in steps {
+            let rows = R::outline(
+                #[inline(always)]
+                || machine.rows(phi, h, m, &mut given),
+            );
+            tabulated.push(Step::at_rest(phi, h, rows, zero));
+        }
+        Turn {
+            steps: tabulated,
+            given,
+            layout,
+            multiplier: zero,
+            sweeps: 0,
+            correction: R::splat(f64::INFINITY),
+        }
+    }
+
+    /// What the laws need to know at the stages of a step.
+    #[inline(always)]
+    pub fn given_of(&self, machine: &Machine<'_, R>, k: usize) -> &[Given<R>] {
+        let n = S * machine.plan.laws.len();
+        &self.given[k * n..(k + 1) * n]
+    }
+
+    /// Starts every step from one constant speed that balances the mean load.
+    #[inline(always)]
+    pub fn start_from_balance(&mut self, machine: &Machine<'_, R>) {
+        let u = machine.guess_speed(self).squared() * 0.5;
+        for step in &mut self.steps {
+            (step.u, step.X) = (u, [u; S]);
+        }
+    }
+
+    /// Means over the turn of the load and of the viscous coefficient.
+    #[inline(always)]
+    fn mean_load(&self) -> (R, R) {
+        let (mut load, mut viscous) = (R::splat(0.0), R::splat(0.0));
+        for step in &self.steps {
+            for i in 0..S {
+                let weight = step.h * (B[i] / TAU);
+                load = weight.mul_add(step.rows[i].load, load);
+                viscous = weight.mul_add(step.rows[i].viscous, viscous);
+            }
+        }
+        (self.layout.total(load), self.layout.total(viscous))
+    }
+
+    /// Mean over the turn of the laws' resisting torque at one constant speed.
+    #[inline(always)]
+    fn mean_laws(&self, machine: &Machine<'_, R>, omega: Dual<R>) -> Dual<R> {
+        let mut sum = Dual::constant(R::splat(0.0));
+        for (k, step) in self.steps.iter().enumerate() {
+            let given = self.given_of(machine, k);
+            for i in 0..S {
+                let torque = machine.laws(machine.given_at(given, i), omega);
+                sum = torque * Dual::constant(step.h * (B[i] / TAU)) + sum;
+            }
+        }
+        Dual { value: self.layout.total(sum.value), d: self.layout.total(sum.d) }
+    }
+
+    /// Solves for the periodic motion until every lane has converged, or until it is clear that some will
+    /// not.
+    #[inline(always)]
+    pub fn solve(&mut self, machine: &Machine<'_, R>) {
+        let mut work = Vec::with_capacity(self.steps.len());
+        while self.sweeps < SWEEPS_MAX {
+            poll();
+            R::outline(
+                #[inline(always)]
+                || self.sweep(machine, &mut work),
+            );
+            self.sweeps += 1;
+            if self.correction.max_lane() < CONVERGED {
+                return;
+            }
+        }
+    }
+
+    /// Newton for the stages of every step on its own, then for the starts of all steps together.
+    #[inline(always)]
+    fn sweep(&mut self, machine: &Machine<'_, R>, work: &mut Vec<StageNewton<R>>) {
+        work.clear();
+        let mut starts = Vec::with_capacity(self.steps.len());
+        let laws = S * machine.plan.laws.len();
+        for (k, step) in self.steps.iter_mut().enumerate() {
+            let given = &self.given[k * laws..(k + 1) * laws];
+            work.push(machine.step_newton(step, given, self.correction));
+            starts.push(step.u);
+        }
+        let ends = self.layout.ends(&starts);
+        let (mut growth, mut defect) = (starts, ends);
+        for (k, step) in self.steps.iter().enumerate() {
+            growth[k] = step.growth;
+            defect[k] = step.end() + work[k].p[S - 1] - defect[k];
+        }
+        let (delta, multiplier) = self.layout.close(&growth, &defect);
+        let (mut worst, done, limit) = (R::splat(0.0), self.correction, R::splat(CONVERGED));
+        for ((step, newton), delta) in self.steps.iter_mut().zip(work.iter()).zip(delta) {
+            worst = worst.max(step.take(newton, delta, done));
+            let next = (step.u + delta).max(step.u * SHRINK);
+            step.u = done.select_lt(limit, step.u, next);
+        }
+        self.multiplier = done.select_lt(limit, self.multiplier, multiplier);
+        self.correction = done.select_lt(limit, done, self.layout.highest(worst));
+    }
+
+    /// Whether every dyad closes, and the machine has inertia, at every stage.
+    #[inline(always)]
+    pub fn closes(&self) -> bool {
+        let mut worst = R::splat(0.0);
+        for step in &self.steps {
+            for row in &step.rows {
+                // NaN, which an open dyad leaves, is not below the limit.
+                worst = worst.max(row.inverse.select_lt(R::splat(f64::INFINITY), worst, R::splat(1.0)));
+            }
+        }
+        worst.max_lane() < 0.5
+    }
+}
+
+/// Ends of equal steps, no longer than 2π/`n`, from break to break.
+pub fn divide(breaks: &[f64], n: usize) -> Vec<f64> {
+    let longest = TAU / n as f64;
+    let mut edges = vec![0.0];
+    for ends in breaks.windows(2) {
+        let length = ends[1] - ends[0];
+        // The guard keeps a segment of exactly n·longest from being cut into n + 1 by rounding.
+        let count = (length / longest - 1e-9).ceil();
+        edges.extend((1..count as usize).map(|i| ends[0] + length * (i as f64 / count)));
+        edges.extend((length > 0.0).then_some(ends[1]));
+    }
+    edges
+}

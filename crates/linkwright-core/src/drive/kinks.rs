@@ -1,0 +1,430 @@
+//! Where over the turn the reduced machine is not smooth: dead centres under dry friction, knots of tables.
+//!
+//! A dry resistance enters the energy equation as F·|s′|, which has a kink where the slide turns back
+//! (s′ = 0); a table has one at each knot; a formula where the argument of `abs`, `sign`, `step`, `min`,
+//! `max` or `where` changes sign. Between these angles everything is smooth, so a method of high
+//! order keeps its order when it goes from kink to kink.
+
+use crate::drive::cycle::Machine;
+use crate::drive::loads::{ForceElement, FormulaLoad, Law, Load};
+use crate::drive::structure::Plan;
+use crate::kernel::formula::Degree;
+use crate::kernel::plane::Angle;
+use crate::kernel::real::Real;
+use crate::kernel::slot::Slot;
+use crate::linkage::mechanism::Element;
+use crate::linkage::motion::{Motion, stretch};
+use std::f64::consts::TAU;
+
+/// A quantity whose zeros over the turn are kinks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Watch {
+    /// The slide turns back.
+    SlideTurns(usize),
+    /// The link turns back.
+    LinkTurns(usize),
+    /// The point comes to rest, on whatever path.
+    PointRests(usize),
+    /// The slide passes a knot of a table.
+    SlideAt(usize, f64),
+    /// Two points stop parting or nearing each other.
+    StretchTurns(usize, usize),
+    /// The distance of two points passes a knot of a table.
+    StretchAt(usize, usize, f64),
+    /// A spring of this free length passes, or nearly passes, through its own anchor.
+    Anchor(usize, usize, Slot),
+    /// A switch of a formula.
+    Switch(FormulaLoad, usize),
+}
+
+/// A spring that gets shorter than this share of its free length turns round so fast that it counts as a
+/// kink.
+const SHORT: f64 = 0.1;
+
+/// A point rests where its path speed p′ falls below this share of p″.
+const AT_REST: f64 = 1e-6;
+
+/// Angles at which zeros are looked for. Two zeros between neighbours are found where the cubic through
+/// values and slopes dips towards zero.
+const SCAN: usize = 48;
+
+/// The bottom of a dip is looked for where the cubic falls below this share of the smaller value beside it.
+const DIP: f64 = 0.5;
+
+/// Steps of the secant towards the bottom of a dip.
+const BOTTOM_STEPS: usize = 8;
+
+/// Newton steps to a zero: the guess is good to (2π/48)² ~ 1e-2, Newton squares it: 1e-4, 1e-8, 1e-16.
+const POLISHES: usize = 4;
+
+/// Where the quantity bends, Newton is kept inside a bracket that shrinks, until it moves by less than this
+/// \[rad\], with at most so many steps.
+const POLISHED: f64 = 1e-12;
+const POLISHES_MAX: usize = 60;
+
+/// An interval in which a watched quantity changes sign, and where about.
+#[derive(Clone, Copy, Debug)]
+struct Bracket {
+    low: f64,
+    high: f64,
+    guess: f64,
+    /// Sign of the quantity at the low end.
+    sign: f64,
+}
+
+/// An interval at whose ends a watched quantity of one sign goes towards zero, with its slopes there.
+#[derive(Clone, Copy, Debug)]
+struct Dip {
+    low: f64,
+    values: [f64; 2],
+    slopes: [f64; 2],
+}
+
+/// Share of a scan interval by which the scan is shifted, so that the round angles at which dead centres
+/// tend to lie (0°, 90°, …) fall inside intervals.
+const SHIFT: f64 = 0.37;
+
+/// Zeros closer than this \[rad\] to the end of the turn count as its start: rounding must not decide.
+const WRAP: f64 = 1e-7;
+
+impl Plan {
+    /// All quantities to be watched, each once: two loads may ask for the same.
+    fn watches(&self) -> Vec<Watch> {
+        let mut watches = Vec::new();
+        for watch in self.all_watches() {
+            if !watches.contains(&watch) {
+                watches.push(watch);
+            }
+        }
+        watches
+    }
+
+    fn all_watches(&self) -> Vec<Watch> {
+        let mut watches = Vec::new();
+        let switches = self.still_switches().into_iter();
+        watches.extend(switches.map(|(load, at)| Watch::Switch(load, at)));
+        for law in &self.laws {
+            if let Law::Damper { from, to, .. } = *law {
+                watches.push(Watch::StretchTurns(from, to));
+            }
+        }
+        for load in &self.force_elements {
+            if let ForceElement::SpringTable { from, to, table } = *load {
+                let knots = self.tables[table].knots().iter();
+                watches.extend(knots.map(|&knot| Watch::StretchAt(from, to, knot)));
+            }
+        }
+        for load in &self.loads {
+            match *load {
+                Load::Spring { from, to, free_length, .. } => {
+                    watches.push(Watch::Anchor(from, to, free_length));
+                }
+                Load::DrySlide { slide, .. } => watches.push(Watch::SlideTurns(slide)),
+                Load::DryLink { link, .. } => watches.push(Watch::LinkTurns(link)),
+                Load::DryPoint { point, .. } => {
+                    watches.push(Watch::PointRests(point));
+                }
+                Load::ForcePosition { slide, forward, back } => {
+                    watches.push(Watch::SlideTurns(slide));
+                    let knots = self.tables[forward].knots().iter().chain(self.tables[back].knots());
+                    watches.extend(knots.map(|&knot| Watch::SlideAt(slide, knot)));
+                }
+                _ => {}
+            }
+        }
+        watches
+    }
+
+    /// Formulas in all loads with the switches whose zeros are crank angles that no speed moves.
+    fn still_switches(&self) -> Vec<(FormulaLoad, usize)> {
+        let in_laws = self.laws.iter().filter_map(|law| match law {
+            Law::Formula(load) => Some(*load),
+            Law::Damper { .. } => None,
+        });
+        let mut found = Vec::new();
+        for load in self.formula_loads().chain(in_laws) {
+            let switches = &self.formulas[load.formula].switches;
+            found.extend(switches.iter().filter(|s| s.degree != Degree::Mixed).map(|s| (load, s.at)));
+        }
+        found
+    }
+
+    fn angle_knots(&self) -> impl Iterator<Item = f64> + '_ {
+        self.loads
+            .iter()
+            .filter_map(|load| match *load {
+                Load::TorqueAngle { table } => Some(self.tables[table].knots()),
+                _ => None,
+            })
+            .flatten()
+            .map(|knot| knot.rem_euclid(TAU))
+    }
+}
+
+/// ½ d(L²)/dφ of the distance L of two points, and its derivative.
+#[inline(always)]
+fn stretch_turns<R: Real>(from: usize, to: usize, m: &Motion<R>) -> (R, R) {
+    let (a, b) = (&m.points[from], &m.points[to]);
+    let (u, u1, u2) = (b.p - a.p, b.d1 - a.d1, b.d2 - a.d2);
+    (u.dot(u1), u1.dot(u1) + u.dot(u2))
+}
+
+impl<R: Real> Machine<'_, R> {
+    /// The watched quantity and its derivative by φ.
+    #[inline(always)]
+    fn watched(&self, watch: Watch, phi: R, m: &Motion<R>) -> (R, R) {
+        match watch {
+            Watch::SlideTurns(slide) => (m.slides[slide].d1, m.slides[slide].d2),
+            Watch::LinkTurns(link) => (m.links[link].d1, m.links[link].d2),
+            Watch::PointRests(point) => {
+                let place = &m.points[point];
+                // ½ d|p′|²/dφ; where the point rests p′·p‴ is none of its slope.
+                (place.d1.dot(place.d2), place.d2.dot(place.d2))
+            }
+            Watch::SlideAt(slide, knot) => (m.slides[slide].s - R::splat(knot), m.slides[slide].d1),
+            Watch::StretchTurns(from, to) | Watch::Anchor(from, to, _) => stretch_turns(from, to, m),
+            Watch::StretchAt(from, to, knot) => {
+                let (length, length1) = stretch(m, from, to);
+                (length - R::splat(knot), length1)
+            }
+            Watch::Switch(load, at) => self.plan.switch_over_angle((load, at), self.q, phi, m),
+        }
+    }
+
+    /// Ends of the smooth pieces of the turn of each lane: increasing from 0 to 2π.
+    #[inline(always)]
+    pub fn breaks(&self, m: &mut Motion<R>) -> Vec<Vec<f64>> {
+        let mut lanes: Vec<Vec<f64>> = vec![vec![0.0]; R::LANES];
+        let watches = self.plan.watches();
+        if !watches.is_empty() {
+            let scan = R::outline(
+                #[inline(always)]
+                || self.scan(&watches, m),
+            );
+            for (watch, values) in watches.iter().zip(scan.chunks_exact(2 * SCAN * R::LANES)) {
+                self.zeros(*watch, values, &mut lanes, m);
+            }
+        }
+        self.programme_joints(&mut lanes);
+        for lane in &mut lanes {
+            lane.extend(self.plan.angle_knots());
+            for angle in lane.iter_mut() {
+                *angle = if *angle > TAU - WRAP { 0.0 } else { *angle };
+            }
+            lane.push(TAU);
+            lane.sort_by(f64::total_cmp);
+            lane.dedup();
+        }
+        lanes
+    }
+
+    /// Adds the joints of motion laws in pieces, where a derivative jumps.
+    #[inline(always)]
+    fn programme_joints(&self, lanes: &mut [Vec<f64>]) {
+        let mut row = vec![0.0; R::LANES];
+        for element in &self.plan.mechanism.elements {
+            let Element::Programme(programme) = element else { continue };
+            for piece in programme.law.pieces() {
+                (self.q[programme.phase] + piece.start).store(&mut row);
+                for (lane, joint) in lanes.iter_mut().zip(&row) {
+                    lane.push(joint.rem_euclid(TAU));
+                }
+            }
+        }
+    }
+
+    /// All watched quantities over the scan angles with their slopes: watch by watch, values before slopes,
+    /// angle by angle, lane by lane.
+    #[inline(always)]
+    fn scan(&self, watches: &[Watch], m: &mut Motion<R>) -> Vec<f64> {
+        let mut values = vec![0.0; watches.len() * 2 * SCAN * R::LANES];
+        for i in 0..SCAN {
+            let phi = R::splat(scan_angle(i));
+            self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
+            for (w, watch) in watches.iter().enumerate() {
+                let (value, slope) = self.watched(*watch, phi, m);
+                value.store(&mut values[(2 * w * SCAN + i) * R::LANES..]);
+                slope.store(&mut values[((2 * w + 1) * SCAN + i) * R::LANES..]);
+            }
+        }
+        values
+    }
+
+    /// Adds the zeros of one watched quantity to each lane's list.
+    #[inline(always)]
+    fn zeros(&self, watch: Watch, values: &[f64], lanes: &mut [Vec<f64>], m: &mut Motion<R>) {
+        let (values, slopes) = values.split_at(SCAN * R::LANES);
+        let (mut brackets, mut dips) = (vec![Vec::new(); R::LANES], vec![Vec::new(); R::LANES]);
+        let mut pairs = vec![Vec::new(); R::LANES];
+        for lane in 0..R::LANES {
+            let at = |list: &[f64], i: usize| list[(i % SCAN) * R::LANES + lane];
+            for i in 0..SCAN {
+                let (a, b) = (at(values, i), at(values, i + 1));
+                if a * b < 0.0 {
+                    let (low, width) = (scan_angle(i), TAU / SCAN as f64);
+                    brackets[lane].push(Bracket {
+                        low,
+                        high: low + width,
+                        guess: low + a / (a - b) * width,
+                        sign: a.signum(),
+                    });
+                    continue;
+                }
+                let dip =
+                    Dip { low: scan_angle(i), values: [a, b], slopes: [at(slopes, i), at(slopes, i + 1)] };
+                if dip.is_deep() {
+                    dips[lane].push(dip);
+                }
+            }
+        }
+        for nth in 0..dips.iter().map(Vec::len).max().unwrap_or(0) {
+            self.split(watch, nth, &dips, &mut pairs, m);
+        }
+        self.roots(watch, &brackets, lanes, m);
+        self.roots(watch, &pairs, lanes, m);
+    }
+
+    /// Adds the zeros in the brackets of each lane to its list.
+    #[inline(always)]
+    fn roots(&self, watch: Watch, brackets: &[Vec<Bracket>], lanes: &mut [Vec<f64>], m: &mut Motion<R>) {
+        let [mut low, mut high, mut guess, mut sign] =
+            [const { Vec::new() }; 4].map(|_: Vec<f64>| vec![0.0; R::LANES]);
+        for nth in 0..brackets.iter().map(Vec::len).max().unwrap_or(0) {
+            for lane in 0..R::LANES {
+                if let Some(bracket) = brackets[lane].get(nth) {
+                    (low[lane], high[lane]) = (bracket.low, bracket.high);
+                    (guess[lane], sign[lane]) = (bracket.guess, bracket.sign);
+                }
+            }
+            let root = R::outline(
+                #[inline(always)]
+                || self.polish(watch, [R::load(&low), R::load(&high), R::load(&sign)], R::load(&guess), m),
+            );
+            root.store(&mut guess);
+            for lane in 0..R::LANES {
+                if brackets[lane].len() > nth && guess[lane].is_finite() {
+                    lanes[lane].push(guess[lane].rem_euclid(TAU));
+                }
+            }
+        }
+    }
+
+    /// Goes to the bottom of one dip a lane, and adds brackets on either side where it lies beyond zero.
+    #[inline(always)]
+    fn split(
+        &self,
+        watch: Watch,
+        nth: usize,
+        dips: &[Vec<Dip>],
+        brackets: &mut [Vec<Bracket>],
+        m: &mut Motion<R>,
+    ) {
+        let width = TAU / SCAN as f64;
+        let of = |lane: usize| dips[lane].get(nth).copied().unwrap_or(Dip::NONE);
+        let load = |of: &dyn Fn(usize) -> f64| R::load(&(0..R::LANES).map(of).collect::<Vec<_>>());
+        let sign = load(&|lane| of(lane).values[0].signum());
+        let (mut low, mut high) = (load(&|lane| of(lane).low), load(&|lane| of(lane).low + width));
+        let (mut falls, mut rises) = (load(&|lane| of(lane).slopes[0]), load(&|lane| of(lane).slopes[1]));
+        (falls, rises) = (falls * sign, rises * sign);
+        let (zero, mut bottom, mut least) = (R::splat(0.0), low, R::splat(f64::INFINITY));
+        for _ in 0..BOTTOM_STEPS {
+            let phi = (low * rises - high * falls) / (rises - falls);
+            self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
+            let (value, slope) = self.watched(watch, phi, m);
+            let (value, slope) = (value * sign, slope * sign);
+            bottom = value.select_lt(least, phi, bottom);
+            least = least.min(value);
+            (low, falls) = (slope.select_lt(zero, phi, low), slope.select_lt(zero, slope, falls));
+            (high, rises) = (slope.select_lt(zero, high, phi), slope.select_lt(zero, rises, slope));
+        }
+        let (mut place, mut depth) = (vec![0.0; R::LANES], vec![0.0; R::LANES]);
+        bottom.store(&mut place);
+        least.store(&mut depth);
+        for (lane, brackets) in brackets.iter_mut().enumerate() {
+            if let Some(dip) = dips[lane].get(nth).filter(|_| depth[lane] < 0.0) {
+                brackets.extend(dip.halves(place[lane], depth[lane], width));
+            }
+        }
+    }
+
+    /// Newton from a linear guess, kept inside the bracket.
+    #[inline(always)]
+    fn polish(&self, watch: Watch, [low, high, sign]: [R; 3], guess: R, m: &mut Motion<R>) -> R {
+        let (mut phi, mut low, mut high) = (guess, low, high);
+        let (zero, mut change) = (R::splat(0.0), R::splat(f64::INFINITY));
+        for polish in 0..POLISHES_MAX {
+            if polish >= POLISHES && change.max_lane() < POLISHED {
+                break;
+            }
+            self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
+            let (value, slope) = self.watched(watch, phi, m);
+            // On the lower side of the zero the value has the sign that it has at the low end.
+            let below = zero.select_lt(value * sign, R::splat(1.0), zero);
+            (low, high) = (zero.select_lt(below, phi, low), zero.select_lt(below, high, phi));
+            let newton = phi - value / slope;
+            let middle = (low + high) * 0.5;
+            let inside = newton.select_lt(low, middle, high.select_lt(newton, middle, newton));
+            let next = value.abs().select_lt(R::splat(f64::MIN_POSITIVE), phi, inside);
+            (change, phi) = ((next - phi).abs(), next);
+        }
+        if let Watch::Anchor(from, to, free_length) = watch {
+            // Where the spring stays long its extremes are smooth: no break there.
+            let length = stretch(m, from, to).0;
+            phi = length.select_lt(self.q[free_length] * SHORT, phi, R::splat(f64::NAN));
+        }
+        if let Watch::PointRests(point) = watch {
+            // Elsewhere the path speed has an extreme only.
+            let place = &m.points[point];
+            let (speed, bend) = (place.d1.dot(place.d1), place.d2.dot(place.d2));
+            phi = speed.select_lt(bend * (AT_REST * AT_REST), phi, R::splat(f64::NAN));
+        }
+        phi
+    }
+}
+
+impl Dip {
+    /// A lane without one; nothing of it is used.
+    const NONE: Dip = Dip { low: 0.0, values: [1.0; 2], slopes: [-1.0, 1.0] };
+
+    /// Whether the cubic through values and slopes comes near zero or beyond.
+    fn is_deep(&self) -> bool {
+        let [a, b] = self.values.map(f64::abs);
+        let sign = self.values[0].signum();
+        let [left, right] = self.slopes.map(|slope| slope * sign * TAU / SCAN as f64);
+        if !(left < 0.0 && right > 0.0) {
+            return false;
+        }
+        (1..8).any(|i| {
+            let x = f64::from(i) / 8.0;
+            let (y, up) = (1.0 - x, x * x * (3.0 - 2.0 * x));
+            a * (1.0 - up) + b * up + left * x * y * y - right * x * x * y < DIP * a.min(b)
+        })
+    }
+
+    /// The brackets on either side of a bottom beyond zero, with the zeros of parabolas.
+    fn halves(&self, bottom: f64, depth: f64, width: f64) -> [Bracket; 2] {
+        let high = self.low + width;
+        let guess = |end: f64, value: f64| {
+            let share = (depth.abs() / (depth.abs() + value.abs())).sqrt();
+            bottom + (end - bottom) * share
+        };
+        [
+            Bracket {
+                low: self.low,
+                high: bottom,
+                guess: guess(self.low, self.values[0]),
+                sign: self.values[0].signum(),
+            },
+            Bracket { low: bottom, high, guess: guess(high, self.values[1]), sign: -self.values[0].signum() },
+        ]
+    }
+}
+
+/// Ends of the smooth pieces of one machine's turn \[rad\].
+pub fn kinks(plan: &Plan, q: &[f64]) -> Vec<f64> {
+    Machine { plan, q }.breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0)
+}
+
+fn scan_angle(i: usize) -> f64 {
+    (i as f64 + SHIFT) * TAU / SCAN as f64
+}

@@ -1,0 +1,293 @@
+//! Loads that follow a law: a formula on a point, a slide or a link, or a damper by a table.
+//!
+//! A formula force F has the torque −F g on the crank, where g is the transfer function of the way that it
+//! acts along: t·p′ for a force of direction t on a point, s′ on a slide, ψ′ for a torque on a link.
+//!
+//! What does not depend on the size of the crank's speed is part of the reduction, and so is what is in
+//! proportion to it. Everything else is a [`Law`]: at each stage of a solver the little that it needs is kept
+//! ([`Given`]), and it is evaluated with the speed of that moment.
+
+use crate::drive::loads::{Carrier, FormulaLoad, Law};
+use crate::drive::structure::Plan;
+use crate::kernel::dual::Dual;
+use crate::kernel::formula::{Degree, Formula, Inputs, Variable};
+use crate::kernel::plane::Vec2;
+use crate::kernel::real::{Lift, Real};
+use crate::linkage::motion::{Motion, stretch};
+use std::f64::consts::TAU;
+
+/// What a law needs to know of the machine at one crank angle.
+#[derive(Clone, Copy, Debug)]
+pub struct Given<R> {
+    /// Crank angle within the turn.
+    phi: R,
+    p: Vec2<R>,
+    d1: Vec2<R>,
+    s: R,
+    /// s′, or |p′|.
+    path: R,
+    psi: R,
+    psi_d1: R,
+    /// Transfer function of the way that the load acts along.
+    g: R,
+}
+
+/// A place where a law has a kink or a jump that depends on the speed.
+#[derive(Clone, Copy, Debug)]
+pub struct Moving {
+    law: usize,
+    at: Place,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Place {
+    /// In front of this instruction of the formula.
+    Switch(usize),
+    /// Where the speed passes this knot.
+    Knot(f64),
+}
+
+impl<R: Real> Given<R> {
+    #[inline(always)]
+    fn nothing() -> Self {
+        let zero = R::splat(0.0);
+        Given {
+            phi: zero,
+            p: Vec2::zero(),
+            d1: Vec2::zero(),
+            s: zero,
+            path: zero,
+            psi: zero,
+            psi_d1: zero,
+            g: zero,
+        }
+    }
+
+    /// Values of the variables at speed ω and time t.
+    #[inline(always)]
+    fn inputs<N: Lift<R>>(&self, omega: N, time: N) -> Inputs<N> {
+        Inputs {
+            phi: N::lift(self.phi),
+            omega,
+            time,
+            x: N::lift(self.p.x),
+            y: N::lift(self.p.y),
+            vx: N::lift(self.d1.x) * omega,
+            vy: N::lift(self.d1.y) * omega,
+            v: N::lift(self.path) * omega,
+            s: N::lift(self.s),
+            psi: N::lift(self.psi),
+            psi_dot: N::lift(self.psi_d1) * omega,
+        }
+    }
+}
+
+/// The crank angle within the turn, 0 to 2π, which a formula knows.
+#[inline(always)]
+fn within_turn<R: Real>(phi: R) -> R {
+    phi.map(
+        #[inline(always)]
+        |phi| (if (0.0..=TAU).contains(&phi) { phi } else { phi.rem_euclid(TAU) }, 1.0),
+    )
+}
+
+impl FormulaLoad {
+    /// The machine at one angle, as the formula needs it.
+    #[inline(always)]
+    fn given<R: Real>(&self, formula: &Formula, q: &[R], phi: R, m: &Motion<R>) -> Given<R> {
+        let mut given = Given::nothing();
+        if formula.reads(Variable::Phi) {
+            given.phi = within_turn(phi);
+        }
+        match self.carrier {
+            Carrier::Slide { slide, point } => {
+                let slide = &m.slides[slide];
+                (given.s, given.path, given.g) = (slide.s, slide.d1, slide.d1);
+                (given.p, given.d1) = (m.points[point].p, m.points[point].d1);
+            }
+            Carrier::Point { point, cos, sin } => given.on_point(point, Vec2::new(q[cos], q[sin]), m),
+            Carrier::Along { point, link, cos, sin } => {
+                let e = m.links[link].e;
+                given.on_point(point, (e * q[cos]).plus(e.left(), q[sin]), m);
+                given.on_link(link, formula, m);
+            }
+            Carrier::Link { link } => {
+                given.on_link(link, formula, m);
+                given.g = given.psi_d1;
+            }
+        }
+        given
+    }
+
+    /// Derivatives by φ of what the formula needs, for the zeros of its switches; at speed 1.
+    #[inline(always)]
+    fn over_angle<R: Real>(&self, formula: &Formula, phi: R, m: &Motion<R>) -> Inputs<Dual<R>> {
+        let one = R::splat(1.0);
+        let dual = Inputs {
+            phi: Dual { value: if formula.reads(Variable::Phi) { within_turn(phi) } else { phi }, d: one },
+            ..Given::<Dual<R>>::nothing().inputs(Dual::constant(one), Dual::constant(one))
+        };
+        match self.carrier {
+            Carrier::Slide { slide, point } => {
+                let slide = &m.slides[slide];
+                let (s, v) = (Dual { value: slide.s, d: slide.d1 }, Dual { value: slide.d1, d: slide.d2 });
+                Inputs { s, v, ..dual.at_point(point, m) }
+            }
+            Carrier::Point { point, .. } => dual.at_point(point, m),
+            Carrier::Along { point, link, .. } => dual.at_point(point, m).of_link(link, formula, m),
+            Carrier::Link { link } => dual.of_link(link, formula, m),
+        }
+    }
+}
+
+impl<R: Real> Given<R> {
+    #[inline(always)]
+    fn on_point(&mut self, point: usize, direction: Vec2<R>, m: &Motion<R>) {
+        let place = &m.points[point];
+        (self.p, self.d1) = (place.p, place.d1);
+        self.path = place.d1.dot(place.d1).sqrt();
+        self.g = direction.dot(place.d1);
+    }
+
+    #[inline(always)]
+    fn on_link(&mut self, link: usize, formula: &Formula, m: &Motion<R>) {
+        let heading = &m.links[link];
+        self.psi_d1 = heading.d1;
+        if formula.reads(Variable::Psi) {
+            self.psi = heading.e.y.atan2(heading.e.x);
+        }
+    }
+}
+
+impl<R: Real> Inputs<Dual<R>> {
+    #[inline(always)]
+    fn at_point(self, point: usize, m: &Motion<R>) -> Self {
+        let place = &m.points[point];
+        let size = place.d1.dot(place.d1).sqrt();
+        Inputs {
+            x: Dual { value: place.p.x, d: place.d1.x },
+            y: Dual { value: place.p.y, d: place.d1.y },
+            vx: Dual { value: place.d1.x, d: place.d2.x },
+            vy: Dual { value: place.d1.y, d: place.d2.y },
+            v: Dual { value: size, d: place.d1.dot(place.d2) / size },
+            ..self
+        }
+    }
+
+    #[inline(always)]
+    fn of_link(self, link: usize, formula: &Formula, m: &Motion<R>) -> Self {
+        let heading = &m.links[link];
+        let psi = if formula.reads(Variable::Psi) { heading.e.y.atan2(heading.e.x) } else { self.psi.value };
+        Inputs {
+            psi: Dual { value: psi, d: heading.d1 },
+            psi_dot: Dual { value: heading.d1, d: heading.d2 },
+            ..self
+        }
+    }
+}
+
+impl Plan {
+    /// Torque on the crank that resists, by a formula of degree 0 (per unit of speed, of degree 1), at the
+    /// speed `sense` = ±1.
+    #[inline(always)]
+    pub fn formula_torque<R: Real>(
+        &self,
+        load: &FormulaLoad,
+        q: &[R],
+        phi: R,
+        sense: f64,
+        m: &Motion<R>,
+    ) -> R {
+        let formula = &self.formulas[load.formula];
+        let given = load.given(formula, q, phi, m);
+        let sense = R::splat(sense);
+        -(formula.value(q, &given.inputs(sense, R::splat(f64::NAN))) * given.g)
+    }
+
+    /// Adds what each law needs to know at an angle at which the mechanism has been placed.
+    #[inline(always)]
+    pub fn give<R: Real>(&self, q: &[R], phi: R, m: &Motion<R>, to: &mut Vec<Given<R>>) {
+        for law in &self.laws {
+            to.push(R::outline(
+                #[inline(always)]
+                || match *law {
+                    Law::Formula(ref load) => load.given(&self.formulas[load.formula], q, phi, m),
+                    Law::Damper { from, to, .. } => Given { g: stretch(m, from, to).1, ..Given::nothing() },
+                },
+            ));
+        }
+    }
+
+    /// Torque of all laws that resists \[N m\] at crank speed ω and time t.
+    #[inline(always)]
+    pub fn law_torque<R: Real, N: Lift<R>>(&self, q: &[R], given: &[Given<R>], omega: N, time: N) -> N {
+        let mut sum = N::splat(0.0);
+        for (law, given) in self.laws.iter().zip(given) {
+            let g = N::lift(given.g);
+            sum = match *law {
+                Law::Formula(load) => {
+                    let inputs = given.inputs(omega, time);
+                    sum - self.formulas[load.formula].value(q, &inputs) * g
+                }
+                Law::Damper { table, .. } => {
+                    let force = (g * omega).map(
+                        #[inline(always)]
+                        |v| self.tables[table].held(v),
+                    );
+                    force * g + sum
+                }
+            };
+        }
+        sum
+    }
+
+    /// Whether some law depends on time, so that no turn repeats another.
+    pub fn knows_time(&self) -> bool {
+        self.formulas.iter().any(|formula| formula.reads(Variable::Time))
+    }
+
+    /// Kinks of laws whose angle depends on the speed.
+    pub fn moving_kinks(&self) -> Vec<Moving> {
+        let mut found = Vec::new();
+        for (law, each) in self.laws.iter().enumerate() {
+            match *each {
+                Law::Formula(load) => {
+                    let switches = self.formulas[load.formula].switches.iter();
+                    let moving = switches.filter(|s| s.degree == Degree::Mixed);
+                    found.extend(moving.map(|s| Moving { law, at: Place::Switch(s.at) }));
+                }
+                Law::Damper { table, .. } => {
+                    let knots = self.tables[table].knots().iter().filter(|&&knot| knot != 0.0);
+                    found.extend(knots.map(|&knot| Moving { law, at: Place::Knot(knot) }));
+                }
+            }
+        }
+        found
+    }
+
+    /// The quantity whose zero is a moving kink.
+    pub fn moving_value(&self, q: &[f64], kink: Moving, given: &[Given<f64>], omega: f64) -> f64 {
+        let given = &given[kink.law];
+        match (kink.at, self.laws[kink.law]) {
+            (Place::Switch(at), Law::Formula(load)) => {
+                self.formulas[load.formula].switch(at, q, &given.inputs(omega, f64::NAN))
+            }
+            (Place::Knot(knot), _) => given.g * omega - knot,
+            (Place::Switch(_), Law::Damper { .. }) => f64::NAN,
+        }
+    }
+
+    /// The argument of a switch and its derivative by φ, at speed 1.
+    #[inline(always)]
+    pub fn switch_over_angle<R: Real>(
+        &self,
+        (load, at): (FormulaLoad, usize),
+        q: &[R],
+        phi: R,
+        m: &Motion<R>,
+    ) -> (R, R) {
+        let formula = &self.formulas[load.formula];
+        let value: Dual<R> = formula.switch(at, q, &load.over_angle(formula, phi, m));
+        (value.value, value.d)
+    }
+}

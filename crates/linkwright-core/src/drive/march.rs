@@ -1,0 +1,332 @@
+//! All motions over one turn, from the fastest down: which repeat, and whether any does.
+//!
+//! The equation has one unknown u over φ, so motions from different starts never cross: the turn-to-turn map
+//! P is increasing. Three things follow.
+//!
+//! * A motion that starts too fast to repeat, P(u) < u, slows down turn by turn, and whatever repeats lies
+//!   below P(u); it ends in the fastest motion that repeats, which therefore draws in all that are faster.
+//! * If it comes to rest instead, so does every slower one: then no motion repeats.
+//! * Between a start that gains speed and one that loses it lies one that repeats.
+//!
+//! Turns are marched through step by step with as short steps as the motion needs. Instead of waiting turn
+//! by turn, starts are lowered by a share, or put where Newton on P(u) = u expects a motion that repeats. That none was
+//! leapt over is read from the gain P(u) − u and its slope at both ends: the cubic through them must keep
+//! clear of zero, or the interval is halved.
+
+use crate::drive::cycle::{Machine, divide};
+use crate::drive::mesh::Piece;
+use crate::kernel::call::poll;
+use crate::kernel::radau::{S, tail};
+use crate::linkage::motion::Motion;
+
+/// What the polynomial of a step may have of the highest degree, as a share of u: with order 9, errors are
+/// about the square of that.
+const TAIL: f64 = 1e-5;
+
+/// Longest step: a 24th of the turn.
+const LONGEST: usize = 24;
+
+/// A step shorter than this \[rad\], or a u below this share of that at the working speed, is rest.
+const REST_STEP: f64 = 1e-9;
+const REST: f64 = 1e-10;
+
+/// Most steps of a turn.
+const STEPS_MAX: usize = 20_000;
+
+/// Turns that may be marched through before the search is given up.
+const TURNS_MAX: usize = 500;
+
+/// Relative distance from repeating at which a motion is good enough to start from.
+const REPEATS: f64 = 1e-7;
+
+/// Doublings of the speed before a machine counts as running away: from three times the working speed to
+/// 3000 times.
+const DOUBLINGS: usize = 10;
+
+/// Slow motions are looked for down to this share of u at the working speed: a hundredth of the speed.
+const SLOWEST: f64 = 1e-4;
+
+/// How near, as a share of itself, a start that gains speed is followed to one that comes to rest.
+const BRINK: f64 = 1e-3;
+
+/// Halvings of an interval to see that nothing repeats in it, and to keep several that repeat apart.
+const HALVINGS: u32 = 8;
+
+/// Share of the smaller gain at the ends of an interval that the cubic between must keep from zero: where it
+/// bends towards zero, the gain itself may get there.
+const CLEAR: f64 = 0.9;
+
+/// The next start lies above this share of u, so that the gain is seen in all its turns.
+const LEAP: f64 = 0.85;
+
+/// How far behind the place that Newton expects the next start lies, so that what repeats lies between.
+const BEHIND: f64 = 0.1;
+
+/// A motion through one turn.
+#[derive(Clone, Debug)]
+struct Revolution {
+    start: f64,
+    end: f64,
+    /// Derivative of the end by the start.
+    growth: f64,
+    pieces: Vec<Piece>,
+}
+
+/// A motion that repeats, to about seven digits.
+#[derive(Clone, Debug)]
+pub struct Repeated {
+    /// Its steps.
+    pub pieces: Vec<Piece>,
+    /// Derivative of the end of the turn by its start.
+    pub growth: f64,
+}
+
+impl Repeated {
+    /// u at φ = 0.
+    pub fn u(&self) -> f64 {
+        self.pieces[0].u
+    }
+}
+
+/// Why no motion repeats.
+#[derive(Clone, Copy, Debug)]
+pub enum NoMotion {
+    /// Started with speed `omega` at φ = 0, the machine comes to rest at `phi`, and so does every slower
+    /// start; every faster one slows down to it.
+    Rests { omega: f64, phi: f64 },
+    /// At speed `omega` the machine still gains speed from turn to turn.
+    RunsAway { omega: f64 },
+    /// It does not close at the angle `phi`.
+    DoesNotClose { phi: f64 },
+    /// No answer within the turns allowed.
+    Unknown,
+}
+
+/// Which motions are looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// The fastest one.
+    Fastest,
+    /// All, down to a hundredth of the working speed.
+    All,
+}
+
+struct March<'a> {
+    machine: &'a Machine<'a, f64>,
+    breaks: &'a [f64],
+    rest: f64,
+    m: Motion<f64>,
+    turns: usize,
+    /// Motions that repeat, from the fastest down.
+    found: Vec<Repeated>,
+}
+
+/// Motions that repeat, to about seven digits, from the fastest down; at least one.
+///
+/// # Errors
+/// [`NoMotion`] says why there is none.
+pub fn repeating(
+    machine: &Machine<'_, f64>,
+    breaks: &[f64],
+    which: Which,
+) -> Result<Vec<Repeated>, NoMotion> {
+    let m = Motion::new(&machine.plan.mechanism, machine.q);
+    let working = 0.5 * machine.q[machine.plan.drive.speed_start].powi(2);
+    let mut march = March { machine, breaks, rest: REST * working, m, turns: 0, found: Vec::new() };
+    match march.walk(working, which) {
+        _ if !march.found.is_empty() => Ok(march.found),
+        Ok(()) => Err(NoMotion::Unknown),
+        Err(reason) => Err(reason),
+    }
+}
+
+impl Revolution {
+    /// What u gains over the turn.
+    fn gain(&self) -> f64 {
+        self.end - self.start
+    }
+
+    /// Where Newton expects a start that repeats.
+    fn newton(&self) -> f64 {
+        self.start + self.gain() / (1.0 - self.growth)
+    }
+
+    /// The start to go on with below this one.
+    fn next_below(&self) -> f64 {
+        let least = LEAP * self.start;
+        if self.gain() >= 0.0 {
+            return least;
+        }
+        let newton = self.newton();
+        let behind = newton - BEHIND * (self.start - newton);
+        // A growth of 1 or more, or a NaN, points to nothing below.
+        let next = if self.growth < 1.0 && behind > least { behind } else { least };
+        next.min(self.end)
+    }
+
+    /// Whether nothing repeats between this start and a slower one with a gain of the same sign: by the order
+    /// of motions, or by the cubic through gains and slopes.
+    fn is_clear_down_to(&self, low: &Revolution) -> bool {
+        let (h, sign) = (self.start - low.start, self.gain().signum());
+        if (sign < 0.0 && self.end <= low.start) || (sign > 0.0 && low.end >= self.start) {
+            return true;
+        }
+        let least = CLEAR * self.gain().abs().min(low.gain().abs());
+        let (left, right) = ((low.growth - 1.0) * h, (self.growth - 1.0) * h);
+        (1..16).all(|i| {
+            let x = f64::from(i) / 16.0;
+            let (y, up) = (1.0 - x, x * x * (3.0 - 2.0 * x));
+            let cubic = low.gain() * (1.0 - up) + self.gain() * up + left * x * y * y - right * x * x * y;
+            sign * cubic > least
+        })
+    }
+}
+
+impl March<'_> {
+    /// Goes down from a start that is too fast, until the machine comes to rest.
+    fn walk(&mut self, working: f64, which: Which) -> Result<(), NoMotion> {
+        let mut high = self.fast_start(9.0 * working)?;
+        loop {
+            if which == Which::Fastest && !self.found.is_empty() {
+                return Ok(());
+            }
+            let next = high.next_below();
+            if high.gain() >= 0.0 && next < SLOWEST * working {
+                return Ok(());
+            }
+            high = match self.revolution(next) {
+                Ok(low) => self.between(high, low, HALVINGS)?,
+                Err(rests @ NoMotion::Rests { .. }) => return self.down_to_rest(high, next, rests),
+                Err(other) => return Err(other),
+            };
+        }
+    }
+
+    /// A motion fast enough to slow down.
+    fn fast_start(&mut self, mut u: f64) -> Result<Revolution, NoMotion> {
+        let mut reason = NoMotion::Unknown;
+        for _ in 0..DOUBLINGS {
+            reason = match self.revolution(u) {
+                Ok(found) if found.gain() < 0.0 => return Ok(found),
+                Ok(_) => NoMotion::RunsAway { omega: (2.0 * u).sqrt() },
+                Err(rests @ NoMotion::Rests { .. }) => rests,
+                Err(other) => return Err(other),
+            };
+            u *= 4.0;
+        }
+        Err(reason)
+    }
+
+    /// Finds what repeats between two starts; gives back the lower.
+    fn between(&mut self, high: Revolution, low: Revolution, halvings: u32) -> Result<Revolution, NoMotion> {
+        let changes = (high.gain() < 0.0) != (low.gain() < 0.0);
+        // With one change of sign and both slopes towards it there is one that repeats.
+        let slope = if high.gain() < 0.0 { 1.0 } else { -1.0 };
+        let is_one = changes && [&high, &low].iter().all(|end| slope * (end.growth - 1.0) < 0.0);
+        if is_one || (changes && halvings == 0) {
+            self.refine(high, &low)?;
+            return Ok(low);
+        }
+        if halvings == 0 || (!changes && high.is_clear_down_to(&low)) {
+            return Ok(low);
+        }
+        let middle = self.turning(0.5 * (high.start + low.start))?;
+        let middle = self.between(high, middle, halvings - 1)?;
+        self.between(middle, low, halvings - 1)
+    }
+
+    /// Newton for what repeats between two starts, kept inside the bracket.
+    fn refine(&mut self, mut high: Revolution, low: &Revolution) -> Result<(), NoMotion> {
+        let (mut bottom, mut nearest) = (low.start, low.clone());
+        if high.gain().abs() < low.gain().abs() {
+            nearest = high.clone();
+        }
+        let falls = high.gain() < 0.0;
+        let mut top = high.start;
+        while top - bottom > REPEATS * top && (nearest.newton() / nearest.start - 1.0).abs() > REPEATS {
+            let newton = nearest.newton();
+            let is_inside = newton > bottom && newton < top;
+            high = self.turning(if is_inside { newton } else { 0.5 * (bottom + top) })?;
+            *if (high.gain() < 0.0) == falls { &mut top } else { &mut bottom } = high.start;
+            nearest = high;
+        }
+        self.found.push(Repeated { pieces: nearest.pieces, growth: nearest.growth });
+        Ok(())
+    }
+
+    /// From a start that turns to one that comes to rest: what lies between?
+    fn down_to_rest(
+        &mut self,
+        mut high: Revolution,
+        mut rest: f64,
+        mut reason: NoMotion,
+    ) -> Result<(), NoMotion> {
+        // Every start between falls to what rests, or what gains is followed to the brink.
+        while (high.gain() < 0.0 && high.end > rest) || high.start - rest > BRINK * high.start {
+            match self.revolution(0.5 * (high.start + rest)) {
+                Ok(low) => high = self.between(high, low, HALVINGS)?,
+                Err(rests @ NoMotion::Rests { .. }) => (rest, reason) = (0.5 * (high.start + rest), rests),
+                Err(other) => return Err(other),
+            }
+        }
+        Err(reason)
+    }
+
+    /// The motion from a start above one that turns: where it comes to rest all the same, rounding decides.
+    fn turning(&mut self, start: f64) -> Result<Revolution, NoMotion> {
+        self.revolution(start).map_err(|reason| match reason {
+            NoMotion::Rests { .. } => NoMotion::Unknown,
+            other => other,
+        })
+    }
+
+    /// The motion from a start through one turn.
+    fn revolution(&mut self, start: f64) -> Result<Revolution, NoMotion> {
+        self.turns += 1;
+        if self.turns > TURNS_MAX {
+            return Err(NoMotion::Unknown);
+        }
+        let mut turn = Revolution { start, end: start, growth: 1.0, pieces: Vec::new() };
+        let longest = divide(&[0.0, std::f64::consts::TAU], LONGEST)[1];
+        let mut h = 0.25 * longest;
+        let mut next_break = 1;
+        let mut phi = 0.0;
+        while next_break < self.breaks.len() {
+            poll();
+            if turn.pieces.len() > STEPS_MAX {
+                return Err(NoMotion::Unknown);
+            }
+            let left = self.breaks[next_break] - phi;
+            let step = h.min(left);
+            let (found, _) = self.machine.advance(phi, turn.end, step, &mut self.m);
+            if found.rows.iter().any(|row| !row.inverse.is_finite()) {
+                return Err(NoMotion::DoesNotClose { phi });
+            }
+            let least = found.X.iter().copied().fold(turn.end, f64::min);
+            let coarse = tail(&found.K) * step / (TAIL * least);
+            // A NaN is not good either.
+            let is_good = coarse <= 1.0 && least > 0.0 && found.growth > 0.0;
+            // The highest degree falls with the fourth power of the length, what it adds to u with the fifth.
+            let factor = if coarse.is_nan() { 0.2 } else { (0.8 * coarse.powf(-0.2)).clamp(0.2, 3.0) };
+            if is_good {
+                turn.pieces.push(Piece { phi, h: step, u: turn.end, X: found.X });
+                turn.end = found.X[S - 1];
+                turn.growth *= found.growth;
+                phi += step;
+                if step >= left {
+                    (phi, next_break) = (self.breaks[next_break], next_break + 1);
+                } else {
+                    h = (step * factor).min(longest);
+                }
+            } else {
+                h = step * factor.min(0.5);
+            }
+            let is_stuck = !is_good && h < REST_STEP.min(1e-3 * left);
+            if is_stuck || turn.end <= self.rest {
+                let omega = (2.0 * start).sqrt();
+                return Err(NoMotion::Rests { omega, phi });
+            }
+        }
+        Ok(turn)
+    }
+}

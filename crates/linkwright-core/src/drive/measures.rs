@@ -1,0 +1,86 @@
+//! Integrals over a turn: its duration, work, and the torque of the motor.
+//!
+//! Source of δ, H, k_p: paper 1, equations (13)–(15).
+
+use crate::drive::cycle::{Machine, Step, Turn};
+use crate::drive::law::Given;
+use crate::drive::layout::Layout;
+use crate::kernel::radau::{B, S};
+use crate::kernel::real::Real;
+
+/// Integrals over a turn, by the quadrature of the steps (order 9).
+#[derive(Clone, Copy, Debug)]
+pub struct Totals<R> {
+    /// Duration of the turn \[s\].
+    pub period: R,
+    /// Work of the motor at its shaft \[J\].
+    pub motor_work: R,
+    /// Work that reaches the crank from the motor \[J\].
+    pub crank_work: R,
+    /// Work taken by all loads \[J\].
+    pub load_work: R,
+    /// Mean over time of the motor's torque \[N m\].
+    pub torque_mean: R,
+    /// Root mean square over time of the motor's torque \[N m\].
+    pub torque_rms: R,
+}
+
+/// What is integrated over a turn: time, work of the motor, work at the crank, work of the loads \[J\], and
+/// the motor's torque and its square over time.
+pub const INTEGRALS: usize = 6;
+
+impl<R: Real> Machine<'_, R> {
+    /// The integrals over one step.
+    #[inline(always)]
+    pub fn integrals(&self, step: &Step<R>, given: &[Given<R>]) -> [R; INTEGRALS] {
+        let (plan, q) = (self.plan, self.q);
+        let mut sums = [R::splat(0.0); INTEGRALS];
+        for i in 0..S {
+            let row = &step.rows[i];
+            let dphi = step.h * B[i];
+            let omega = (step.X[i] * 2.0).sqrt();
+            let dt = dphi / omega;
+            let torque: R = plan.drive.motor_torque(&plan.tables, q, omega);
+            let mut drag = row.viscous.mul_add(omega, row.load) + plan.drive.speed_load(&plan.tables, omega);
+            if !given.is_empty() {
+                drag = drag + self.laws(self.given_at(given, i), omega);
+            }
+            sums[0] = sums[0] + dt;
+            sums[1] = (torque * q[plan.drive.ratio]).mul_add(dphi, sums[1]);
+            sums[2] = plan.drive.geared_torque(q, torque).mul_add(dphi, sums[2]);
+            sums[3] = drag.mul_add(dphi, sums[3]);
+            sums[4] = torque.mul_add(dt, sums[4]);
+            sums[5] = torque.squared().mul_add(dt, sums[5]);
+        }
+        sums
+    }
+}
+
+impl<R: Real> Totals<R> {
+    /// From the integrals over a turn.
+    #[inline(always)]
+    fn new(layout: Layout, sums: [R; INTEGRALS]) -> Self {
+        let [period, motor_work, crank_work, load_work, impulse, heat] = sums.map(
+            #[inline(always)]
+            |sum| layout.total(sum),
+        );
+        let torque_mean = impulse / period;
+        let torque_rms = (heat / period).sqrt();
+        Totals { period, motor_work, crank_work, load_work, torque_mean, torque_rms }
+    }
+}
+
+impl<R: Real> Turn<R> {
+    /// Integrals over the turn.
+    #[inline(always)]
+    pub fn totals(&self, machine: &Machine<'_, R>) -> Totals<R> {
+        let mut sums = [R::splat(0.0); INTEGRALS];
+        for (k, step) in self.steps.iter().enumerate() {
+            let parts = machine.integrals(step, self.given_of(machine, k));
+            for i in 0..INTEGRALS {
+                sums[i] = sums[i] + parts[i];
+            }
+        }
+        Totals::new(self.layout, sums)
+    }
+}

@@ -1,0 +1,263 @@
+//! The steps of one machine's turn: where they end, how they are made shorter, what a solution on other
+//! steps gives to start from, and where the solution passes a kink that depends on the speed.
+
+use crate::drive::check::Excess;
+use crate::drive::cycle::{Machine, Turn};
+use crate::drive::law::Moving;
+use crate::drive::layout::{bundle, unbundle};
+use crate::kernel::radau::{B, C, N, S, through, value};
+use crate::kernel::real::Real;
+use crate::linkage::motion::Motion;
+use std::f64::consts::TAU;
+
+/// Relative distance of a speed from a kink's below which it counts as the kink's. A break that is off by
+/// 1e-9 rad changes the solution by the square of that.
+const ON_KINK: f64 = 1e-10;
+
+/// A kink this close to the end of a step, as a share of the step, lies at the end: what is left of it
+/// changes the solution by the square of that. A step shorter than the second number \[rad\] counts as that
+/// long.
+const SETTLED: f64 = 1e-6;
+const SHORTEST: f64 = 1e-4;
+
+/// A kink found anew this close to where it was, as a share of the steps there, takes its place.
+const SAME_KINK: f64 = 0.2;
+
+/// Most parts that a step is cut into at once.
+const PARTS_MAX: f64 = 4.0;
+
+/// A solved step.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    /// Crank angle at its start \[rad\].
+    pub phi: f64,
+    /// Length \[rad\].
+    pub h: f64,
+    /// u at its start.
+    pub u: f64,
+    /// u at its stages.
+    pub X: [f64; S],
+}
+
+impl Piece {
+    /// How long it takes \[s\].
+    pub fn duration(&self) -> f64 {
+        (0..S).map(|i| self.h * B[i] / (2.0 * self.X[i]).sqrt()).sum()
+    }
+
+    /// Quintic through start and stages.
+    fn quintic(&self) -> [f64; N] {
+        let mut values = [self.u; N];
+        values[1..].copy_from_slice(&self.X);
+        through(&values)
+    }
+
+    /// u at an angle, on the quintic.
+    fn value(&self, quintic: &[f64; N], phi: f64) -> f64 {
+        // Where the solution falls fast a polynomial may swing below zero.
+        let least = self.X.iter().copied().fold(self.u, f64::min);
+        value(quintic, (phi - self.phi) / self.h).max(0.5 * least)
+    }
+}
+
+impl<R: Real> Turn<R> {
+    /// The solved steps in a row, those of no length left out.
+    #[inline(always)]
+    pub fn pieces(&self) -> Vec<Piece> {
+        let columns = |of: &dyn Fn(usize) -> R| unbundle(&(0..self.steps.len()).map(of).collect::<Vec<_>>());
+        let (phi, h) = (columns(&|k| self.steps[k].phi), columns(&|k| self.steps[k].h));
+        let u = columns(&|k| self.steps[k].u);
+        let X: [Vec<f64>; S] = std::array::from_fn(|i| columns(&|k| self.steps[k].X[i]));
+        let piece = |k: usize| Piece { phi: phi[k], h: h[k], u: u[k], X: std::array::from_fn(|i| X[i][k]) };
+        (0..phi.len()).filter(|&k| h[k] > 0.0).map(piece).collect()
+    }
+
+    /// Starts every step from a solution on other steps.
+    #[inline(always)]
+    pub fn start_from(&mut self, pieces: &[Piece]) {
+        let columns = |of: &dyn Fn(usize) -> R| unbundle(&(0..self.steps.len()).map(of).collect::<Vec<_>>());
+        let (phi, h) = (columns(&|k| self.steps[k].phi), columns(&|k| self.steps[k].h));
+        let mut at = 0;
+        let mut values: [Vec<f64>; S + 1] = std::array::from_fn(|_| Vec::with_capacity(phi.len()));
+        for (&phi, &h) in phi.iter().zip(&h) {
+            // The piece that the step's middle lies in.
+            while at + 1 < pieces.len() && pieces[at + 1].phi <= phi + 0.5 * h {
+                at += 1;
+            }
+            let quintic = pieces[at].quintic();
+            values[0].push(pieces[at].value(&quintic, phi));
+            for i in 0..S {
+                values[i + 1].push(pieces[at].value(&quintic, phi + C[i] * h));
+            }
+        }
+        let u: Vec<R> = bundle(&values[0]);
+        let X: [Vec<R>; S] = std::array::from_fn(|i| bundle(&values[i + 1]));
+        for (k, step) in self.steps.iter_mut().enumerate() {
+            step.u = u[k];
+            for i in 0..S {
+                step.X[i] = X[i][k];
+            }
+        }
+    }
+}
+
+/// Steps of a turn.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    /// Ends of the steps from 0 to 2π.
+    pub edges: Vec<f64>,
+    /// Those of them at which the solution was found to pass a kink.
+    crossings: Vec<f64>,
+}
+
+impl Mesh {
+    /// A mesh without any kinks that depend on the speed yet.
+    pub fn new(edges: Vec<f64>) -> Self {
+        Mesh { edges, crossings: Vec::new() }
+    }
+
+    /// The mesh with the given kinks as ends of steps, each in place of the end at which it was found
+    /// before; none where all lie at ends already.
+    pub fn with_crossings(&self, found: &[f64], breaks: &[f64]) -> Option<Mesh> {
+        let (mut added, mut moved) = (Vec::new(), Vec::new());
+        for &phi in found {
+            let after = self.edges.partition_point(|&edge| edge <= phi);
+            let (low, high) = (self.edges[after - 1], self.edges[after]);
+            let (h, away) = (high - low, (phi - low).min(high - phi));
+            if away > SETTLED * h.max(SHORTEST) {
+                added.push(phi);
+                let is_old = |edge: &f64| self.crossings.contains(edge) && !breaks.contains(edge);
+                let is_near = |edge: &f64| (edge - phi).abs() < SAME_KINK * h;
+                moved.extend([low, high].into_iter().filter(|edge| is_old(edge) && is_near(edge)));
+            }
+        }
+        let renew = |list: &[f64]| {
+            let mut list: Vec<f64> = list.iter().filter(|edge| !moved.contains(edge)).copied().collect();
+            list.extend(&added);
+            list.sort_by(f64::total_cmp);
+            list
+        };
+        let next = || Mesh { edges: renew(&self.edges), crossings: renew(&self.crossings) };
+        (!added.is_empty()).then(next)
+    }
+
+    /// The mesh with the steps that are not good made shorter.
+    pub fn refined(&self, excess: &[Excess]) -> Mesh {
+        let mut next = Mesh { edges: vec![0.0], crossings: self.crossings.clone() };
+        for (ends, excess) in self.edges.windows(2).zip(excess) {
+            if excess.error <= 1.0 {
+                next.edges.push(ends[1]);
+            } else {
+                next.split(ends[0], ends[1], *excess);
+            }
+        }
+        next
+    }
+
+    /// Adds the ends of the parts of a step: equal ones, or, where its start is what matters, doubling.
+    fn split(&mut self, low: f64, high: f64, excess: Excess) {
+        let h = high - low;
+        if excess.halvings == 0 {
+            // In the worst case the error falls with the fifth power of the length.
+            let parts = excess.error.powf(0.2).ceil().clamp(2.0, PARTS_MAX);
+            self.edges.extend((1..parts as u32).map(|i| low + h * f64::from(i) / parts));
+        } else {
+            let shortest = excess.halvings as i32 + 1;
+            self.edges.extend((1..=shortest).rev().map(|k| low + h * 0.5_f64.powi(k)));
+        }
+        self.edges.push(high);
+    }
+}
+
+/// What the motion may pass where its equation has a kink.
+#[derive(Clone, Copy)]
+enum Event {
+    /// A speed of the crank.
+    Speed(f64),
+    /// A kink of a law.
+    Law(Moving),
+}
+
+impl Event {
+    /// The quantity whose zero it is.
+    fn value(self, machine: &Machine<'_, f64>, phi: f64, u: f64, m: &mut Motion<f64>) -> f64 {
+        let omega = (2.0 * u).sqrt();
+        match self {
+            Event::Speed(speed) => omega - speed,
+            Event::Law(kink) => {
+                let mut given = Vec::new();
+                machine.row(phi, m, &mut given);
+                machine.plan.moving_value(machine.q, kink, &given, omega)
+            }
+        }
+    }
+
+    /// The size of the quantity, against which a value counts as zero.
+    fn size(self, values: &[f64]) -> f64 {
+        match self {
+            Event::Speed(speed) => speed,
+            Event::Law(_) => values.iter().fold(0.0, |size, value| value.abs().max(size)),
+        }
+    }
+}
+
+/// Angles inside steps at which the solution passes a kink of the drive or of a law, in order.
+pub fn crossings_of(pieces: &[Piece], machine: &Machine<'_, f64>, m: &mut Motion<f64>) -> Vec<f64> {
+    let mut crossings = Vec::new();
+    let stages = || pieces.iter().flat_map(|piece| piece.X);
+    let (low, high) = stages().fold((f64::INFINITY, 0.0_f64), |(low, high), u| (low.min(u), high.max(u)));
+    // With room for what lies between the stages.
+    let is_passed = |speed: &f64| (0.8 * low..1.2 * high).contains(&(0.5 * speed * speed));
+    let speeds = machine
+        .plan
+        .drive
+        .speed_kinks(&machine.plan.tables, machine.q)
+        .into_iter()
+        .filter(is_passed)
+        .map(Event::Speed);
+    let laws = machine.plan.moving_kinks().into_iter().map(Event::Law);
+    for event in speeds.chain(laws) {
+        let values: Vec<f64> =
+            pieces.iter().map(|piece| event.value(machine, piece.phi, piece.u, m)).collect();
+        let near = ON_KINK * event.size(&values);
+        for (k, piece) in pieces.iter().enumerate() {
+            let (left, right) = (values[k], values[(k + 1) % values.len()]);
+            if left * right < 0.0 && left.abs() > near && right.abs() > near {
+                let excess = |h: f64| {
+                    let end = machine.advance(piece.phi, piece.u, h, m).0.end();
+                    event.value(machine, piece.phi + h, end, m)
+                };
+                crossings.push(piece.phi + crossing(excess, piece.h, left, right));
+            }
+        }
+    }
+    crossings.retain(|phi| *phi > 0.0 && *phi < TAU);
+    crossings.sort_by(f64::total_cmp);
+    crossings.dedup();
+    crossings
+}
+
+/// Zero of `f` in [0, h] with given values of opposite sign at the ends: Illinois variant of regula falsi
+/// (Dowell, Jarratt, *BIT* 11, 1971), order 1.44, never leaves the bracket.
+pub fn crossing(mut f: impl FnMut(f64) -> f64, h: f64, mut left: f64, mut right: f64) -> f64 {
+    let (mut a, mut b) = (0.0, h);
+    let mut root = a;
+    for _ in 0..60 {
+        root = (a * right - b * left) / (right - left);
+        let value = f(root);
+        // Rounding of the speed limits the place to about 1e-14 of the step.
+        if value == 0.0 || (b - a).abs() <= 1e-14 * h.abs() {
+            break;
+        }
+        if value * right < 0.0 {
+            (a, left) = (b, right);
+        } else {
+            left *= 0.5;
+        }
+        if (root - b).abs() <= 1e-14 * h.abs() {
+            break;
+        }
+        (b, right) = (root, value);
+    }
+    root
+}

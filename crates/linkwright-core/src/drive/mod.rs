@@ -1,0 +1,40 @@
+//! A machine reduced to its crank, and its motion. In the order of the computation:
+//!
+//! | module | answers |
+//! | --- | --- |
+//! | [`loads`] | bodies and loads: what hangs on points, links and slides |
+//! | [`motor`] | motor, gearbox: torque on the crank over speed |
+//! | [`structure`] | what a machine consists of |
+//! | [`reduce`] | J_red(φ) and M_red(φ) of bodies and loads |
+//! | [`force_elements`] | loads of the reduction in a loop of their own: springs by a curve, gas springs, dampers, … |
+//! | [`law`] | loads by formulas and tables that depend on speed or time |
+//! | [`kinks`] | where the reduced machine is not smooth |
+//! | [`layout`] | what the lanes of a turn hold: machines or steps |
+//! | [`cycle`] | steady motion on one mesh, in any lanes |
+//! | [`mesh`], [`check`] | steps of one machine's turn; the error in each, measured |
+//! | [`reading`], [`measures`], [`extremes`] | curves; work and torque of a turn; its extremes |
+//! | [`levels`] | whether a machine may have other periodic motions than one that is known |
+//! | [`march`] | all motions over one turn, from the fastest down: which repeat, and whether any does |
+//! | [`steady`] | steady motion of one machine to a wanted accuracy |
+//! | [`transient`] | motion in time from given angle and speed, with its events |
+//! | [`batch`] | many machines: lanes and threads |
+
+pub mod batch;
+pub mod check;
+pub mod cycle;
+pub mod extremes;
+pub mod force_elements;
+pub mod kinks;
+pub mod law;
+pub mod layout;
+pub mod levels;
+pub mod loads;
+pub mod march;
+pub mod measures;
+pub mod mesh;
+pub mod motor;
+pub mod reading;
+pub mod reduce;
+pub mod steady;
+pub mod structure;
+pub mod transient;

@@ -1,0 +1,169 @@
+//! The drive: motor characteristic, gearbox with efficiency by direction, loads that depend on speed.
+//!
+//! All torques are given at the crankshaft; ω is the crank speed, i the ratio, ω_m = i ω the motor's.
+//!
+//! * Kloss with stator resistance: `M = 2 M_k (1 + a s_k) / (s/s_k + s_k/s + 2 a s_k)`, s = (ω₀ − ω_m)/ω₀,
+//!   a = R₁/R₂′; a = 0 is the simplified formula, paper 1 (8). Source: M. Kloss, *Drehmoment und Schlüpfung
+//!   des Drehstrommotors*, 1909; e.g. Fischer, *Elektrische Maschinen*, section on the torque curve.
+//! * Catalogue curve below breakdown: a parabola, then a cubic, through start, pull-up and breakdown, monotone between
+//!   them, level at pull-up and breakdown, so the slope is continuous.
+//! * Gearbox: the motor's torque reaches the crank as `M i η` when the motor drives and as `M i · reverse`
+//!   when the load drives it (reverse = 1/η unless the machine says otherwise).
+
+use crate::kernel::real::{Lift, Real};
+use crate::kernel::slot::Slot;
+use crate::kernel::table::Table;
+
+/// Torque against speed at the motor shaft.
+#[derive(Clone, Debug)]
+pub enum Motor {
+    /// Switched off, or none.
+    Off,
+    /// The same torque at any speed.
+    Constant { torque: Slot },
+    /// Straight line through `torque` at standstill and zero at 1/`inverse_speed`.
+    Line { torque: Slot, inverse_speed: Slot },
+    /// Induction motor; `spans` describe the curve below breakdown, none for Kloss everywhere.
+    Induction { inverse_synchronous: Slot, torque: Slot, slip: Slot, resistance: Slot, spans: Vec<Span> },
+    /// Straight lines between points.
+    Table { table: usize },
+}
+
+/// A cubic from (`x0`, `y0`) to (`x1`, `y1`), level at its right end; `is_level` at its left end too,
+/// otherwise the parabola with twice the chord's slope there.
+#[derive(Clone, Copy, Debug)]
+pub struct Span {
+    pub x0: Slot,
+    pub y0: Slot,
+    pub x1: Slot,
+    pub y1: Slot,
+    /// 1/(x1 − x0).
+    pub inverse_width: Slot,
+    pub is_level: bool,
+}
+
+/// The drive line: motor, gearbox, and the inertia that turns with the crank.
+#[derive(Clone, Debug)]
+pub struct Drive {
+    pub motor: Motor,
+    /// Motor speed / crank speed.
+    pub ratio: Slot,
+    /// Factor on `M i` when the motor drives.
+    pub forward: Slot,
+    /// Factor on `M i` when the load drives.
+    pub reverse: Slot,
+    /// Constant part of J_red \[kg m²\].
+    pub inertia: Slot,
+    /// Crank speed at which the search for steady motion starts \[rad/s\].
+    pub speed_start: Slot,
+    /// Tables of resisting torque over crank speed.
+    pub speed_loads: Vec<usize>,
+}
+
+impl Drive {
+    /// Motor torque at the motor shaft \[N m\] at crank speed ω.
+    #[inline(always)]
+    pub fn motor_torque<R: Real, N: Lift<R>>(&self, tables: &[Table], q: &[R], omega: N) -> N {
+        let speed = omega * N::lift(q[self.ratio]);
+        match &self.motor {
+            Motor::Off => N::splat(0.0),
+            Motor::Constant { torque } => N::lift(q[*torque]),
+            Motor::Line { torque, inverse_speed } => {
+                N::lift(q[*torque]) * (N::splat(1.0) - speed * N::lift(q[*inverse_speed]))
+            }
+            Motor::Table { table } => speed.map(|x| tables[*table].held(x)),
+            Motor::Induction { inverse_synchronous, torque, slip, resistance, spans } => {
+                let s = N::splat(1.0) - speed * N::lift(q[*inverse_synchronous]);
+                let mut m = kloss(s, q[*torque], q[*slip], q[*resistance]);
+                for span in spans.iter().rev() {
+                    m = speed.select_lt(N::lift(q[span.x1]), cubic(span, q, speed), m);
+                }
+                m
+            }
+        }
+    }
+
+    /// Torque of the motor at the crank \[N m\], through the gearbox.
+    #[inline(always)]
+    pub fn geared_torque<R: Real, N: Lift<R>>(&self, q: &[R], motor_torque: N) -> N {
+        let (forward, reverse) = (N::lift(q[self.forward]), N::lift(q[self.reverse]));
+        let factor = motor_torque.select_lt(N::splat(0.0), reverse, forward);
+        motor_torque * N::lift(q[self.ratio]) * factor
+    }
+
+    /// Resisting torque of loads over speed \[N m\] at crank speed ω.
+    #[inline(always)]
+    pub fn speed_load<N: Real>(&self, tables: &[Table], omega: N) -> N {
+        let mut sum = N::splat(0.0);
+        for &table in &self.speed_loads {
+            sum = sum + omega.map(|x| tables[table].held(x));
+        }
+        sum
+    }
+
+    /// Torque on the crank by motor and loads over speed \[N m\]: all that depends on ω alone.
+    #[inline(always)]
+    pub fn torque<R: Real, N: Lift<R>>(&self, tables: &[Table], q: &[R], omega: N) -> N {
+        let torque = self.geared_torque(q, self.motor_torque(tables, q, omega));
+        if self.speed_loads.is_empty() { torque } else { torque - self.speed_load(tables, omega) }
+    }
+
+    /// Crank speeds at which the drive's torque has a kink: points of tables, breakdown where the catalogue
+    /// curve begins, and where the motor's torque changes sign when the gearbox tells the directions apart.
+    pub fn speed_kinks(&self, tables: &[Table], q: &[f64]) -> Vec<f64> {
+        let ratio = q[self.ratio];
+        let tells_apart = q[self.forward] != q[self.reverse];
+        let mut at_motor = Vec::new();
+        match &self.motor {
+            Motor::Off | Motor::Constant { .. } => {}
+            Motor::Line { inverse_speed, .. } => {
+                at_motor.extend(tells_apart.then(|| 1.0 / q[*inverse_speed]))
+            }
+            Motor::Induction { inverse_synchronous, spans, .. } => {
+                at_motor.extend(tells_apart.then(|| 1.0 / q[*inverse_synchronous]));
+                at_motor.extend(spans.iter().map(|span| q[span.x1]));
+            }
+            Motor::Table { table } => {
+                let table = &tables[*table];
+                at_motor.extend(table.knots());
+                if tells_apart {
+                    at_motor.extend(zeros(table));
+                }
+            }
+        }
+        let mut kinks: Vec<f64> = at_motor.iter().map(|speed| speed / ratio).collect();
+        kinks.extend(self.speed_loads.iter().flat_map(|&t| tables[t].knots()));
+        kinks.retain(|&speed| speed > 0.0);
+        kinks.sort_by(f64::total_cmp);
+        kinks.dedup();
+        kinks
+    }
+}
+
+/// Zeros of a table between its knots.
+fn zeros(table: &Table) -> Vec<f64> {
+    let crossing = |pair: &[f64]| {
+        let (y0, y1) = (table.held(pair[0]).0, table.held(pair[1]).0);
+        (y0 * y1 < 0.0).then(|| pair[0] - y0 * (pair[1] - pair[0]) / (y1 - y0))
+    };
+    table.knots().windows(2).filter_map(crossing).collect()
+}
+
+/// Kloss, multiplied out so that s = 0 needs no special case.
+#[inline(always)]
+fn kloss<R: Real, N: Lift<R>>(s: N, torque: R, slip: R, resistance: R) -> N {
+    let stator = resistance * slip;
+    let top = torque * (stator + 1.0) * slip * 2.0;
+    let denominator = s.mul_add(s + N::lift(stator * slip * 2.0), N::lift(slip.squared()));
+    N::lift(top) * s / denominator
+}
+
+/// The span at speed x; below its left end the left end's torque is held.
+#[inline(always)]
+fn cubic<R: Real, N: Lift<R>>(span: &Span, q: &[R], x: N) -> N {
+    let (x0, y0, y1) = (q[span.x0], q[span.y0], q[span.y1]);
+    let z = ((x - N::lift(x0)) * N::lift(q[span.inverse_width])).max(N::splat(0.0));
+    // Blend from 0 to 1 with level right end: z(2 − z), or z²(3 − 2z) when level on the left as well.
+    let blend = if span.is_level { z.squared() * (N::splat(3.0) - z - z) } else { z * (N::splat(2.0) - z) };
+    N::lift(y1 - y0).mul_add(blend, N::lift(y0))
+}

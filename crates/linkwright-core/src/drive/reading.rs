@@ -1,0 +1,168 @@
+//! The solution between the steps of a turn: state of the machine at any angle, and curves over the turn.
+//!
+//! From the start of the step that an angle lies in, a step of its own leads to the angle
+//! ([`Machine::advance`]): what is read has the order of the method, is stiffly stable like it, and is what
+//! [`crate::drive::check`] compares.
+
+use crate::drive::cycle::{Machine, Step, stages_of_part};
+use crate::drive::law::Given;
+use crate::drive::structure::Plan;
+use crate::kernel::call::poll;
+use crate::kernel::lanes::Job;
+use crate::kernel::radau::{N, S, through};
+use crate::kernel::real::Real;
+use crate::linkage::motion::Motion;
+
+/// The solution at the start of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Mark {
+    /// Crank angle \[rad\].
+    pub phi: f64,
+    /// u = ½ ω² \[rad²/s²\].
+    pub u: f64,
+    /// Time from φ = 0 \[s\].
+    pub t: f64,
+    /// Length of the step \[rad\].
+    pub h: f64,
+    /// u at the stages of the step, from which what is read between is begun.
+    pub X: [f64; S],
+}
+
+/// The machine at one angle of its motion.
+#[derive(Clone, Copy, Debug)]
+pub struct State<R> {
+    /// Speed of the crank \[rad/s\].
+    pub omega: R,
+    /// Acceleration of the crank \[rad/s²\].
+    pub epsilon: R,
+    /// Torque of the motor at its own shaft \[N m\].
+    pub motor_torque: R,
+    /// Torque of the motor at the crank, through the gearbox \[N m\].
+    pub drive_torque: R,
+    /// Resisting torque at the crank \[N m\].
+    pub load_torque: R,
+    /// Reduced inertia \[kg m²\].
+    pub J: R,
+}
+
+impl<R: Real> Machine<'_, R> {
+    /// The machine at (φ, u).
+    #[inline(always)]
+    pub fn state(&self, phi: R, u: R, m: &mut Motion<R>) -> State<R> {
+        self.state_at_end(&self.advance(phi, u, R::splat(0.0), m))
+    }
+
+    /// The machine at the end of a step.
+    #[inline(always)]
+    fn state_at_end(&self, (step, given): &(Step<R>, Vec<Given<R>>)) -> State<R> {
+        let row = &step.rows[S - 1];
+        let omega = (step.end() * 2.0).sqrt();
+        let motor_torque = self.plan.drive.motor_torque(&self.plan.tables, self.q, omega);
+        let drive_torque = self.plan.drive.geared_torque(self.q, motor_torque);
+        let mut load_torque = row.viscous.mul_add(omega, row.load);
+        if !self.plan.drive.speed_loads.is_empty() {
+            load_torque = load_torque + self.plan.drive.speed_load(&self.plan.tables, omega);
+        }
+        if !given.is_empty() {
+            load_torque = load_torque + self.laws(self.given_at(given, S - 1), omega);
+        }
+        State {
+            omega,
+            epsilon: step.K[S - 1],
+            motor_torque,
+            drive_torque,
+            load_torque,
+            J: row.inverse.recip(),
+        }
+    }
+}
+
+/// Curves over the turn at given angles (from 0 to 2π): each list as long as `phi`.
+#[derive(Clone, Debug, Default)]
+pub struct Curves {
+    pub time: Vec<f64>,
+    pub omega: Vec<f64>,
+    pub epsilon: Vec<f64>,
+    pub motor_torque: Vec<f64>,
+    pub drive_torque: Vec<f64>,
+    pub load_torque: Vec<f64>,
+    pub J: Vec<f64>,
+}
+
+/// Reads the solution at many angles, as many at once as there are lanes.
+pub struct ReadCurves<'a> {
+    /// The machine's structure.
+    pub plan: &'a Plan,
+    /// Its numbers.
+    pub q: &'a [f64],
+    /// The solution.
+    pub marks: &'a [Mark],
+    /// The angles \[rad\], in [0, 2π].
+    pub phi: &'a [f64],
+}
+
+impl Job for ReadCurves<'_> {
+    type Output = Curves;
+
+    #[inline(always)]
+    fn run<R: Real>(self) -> Curves {
+        let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
+        let machine = Machine { plan: self.plan, q: &q };
+        let mut m = Motion::new(&self.plan.mechanism, &q);
+        let mut curves = Curves::default();
+        let n = R::LANES;
+        let mut from: [Vec<f64>; 5 + S] = std::array::from_fn(|_| vec![0.0; n]);
+        let mut lanes = vec![0.0; n];
+        let mut k = 0;
+        for phis in self.phi.chunks(n) {
+            poll();
+            for lane in 0..n {
+                let phi = phis[lane.min(phis.len() - 1)];
+                k = self.mark_before(phi, k);
+                let mark = &self.marks[k];
+                let values = [mark.phi, mark.u, phi - mark.phi, mark.t, mark.h];
+                for (list, value) in from.iter_mut().zip(values.into_iter().chain(mark.X)) {
+                    list[lane] = value;
+                }
+            }
+            let [phi, u, h, start, whole] = std::array::from_fn(|i| R::load(&from[i]));
+            let mut samples = [u; N];
+            for i in 0..S {
+                samples[i + 1] = R::load(&from[5 + i]);
+            }
+            let X = stages_of_part(&through(&samples), R::splat(0.0), h / whole);
+            let there = machine.advance_near(phi, u, h, X, &mut m);
+            let dt = there.0.duration();
+            let state = R::outline(
+                #[inline(always)]
+                || machine.state_at_end(&there),
+            );
+            let row = [
+                (&mut curves.time, start + dt),
+                (&mut curves.omega, state.omega),
+                (&mut curves.epsilon, state.epsilon),
+                (&mut curves.motor_torque, state.motor_torque),
+                (&mut curves.drive_torque, state.drive_torque),
+                (&mut curves.load_torque, state.load_torque),
+                (&mut curves.J, state.J),
+            ];
+            for (list, value) in row {
+                value.store(&mut lanes);
+                list.extend_from_slice(&lanes[..phis.len()]);
+            }
+        }
+        curves
+    }
+}
+
+impl ReadCurves<'_> {
+    /// Index of the last mark not after φ, looked for from a likely one on.
+    fn mark_before(&self, phi: f64, from: usize) -> usize {
+        let is_before = |k: usize| self.marks.get(k).is_some_and(|mark| mark.phi <= phi);
+        let mut k = if is_before(from) { from } else { 0 };
+        while is_before(k + 1) {
+            k += 1;
+        }
+        k
+    }
+}

@@ -1,0 +1,154 @@
+//! Reduction to the crank: all masses and loads of a mechanism as functions of the crank angle.
+//!
+//! ```text
+//! J_red(φ) = J₀ + Σ m |p′|² + J ψ′²          J′_red = 2 Σ m p′·p″ + J ψ′ ψ″
+//! M_red(φ) = Σ F·p′ + Σ M ψ′                 (virtual work)
+//! ```
+//!
+//! Source: e.g. Artobolevsky, *Theory of Mechanisms and Machines*, ch. 15 (reduced mass and force);
+//! paper 1, equations (5) and (10), for the slider-crank with rod.
+
+use crate::drive::loads::{Body, Load};
+use crate::drive::structure::Plan;
+use crate::kernel::plane::{Angle, Place, Vec2};
+use crate::kernel::real::Real;
+use crate::linkage::motion::{Motion, on_link, stretch};
+
+/// The machine reduced to the crank at one angle. The resisting torque at speed ω is
+/// `load + sense·dry + viscous·ω`, with `sense` the direction of rotation.
+#[derive(Clone, Copy, Debug)]
+pub struct Reduction<R> {
+    /// J_red \[kg m²\], motor and gearbox included.
+    pub J: R,
+    /// dJ_red/dφ \[kg m²/rad\]; zero at order 1.
+    pub J_d1: R,
+    /// Resisting torque of loads that do not ask for the direction \[N m\].
+    pub load: R,
+    /// Resisting torque of dry loads, not negative when they are true resistances \[N m\].
+    pub dry: R,
+    /// Viscous coefficient \[N m s/rad\].
+    pub viscous: R,
+}
+
+impl Plan {
+    /// Places the mechanism and reduces it. `sense` is +1 or −1, the direction of rotation, which decides
+    /// between the forward and the back table of a force over position.
+    #[inline(always)]
+    pub fn reduce<R: Real, const ORDER: u8>(
+        &self,
+        q: &[R],
+        angle: Angle<R>,
+        sense: f64,
+        m: &mut Motion<R>,
+    ) -> Reduction<R> {
+        self.mechanism.place::<R, ORDER>(q, angle, m);
+        let zero = R::splat(0.0);
+        let mut r = Reduction { J: q[self.drive.inertia], J_d1: zero, load: zero, dry: zero, viscous: zero };
+        let mut gravity = Vec2::zero();
+        for load in &self.loads {
+            if let Load::Gravity { x, y } = *load {
+                gravity = gravity + Vec2::new(q[x], q[y]);
+            }
+        }
+        for body in &self.bodies {
+            add_body::<R, ORDER>(body, q, gravity, m, &mut r);
+        }
+        for load in &self.loads {
+            self.add_load(load, q, angle, sense, m, &mut r);
+        }
+        if !self.force_elements.is_empty() {
+            let (load, viscous) = R::outline(
+                #[inline(always)]
+                || self.force_element_torques(q, angle.phi, sense, m),
+            );
+            (r.load, r.viscous) = (r.load + load, r.viscous + viscous);
+        }
+        for &gap in &m.gaps {
+            // A dyad without mass leaves no trace in J: where it does not close there is no motion either.
+            r.J = gap.select_lt(R::splat(0.0), R::splat(f64::NAN), r.J + gap * 0.0);
+        }
+        r
+    }
+
+    #[inline(always)]
+    fn add_load<R: Real>(
+        &self,
+        load: &Load,
+        q: &[R],
+        angle: Angle<R>,
+        sense: f64,
+        m: &Motion<R>,
+        r: &mut Reduction<R>,
+    ) {
+        match *load {
+            Load::Gravity { .. } => {}
+            Load::DrySlide { slide, force } => r.dry = m.slides[slide].d1.abs().mul_add(q[force], r.dry),
+            Load::DryPoint { point, force } => {
+                let d1 = m.points[point].d1;
+                r.dry = d1.dot(d1).sqrt().mul_add(q[force], r.dry);
+            }
+            Load::DryLink { link, torque } => r.dry = m.links[link].d1.abs().mul_add(q[torque], r.dry),
+            Load::DryCrank { torque } => r.dry = r.dry + q[torque],
+            Load::ViscousSlide { slide, damping } => {
+                r.viscous = m.slides[slide].d1.squared().mul_add(q[damping], r.viscous);
+            }
+            Load::ViscousPoint { point, damping } => {
+                let d1 = m.points[point].d1;
+                r.viscous = d1.dot(d1).mul_add(q[damping], r.viscous);
+            }
+            Load::ViscousLink { link, damping } => {
+                r.viscous = m.links[link].d1.squared().mul_add(q[damping], r.viscous);
+            }
+            Load::Force { point, x, y } => {
+                r.load = r.load - m.points[point].d1.dot(Vec2::new(q[x], q[y]));
+            }
+            Load::Torque { link, torque } => r.load = r.load - m.links[link].d1 * q[torque],
+            Load::Spring { from, to, stiffness, free_length, preload } => {
+                let (length, length1) = stretch(m, from, to);
+                let pull = (length - q[free_length]).mul_add(q[stiffness], q[preload]);
+                r.load = pull.mul_add(length1, r.load);
+            }
+            Load::ForcePosition { slide, forward, back } => {
+                let slide = &m.slides[slide];
+                let ahead = slide.s.map(|s| self.tables[forward].held(s));
+                let behind = slide.s.map(|s| self.tables[back].held(s));
+                let force = (slide.d1 * sense).select_lt(R::splat(0.0), behind, ahead);
+                r.dry = slide.d1.abs().mul_add(force, r.dry);
+            }
+            Load::TorqueAngle { table } => {
+                r.load = r.load + angle.phi.map(|phi| self.tables[table].periodic(phi));
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn add_body<R: Real, const ORDER: u8>(
+    body: &Body,
+    q: &[R],
+    gravity: Vec2<R>,
+    m: &Motion<R>,
+    r: &mut Reduction<R>,
+) {
+    match *body {
+        Body::Point { point, mass } => add_mass::<R, ORDER>(&m.points[point], q[mass], gravity, r),
+        Body::Link { link, origin, along, across, mass, inertia } => {
+            let heading = &m.links[link];
+            r.J = heading.d1.squared().mul_add(q[inertia], r.J);
+            if ORDER > 1 {
+                r.J_d1 = (heading.d1 * heading.d2 * 2.0).mul_add(q[inertia], r.J_d1);
+            }
+            let centre = on_link::<R, ORDER>(&m.points[origin], heading, q[along], q[across]);
+            add_mass::<R, ORDER>(&centre, q[mass], gravity, r);
+        }
+    }
+}
+
+#[inline(always)]
+fn add_mass<R: Real, const ORDER: u8>(place: &Place<R>, mass: R, gravity: Vec2<R>, r: &mut Reduction<R>) {
+    r.J = place.d1.dot(place.d1).mul_add(mass, r.J);
+    if ORDER > 1 {
+        r.J_d1 = (place.d1.dot(place.d2) * 2.0).mul_add(mass, r.J_d1);
+    }
+    r.load = r.load - place.d1.dot(gravity) * mass;
+}

@@ -1,0 +1,380 @@
+//! Steady motion of one machine to a wanted accuracy.
+//!
+//! The turn is solved on a mesh, the error of every step is measured ([`crate::drive::check`]), and steps that err
+//! too much are made shorter, until none does. Where the motor's or gearbox's characteristic has a kink at
+//! some speed, the angles at which the motion passes it become ends of steps. The accuracy that is reported
+//! is what was measured.
+//!
+//! Newton over the whole turn from one constant speed finds the motion of all but a few machines. Where it
+//! fails, or finds a motion from which the machine departs, or one that may not be the only one
+//! ([`crate::drive::levels`]), the turn is marched through instead ([`crate::drive::march`]): that finds all motions that
+//! repeat, or shows that none does. The fastest is the answer: it draws in every faster start. The others are
+//! told.
+
+use crate::drive::cycle::{Machine, Turn, divide};
+use crate::drive::extremes::{Extreme, Extremes};
+use crate::drive::layout::unbundle;
+use crate::drive::march::{NoMotion, Repeated, Which, repeating};
+use crate::drive::measures::Totals;
+use crate::drive::mesh::{Mesh, Piece, crossings_of};
+use crate::drive::reading::Mark;
+use crate::drive::structure::Plan;
+use crate::kernel::call::poll;
+use crate::kernel::lanes::{Job, in_lanes};
+use crate::kernel::real::Real;
+use crate::kernel::status::Status;
+use crate::linkage::motion::Motion;
+
+/// Steps of the first mesh for an accuracy of 1e-8 or more.
+const FIRST: f64 = 24.0;
+
+/// Most steps of a turn.
+const STEPS_MAX: usize = 12_288;
+
+/// Most meshes. Some make steps at least half as long, and steps behind a kink shorter at once; some place a
+/// kink.
+const MESHES_MAX: usize = 120;
+
+/// Most meshes on which a kink of the drive is placed anew before errors are looked at: each squares the
+/// distance.
+const PLACEMENTS_MAX: u32 = 8;
+
+/// An accuracy that is asked for and cannot be had is reported, as long as it is better than this.
+const USABLE: f64 = 1e-5;
+
+/// Steady motion of one machine.
+#[derive(Clone, Debug)]
+pub struct Steady {
+    /// The solution at the starts of the steps.
+    pub marks: Vec<Mark>,
+    /// Derivative of the turn-to-turn map.
+    pub multiplier: f64,
+    /// Extremes.
+    pub extremes: Extremes<f64>,
+    /// Integrals.
+    pub totals: Totals<f64>,
+    /// Relative error as measured.
+    pub reached: f64,
+    /// Sweeps over all meshes.
+    pub sweeps: u32,
+    /// Whether there may be faster, and slower, motions that repeat.
+    pub may_have: Rivals,
+    /// Those that there are, from the fastest down.
+    pub others: Vec<Other>,
+}
+
+/// Whether other motions may repeat.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rivals {
+    /// Above the one that was found.
+    pub faster: bool,
+    /// Below it.
+    pub slower: bool,
+}
+
+/// Another motion of the machine that repeats.
+#[derive(Clone, Copy, Debug)]
+pub struct Other {
+    /// Least speed of the crank \[rad/s\].
+    pub speed_min: f64,
+    /// Greatest speed of the crank \[rad/s\].
+    pub speed_max: f64,
+    /// Duration of the turn \[s\].
+    pub period: f64,
+    /// Derivative of the turn-to-turn map: the machine departs from the motion above 1.
+    pub multiplier: f64,
+}
+
+/// Why there is no answer.
+#[derive(Clone, Copy, Debug)]
+pub struct Failure {
+    /// The kind.
+    pub status: Status,
+    /// Crank angle where the machine comes to rest or does not close \[rad\]; NaN where there is none.
+    pub phi: f64,
+    /// Speed from which it slows down, or which it still exceeds \[rad/s\]; NaN where there is none.
+    pub omega: f64,
+    /// Accuracy that was reached.
+    pub reached: f64,
+}
+
+impl Failure {
+    fn new(status: Status) -> Self {
+        Failure { status, phi: f64::NAN, omega: f64::NAN, reached: f64::NAN }
+    }
+}
+
+impl From<NoMotion> for Failure {
+    fn from(reason: NoMotion) -> Self {
+        match reason {
+            NoMotion::Rests { omega, phi } => Failure { phi, omega, ..Failure::new(Status::NoSteadyMotion) },
+            NoMotion::RunsAway { omega } => Failure { omega, ..Failure::new(Status::NoSteadyMotion) },
+            NoMotion::DoesNotClose { phi } => Failure { phi, ..Failure::new(Status::DoesNotClose) },
+            NoMotion::Unknown => Failure::new(Status::Inaccurate),
+        }
+    }
+}
+
+/// Another motion counts as the same if their u at φ = 0 differ by less than this share.
+const SAME: f64 = 1e-5;
+
+/// Accuracy to which other motions are told.
+const TOLD: f64 = 1e-7;
+
+/// Solves for the steady motion with relative accuracy `accuracy`.
+///
+/// # Errors
+/// [`Status::DoesNotClose`], [`Status::NoSteadyMotion`], or [`Status::Inaccurate`] when the finest mesh
+/// does not suffice.
+pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
+    fastest_and(Which::Fastest, plan, q, accuracy)
+}
+
+/// The same, with all others that repeat.
+///
+/// # Errors
+/// As [`steady`].
+pub fn steady_with_others(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
+    fastest_and(Which::All, plan, q, accuracy)
+}
+
+fn fastest_and(which: Which, plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
+    let machine = Machine { plan, q };
+    let breaks = machine.breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0);
+    // With order 9 a mesh this much finer is good for the accuracy where 24 steps are for 1e-8.
+    let steps = FIRST * (1e-8 / accuracy).powf(0.125).clamp(1.0, 4.0);
+    let mesh = Mesh::new(divide(&breaks, steps as usize));
+    let search = Search { plan, q, breaks: &breaks, accuracy, mesh, start: None, any: false };
+    let first = in_lanes(search.clone());
+    let stable = match first {
+        Ok(found) if found.multiplier < 1.0 => Some(found),
+        Err(failure) if failure.status == Status::DoesNotClose => return Err(failure),
+        _ => None,
+    };
+    if let Some(found) = &stable {
+        let Rivals { faster, slower } = found.may_have;
+        if !faster && (!slower || which == Which::Fastest) {
+            return stable.ok_or(Failure::new(Status::Inaccurate));
+        }
+    }
+    match (repeating(&machine, &breaks, which), stable) {
+        (Ok(motions), stable) => fastest_of(&search, &motions, stable),
+        (Err(_), Some(found)) => Ok(found),
+        (Err(reason), None) => Err(reason.into()),
+    }
+}
+
+/// The fastest of the motions that repeat from which the machine does not depart, with the others; `known` is
+/// one that is solved already.
+fn fastest_of(search: &Search<'_>, motions: &[Repeated], known: Option<Steady>) -> Result<Steady, Failure> {
+    let (mut answer, mut others, mut failed): (Option<Steady>, Vec<Other>, _) = (None, Vec::new(), None);
+    for motion in motions {
+        let is_known = |found: &&Steady| (motion.u() / found.marks[0].u - 1.0).abs() <= SAME;
+        let solved = match known.as_ref().filter(is_known) {
+            Some(found) => Ok(found.clone()),
+            None => in_lanes(search.from(motion, answer.is_some())),
+        };
+        match solved {
+            Ok(found) if answer.is_none() && found.multiplier < 1.0 => answer = Some(found),
+            Ok(found) => others.push(Other::from(&found)),
+            Err(failure) => {
+                others.push(Other::from(motion));
+                failed = failed.or(Some(failure));
+            }
+        }
+    }
+    match (answer.or(known), failed) {
+        (Some(found), _) => Ok(Steady { others, ..found }),
+        // There is a motion, but Newton does not hold it.
+        (None, failed) => {
+            let reached = failed.map_or(f64::NAN, |failure| failure.reached);
+            Err(Failure { reached, ..Failure::new(Status::Inaccurate) })
+        }
+    }
+}
+
+impl From<&Steady> for Other {
+    fn from(found: &Steady) -> Self {
+        Other {
+            speed_min: found.extremes.speed_min.value,
+            speed_max: found.extremes.speed_max.value,
+            period: found.totals.period,
+            multiplier: found.multiplier,
+        }
+    }
+}
+
+impl From<&Repeated> for Other {
+    /// From the marched turn, to its stages.
+    fn from(motion: &Repeated) -> Self {
+        let stages = || motion.pieces.iter().flat_map(|piece| piece.X);
+        let speed = |u: f64| (2.0 * u).sqrt();
+        Other {
+            speed_min: speed(stages().fold(f64::INFINITY, f64::min)),
+            speed_max: speed(stages().fold(0.0, f64::max)),
+            period: motion.pieces.iter().map(Piece::duration).sum(),
+            multiplier: motion.growth,
+        }
+    }
+}
+
+/// The search from one mesh on, with the steps of the machine in lanes.
+#[derive(Clone)]
+struct Search<'a> {
+    plan: &'a Plan,
+    q: &'a [f64],
+    breaks: &'a [f64],
+    accuracy: f64,
+    mesh: Mesh,
+    /// What to start from; one constant speed otherwise.
+    start: Option<Vec<Piece>>,
+    /// Whether a motion from which the machine departs is wanted too.
+    any: bool,
+}
+
+impl Search<'_> {
+    /// The search from a marched turn on: for the answer, or for another motion, which is only told.
+    fn from(&self, motion: &Repeated, told: bool) -> Self {
+        let mut edges: Vec<f64> = motion.pieces.iter().map(|piece| piece.phi).collect();
+        edges.push(std::f64::consts::TAU);
+        let accuracy = if told { self.accuracy.max(TOLD) } else { self.accuracy };
+        Search {
+            mesh: Mesh::new(edges),
+            start: Some(motion.pieces.clone()),
+            any: told,
+            accuracy,
+            ..self.clone()
+        }
+    }
+}
+
+impl Job for Search<'_> {
+    type Output = Result<Steady, Failure>;
+
+    #[inline(always)]
+    fn run<R: Real>(self) -> Self::Output {
+        let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
+        let machine = Machine { plan: self.plan, q: &q };
+        let plain = Machine { plan: self.plan, q: self.q };
+        let mut plain_motion = Motion::new(&self.plan.mechanism, self.q);
+        let mut m = Motion::new(&self.plan.mechanism, &q);
+        let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
+        let mut placements = 0;
+        for _ in 0..MESHES_MAX {
+            poll();
+            let mut turn = Turn::of_steps(&machine, &mesh.edges, &mut m);
+            if !turn.closes() {
+                return Err(Failure::new(Status::DoesNotClose));
+            }
+            match &start {
+                Some(pieces) => turn.start_from(pieces),
+                None => turn.start_from_balance(&machine),
+            }
+            turn.solve(&machine);
+            sweeps += turn.sweeps;
+            let multiplier = unbundle(&[turn.multiplier])[0];
+            if !turn.is_solved() || (multiplier >= 1.0 && !self.any) {
+                return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
+            }
+            let pieces = turn.pieces();
+            if placements < PLACEMENTS_MAX {
+                let crossings = crossings_of(&pieces, &plain, &mut plain_motion);
+                if let Some(next) = mesh.with_crossings(&crossings, self.breaks) {
+                    (mesh, start, placements) = (next, Some(pieces), placements + 1);
+                    continue;
+                }
+            }
+            let check = turn.check(&machine, self.accuracy, &mut m);
+            let is_good = check.excess.iter().all(|excess| excess.error <= 1.0);
+            reached = check.reached;
+            let next = (!is_good).then(|| mesh.refined(&check.excess));
+            let next = next.filter(|next| next.edges.len() <= STEPS_MAX);
+            let Some(next) = next else {
+                if !is_good && reached > USABLE.max(self.accuracy) {
+                    break;
+                }
+                return Ok(Steady {
+                    marks: turn.marks(),
+                    multiplier,
+                    extremes: turn.extremes(&machine, &mut m).first_lane(),
+                    totals: turn.totals(&machine).first_lane(),
+                    reached,
+                    sweeps,
+                    may_have: Rivals {
+                        faster: first_lane(turn.may_have_faster(&machine)) > 0.5,
+                        slower: first_lane(turn.may_have_slower(&machine)) > 0.5,
+                    },
+                    others: Vec::new(),
+                });
+            };
+            (mesh, start, placements) = (next, Some(pieces), 0);
+        }
+        Err(Failure { reached, ..Failure::new(Status::Inaccurate) })
+    }
+}
+
+impl<R: Real> Turn<R> {
+    /// Whether Newton converged to a real motion.
+    #[inline(always)]
+    fn is_solved(&self) -> bool {
+        let flat = |of: &dyn Fn(&crate::drive::cycle::Step<R>) -> R| {
+            unbundle(&self.steps.iter().map(of).collect::<Vec<_>>())
+        };
+        !self.steps.is_empty()
+            && unbundle(&[self.correction]).iter().all(|&x| x <= 1e-6)
+            && unbundle(&[self.multiplier]).iter().all(|x| x.is_finite())
+            && flat(&|step| step.u)
+                .into_iter()
+                .chain(flat(&|step| step.end()))
+                .all(|u| u > 0.0 && u.is_finite())
+    }
+
+    /// The solution at the starts of the steps, those of no length left out.
+    #[inline(always)]
+    fn marks(&self) -> Vec<Mark> {
+        let durations =
+            unbundle(&self.steps.iter().map(crate::drive::cycle::Step::duration).collect::<Vec<_>>());
+        let mut t = 0.0;
+        let mut marks = Vec::with_capacity(durations.len());
+        // Steps of no length come last.
+        for (piece, duration) in self.pieces().into_iter().zip(durations) {
+            marks.push(Mark { phi: piece.phi, u: piece.u, t, h: piece.h, X: piece.X });
+            t += duration;
+        }
+        marks
+    }
+}
+
+#[inline(always)]
+fn first_lane<R: Real>(x: R) -> f64 {
+    unbundle(&[x])[0]
+}
+
+impl<R: Real> Totals<R> {
+    /// Those of the first lane.
+    #[inline(always)]
+    fn first_lane(&self) -> Totals<f64> {
+        Totals {
+            period: first_lane(self.period),
+            motor_work: first_lane(self.motor_work),
+            crank_work: first_lane(self.crank_work),
+            load_work: first_lane(self.load_work),
+            torque_mean: first_lane(self.torque_mean),
+            torque_rms: first_lane(self.torque_rms),
+        }
+    }
+}
+
+impl<R: Real> Extremes<R> {
+    /// Those of the first lane.
+    #[inline(always)]
+    fn first_lane(&self) -> Extremes<f64> {
+        let first = |e: &Extreme<R>| Extreme { value: first_lane(e.value), phi: first_lane(e.phi) };
+        Extremes {
+            speed_min: first(&self.speed_min),
+            speed_max: first(&self.speed_max),
+            acceleration_min: first(&self.acceleration_min),
+            acceleration_max: first(&self.acceleration_max),
+        }
+    }
+}

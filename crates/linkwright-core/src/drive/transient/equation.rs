@@ -1,0 +1,70 @@
+//! The equation of motion of the crank, and the balance of torques at standstill.
+
+use crate::drive::cycle::Machine;
+use crate::drive::law::Given;
+use crate::kernel::plane::Angle;
+use crate::linkage::motion::Motion;
+
+/// Angle and speed of the crank.
+pub type Y = [f64; 2];
+
+/// Difference of speeds, as a share of the working speed, that rounding may leave.
+pub(super) const AT_REST: f64 = 1e-11;
+
+/// A machine with room for what its equation of motion needs.
+pub struct Equation<'a> {
+    pub machine: Machine<'a, f64>,
+    pub motion: Motion<f64>,
+    pub given: Vec<Given<f64>>,
+    pub speed_scale: f64,
+    pub evaluations: usize,
+}
+
+impl Equation<'_> {
+    /// (ω, ε)
+    pub fn derivative(&mut self, t: f64, y: &Y) -> Y {
+        let Machine { plan, q } = self.machine;
+        self.evaluations += 1;
+        let [phi, omega] = *y;
+        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut self.motion);
+        let mut resisting = r.load + r.dry + r.viscous * omega;
+        if !plan.laws.is_empty() {
+            resisting += self.laws(t, phi, omega);
+        }
+        let net = plan.drive.torque(&plan.tables, q, omega) - resisting - 0.5 * r.J_d1 * omega * omega;
+        [omega, net / r.J]
+    }
+
+    /// Torque of the laws at an angle for which the mechanism has been placed.
+    #[inline(never)]
+    fn laws(&mut self, t: f64, phi: f64, omega: f64) -> f64 {
+        let Machine { plan, q } = self.machine;
+        self.given.clear();
+        plan.give(q, phi, &self.motion, &mut self.given);
+        plan.law_torque(q, &self.given, omega, t)
+    }
+
+    /// Drive's and needed torque at standstill, and which way the machine goes from there: +1, 0 or −1. Laws
+    /// count as at a vanishing speed in that direction, so that one with a jump at rest holds there.
+    pub fn balance_at_rest(&mut self, t: f64, phi: f64) -> (f64, f64, i8) {
+        let Machine { plan, q } = self.machine;
+        let slow = AT_REST * self.speed_scale;
+        let mut ahead = plan.reduce::<f64, 1>(q, Angle::new(phi), 1.0, &mut self.motion);
+        ahead.load += self.laws(t, phi, slow);
+        let mut back = plan.reduce::<f64, 1>(q, Angle::new(phi), -1.0, &mut self.motion);
+        back.load += self.laws(t, phi, -slow);
+        let drive = plan.drive.geared_torque(q, plan.drive.motor_torque(&plan.tables, q, 0.0));
+        // At rest a load over speed holds in either direction, like a dry one; a driving one drives.
+        let over_speed: f64 = plan.drive.speed_load(&plan.tables, 0.0);
+        let holding = over_speed.max(0.0);
+        let free = drive - over_speed.min(0.0);
+        let way = if free - ahead.load > ahead.dry + holding {
+            1
+        } else if free - back.load < -(back.dry + holding) {
+            -1
+        } else {
+            0
+        };
+        (drive, ahead.load + ahead.dry + over_speed, way)
+    }
+}

@@ -1,0 +1,360 @@
+//! Motion in time from a given angle and speed: run-up, run-down, anything not yet steady.
+//!
+//! ```text
+//! dφ/dt = ω,   dω/dt = ε = [M_d(ω) − M_r(φ, ω) − ½ J′(φ) ω²] / J(φ)
+//! ```
+//!
+//! by [`crate::kernel::rk`] with these events met exactly by the end of a step: kinks over the angle (dead centres
+//! under dry friction, knots of tables), speeds at which the drive's characteristic has a kink, standstill.
+//! At standstill the dry loads decide: what is left of the drive's torque must exceed them to move on.
+//!
+//! | module | answers |
+//! | --- | --- |
+//! | [`equation`] | the equation of motion, and which way the machine goes from rest |
+//! | [`attempt`] | steps of any length from one instant |
+
+pub mod attempt;
+pub mod equation;
+
+use self::attempt::Attempt;
+use self::equation::{AT_REST, Equation, Y};
+use crate::drive::cycle::Machine;
+use crate::drive::mesh::crossing;
+use crate::drive::structure::Plan;
+use crate::kernel::call::poll;
+use crate::kernel::rk::{Trial, next_factor};
+use crate::linkage::motion::Motion;
+use std::f64::consts::TAU;
+
+/// What to follow.
+#[derive(Clone, Copy, Debug)]
+pub struct Start {
+    /// Crank angle at the start \[rad\].
+    pub phi: f64,
+    /// Speed at the start \[rad/s\], not negative.
+    pub omega: f64,
+    /// Longest time \[s\].
+    pub duration: f64,
+    /// Most turns of the crank.
+    pub turns: f64,
+    /// Relative accuracy of a step, at its end and on the way there.
+    pub accuracy: f64,
+}
+
+/// How the motion ended; the numbers are what crosses the border.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum End {
+    /// The time is over.
+    Time = 0,
+    /// The turns are done.
+    Turns = 1,
+    /// At rest, and the drive cannot overcome the resistance.
+    DoesNotStart = 2,
+    /// At rest, and the loads drive the machine backwards.
+    StartsBackwards = 3,
+    /// Came to rest on the way and stays there.
+    Stall = 4,
+    /// Came to rest on the way and is driven backwards.
+    Reversal = 5,
+    /// A dyad does not close at the angle reached.
+    DoesNotClose = 6,
+    /// Too many steps, or steps too small, for the accuracy.
+    Inaccurate = 7,
+}
+
+impl End {
+    /// What a step that is given up for its error says.
+    fn of_error(error: f64) -> Self {
+        if error.is_nan() { End::DoesNotClose } else { End::Inaccurate }
+    }
+}
+
+/// The motion at the ends of the steps.
+#[derive(Clone, Debug)]
+pub struct Trajectory {
+    pub t: Vec<f64>,
+    pub phi: Vec<f64>,
+    pub omega: Vec<f64>,
+    pub epsilon: Vec<f64>,
+    /// Of each step the polynomials of angle and speed ([`crate::kernel::rk::Stages::component`]).
+    pub between: Vec<[[f64; 7]; 2]>,
+    pub end: End,
+    /// Drive's torque at the crank where the motion ended \[N m\].
+    pub drive_torque: f64,
+    /// Torque the loads need there to be overcome \[N m\].
+    pub load_torque: f64,
+    /// Evaluations of the machine.
+    pub evaluations: usize,
+}
+
+/// Steps after which the motion is given up: a run-up of a thousand turns takes a tenth of them.
+const STEPS_MAX: usize = 400_000;
+
+/// How close a landing on the last angle must be \[rad\].
+const LANDING: f64 = 1e-13;
+
+/// How close a landing on a kink must be, for an accuracy ε: this times √ε \[rad\]. Passing a kink by δ errs
+/// by δ² times its change of slope, a millionth of ε.
+const NEAR: f64 = 1e-3;
+
+/// Follows the motion until time, turns or an event end it.
+pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
+    let machine = Machine { plan, q };
+    let mut motion = Motion::new(&plan.mechanism, q);
+    let kinks = machine.breaks(&mut motion).swap_remove(0);
+    let speed_scale = q[plan.drive.speed_start].max(start.omega);
+    let mut follower = Equation { machine, motion, given: Vec::new(), speed_scale, evaluations: 0 };
+    let mut path = Path::new(plan, q, start, kinks);
+    path.run(&mut follower);
+    path.finish(&mut follower)
+}
+
+struct Path {
+    trajectory: Trajectory,
+    kinks: Vec<f64>,
+    speeds: Vec<f64>,
+    last_angle: f64,
+    last_time: f64,
+    accuracy: f64,
+    speed_scale: f64,
+}
+
+/// A step that was accepted, and whether it ended at standstill.
+struct Accepted {
+    h: f64,
+    y: Y,
+    /// Derivative at its end.
+    rate: Y,
+    between: [[f64; 7]; 2],
+    /// Length to try next.
+    next: f64,
+    at_rest: bool,
+}
+
+impl Path {
+    fn new(plan: &Plan, q: &[f64], start: &Start, kinks: Vec<f64>) -> Self {
+        let trajectory = Trajectory {
+            t: vec![0.0],
+            phi: vec![start.phi],
+            omega: vec![start.omega],
+            epsilon: Vec::new(),
+            between: Vec::new(),
+            end: End::Time,
+            drive_torque: f64::NAN,
+            load_torque: f64::NAN,
+            evaluations: 0,
+        };
+        Path {
+            trajectory,
+            kinks,
+            speeds: plan.drive.speed_kinks(&plan.tables, q),
+            last_angle: start.phi + start.turns * TAU,
+            last_time: start.duration,
+            accuracy: start.accuracy,
+            speed_scale: q[plan.drive.speed_start].max(start.omega),
+        }
+    }
+
+    fn now(&self) -> (f64, Y) {
+        let path = &self.trajectory;
+        let last = path.t.len() - 1;
+        (path.t[last], [path.phi[last], path.omega[last]])
+    }
+
+    fn run(&mut self, follower: &mut Equation<'_>) {
+        let (_, y) = self.now();
+        if y[1] <= AT_REST * self.speed_scale {
+            self.trajectory.omega[0] = 0.0;
+            let way = follower.balance_at_rest(0.0, y[0]).2;
+            if way != 1 {
+                self.trajectory.end = if way == 0 { End::DoesNotStart } else { End::StartsBackwards };
+                return;
+            }
+        }
+        // A hundredth of a radian at working speed: small against any feature, soon grown tenfold.
+        let mut h = 0.01 / self.speed_scale;
+        let (_, y) = self.now();
+        let mut k0 = follower.derivative(0.0, &y);
+        for _ in 0..STEPS_MAX {
+            poll();
+            self.trajectory.epsilon.push(k0[1]);
+            let (t, y) = self.now();
+            if let Some(end) = self.is_over(t, &y, &k0) {
+                self.trajectory.end = end;
+                return;
+            }
+            let step = match self.step(follower, (t, &y, &k0), h) {
+                Ok(step) => step,
+                Err(end) => {
+                    self.trajectory.end = end;
+                    return;
+                }
+            };
+            h = step.next;
+            self.trajectory.t.push(t + step.h);
+            self.trajectory.phi.push(step.y[0]);
+            self.trajectory.omega.push(step.y[1]);
+            self.trajectory.between.push(step.between);
+            k0 = step.rate;
+            if step.at_rest {
+                self.trajectory.epsilon.push(k0[1]);
+                if self.stays_at_rest(follower, t + step.h, step.y[0]) {
+                    return;
+                }
+                self.trajectory.epsilon.pop();
+            }
+        }
+        self.trajectory.end = End::Inaccurate;
+    }
+
+    fn is_over(&self, t: f64, y: &Y, k0: &Y) -> Option<End> {
+        if !k0[1].is_finite() {
+            Some(End::DoesNotClose)
+        } else if t >= self.last_time {
+            Some(End::Time)
+        } else if y[0] >= self.last_angle - LANDING {
+            Some(End::Turns)
+        } else {
+            None
+        }
+    }
+
+    /// At standstill on the way: ends the motion unless the drive takes it on.
+    fn stays_at_rest(&mut self, follower: &mut Equation<'_>, t: f64, phi: f64) -> bool {
+        let way = follower.balance_at_rest(t, phi).2;
+        if way < 1 {
+            self.trajectory.end = if way < 0 { End::Reversal } else { End::Stall };
+        }
+        way < 1
+    }
+
+    /// The next accepted step from `from`, of length at most `longest`; or why none is: it errs too much, or the machine
+    /// has no acceleration however near.
+    fn step(
+        &self,
+        follower: &mut Equation<'_>,
+        from: (f64, &Y, &Y),
+        mut longest: f64,
+    ) -> Result<Accepted, End> {
+        let (t, y, k0) = from;
+        let target = self.next_angle(y[0]);
+        let rest = self.last_time - t;
+        let landing = time_to(target - y[0], y[1], k0[1]);
+        let mut attempt = Attempt::new(follower, from, self.accuracy, self.speed_scale);
+        let mut growth_max = f64::INFINITY;
+        let mut reason = End::Inaccurate;
+        // Forty reductions by a tenth to nine tenths reach any length that still changes t.
+        for _ in 0..40 {
+            let mut h = longest.min(rest).min(landing);
+            let mut trial = attempt.to(h);
+            if trial.error.is_nan() || trial.error > 1.0 {
+                (longest, growth_max) = (h * next_factor(trial.error).min(0.9), 1.0);
+                reason = End::of_error(trial.error);
+                continue;
+            }
+            let tried = h;
+            if trial.y[0] > target || h == landing {
+                let is_last = target == self.last_angle;
+                let near = if is_last { LANDING } else { NEAR * self.accuracy.sqrt() };
+                (trial, h) = land(&mut attempt, trial, h, (target, near));
+            }
+            let event = self.first_speed_event(&mut attempt, y[1], &trial, h);
+            let mut end = trial.y;
+            if let Some((at, speed)) = event {
+                (h, end) = (at, [attempt.to(at).y[0], speed]);
+            }
+            let on_the_way = attempt.fill(h, &end);
+            if on_the_way.is_nan() || on_the_way > 1.0 {
+                (longest, growth_max) = (h * next_factor(on_the_way).min(0.9), 1.0);
+                reason = End::of_error(on_the_way);
+                continue;
+            }
+            // A step cut short by an event says nothing about the length that the next may have.
+            let grown = tried * next_factor(trial.error.max(on_the_way)).min(growth_max);
+            let next = if tried < longest { grown.max(longest) } else { grown };
+            let (rate, between) = attempt.ended();
+            return Ok(Accepted {
+                h,
+                y: end,
+                rate,
+                between,
+                next,
+                at_rest: event.is_some() && end[1] == 0.0,
+            });
+        }
+        Err(reason)
+    }
+
+    /// The next angle at which a step must end.
+    fn next_angle(&self, phi: f64) -> f64 {
+        let turn = (phi / TAU).floor() * TAU;
+        let passed = phi + 10.0 * NEAR * self.accuracy.sqrt();
+        let after = |base: f64| self.kinks.iter().map(move |kink| base + kink).find(|&angle| angle > passed);
+        let kink = after(turn).or_else(|| after(turn + TAU)).unwrap_or(f64::INFINITY);
+        kink.min(self.last_angle)
+    }
+
+    /// The earliest time in the step at which the speed passes a kink of the drive or zero, and that speed.
+    fn first_speed_event(
+        &self,
+        attempt: &mut Attempt<'_, '_>,
+        omega: f64,
+        trial: &Trial<2>,
+        h: f64,
+    ) -> Option<(f64, f64)> {
+        let mut first: Option<(f64, f64)> = None;
+        let is_past = |speed: f64| {
+            // A step that starts on the speed itself, to rounding, is not passing it.
+            let apart = (omega - speed).abs() > AT_REST * self.speed_scale;
+            apart && (omega - speed) * (trial.y[1] - speed) < 0.0
+        };
+        for speed in self.speeds.iter().copied().chain([0.0]).filter(|&speed| is_past(speed)) {
+            let excess = |x: f64| attempt.to(x).y[1] - speed;
+            let at = crossing(excess, h, omega - speed, trial.y[1] - speed);
+            if first.is_none_or(|(earliest, _)| at < earliest) {
+                first = Some((at, speed));
+            }
+        }
+        first
+    }
+
+    fn finish(mut self, follower: &mut Equation<'_>) -> Trajectory {
+        let (t, y) = self.now();
+        let path = &mut self.trajectory;
+        if path.epsilon.len() < path.t.len() {
+            path.epsilon.push(follower.derivative(t, &y)[1]);
+        }
+        (path.drive_torque, path.load_torque, _) = follower.balance_at_rest(t, y[0]);
+        path.evaluations = follower.evaluations;
+        self.trajectory
+    }
+}
+
+/// Time to turn by `angle` at speed ω and acceleration ε; infinite if it is not reached.
+fn time_to(angle: f64, omega: f64, epsilon: f64) -> f64 {
+    let root = omega * omega + 2.0 * epsilon * angle;
+    if root < 0.0 {
+        return f64::INFINITY;
+    }
+    let speed = omega + root.sqrt();
+    if speed > 0.0 { 2.0 * angle / speed } else { f64::INFINITY }
+}
+
+/// Newton on the length of the step until it ends on the target angle.
+fn land(
+    attempt: &mut Attempt<'_, '_>,
+    mut trial: Trial<2>,
+    mut h: f64,
+    (target, near): (f64, f64),
+) -> (Trial<2>, f64) {
+    for _ in 0..6 {
+        let miss = target - trial.y[0];
+        if miss.abs() <= near || trial.y[1] <= 0.0 {
+            break;
+        }
+        h += miss / trial.y[1];
+        trial = attempt.to(h);
+    }
+    (trial, h)
+}
