@@ -1,4 +1,4 @@
-"""Every command that has ``--json`` answers in one form: right input, a machine that cannot do it, wrong input.
+"""Every command that has ``--json`` answers in one form: what can be done, what cannot, and wrong input.
 
 The commands are those of the application: one that is added and is not told here fails.
 """
@@ -21,8 +21,8 @@ from linkwright.kernel.errors import InputError
 
 ROOT = Path(__file__).parents[2]
 FILES = {path.stem: str(path) for path in (ROOT / "machines").glob("*.toml")} | {
+    "undercut": str(ROOT / "examples" / "cam_roller_undercut" / "machine.toml"),
     "engine": str(ROOT / "examples" / "weak_cylinder" / "machine.toml"),
-    "groove": str(ROOT / "examples" / "cam_roller_undercut" / "machine.toml"),
 }
 
 # What tasks of a synthesis and measurements hold.
@@ -37,6 +37,27 @@ right = { inertia = 1 }
 [train.shafts]
 one = { between = ["left", "middle"], stiffness = 1e4 }
 two = { between = ["middle", "right"], stiffness = 1e4 }
+""",
+    "field.toml": """
+format = 1
+name = "Topper"
+[topper]
+root_diameter = "110 mm"
+cut_height = "30 mm"
+offset = "20 mm"
+edge_angle = "20 deg"
+edge_length = "0.18 m"
+forward_speed = "1.9 m/s"
+knife_speed = "0.55 m/s"
+[topper.motion]
+kind = "harmonic"
+stroke = "60 mm"
+[topper.field]
+kind = "random"
+roots = 500
+rows = 10
+cut_height = { kind = "normal", mean = "28 mm", deviation = "12 mm" }
+root_density = "1050 kg/m^3"
 """,
     "poses.toml": """
 [poses]
@@ -102,7 +123,7 @@ CASES = {
     ),
     "synthesise motion": Case(
         "--task {poses.toml}",
-        '--task {poses.toml} --set poses.angle="0,0,0deg"',
+        "--task {poses.toml} --set rocker_point.x=-20mm --set rocker_point.y=-50mm",
         "--task {poses.toml}" + _UNSUITED,
     ),
     "synthesise function": Case(
@@ -116,9 +137,7 @@ CASES = {
     "synthesise line": Case(
         "--kind hoeken", "--kind hoeken --proportion arm=0.1", "--kind hoeken --proportion arm"
     ),
-    "cam": Case(
-        "{roller_cam}", "{groove} --set mechanism.cams.shuttle.roller_radius=40mm", "{roller_two_carts}"
-    ),
+    "cam": Case("{roller_cam}", "{undercut}", "{roller_two_carts}"),
     "cam laws": Case("--law cycloidal", NEVER, "--law nothing"),
     "cam search": Case(
         "{roller_cam} --vary base_radius=0.3:0.4:3",
@@ -126,7 +145,7 @@ CASES = {
         "{roller_cam} --vary base_radius",
     ),
     "torsion": Case(
-        "{symmetric.toml}", "{v8_diesel} --set train.shafts.generator_shaft.diameter=1mm", "{roller_cam}"
+        "{symmetric.toml}", "{v8_diesel} --set train.engine.limit.stress_permitted=1MPa", "{roller_cam}"
     ),
     "torsion damper": Case(
         "{symmetric.toml} --on left --ring-inertia 0.1",
@@ -135,20 +154,20 @@ CASES = {
     ),
     "torsion diagnose": Case(
         "{engine} {even.csv} --on flywheel",
-        "{engine} {wild.csv} --on flywheel",
+        "{engine} {even.csv} --on flywheel --set train.engine.gas.walls.kind=hohenberg "
+        "--set train.engine.gas.walls.factor=1e6 --set train.engine.gas.walls.wall_temperature=400",
         "{engine} {even.csv} --on nobody",
     ),
     "topper": Case("{topper}", "{topper} --set topper.edge_angle=89.9deg", "{topper} --set topper.nothing=1"),
     "topper field": Case(
-        "{topper} --set topper.limits.complete_min=0",
-        "{topper} --set topper.limits.complete_min=0.9999",
-        "{topper} --over nothing=1:2:3",
+        "{field.toml} --set topper.limits.complete_min=0.5",
+        "{field.toml} --set topper.limits.complete_min=0.99",
+        "{field.toml} --over nothing=1:2:3",
     ),
     "topper best": Case(
-        "{topper} --set topper.field.roots=500",
-        "{topper} --set topper.field.roots=500 --set topper.limits.knife_speed_max=0 "
-        "--set topper.limits.slicing_min=3",
-        "{topper} --objective nothing",
+        "{field.toml} --set topper.limits.complete_min=0.5",
+        "{field.toml} --set topper.limits.knife_speed_max=0 --set topper.limits.slicing_min=3",
+        "{field.toml} --objective nothing",
     ),
 }
 
@@ -182,14 +201,13 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, str], Result
     folder = tmp_path_factory.mktemp("asked")
     for name, text in TEXTS.items():
         (folder / name).write_text(text, encoding="utf-8")
-    for name, sway in (("even.csv", 0.01), ("wild.csv", 0.9)):
-        rows = [f"{720 * n / 720:g}, {1500 * (1 + sway * np.cos(n * np.pi / 90)):.6f}" for n in range(721)]
-        text = "\n".join(["angle [deg], speed [rpm]", *rows]) + "\n"
-        (folder / name).write_text(text, encoding="utf-8")
+    # Two turns, in which eight cylinders fire at one strength.
+    rows = [f"{n}, {1500 * (1 + 0.01 * np.cos(n * np.pi / 90)):.6f}" for n in range(721)]
+    (folder / "even.csv").write_text("\n".join(["angle [deg], speed [rpm]", *rows]) + "\n")
     known = FILES | {path.name: str(path) for path in folder.iterdir()}
 
     def asked(command: str, words: str) -> Result:
-        filled = [word[1:-1] in known and known[word[1:-1]] or word for word in words.split()]
+        filled = [known.get(word[1:-1], word) if word[0] == "{" else word for word in words.split()]
         return CliRunner().invoke(application(), [*command.split(), *filled, "--json"])
 
     return asked
@@ -276,9 +294,7 @@ def test_json_makes_nothing_for_people(capsys: pytest.CaptureFixture[str]) -> No
     }
 
 
-def test_an_answer_on_standard_output_is_whole(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_answer_on_standard_output_is_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Nothing is printed as JSON before its files are written."""
     taken = tmp_path / "machine.toml"
     taken.write_text("another's")
