@@ -112,7 +112,7 @@ def test_an_angle_or_a_speed_needs_its_unit(words: str, remedy: str) -> None:
 
 def test_in_a_file_and_after_set_bare_numbers_are_si() -> None:
     done = run("motion", TWO_CARTS, "--set", "drive.speed=9", "--at", "0", "--json")
-    assert json.loads(done.stdout)["speed"] == 9
+    assert json.loads(done.stdout)["results"]["pose"]["speed"] == 9
 
 
 @pytest.mark.parametrize("name", templates())

@@ -146,7 +146,7 @@ def test_balance_writes_a_machine(press: Path, tmp_path: Path) -> None:
     assert machine.bodies["counterweight_A"].along == pytest.approx(-0.08, rel=1e-6)
     code, text = run("balance", press, "--slider", "S", "--share", "0.5", "--speed", "10 rad/s", "--json")
     assert code == 0
-    weight = json.loads(text)["counterweights"]["A"]
+    weight = json.loads(text)["results"]["balance"]["counterweights"]["A"]
     # Half of 4 kg at the pin, and the crank's 1 kg in its middle.
     assert weight["moment"] == pytest.approx((2 * 0.1 + 1 * 0.05), rel=1e-12)
 

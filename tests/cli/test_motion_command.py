@@ -31,7 +31,7 @@ def columns(text: str) -> dict[str, list[float]]:
 def test_a_pose() -> None:
     done = run("--at", "30 deg", "--speed", "2 rad/s", "--json")
     assert done.exit_code == 0
-    found = json.loads(done.stdout)
+    found = json.loads(done.stdout)["results"]["pose"]
     assert found["crank_angle"] == pytest.approx(np.pi / 6)
     assert found["points"]["A"]["velocity"] == pytest.approx([-0.05, 0.1 * np.cos(np.pi / 6)])
     table = run("--at", "30 deg").stdout
@@ -72,10 +72,10 @@ def test_the_speed_is_that_of_the_file_and_is_said(source: str, tmp_path: Path) 
     file = tmp_path / "four_bar.toml"
     file.write_text(without, encoding="utf-8")
     ask = partial(run, *words, file=file)
-    pose = json.loads(ask("--at", "30 deg", "--json").stdout)
+    pose = json.loads(ask("--at", "30 deg", "--json").stdout)["results"]["pose"]
     assert (pose["speed"], pose["speed_source"]) == (pytest.approx(speed), source)
     assert pose["points"]["A"]["velocity"][1] == pytest.approx(0.05 * speed * np.cos(np.pi / 6))
-    turn = json.loads(ask("--json").stdout)
+    turn = json.loads(ask("--json").stdout)["results"]["motion"]
     assert (turn["crank_speed"], turn["speed_source"]) == (pytest.approx(speed), source)
     assert turn["time"][-1] == pytest.approx(2 * np.pi / speed)
     for args in (("--at", "30 deg"), (), ("--at", "30 deg", "--csv"), ("--csv",)):
@@ -85,7 +85,8 @@ def test_the_speed_is_that_of_the_file_and_is_said(source: str, tmp_path: Path) 
 
 
 def test_a_given_speed_goes_before_that_of_the_file() -> None:
-    found = json.loads(run("--set", "drive.speed=10.5", "--speed", "60 rpm", "--at", "0", "--json").stdout)
+    done = run("--set", "drive.speed=10.5", "--speed", "60 rpm", "--at", "0", "--json")
+    found = json.loads(done.stdout)["results"]["pose"]
     assert (found["speed"], found["speed_source"]) == (pytest.approx(2 * np.pi), "--speed")
 
 
@@ -95,7 +96,7 @@ def test_a_law(tmp_path: Path) -> None:
     assert set(found["acceleration [rad/s²]"]) == {6.0}
     table = tmp_path / "law.csv"
     table.write_text("time,angle\n0,0\n1,2\n3,4\n", encoding="utf-8")
-    found = json.loads(run("--law", table, "--steps", 3, "--json").stdout)
+    found = json.loads(run("--law", table, "--steps", 3, "--json").stdout)["results"]["motion"]
     assert found["time"] == [0.0, 1.0, 2.0, 3.0]
     assert found["crank_angle"][1] == pytest.approx(2)
 

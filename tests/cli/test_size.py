@@ -25,7 +25,7 @@ def test_size_in_json() -> None:
     done = run("size", TWO_CARTS, "--unevenness", "0.02", "--json")
     assert done.exit_code == 0
     found = json.loads(done.stdout)
-    assert set(found) == {"machine", "results", "warnings"}
+    assert set(found) == {"machine", "results", "findings", "warnings"}
     results = found["results"]
     assert results["required_power"]["power"] == pytest.approx(10582.318, rel=1e-6)
     assert results["motor"]["chosen"]["type"] == "4A180M6U3"
@@ -49,7 +49,9 @@ def test_no_motor_suffices() -> None:
     assert "times too small" in done.stderr
     in_json = run("size", TWO_CARTS, "--set", "loads.rolling1.force=1e5", "--json")
     assert in_json.exit_code == 1
-    assert json.loads(in_json.stdout)["results"]["motor"]["chosen"] is None
+    found = json.loads(in_json.stdout)
+    assert found["results"]["motor"]["chosen"] is None
+    assert "times too small" in found["findings"][0]
 
 
 @pytest.mark.parametrize(

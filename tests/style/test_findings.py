@@ -23,6 +23,7 @@ SILENT = {
         "app/commands/check.py",
         "_whole",
     ): "the study and the check tell of lengths that no rotator has",
+    ("app/application.py", "_machine_name"): "the name of the machine belongs to a finding, which is told",
     ("app/report/scene.py", "_closes"): "the same, and a mechanism that does not move is not drawn",
     ("cam/scene.py", "_contacts"): "a cam without room for its second follower is told by the study",
     ("torsion/figures/captions.py", "_manoeuvre"): "a record too short for orders has no waterfall",

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from importlib import import_module
+from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
 import typer
@@ -103,7 +104,7 @@ def application(only: str = "") -> typer.Typer:
     known = only in COMMANDS or only in GROUPS
     for name, place in COMMANDS.items():
         if name == only or not known:
-            app.command()(reports_errors(_found(place)))
+            app.command()(_reporting(_found(place)))
     for name, group in GROUPS.items():
         if name == only or not known:
             default = _found(group.default) if group.default else None
@@ -121,10 +122,30 @@ def _group(commands: Iterable[Callable[..., Any]], default: Callable[..., Any] |
     group = typer.Typer(cls=kind, no_args_is_help=True, rich_markup_mode=None)
     group.callback()(_nothing)
     for command in commands:
-        group.command()(reports_errors(command))
+        group.command()(_reporting(command))
     if default is not None:
-        group.command(hidden, hidden=True)(reports_errors(default))
+        group.command(hidden, hidden=True)(_reporting(default))
     return group
+
+
+def _reporting(command: Callable[..., Any]) -> Callable[..., Any]:
+    """A command whose errors are messages, and findings answers about its machine."""
+    return reports_errors(command, _machine_name)
+
+
+def _machine_name(
+    file: Path | None = None, set: list[str] | None = None, allow_outside: bool = False, **_: Any
+) -> str | None:
+    """Name of the machine that a command was asked about; None where it was none, or none can be read."""
+    if file is None:
+        return None
+    from linkwright.kernel.errors import LinkwrightError
+    from linkwright.machine.read import read
+
+    try:
+        return read(file, set or (), allow_outside=allow_outside).name
+    except LinkwrightError:
+        return None
 
 
 def _nothing() -> None:

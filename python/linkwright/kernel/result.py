@@ -96,10 +96,10 @@ def finite(value: Any) -> Any:
     Returns
     -------
     object
-        Likewise; NaN and infinities are None.
+        Likewise, with lists for tuples; NaN and infinities are None.
     """
     if isinstance(value, Mapping):
         return {key: finite(each) for key, each in value.items()}
-    if isinstance(value, list):
+    if isinstance(value, list | tuple):
         return [finite(each) for each in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from linkwright.drive.crank_speed import CrankSpeed, crank_speed
+from linkwright.kernel.command.answer import Answer, json_text
 from linkwright.kernel.command.common import Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, Out, put
 from linkwright.kernel.errors import InputError, require_within
@@ -103,7 +104,8 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
 
     found = pose(machine, option_value("--at", at, ANGLE), speed=speed.value)
     if json:
-        return _object(found.to_dict() | {"speed_source": speed.source})
+        told = found.to_dict() | {"speed_source": speed.source}
+        return json_text(Answer(machine=machine.name, results=lambda _: {"pose": told}))
     phi = found.crank_angle
     rows = [("crank angle", "φ [rad]", (phi, found.speed, found.acceleration)), *_pose_rows(found)]
     if csv:
@@ -184,20 +186,12 @@ def _followed(
 
     found = follow(machine, law, np.linspace(*span, steps + 1))
     if json:
-        return _object(told | found.to_dict(curves=True) | _lists(found.curves()))
+        moved = told | found.to_dict(curves=True) | _lists(found.curves())
+        return json_text(Answer(machine=machine.name, results=lambda _: {"motion": moved}))
     if csv:
         typer.echo(head, err=True)
         return curves_csv(found)
     return f"{head}\n{_table(found.curves())}"
-
-
-def _object(found: dict[str, Any]) -> str:
-    """One JSON object."""
-    from json import dumps
-
-    from linkwright.kernel.result import finite
-
-    return dumps(finite(found), allow_nan=False, ensure_ascii=False) + "\n"
 
 
 def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:

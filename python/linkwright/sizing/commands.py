@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.console import console, progress_bar, styled
-from linkwright.kernel.command.out import Force, out_option, put
+from linkwright.kernel.command.out import Force, out_option
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -98,15 +100,10 @@ def size(
     flywheel = None
     if motor.chosen and motor.chosen.machine:
         flywheel = choose_flywheel(motor.chosen.machine, unevenness)
-        if out:
-            put(_file_text(flywheel.machine, motor.chosen), out, force=force)
-    if json:
-        _print_json(machine, motor, flywheel)
-    else:
-        _print(machine, motor, flywheel)
-    if motor.chosen is None:
-        typer.echo(motor.reason, err=True)
-        raise typer.Exit(1)
+    answer = _answer(machine, motor, flywheel)
+    for reason in answer.findings:
+        typer.echo(reason, err=True)
+    hand_over(answer, json=json, out=out, force=force)
 
 
 def _inertias(texts: Sequence[str]) -> dict[str, float]:
@@ -151,21 +148,26 @@ def _file_text(machine: Machine, chosen: Candidate) -> str:
     return tomlkit.dumps(document)
 
 
-def _warnings(motor: MotorChoice, flywheel: FlywheelChoice | None) -> list[str]:
-    return [*motor.warnings, *(flywheel.warnings if flywheel else ())]
-
-
-def _print_json(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> None:
-    """One object on standard output."""
-    from json import dumps
-
+def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> Answer:
+    """Motor and flywheel, or why no motor suffices."""
     results = {
         "required_power": motor.required.to_dict(),
         "motor": motor.to_dict(),
         "flywheel": flywheel.to_dict() if flywheel else None,
     }
-    found = {"machine": machine.name, "results": results, "warnings": _warnings(motor, flywheel)}
-    typer.echo(dumps(found, allow_nan=False, ensure_ascii=False))
+    fitted, chosen = flywheel and flywheel.machine, motor.chosen
+    return Answer(
+        machine=machine.name,
+        results=lambda _: results,
+        findings=[] if chosen else [motor.reason],
+        warnings=_warnings(motor, flywheel),
+        show=partial(_print, machine, motor, flywheel),
+        machine_file=partial(_file_text, fitted, chosen) if fitted and chosen else None,
+    )
+
+
+def _warnings(motor: MotorChoice, flywheel: FlywheelChoice | None) -> list[str]:
+    return [*motor.warnings, *(flywheel.warnings if flywheel else ())]
 
 
 def _print(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> None:

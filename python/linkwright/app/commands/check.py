@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Outside, Sets
 from linkwright.kernel.errors import AssemblyError
 
@@ -29,11 +30,9 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False) -> None:
     count = len(found.findings)
     verdict = f"{count} FINDING{'S' if count > 1 else ''}" if count else "OK"
     checked = f"\n  {'':<14} ".join(found.looked_at)
-    typer.echo(f"{verdict}  {file}\n\n{summary(machine)}\n\n  {'checked':<14} {checked}")
-    for text in found.findings:
-        typer.echo(f"\nFINDING  {text}")
-    if count:
-        raise typer.Exit(1)
+    told = [f"{verdict}  {file}\n\n{summary(machine)}\n\n  {'checked':<14} {checked}"]
+    told += [f"\nFINDING  {text}" for text in found.findings]
+    hand_over(Answer(machine=machine.name, findings=found.findings, show=lambda: typer.echo("\n".join(told))))
 
 
 def summary(machine: Machine) -> str:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json
 from linkwright.kernel.command.console import console, styled
-from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
+from linkwright.kernel.command.out import Force, out_option, output_folder
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from rich.table import Table
     from rich.text import Text
 
-    from linkwright.kernel.files.output import OutputFolder
     from linkwright.papers.paper1.paper import Drive, Paper1
     from linkwright.papers.paper2.paper import Paper2
     from linkwright.papers.paper3.paper import Paper3
@@ -43,16 +43,14 @@ def papers(number: Number = None, json: Json = False, out: Folder = None, force:
     from linkwright.papers.published import PAPERS, known_paper
 
     if number is None:
-        typer.echo("\n".join(f"  {n}  {title}" for n, title in PAPERS.items()))
+        titles = {f"paper{n}": title for n, title in PAPERS.items()}
+        listed = "\n".join(f"  {n}  {title}" for n, title in PAPERS.items())
+        answer = Answer(machine=None, results=lambda _: {"papers": titles}, show=lambda: typer.echo(listed))
+        hand_over(answer, json=json)
         return
     folder = output_folder(out, force=force)
     paper = {1: _first, 2: _second, 3: _third, 4: _fourth, 5: _fifth}[known_paper(number)]()
-    if json:
-        _print_json(paper)
-    else:
-        paper.show()
-    if folder is not None:
-        _write(paper, folder, quiet=json)
+    hand_over(_answer(paper), json=json, folder=folder)
 
 
 class _Shown(NamedTuple):
@@ -162,19 +160,17 @@ def _tracked(drives: Sequence[PublishedDrive]) -> Iterator[PublishedDrive]:
     yield from track(drives, "drives", console=console(error=True), transient=True)
 
 
-def _print_json(paper: _Shown) -> None:
-    """One object on standard output."""
-    from json import dumps
-
-    name = f"paper {paper.number}: {paper.title}"
-    found = {"machine": name, "results": {f"paper{paper.number}": paper.entries}, "warnings": []}
-    typer.echo(dumps(found, allow_nan=False, ensure_ascii=False))
-
-
-def _write(paper: _Shown, folder: OutputFolder, *, quiet: bool) -> None:
-    """Figures and page."""
-    figures = paper.figures()
-    write_folder(folder, {f"papers{paper.number}.html": paper.page(figures)}, figures, quiet=quiet)
+def _answer(paper: _Shown) -> Answer:
+    """What was computed anew; the figures are drawn once, for themselves and for the page."""
+    figures = cache(paper.figures)
+    return Answer(
+        machine=f"paper {paper.number}: {paper.title}",
+        results=lambda _: {f"paper{paper.number}": paper.entries},
+        show=paper.show,
+        results_file="",
+        files=lambda: {f"papers{paper.number}.html": paper.page(figures())},
+        figures=figures,
+    )
 
 
 def _print_rows(

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
-from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
+from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.errors import ExchangeError, InputError
 
 if TYPE_CHECKING:
     from linkwright.app.study import Study
     from linkwright.cam.manufacture.drawing import Measured
     from linkwright.kernel.files.output import OutputFolder
+    from linkwright.kernel.page.table import Table
 
 Folder = Annotated[
     Path | None, out_option("Write a report, results.json and the drawings of the cams there.")
@@ -71,15 +74,8 @@ def cam_file(
         with progress("drawing"):
             drawn, findings = _drawn(study, options)
     findings = [*study.findings, *findings]
-    shown = _object(study, folder, drawn, findings, curves=curves)
-    if json:
-        _print_json(shown)
-    else:
-        _print(study, findings)
-    if folder is not None:
-        _write(study, shown, drawn, folder, quiet=json)
-    if findings:
-        raise typer.Exit(1)
+    answer = _answer(study, folder, drawn, findings, curves=curves)
+    hand_over(answer, json=json, curves=curves, folder=folder)
 
 
 def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dict[str, Any]:
@@ -146,23 +142,16 @@ def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawn], li
     return found, findings
 
 
-def _object(
+def _answer(
     study: Study,
     folder: OutputFolder | None,
     drawn: dict[str, _Drawn],
     findings: list[str],
     *,
     curves: bool,
-) -> dict[str, Any]:
-    """What is printed and written as JSON: the results of cams, and the files."""
-    from linkwright.kernel.result import finite
-
-    results = {
-        name: result.to_dict(curves=curves)
-        for name, result in study.results().items()
-        if name.startswith("cam")
-    }
-    files = [
+) -> Answer:
+    """The results of cams, and the files."""
+    listed = [
         {
             "path": name if folder is None else str(folder.path / name),
             "layer": outline.layer,
@@ -174,43 +163,36 @@ def _object(
         for name, each in drawn.items()
         for outline in each.outlines
     ]
-    warnings = [*findings, *study.warnings]
-    told = {"findings": findings, "warnings": warnings, "files": files}
-    return {"machine": study.machine.name, "results": finite(results), **told}
-
-
-def _print_json(shown: dict[str, Any]) -> None:
-    from json import dumps
-
-    typer.echo(dumps(shown, allow_nan=False, ensure_ascii=False))
-
-
-def _print(study: Study, findings: list[str]) -> None:
-    """Tables for people."""
-    from linkwright.cam.tables.cam import cam_tables
-    from linkwright.kernel.command.terminal import print_tables
-
-    print_tables(
-        "", list(cam_tables(study.cams, study.cam_sizes, study.loaded_cams)), findings, study.warnings
+    cams = {name: result for name, result in study.results().items() if name.startswith("cam")}
+    return Answer(
+        machine=study.machine.name,
+        # The file has what is printed: all curves of a cam are in its drawings.
+        results=lambda _: {name: result.to_dict(curves=curves) for name, result in cams.items()},
+        findings=findings,
+        warnings=study.warnings,
+        extra={"files": listed},
+        tables=partial(_tables, study),
+        files=partial(_files, study, drawn),
+        remarks={name: _measured(name, each) for name, each in drawn.items()},
     )
 
 
-def _write(
-    study: Study, shown: dict[str, Any], drawn: dict[str, _Drawn], folder: OutputFolder, *, quiet: bool
-) -> None:
-    """Report and results; says where everything is, and what was measured in the drawings."""
-    from json import dumps
+def _tables(study: Study) -> list[Table]:
+    """Tables for people."""
+    from linkwright.cam.tables.cam import cam_tables
 
+    return list(cam_tables(study.cams, study.cam_sizes, study.loaded_cams))
+
+
+def _files(study: Study, drawn: dict[str, _Drawn]) -> dict[str, str | bytes]:
+    """Report and drawings."""
     from linkwright.app.report.page import report_html
     from linkwright.kernel.command.out import command_line
 
-    contents: dict[str, str | bytes] = {
-        "results.json": dumps(shown, allow_nan=False, ensure_ascii=False) + "\n",
+    return {
         "report.html": report_html(study, command=command_line()),
         **{name: each.data for name, each in drawn.items()},
     }
-    remarks = {name: _measured(name, each) for name, each in drawn.items()}
-    write_folder(folder, contents, quiet=quiet, remarks=remarks)
 
 
 def _measured(name: str, drawn: _Drawn) -> str:

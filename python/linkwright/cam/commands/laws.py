@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from linkwright.cam.commands.search import search
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json
-from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
+from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.errors import InputError
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from linkwright.cam.law_factors import LawFactors
-    from linkwright.kernel.files.output import OutputFolder
+    from linkwright.kernel.page.table import Table
 
 Names = Annotated[
     list[str] | None,
@@ -39,18 +43,19 @@ def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force
     with what no law can go below.
     """
     from linkwright.cam.law_factors import cam_laws
-    from linkwright.cam.tables.laws import bound_table, law_table
-    from linkwright.kernel.command.terminal import print_tables
 
     folder = output_folder(out, force=force)
     everything = cam_laws()
     chosen = {name: everything[name] for name in _known(law or [], everything)}
-    if json:
-        _print(chosen)
-    else:
-        print_tables("", [law_table(chosen), bound_table()], [])
-    if folder is not None:
-        _write(chosen, [name for name in chosen if law or name in _DRAWN], folder, quiet=json)
+    drawn = [name for name in chosen if law or name in _DRAWN]
+    answer = Answer(
+        machine=None,
+        results=lambda _: _results(chosen),
+        tables=partial(_tables, chosen),
+        results_file="cam_laws.json",
+        figures=partial(_figures, drawn),
+    )
+    hand_over(answer, json=json, folder=folder)
 
 
 # In the order of the help.
@@ -68,8 +73,8 @@ def _known(wanted: list[str], everything: dict[str, Any]) -> list[str]:
     return wanted or list(everything)
 
 
-def _object(chosen: dict[str, LawFactors]) -> dict[str, Any]:
-    """What is printed and written as JSON."""
+def _results(chosen: dict[str, LawFactors]) -> dict[str, Any]:
+    """The factors of each law, and what none can go below."""
     from linkwright.cam.laws.bounds import BOUNDS
     from linkwright.cam.laws.catalogue import LAWS
 
@@ -77,25 +82,19 @@ def _object(chosen: dict[str, LawFactors]) -> dict[str, Any]:
         name: {**factors.to_dict(), "parameters": LAWS[name].parameters, "source": LAWS[name].source}
         for name, factors in chosen.items()
     }
-    bounds = {bound.name: bound._asdict() for bound in BOUNDS}
-    results = {"cam_laws": laws, "cam_law_bounds": bounds}
-    return {"machine": None, "results": results, "findings": [], "warnings": []}
+    return {"cam_laws": laws, "cam_law_bounds": {bound.name: bound._asdict() for bound in BOUNDS}}
 
 
-def _text(chosen: dict[str, LawFactors]) -> str:
-    from json import dumps
+def _tables(chosen: dict[str, LawFactors]) -> list[Table]:
+    """Tables for people."""
+    from linkwright.cam.tables.laws import bound_table, law_table
 
-    return dumps(_object(chosen), allow_nan=False, ensure_ascii=False)
-
-
-def _print(chosen: dict[str, LawFactors]) -> None:
-    typer.echo(_text(chosen))
+    return [law_table(chosen), bound_table()]
 
 
-def _write(chosen: dict[str, LawFactors], drawn: list[str], folder: OutputFolder, *, quiet: bool) -> None:
-    """JSON and figures; says where they are."""
+def _figures(drawn: list[str]) -> dict[str, Figure]:
+    """The laws in one figure."""
     from linkwright.cam.figures.laws import motion_laws_figure
     from linkwright.cam.laws.catalogue import LAWS
 
-    figure = motion_laws_figure({name: LAWS[name].normalised() for name in drawn})
-    write_folder(folder, {"cam_laws.json": _text(chosen) + "\n"}, {"cam_laws": figure}, quiet=quiet)
+    return {"cam_laws": motion_laws_figure({name: LAWS[name].normalised() for name in drawn})}

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.console import console
 from linkwright.kernel.errors import InputError, require_within
@@ -93,12 +95,13 @@ def search(
     found = search_cams(machine, name, entries=columns, laws=law or [])
     keeps = found.keeps(steep, tight)
     best = _smallest(machine, name, found, keeps, count, lambda cam: _keeps(cam, steep, tight))
-    if json:
-        _print_json(machine, found, keeps, best)
-    else:
-        _print(found, keeps, best)
-    if not best:
-        raise typer.Exit(1)
+    answer = Answer(
+        machine=machine.name,
+        results=lambda _: {"cam_search": _results(found, keeps, best)},
+        findings=_findings(keeps, best),
+        show=partial(_print, found, keeps, best),
+    )
+    hand_over(answer, json=json)
 
 
 def _columns(wanted: list[str]) -> dict[str, NDArray[np.float64]]:
@@ -187,14 +190,14 @@ def _row(found: Cams, i: int, profile: CamProfile) -> dict[str, Any]:
     }
 
 
-def _print_json(machine: Machine, found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
-    from json import dumps
-
-    rows = [_row(found, i, profile) for i, profile in best]
-    counts = {"n_cams": len(keeps), "n_sound": int(found.is_sound.sum()), "n_kept": int(keeps.sum())}
-    results = {"cam_search": {**counts, "smallest": rows}}
-    told = {"findings": _findings(keeps, best), "warnings": _findings(keeps, best)}
-    typer.echo(dumps({"machine": machine.name, "results": results, **told}))
+def _results(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> dict[str, Any]:
+    """How many there are of what kind, and the smallest."""
+    return {
+        "n_cams": len(keeps),
+        "n_sound": int(found.is_sound.sum()),
+        "n_kept": int(keeps.sum()),
+        "smallest": [_row(found, i, profile) for i, profile in best],
+    }
 
 
 def _findings(keeps: NDArray[np.bool_], best: list[Any]) -> list[str]:

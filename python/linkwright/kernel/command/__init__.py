@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `answer` | What a command answers: printed, given as JSON, written and ended in one way |
 | `bar` | A bar on standard error that shows how much is done, once that takes long |
 | `common` | What the commands share: options, and the way from an error to a message and an exit code |
 | `console` | The terminal, by rich |

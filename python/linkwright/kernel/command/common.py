@@ -18,8 +18,9 @@ from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, json_text
 from linkwright.kernel.command.interrupt import EXIT_CODE
-from linkwright.kernel.errors import InputError, LinkwrightError, UnitError, plain
+from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, UnitError, plain
 
 if TYPE_CHECKING:
     from linkwright.kernel.units import Kind
@@ -47,13 +48,19 @@ Outside = Annotated[
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object in SI, and nothing else.")]
 
 
-def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
+def reports_errors(
+    command: Callable[P, R], machine_name: Callable[..., str | None] = lambda **_: None
+) -> Callable[P, R]:
     """Let a command end with a message on standard error and its exit code, without a traceback.
+
+    A finding that ends a command is its answer all the same, and with ``--json`` it is told as any other.
 
     Parameters
     ----------
     command : callable
         A command; errors that this package does not raise on purpose pass through.
+    machine_name : callable
+        Arguments of the command → name of its machine, None where there is none.
 
     Returns
     -------
@@ -66,6 +73,9 @@ def reports_errors(command: Callable[P, R]) -> Callable[P, R]:
         try:
             return command(*args, **kwargs)
         except LinkwrightError as error:
+            if kwargs.get("json") and isinstance(error, FindingError):
+                stopped = Answer(machine=machine_name(**kwargs), findings=[plain(str(error))])
+                typer.echo(json_text(stopped), nl=False)
             typer.echo(plain(str(error)), err=True)
             raise typer.Exit(error.exit_code) from None
         except BrokenPipeError:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from textwrap import fill
@@ -60,6 +61,9 @@ def progress(words: str) -> AbstractContextManager[Any]:
     words : str
         What is being done.
     """
+    # Asked of the stream itself: a console is large, and JSON for programs needs none.
+    if not sys.stderr.isatty():
+        return nullcontext()
     out = console(error=True)
     return out.status(words) if out.is_terminal else nullcontext()
 

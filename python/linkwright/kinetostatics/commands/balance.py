@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from linkwright.drive.crank_speed import speed_words, speeds_of
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
-from linkwright.kernel.command.out import Force, out_option, put
+from linkwright.kernel.command.out import Force, out_option
 from linkwright.kernel.errors import InputError
 from linkwright.kinetostatics.commands.forces import Speed
 
 if TYPE_CHECKING:
+    from linkwright.kernel.page.table import Table
     from linkwright.kinetostatics.balancing import Balance
     from linkwright.machine.machine import Machine
 
@@ -68,22 +71,12 @@ def balance(
     Those on given links that make the force of inertia on the frame least, or one on the crank against a
     share of a slider's mass; and what they change.
     """
-    from linkwright.kernel.command.terminal import print_tables
-    from linkwright.kinetostatics.tables import balance_tables
     from linkwright.machine.read import read
-    from linkwright.machine.write import dumps
 
     machine = read(file, set or (), allow_outside=allow_outside)
     found = _found(machine, links, slider, share, radius, speed)
     speeds = speeds_of(found.before.speed, machine, speed)
-    if json:
-        _print_json(found, speeds)
-    else:
-        print_tables(speed_words(speeds), balance_tables(found), found.after.findings)
-    if out is not None:
-        put(dumps(found.machine), out, force=force)
-    if found.after.findings:
-        raise typer.Exit(1)
+    hand_over(_answer(machine, found, speeds), json=json, out=out, force=force)
 
 
 def _found(
@@ -110,13 +103,26 @@ def _found(
     return fit(machine, names, speed=omega, radius=at)
 
 
-def _print_json(found: Balance, speeds: dict[str, Any]) -> None:
-    """One object on standard output."""
-    from json import dumps
+def _answer(machine: Machine, found: Balance, speeds: dict[str, Any]) -> Answer:
+    """The counterweights, and what they change."""
+    from linkwright.machine.write import dumps
 
     measures = {name: {"before": a, "after": b} for name, (a, b) in found.measures().items()}
     weights = {
         each.link: {k: v for k, v in vars(each).items() if k != "link"} for each in found.counterweights
     }
-    listed = speeds | {"counterweights": weights, "rms": measures, "findings": list(found.after.findings)}
-    typer.echo(dumps(listed, allow_nan=False, ensure_ascii=False))
+    return Answer(
+        machine=machine.name,
+        results=lambda _: {"balance": {**speeds, "counterweights": weights, "rms": measures}},
+        findings=found.after.findings,
+        head=lambda: speed_words(speeds),
+        tables=partial(_tables, found),
+        machine_file=lambda: dumps(found.machine),
+    )
+
+
+def _tables(found: Balance) -> list[Table]:
+    """Tables for people."""
+    from linkwright.kinetostatics.tables import balance_tables
+
+    return balance_tables(found)

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from linkwright.drive.crank_speed import speed_words, speeds_of
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
-from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
+from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.errors import InputError
 
 if TYPE_CHECKING:
-    from linkwright.kernel.files.output import OutputFolder
+    from linkwright.kernel.page.table import Table
     from linkwright.kinetostatics.friction import Friction
     from linkwright.kinetostatics.result import Forces
     from linkwright.machine.machine import Machine
@@ -85,8 +87,6 @@ def forces(
     Forces in all pins, guides, slots, teeth and cables, driving torque, force and moment on the frame;
     along the steady motion, or at a constant speed.
     """
-    from linkwright.kernel.command.terminal import print_tables
-    from linkwright.kinetostatics.tables import cases_table, contribution_table, envelope_table
     from linkwright.machine.read import read
 
     folder = output_folder(out, force=force)
@@ -96,20 +96,37 @@ def forces(
 
     found, machine = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
     speeds = {name: speeds_of(each.speed, machine, speed) for name, each in found.items()}
-    findings = [_named(name, each, found) for name, result in found.items() for each in result.findings]
-    first = next(iter(found.values()))
-    if json:
-        _print_json(found, speeds, findings, curves=curves)
-    elif len(found) > 1:
-        head = "\n".join(f"{name}: {speed_words(each)}" for name, each in speeds.items())
-        print_tables(head, [cases_table(found)], findings)
-    else:
-        head = speed_words(next(iter(speeds.values())))
-        print_tables(head, [envelope_table(first), contribution_table(first)], findings)
-    if folder is not None:
-        _write(found, speeds, findings, folder, quiet=json)
-    if findings:
-        raise typer.Exit(1)
+    hand_over(_answer(machine, found, speeds), json=json, curves=curves, folder=folder)
+
+
+def _answer(machine: Machine, cases: dict[str, Forces], speeds: dict[str, dict[str, Any]]) -> Answer:
+    """What was found, case by case."""
+    return Answer(
+        machine=machine.name,
+        results=partial(_results, cases, speeds),
+        findings=[_named(name, each, cases) for name, result in cases.items() for each in result.findings],
+        head=partial(_head, speeds),
+        tables=partial(_tables, cases),
+        files=partial(_files, cases),
+    )
+
+
+def _head(speeds: dict[str, dict[str, Any]]) -> str:
+    """At what speed, and which case, where there are several."""
+    words = {name: speed_words(each) for name, each in speeds.items()}
+    return "\n".join(
+        [f"{name}: {said}" for name, said in words.items()] if len(words) > 1 else words.values()
+    )
+
+
+def _tables(cases: dict[str, Forces]) -> list[Table]:
+    """The cases beside each other, or all about the one."""
+    from linkwright.kinetostatics.tables import cases_table, contribution_table, envelope_table
+
+    if len(cases) > 1:
+        return [cases_table(cases)]
+    (only,) = cases.values()
+    return [envelope_table(only), contribution_table(only)]
 
 
 def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:
@@ -196,39 +213,21 @@ def _friction(entries: str, *, is_pin: bool) -> Friction:
     return Friction(**values)
 
 
-def _object(
-    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], findings: list[str], *, curves: bool
-) -> dict[str, Any]:
-    """What is printed and written as JSON."""
-    from linkwright.kernel.result import finite
+def _results(
+    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], curves: bool
+) -> dict[str, dict[str, Any]]:
+    """The results of each case, its speed and what each pair bears."""
     from linkwright.kinetostatics.envelope import envelope
 
     results = {}
     for name, result in cases.items():
         rows = {each.name: {k: v for k, v in vars(each).items() if k != "name"} for each in envelope(result)}
-        results[name] = finite(result.to_dict(curves=curves) | speeds[name] | {"envelope": rows})
-    return {"results": results, "findings": findings}
+        results[name] = result.to_dict(curves=curves) | speeds[name] | {"envelope": rows}
+    return results
 
 
-def _print_json(
-    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], findings: list[str], *, curves: bool
-) -> None:
-    from json import dumps
-
-    typer.echo(dumps(_object(cases, speeds, findings, curves=curves), allow_nan=False, ensure_ascii=False))
-
-
-def _write(
-    cases: dict[str, Forces],
-    speeds: dict[str, dict[str, Any]],
-    findings: list[str],
-    folder: OutputFolder,
-    *,
-    quiet: bool,
-) -> None:
-    """JSON, tables and figures; says where they are."""
-    from json import dumps
-
+def _files(cases: dict[str, Forces]) -> dict[str, str]:
+    """Curves and figures by name."""
     from linkwright.kernel.figure.svg import svg
     from linkwright.kernel.page.csv import curves_csv
     from linkwright.kinetostatics.figures.forces import (
@@ -238,12 +237,7 @@ def _write(
         polar_figure,
     )
 
-    texts = {
-        "results.json": dumps(
-            _object(cases, speeds, findings, curves=True), allow_nan=False, ensure_ascii=False
-        )
-        + "\n"
-    }
+    texts = {}
     for number, result in enumerate(cases.values(), start=1):
         end = "" if len(cases) == 1 else f"_{number}"
         texts[f"forces{end}.csv"] = curves_csv(result)
@@ -252,4 +246,4 @@ def _write(
         texts[f"polar{end}.svg"] = svg(polar_figure(result))
     if len(cases) > 1:
         texts["load_cases.svg"] = svg(cases_figure(cases))
-    write_folder(folder, texts, quiet=quiet)
+    return texts

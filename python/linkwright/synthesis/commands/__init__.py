@@ -3,5 +3,5 @@
 | module | |
 | --- | --- |
 | `synthesise` | `linkwright synthesise …`: from what a linkage shall do to a machine file |
-| `words` | Results of a synthesis as words, as a table of the catalogue, and as JSON |
+| `words` | Results of a synthesis as words, and as a table of the catalogue |
 """

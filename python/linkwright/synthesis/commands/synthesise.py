@@ -5,16 +5,18 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets, option_value
 from linkwright.kernel.command.console import progress_bar
-from linkwright.kernel.command.out import Force, out_option, put
+from linkwright.kernel.command.out import Force, out_option
 from linkwright.kernel.errors import InputError
-from linkwright.synthesis.commands.words import plain, print_catalogue, print_json, words
+from linkwright.synthesis.commands.words import print_catalogue, words
 
 if TYPE_CHECKING:
     from linkwright.kernel.result import Result
@@ -191,7 +193,13 @@ def line(
     if kind is None and not list:
         raise InputError("expected --kind KIND, or --list for the catalogue")
     if kind is None or list:
-        print_catalogue(straight_lines(wanted), json)
+        lines = straight_lines(wanted)
+        answer = Answer(
+            machine=None,
+            results=lambda _: {"straight_lines": [each.to_dict() for each in lines]},
+            show=partial(print_catalogue, lines),
+        )
+        hand_over(answer, json=json)
         return
     found = straight_line(kind, wanted, proportions=_proportions(proportion or []))
     _finish("straight_line", found, json, out, force, curves=curves)
@@ -246,14 +254,21 @@ def _finish(
     entries = found.to_dict(curves=curves)
     # Lines of the catalogue have none.
     warnings = entries.pop("warnings", [])
-    if out is not None:
-        put(dumps(machine), out, force=force)
-    if json:
-        print_json({"machine": machine.name, "results": {what: plain(entries)}}, warnings)
-        return
-    typer.echo(machine.name)
-    for name, value in entries.items():
-        typer.echo(f"  {name.replace('_', ' '):<26} {words(name, value)}")
+    answer = Answer(
+        machine=machine.name,
+        results=lambda _: {what: entries},
+        warnings=warnings,
+        show=partial(_print, machine.name, entries, warnings, out),
+        machine_file=lambda: dumps(machine),
+    )
+    hand_over(answer, json=json, out=out, force=force)
+
+
+def _print(name: str, entries: dict[str, Any], warnings: list[str], out: Path | None) -> None:
+    """A line for each entry, and where the machine file is."""
+    typer.echo(name)
+    for key, value in entries.items():
+        typer.echo(f"  {key.replace('_', ' '):<26} {words(key, value)}")
     for warning in warnings:
         typer.echo(f"Warning: {warning}")
     typer.echo(f"Written: {out}" if out else "--out FILE writes the machine file.")

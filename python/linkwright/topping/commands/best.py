@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets
-from linkwright.kernel.command.out import Force, output_folder, write_folder
+from linkwright.kernel.command.out import Force, output_folder
 from linkwright.topping.commands.field import Folder, Seed
 
 if TYPE_CHECKING:
-    from linkwright.kernel.files.output import OutputFolder
+    from matplotlib.figure import Figure
+
     from linkwright.topping.best.best_knife import KnifeSearch
 
 
@@ -55,68 +58,48 @@ def best(
     machine = read(file, set or [], allow_outside=allow_outside)
     with bar("knives") as watch:
         found = best_knife(machine, objective=objective.value, seed=seed, watch=watch)
-    findings, warnings = _told(found)
-    shown = _object(machine.name, found, findings, warnings)
-    if json:
-        typer.echo(shown, nl=False)
-    else:
-        _print(machine.name, found, findings, warnings)
-    if folder is not None:
-        _write(found, shown, folder, quiet=json)
-    if findings:
-        raise typer.Exit(1)
+    hand_over(_answer(machine.name, found), json=json, folder=folder)
 
 
-def _told(found: KnifeSearch) -> tuple[list[str], list[str]]:
-    """What cannot be, and what to know of the best knife."""
-    from linkwright.topping.tables.best import best_warnings
+def _answer(name: str, found: KnifeSearch) -> Answer:
+    """The best knife, also as lines of a machine file; or that none keeps the limits."""
+    from linkwright.topping.tables.best import best_lines, best_table, best_warnings
 
-    if found.failing is not None:
-        return [found.failing.words + "."], []
-    return [], list(best_warnings(found))
-
-
-def _object(name: str, found: KnifeSearch, findings: list[str], warnings: list[str]) -> str:
-    """One JSON object."""
-    from json import dumps
-
-    from linkwright.kernel.result import finite
-
-    failing = found.failing
+    best, failing = found.best, found.failing
     results: dict[str, Any] = {
         "objective": found.objective,
         "tried": found.tried,
-        **({} if found.best is None else found.best.to_dict()),
+        **({} if best is None else best.to_dict()),
         "failing": failing and {key: getattr(failing, key) for key in ("limit", "wanted", "reached")},
     }
-    told = {"findings": findings, "warnings": [*findings, *warnings]}
-    shown = {"machine": name, "results": {"topper_best": finite(results)}, **told}
-    return dumps(shown, allow_nan=False, ensure_ascii=False) + "\n"
+    return Answer(
+        machine=name,
+        results=lambda _: {"topper_best": results},
+        findings=[] if failing is None else [failing.words + "."],
+        warnings=[] if failing else list(best_warnings(found)),
+        tables=lambda: [] if best is None else [best_table(found, best)],
+        tail=lambda: "" if best is None else best_lines(best),
+        files=partial(_files, found),
+        figures=partial(_figures, found),
+    )
 
 
-def _print(name: str, found: KnifeSearch, findings: list[str], warnings: list[str]) -> None:
-    """A table, and the knife as lines of a machine file."""
-    from linkwright.kernel.command.terminal import print_tables
-    from linkwright.topping.tables.best import best_lines, best_table
-
-    tables = [] if found.best is None else [best_table(found, found.best)]
-    print_tables(name, tables, findings, warnings)
-    if found.best is not None:
-        typer.echo("\n" + best_lines(found.best), nl=False)
-
-
-def _write(found: KnifeSearch, shown: str, folder: OutputFolder, *, quiet: bool) -> None:
-    """Results, map and figure; says where they are."""
-    import numpy as np
-
-    from linkwright.topping.figures.sweep import best_knife_figure
+def _files(found: KnifeSearch) -> dict[str, str]:
+    """The map, and the knife as lines of a machine file."""
     from linkwright.topping.tables.best import best_lines, map_csv
 
-    texts = {"results.json": shown, "map.csv": map_csv(found)}
+    texts = {"map.csv": map_csv(found)}
     if found.best is not None:
         texts["topper.toml"] = best_lines(found.best)
-    figures = {}
-    # A line is no map, nor is a plane without any edge that would do.
-    if min(found.map_length.shape) > 1 and np.isfinite(found.map_length).any():
-        figures["map"] = best_knife_figure(found)
-    write_folder(folder, texts, figures, quiet=quiet)
+    return texts
+
+
+def _figures(found: KnifeSearch) -> dict[str, Figure]:
+    """The map; a line is none, nor is a plane without any edge that would do."""
+    import numpy as np
+
+    if min(found.map_length.shape) < 2 or not np.isfinite(found.map_length).any():
+        return {}
+    from linkwright.topping.figures.sweep import best_knife_figure
+
+    return {"map": best_knife_figure(found)}

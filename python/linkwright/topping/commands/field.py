@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
-from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
+from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import FIELD_VARIANTS
 
 if TYPE_CHECKING:
-    from linkwright.kernel.files.output import OutputFolder
+    from matplotlib.figure import Figure
+
+    from linkwright.kernel.page.table import Table
     from linkwright.machine.machine import Machine
     from linkwright.topping.field import TopperField
     from linkwright.topping.sweep import FieldSweep
@@ -80,17 +84,15 @@ def field(
     if axes:
         with bar("variants") as watch:
             swept = sweep_field(machine, axes, seed=seed, level=level, watch=watch)
-    findings = list(field_findings(found, described))
-    warnings = list(field_cautions(found, described, edges_of(machine, described)[0].knife))
-    shown = _object(machine.name, found, swept, findings, warnings)
-    if json:
-        typer.echo(shown, nl=False)
-    else:
-        _print(machine, found, swept, findings, warnings)
-    if folder is not None:
-        _write(machine, found, swept, shown, folder, seed=seed, quiet=json)
-    if findings:
-        raise typer.Exit(1)
+    answer = Answer(
+        machine=machine.name,
+        results=lambda _: _results(found, swept),
+        findings=list(field_findings(found, described)),
+        warnings=list(field_cautions(found, described, edges_of(machine, described)[0].knife)),
+        tables=partial(_tables, found, swept),
+        **_written(machine, found, swept, seed),
+    )
+    hand_over(answer, json=json, folder=folder)
 
 
 def _axes(wanted: list[str]) -> dict[str, Any]:
@@ -125,70 +127,62 @@ def _axis(text: str) -> tuple[str, Any]:
     return name, np.linspace(low, high, count)
 
 
-def _object(
-    name: str, found: TopperField, swept: FieldSweep | None, findings: list[str], warnings: list[str]
-) -> str:
-    """One JSON object."""
-    from json import dumps
-
-    from linkwright.kernel.result import finite
-
+def _results(found: TopperField, swept: FieldSweep | None) -> dict[str, Any]:
+    """The field, and what varies over it."""
     results: dict[str, Any] = {"topper_field": found.to_dict()}
     if swept is not None:
         columns = {key: column.tolist() for key, column in swept.columns().items()}
         results["topper_field_sweep"] = {"shape": list(swept.shape), **columns}
-    told = {"findings": findings, "warnings": [*findings, *warnings]}
-    shown = {"machine": name, "results": finite(results), **told}
-    return dumps(shown, allow_nan=False, ensure_ascii=False) + "\n"
+    return results
 
 
-def _print(
-    machine: Machine,
-    found: TopperField,
-    swept: FieldSweep | None,
-    findings: list[str],
-    warnings: list[str],
-) -> None:
+def _tables(found: TopperField, swept: FieldSweep | None) -> list[Table]:
     """Tables for people."""
-    from linkwright.kernel.command.terminal import print_tables
     from linkwright.topping.tables.field import field_tables, sweep_table
 
-    tables = list(field_tables(found))
-    if swept is not None:
-        tables.append(sweep_table(swept))
-    print_tables(machine.name, tables, findings, warnings)
+    return [*field_tables(found), *([] if swept is None else [sweep_table(swept)])]
 
 
-def _write(
-    machine: Machine,
-    found: TopperField,
-    swept: FieldSweep | None,
-    shown: str,
-    folder: OutputFolder,
-    *,
-    seed: int | None,
-    quiet: bool,
-) -> None:
-    """Results, curves and figures; says where they are."""
-    import numpy as np
+def _written(
+    machine: Machine, found: TopperField, swept: FieldSweep | None, seed: int | None
+) -> dict[str, Any]:
+    """Curves and figures; the field over all lengths of the edge, which both show, is computed once."""
 
-    from linkwright.kernel.command.bar import bar
-    from linkwright.topping.figures.field import field_haulm_figure, field_length_figure, field_share_figure
-    from linkwright.topping.figures.sweep import sweep_figures
-    from linkwright.topping.sweep import sweep_field
+    @cache
+    def over() -> FieldSweep:
+        import numpy as np
+
+        from linkwright.kernel.command.bar import bar
+        from linkwright.topping.sweep import sweep_field
+
+        lengths = np.linspace(0, found.length[-1], _LENGTHS)[1:]
+        with bar("lengths") as watch:
+            return sweep_field(machine, {"edge_length": lengths}, seed=seed, level=found.level, watch=watch)
+
+    return {
+        "files": lambda: _files(found, over(), swept),
+        "figures": lambda: _figures(found, over(), swept),
+    }
+
+
+def _files(found: TopperField, over: FieldSweep, swept: FieldSweep | None) -> dict[str, str]:
+    """Curves as CSV."""
     from linkwright.topping.tables.field import field_csv
 
-    lengths = np.linspace(0, found.length[-1], _LENGTHS)[1:]
-    with bar("lengths") as watch:
-        over = sweep_field(machine, {"edge_length": lengths}, seed=seed, level=found.level, watch=watch)
-    texts = {"results.json": shown, "share.csv": field_csv(found.curves())}
-    texts["haulm.csv"] = field_csv(over.columns())
+    texts = {"share.csv": field_csv(found.curves()), "haulm.csv": field_csv(over.columns())}
+    if swept is not None:
+        texts["sweep.csv"] = field_csv(swept.columns())
+    return texts
+
+
+def _figures(found: TopperField, over: FieldSweep, swept: FieldSweep | None) -> dict[str, Figure]:
+    """Figures by name."""
+    from linkwright.topping.figures.field import field_haulm_figure, field_length_figure, field_share_figure
+    from linkwright.topping.figures.sweep import sweep_figures
+
     figures = {
         "share": field_share_figure(found),
         "length_needed": field_length_figure(found),
         "haulm_and_loss": field_haulm_figure(found, over),
     }
-    if swept is not None:
-        texts["sweep.csv"] = field_csv(swept.columns())
-        figures |= sweep_figures(swept)
-    write_folder(folder, texts, figures, quiet=quiet)
+    return figures if swept is None else figures | sweep_figures(swept)

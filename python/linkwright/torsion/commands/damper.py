@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
-from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
+from linkwright.kernel.command.out import Force, out_option, output_folder
 
 if TYPE_CHECKING:
-    from linkwright.kernel.files.output import OutputFolder
+    from matplotlib.figure import Figure
+
     from linkwright.torsion.damper.damper_design import DamperDesign
 
 
@@ -70,45 +73,38 @@ def damper(
     force: Force = False,
 ) -> None:
     """The best damper for a mode: damping, and stiffness, that leave least of its resonance."""
-    from linkwright.kernel.command.terminal import print_tables
     from linkwright.kernel.units import INERTIA
     from linkwright.machine.read import read
     from linkwright.torsion.damper.damper_design import design_damper
-    from linkwright.torsion.tables.damper import damper_lines, damper_table
 
     folder = output_folder(out, force=force)
     machine = read(file, set or [], allow_outside=allow_outside)
     ring = option_value("--ring-inertia", ring_inertia, INERTIA)
     found = design_damper(machine, on, ring, mode=mode, kind=kind.value, loss_factor=loss_factor)
-    shown = _object(machine.name, found)
-    if json:
-        typer.echo(shown, nl=False)
-    else:
-        print_tables("", [damper_table(found)], ())
-        typer.echo("\n" + damper_lines(found), nl=False)
-    if folder is not None:
-        _write(found, shown, folder, quiet=json)
+    hand_over(_answer(machine.name, found), json=json, folder=folder)
 
 
 # In the order of the help.
 TORSION = (damper,)
 
 
-def _object(name: str, found: DamperDesign) -> str:
-    """One JSON object."""
-    from json import dumps
+def _answer(name: str, found: DamperDesign) -> Answer:
+    """The damper, also as lines of a machine file."""
+    from linkwright.torsion.tables.damper import damper_lines, damper_table
 
-    from linkwright.kernel.result import finite
+    return Answer(
+        machine=name,
+        results=lambda _: {"damper": found.to_dict(curves=True)},
+        tables=lambda: [damper_table(found)],
+        tail=partial(damper_lines, found),
+        results_file="damper.json",
+        files=lambda: {"damper.toml": damper_lines(found)},
+        figures=partial(_figures, found),
+    )
 
-    results: dict[str, Any] = {"damper": found.to_dict(curves=True)}
-    told: dict[str, Any] = {"machine": name, "results": finite(results), "findings": [], "warnings": []}
-    return dumps(told, allow_nan=False, ensure_ascii=False) + "\n"
 
-
-def _write(found: DamperDesign, shown: str, folder: OutputFolder, *, quiet: bool) -> None:
-    """Results and figure; says where they are."""
+def _figures(found: DamperDesign) -> dict[str, Figure]:
+    """The response, with and without it."""
     from linkwright.torsion.figures.damper import damper_figure
-    from linkwright.torsion.tables.damper import damper_lines
 
-    texts = {"damper.json": shown, "damper.toml": damper_lines(found)}
-    write_folder(folder, texts, {"damper": damper_figure(found)}, quiet=quiet)
+    return {"damper": damper_figure(found)}

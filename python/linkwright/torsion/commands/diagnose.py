@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.errors import InputError
 
@@ -64,12 +65,10 @@ def diagnose(
     json: Json = False,
 ) -> None:
     """Which cylinder of an engine is weak, from the speed of a disc over the crank angle."""
-    from linkwright.kernel.command.terminal import print_tables
     from linkwright.kernel.files.columns import read_columns
     from linkwright.kernel.units import ANGLE, SPEED
     from linkwright.machine.read import read
     from linkwright.torsion.diagnosis.record_diagnosis import record_diagnosis
-    from linkwright.torsion.tables.diagnosis import diagnosis_table, diagnosis_words
 
     if not 0 < level < 1:
         raise InputError(f"--level: found {level:g}, expected a probability between 0 and 1")
@@ -81,18 +80,12 @@ def diagnose(
     found = record_diagnosis(
         machine, on, columns["angle"], columns["speed"], noise=deviation, zero=zero, rigid=rigid
     )
-    if json:
-        typer.echo(_object(machine.name, found, level), nl=False)
-        return
-    print_tables("", [diagnosis_table(found, level)], (), found.warnings)
-    typer.echo("\n" + diagnosis_words(found, level))
+    hand_over(_answer(machine.name, found, level), json=json)
 
 
-def _object(name: str, read: RecordDiagnosis, level: float) -> str:
-    """One JSON object."""
-    from json import dumps
-
-    from linkwright.kernel.result import finite
+def _answer(name: str, read: RecordDiagnosis, level: float) -> Answer:
+    """What each cylinder gives, and what is wrong with which."""
+    from linkwright.torsion.tables.diagnosis import diagnosis_table, diagnosis_words
 
     found = read.found
     results = {
@@ -104,7 +97,12 @@ def _object(name: str, read: RecordDiagnosis, level: float) -> str:
         "late": list(read.late(level)),
         "leaking": list(read.leaking(level)),
     }
+    # They stand beside the results, with those of the record.
     results.pop("warnings")
-    told = {"findings": [], "warnings": list(read.warnings)}
-    shown = {"machine": name, "results": {"diagnosis": finite(results)}, **told}
-    return dumps(shown, allow_nan=False, ensure_ascii=False) + "\n"
+    return Answer(
+        machine=name,
+        results=lambda _: {"diagnosis": results},
+        warnings=read.warnings,
+        tables=lambda: [diagnosis_table(read, level)],
+        tail=lambda: diagnosis_words(read, level) + "\n",
+    )

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets
-from linkwright.kernel.command.out import Force, out_option, output_folder, write_folder
+from linkwright.kernel.command.out import Force, out_option, output_folder
 
 if TYPE_CHECKING:
-    from linkwright.kernel.files.output import OutputFolder
+    from matplotlib.figure import Figure
+
+    from linkwright.kernel.page.table import Table
     from linkwright.torsion.study import TorsionStudy
 
 Folder = Annotated[
@@ -51,46 +55,44 @@ def torsion(
     machine = read(file, set or [], allow_outside=allow_outside)
     with progress("computing"):
         study = torsion_study(machine, holzer=holzer or ())
-    shown = _object(study)
-    if json:
-        typer.echo(shown, nl=False)
-    else:
-        _print(study)
-    if folder is not None:
-        _write(study, shown, folder, quiet=json)
-    if study.findings:
-        raise typer.Exit(1)
+    hand_over(_answer(study), json=json, folder=folder)
 
 
-def _object(study: TorsionStudy) -> str:
-    """One JSON object."""
-    from json import dumps
+def _answer(study: TorsionStudy) -> Answer:
+    """All that was found of the train."""
+    return Answer(
+        machine=study.machine.name,
+        results=lambda _: study.results(),
+        findings=study.findings,
+        warnings=study.warnings,
+        extra={"balance": study.balance} if study.balance else {},
+        head=lambda: study.balance,
+        tables=partial(_tables, study),
+        files=partial(_files, study),
+        figures=partial(_figures, study),
+    )
 
-    from linkwright.kernel.result import finite
 
-    head = {"machine": study.machine.name} | ({"balance": study.balance} if study.balance else {})
-    told = {"findings": study.findings, "warnings": [*study.findings, *study.warnings]}
-    shown = {**head, "results": finite(study.results()), **told}
-    return dumps(shown, allow_nan=False, ensure_ascii=False) + "\n"
-
-
-def _print(study: TorsionStudy) -> None:
+def _tables(study: TorsionStudy) -> list[Table]:
     """Tables for people."""
-    from linkwright.kernel.command.terminal import print_tables
     from linkwright.torsion.tables.torsion import study_tables
 
-    print_tables(study.balance, list(study_tables(study)), study.findings, study.warnings)
+    return list(study_tables(study))
 
 
-def _write(study: TorsionStudy, shown: str, folder: OutputFolder, *, quiet: bool) -> None:
-    """Report, results and drawings; says where they are."""
+def _files(study: TorsionStudy) -> dict[str, str]:
+    """The report."""
     from linkwright.kernel.command.out import command_line
     from linkwright.kernel.command.terminal import progress
-    from linkwright.torsion.figures.modes import modes_figure
-    from linkwright.torsion.figures.scheme import scheme_figure
     from linkwright.torsion.page import torsion_html
 
     with progress("drawing"):
-        page = torsion_html(study, command=command_line())
-        figures = {"scheme": scheme_figure(study.scheme), "mode_shapes": modes_figure(study.free)}
-    write_folder(folder, {"results.json": shown, "report.html": page}, figures, quiet=quiet)
+        return {"report.html": torsion_html(study, command=command_line())}
+
+
+def _figures(study: TorsionStudy) -> dict[str, Figure]:
+    """The scheme of the train and its mode shapes."""
+    from linkwright.torsion.figures.modes import modes_figure
+    from linkwright.torsion.figures.scheme import scheme_figure
+
+    return {"scheme": scheme_figure(study.scheme), "mode_shapes": modes_figure(study.free)}

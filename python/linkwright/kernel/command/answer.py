@@ -1,0 +1,195 @@
+"""What a command answers: printed, given as JSON, written and ended in one way.
+
+A command makes an `Answer` and hands it over; all of its parts that cost something are made when they are
+asked for, so that JSON needs no tables and no drawing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from json import dumps
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from linkwright.kernel.command.out import put, write_folder
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from matplotlib.figure import Figure
+
+    from linkwright.kernel.files.output import OutputFolder
+    from linkwright.kernel.page.table import Table
+
+
+def _nothing(curves: bool) -> Mapping[str, Any]:
+    """No results: the machine cannot do what was asked for."""
+    return {}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What a command found.
+
+    Attributes
+    ----------
+    machine : str or None
+        Name of the machine; None where there is none.
+    results : callable
+        Whether curves are wanted → results by name, in SI: plain numbers, texts, tables and lists.
+    findings : sequence of str
+        What the machine cannot do, in sentences; with any, the command ends with exit code 1.
+    warnings : sequence of str
+        What its designer should know besides.
+    extra : mapping
+        Further keys of the JSON object.
+    head, tables, tail : callable
+        What people are shown: words, tables, and below them such as lines of a machine file.
+    show : callable or None
+        Prints all of it for people, where that is no head and tables.
+    machine_file : callable or None
+        Text of the machine file that ``--out FILE`` asks for.
+    results_file : str
+        Name of the file with the JSON object; empty if none is written.
+    files, figures : callable
+        Further files by name; figures by name without ending.
+    remarks : mapping of str to str
+        Name of a file → words beside it where the files are listed.
+    """
+
+    machine: str | None
+    results: Callable[[bool], Mapping[str, Any]] = _nothing
+    findings: Sequence[str] = ()
+    warnings: Sequence[str] = ()
+    extra: Mapping[str, Any] = field(default_factory=dict)
+    head: Callable[[], str] = str
+    tables: Callable[[], Sequence[Table]] = tuple
+    tail: Callable[[], str] = str
+    show: Callable[[], None] | None = None
+    machine_file: Callable[[], str] | None = None
+    results_file: str = "results.json"
+    files: Callable[[], Mapping[str, str | bytes]] = dict
+    figures: Callable[[], Mapping[str, Figure]] = dict
+    remarks: Mapping[str, str] = field(default_factory=dict)
+
+
+def json_text(answer: Answer, *, curves: bool = False) -> str:
+    """One JSON object on one line: machine, results, findings, warnings.
+
+    Parameters
+    ----------
+    answer : Answer
+        What was found.
+    curves : bool
+        Whether the curves are among the results.
+
+    Returns
+    -------
+    str
+        Ends in a line break. Findings stand first among the warnings, too; what is not finite is null.
+    """
+    from linkwright.kernel.result import finite
+
+    told = {
+        "machine": answer.machine,
+        "results": answer.results(curves),
+        "findings": list(answer.findings),
+        "warnings": [*answer.findings, *answer.warnings],
+        **answer.extra,
+    }
+    return dumps(finite(told), allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def print_answer(answer: Answer) -> None:
+    """Print an answer for people: tables, findings in red, warnings in yellow."""
+    if answer.show is not None:
+        answer.show()
+        return
+    from linkwright.kernel.command.terminal import print_tables
+
+    print_tables(answer.head(), answer.tables(), answer.findings, answer.warnings)
+    if tail := answer.tail():
+        typer.echo("\n" + tail, nl=False)
+
+
+def write(answer: Answer, folder: OutputFolder, *, quiet: bool) -> None:
+    """Write the JSON object with all curves, the further files and the figures; say where they are.
+
+    Parameters
+    ----------
+    answer : Answer
+        What was found.
+    folder : OutputFolder
+        Where.
+    quiet : bool
+        Whether to say it on standard error, since standard output is JSON.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be written to.
+    """
+    contents: dict[str, str | bytes] = {}
+    if answer.results_file:
+        contents[answer.results_file] = json_text(answer, curves=True)
+    contents |= answer.files()
+    write_folder(folder, contents, answer.figures(), quiet=quiet, remarks=answer.remarks)
+
+
+def finish(answer: Answer) -> None:
+    """End the command with exit code 1 if the machine cannot do something.
+
+    Raises
+    ------
+    typer.Exit
+        There are findings.
+    """
+    if answer.findings:
+        raise typer.Exit(1)
+
+
+def hand_over(
+    answer: Answer,
+    *,
+    json: bool = False,
+    curves: bool = False,
+    folder: OutputFolder | None = None,
+    out: Path | None = None,
+    force: bool = False,
+) -> None:
+    """Print an answer, write its files, and end the command.
+
+    Parameters
+    ----------
+    answer : Answer
+        What was found.
+    json : bool
+        Print the JSON object in place of tables. It is printed when all files are written: whoever reads an
+        object on standard output has the whole answer.
+    curves : bool
+        Whether the object that is printed has the curves.
+    folder : OutputFolder or None
+        Where files are wanted.
+    out : path or None
+        Where the machine file is wanted, if there is one.
+    force : bool
+        Replace a machine file that exists.
+
+    Raises
+    ------
+    InputError
+        The folder or the file cannot be written to.
+    typer.Exit
+        There are findings.
+    """
+    if out is not None and answer.machine_file is not None:
+        put(answer.machine_file(), out, force=force)
+    if not json:
+        print_answer(answer)
+    if folder is not None:
+        write(answer, folder, quiet=json)
+    if json:
+        typer.echo(json_text(answer, curves=curves), nl=False)
+    finish(answer)

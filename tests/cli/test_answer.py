@@ -1,0 +1,309 @@
+"""Every command that has ``--json`` answers in one form: what can be done, what cannot, and wrong input.
+
+The commands are those of the application: one that is added and is not told here fails.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+import typer
+from typer.testing import CliRunner, Result
+
+from linkwright.app.application import COMMANDS, GROUPS, application
+from linkwright.kernel.command.answer import Answer, hand_over, json_text
+from linkwright.kernel.errors import InputError
+
+ROOT = Path(__file__).parents[2]
+FILES = {path.stem: str(path) for path in (ROOT / "machines").glob("*.toml")} | {
+    "undercut": str(ROOT / "examples" / "cam_roller_undercut" / "machine.toml"),
+    "engine": str(ROOT / "examples" / "weak_cylinder" / "machine.toml"),
+}
+
+# What tasks of a synthesis and measurements hold.
+TEXTS = {
+    "symmetric.toml": """
+format = 1
+name = "Three discs"
+[train.discs]
+left = { inertia = 1 }
+middle = { inertia = 1 }
+right = { inertia = 1 }
+[train.shafts]
+one = { between = ["left", "middle"], stiffness = 1e4 }
+two = { between = ["middle", "right"], stiffness = 1e4 }
+""",
+    "field.toml": """
+format = 1
+name = "Topper"
+[topper]
+root_diameter = "110 mm"
+cut_height = "30 mm"
+offset = "20 mm"
+edge_angle = "20 deg"
+edge_length = "0.18 m"
+forward_speed = "1.9 m/s"
+knife_speed = "0.55 m/s"
+[topper.motion]
+kind = "harmonic"
+stroke = "60 mm"
+[topper.field]
+kind = "random"
+roots = 500
+rows = 10
+cut_height = { kind = "normal", mean = "28 mm", deviation = "12 mm" }
+root_density = "1050 kg/m^3"
+""",
+    "poses.toml": """
+[poses]
+x = "0, 40, 60 mm"
+y = "0, 20, 60 mm"
+angle = "0, 20, 50 deg"
+[crank_point]
+x = "-20 mm"
+y = "-50 mm"
+[rocker_point]
+x = "60 mm"
+y = "-40 mm"
+""",
+    "function.toml": """
+name = "log"
+function = "log10(x)"
+range = [1, 2]
+crank_range = "60 deg"
+rocker_range = "90 deg"
+points = 5
+""",
+    "path.toml": """
+x = "60, 40, 0, -30, 0, 40 mm"
+y = "0, 30, 40, 10, -20, -20 mm"
+generations = 30
+""",
+}
+
+
+class Case(NamedTuple):
+    """Words after a command: that it can do, that its machine cannot do, that make no sense."""
+
+    right: str
+    finding: str
+    wrong: str
+
+
+_SHORT_ROD = " --set mechanism.sliders.cart1.rod=0.1"
+_NO_KEY = " --set drive.motor.nothing=1"
+_UNSUITED = " --set points=1"
+
+# Papers and motion laws have no machine that could fail.
+NEVER = ""
+CASES = {
+    "run": Case("{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts}" + _NO_KEY),
+    "motion": Case("{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts} --at 30"),
+    "forces": Case(
+        "{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts} --angles 1deg"
+    ),
+    "balance": Case(
+        "{roller_two_carts} --links A1",
+        "{roller_two_carts} --links A1" + _SHORT_ROD,
+        "{roller_two_carts} --links nobody",
+    ),
+    "size": Case(
+        "{roller_two_carts}",
+        "{roller_two_carts} --set loads.rolling1.force=1e5",
+        "{roller_two_carts} --unevenness 3",
+    ),
+    "papers": Case("4", NEVER, "9"),
+    "synthesise dead-centre": Case(
+        "--swing 60deg", "--swing 60deg --time-ratio 9", "--swing 60deg --stroke 1m"
+    ),
+    "synthesise motion": Case(
+        "--task {poses.toml}",
+        "--task {poses.toml} --set rocker_point.x=-20mm --set rocker_point.y=-50mm",
+        "--task {poses.toml}" + _UNSUITED,
+    ),
+    "synthesise function": Case(
+        "--task {function.toml}", "--task {function.toml} --set function=sin(40*x)", "--task {poses.toml}"
+    ),
+    "synthesise path": Case(
+        "--task {path.toml}",
+        "--task {path.toml} --set transmission_angle_min=1.5",
+        "--task {path.toml}" + _UNSUITED,
+    ),
+    "synthesise line": Case(
+        "--kind hoeken", "--kind hoeken --proportion arm=0.1", "--kind hoeken --proportion arm"
+    ),
+    "cam": Case("{roller_cam}", "{undercut}", "{roller_two_carts}"),
+    "cam laws": Case("--law cycloidal", NEVER, "--law nothing"),
+    "cam search": Case(
+        "{roller_cam} --vary base_radius=0.3:0.4:3",
+        "{roller_cam} --vary base_radius=0.21695:0.21696:11",
+        "{roller_cam} --vary base_radius",
+    ),
+    "torsion": Case(
+        "{symmetric.toml}", "{v8_diesel} --set train.engine.limit.stress_permitted=1MPa", "{roller_cam}"
+    ),
+    "torsion damper": Case(
+        "{symmetric.toml} --on left --ring-inertia 0.1",
+        "{symmetric.toml} --on middle --ring-inertia 0.1",
+        "{symmetric.toml} --on nobody --ring-inertia 0.1",
+    ),
+    "torsion diagnose": Case(
+        "{engine} {even.csv} --on flywheel",
+        "{engine} {even.csv} --on flywheel --set train.engine.gas.walls.kind=hohenberg "
+        "--set train.engine.gas.walls.factor=1e6 --set train.engine.gas.walls.wall_temperature=400",
+        "{engine} {even.csv} --on nobody",
+    ),
+    "topper": Case("{topper}", "{topper} --set topper.edge_angle=89.9deg", "{topper} --set topper.nothing=1"),
+    "topper field": Case(
+        "{field.toml} --set topper.limits.complete_min=0.5",
+        "{field.toml} --set topper.limits.complete_min=0.99",
+        "{field.toml} --over nothing=1:2:3",
+    ),
+    "topper best": Case(
+        "{field.toml} --set topper.limits.complete_min=0.5",
+        "{field.toml} --set topper.limits.knife_speed_max=0 --set topper.limits.slicing_min=3",
+        "{field.toml} --objective nothing",
+    ),
+}
+
+# Commands that print a text of their own, and no answer about a machine for programs.
+WITHOUT = {"check", "new", "schema"}
+# Keys besides those that all have.
+EXTRA = {"cam": {"files"}, "torsion": {"balance"}}
+
+
+def commands() -> dict[str, Any]:
+    """Words of a command → what it is; a group's own words stand for what it does with a file."""
+    top = typer.main.get_command(application())
+    assert set(top.commands) == {*COMMANDS, *GROUPS}  # type: ignore[attr-defined]
+    found: dict[str, Any] = {}
+    for name, command in top.commands.items():  # type: ignore[attr-defined]
+        inner = getattr(command, "commands", None)
+        if inner is None:
+            found[name] = command
+        else:
+            found |= {name if each.hidden else f"{name} {part}": each for part, each in inner.items()}
+    return found
+
+
+def has_json(command: Any) -> bool:
+    return any(param.name == "json" for param in command.params)
+
+
+@pytest.fixture(scope="module")
+def ask(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, str], Result]:
+    """Asks a command with words in which files are named in braces."""
+    folder = tmp_path_factory.mktemp("asked")
+    for name, text in TEXTS.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    # Two turns, in which eight cylinders fire at one strength.
+    rows = [f"{n}, {1500 * (1 + 0.01 * np.cos(n * np.pi / 90)):.6f}" for n in range(721)]
+    (folder / "even.csv").write_text("\n".join(["angle [deg], speed [rpm]", *rows]) + "\n")
+    known = FILES | {path.name: str(path) for path in folder.iterdir()}
+
+    def asked(command: str, words: str) -> Result:
+        filled = [known.get(word[1:-1], word) if word[0] == "{" else word for word in words.split()]
+        return CliRunner().invoke(application(), [*command.split(), *filled, "--json"])
+
+    return asked
+
+
+def answer_of(name: str, done: Result) -> dict[str, Any]:
+    """The object on standard output, which has the form that all have."""
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    assert done.stdout.count("\n") == 1, done.stdout[:200] + done.stderr
+    found: dict[str, Any] = json.loads(done.stdout, parse_constant=pytest.fail)
+    common = {"machine", "results", "findings", "warnings"}
+    assert common <= set(found) <= common | EXTRA.get(name, set())
+    has_file = any(param.name == "file" for param in commands()[name].params)
+    assert found["machine"] if has_file else found["machine"] != ""
+    assert isinstance(found["results"], dict)
+    for sentences in (found["findings"], found["warnings"]):
+        assert isinstance(sentences, list)
+        assert all(isinstance(each, str) and each.strip() for each in sentences)
+    assert found["warnings"][: len(found["findings"])] == found["findings"]
+    return found
+
+
+def test_every_command_is_told_here() -> None:
+    found = commands()
+    assert {name for name, command in found.items() if has_json(command)} == set(CASES)
+    assert {name for name, command in found.items() if not has_json(command)} == WITHOUT
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_what_can_be_done(name: str, ask: Callable[[str, str], Result]) -> None:
+    done = ask(name, CASES[name].right)
+    assert done.exit_code == 0, done.output
+    found = answer_of(name, done)
+    assert found["results"]
+    assert not found["findings"]
+
+
+@pytest.mark.parametrize("name", [name for name, case in CASES.items() if case.finding != NEVER])
+def test_what_a_machine_cannot_do(name: str, ask: Callable[[str, str], Result]) -> None:
+    done = ask(name, CASES[name].finding)
+    assert done.exit_code == 1, done.output
+    assert answer_of(name, done)["findings"]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_wrong_input(name: str, ask: Callable[[str, str], Result]) -> None:
+    done = ask(name, CASES[name].wrong)
+    assert done.exit_code == 2, done.output
+    assert done.stdout == ""
+    assert len(done.stderr) > 10
+
+
+@pytest.mark.parametrize("name", ["papers", "synthesise line"])
+def test_lists_are_answers_too(name: str, ask: Callable[[str, str], Result]) -> None:
+    found = answer_of(name, ask(name, "--list" if name == "synthesise line" else ""))
+    assert found["machine"] is None
+    assert found["results"]
+
+
+def _unwanted() -> Any:
+    pytest.fail("JSON needs none of it")
+
+
+def test_json_makes_nothing_for_people(capsys: pytest.CaptureFixture[str]) -> None:
+    answer = Answer(
+        machine="M",
+        results=lambda curves: {"it": {"x": (1.0, float("nan")), "has_curves": curves}},
+        warnings=["take care"],
+        extra={"files": []},
+        head=_unwanted,
+        tables=_unwanted,
+        tail=_unwanted,
+        show=_unwanted,
+        files=_unwanted,
+        figures=_unwanted,
+    )
+    hand_over(answer, json=True, curves=True)
+    assert json.loads(capsys.readouterr().out) == {
+        "machine": "M",
+        "results": {"it": {"x": [1.0, None], "has_curves": True}},
+        "findings": [],
+        "warnings": ["take care"],
+        "files": [],
+    }
+
+
+def test_an_answer_on_standard_output_is_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Nothing is printed as JSON before its files are written."""
+    taken = tmp_path / "machine.toml"
+    taken.write_text("another's")
+    answer = Answer(machine="M", findings=["It cannot."], machine_file=lambda: "format = 1\n")
+    with pytest.raises(InputError):
+        hand_over(answer, json=True, out=taken)
+    assert capsys.readouterr().out == ""
+    with pytest.raises(typer.Exit) as ended:
+        hand_over(answer, json=True, out=taken, force=True)
+    assert ended.value.exit_code == 1
+    assert capsys.readouterr().out == json_text(answer)
+    assert taken.read_text() == "format = 1\n"
