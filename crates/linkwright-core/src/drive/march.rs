@@ -196,7 +196,7 @@ impl March<'_> {
             }
             high = match self.revolution(next) {
                 Ok(low) => self.between(high, low, HALVINGS)?,
-                Err(rests @ NoMotion::Rests { .. }) => return self.to_rest(high, next, rests),
+                Err(rests @ NoMotion::Rests { .. }) => return self.down_to_rest(high, next, rests),
                 Err(other) => return Err(other),
             };
         }
@@ -255,7 +255,12 @@ impl March<'_> {
     }
 
     /// From a start that turns to one that comes to rest: what lies between?
-    fn to_rest(&mut self, mut high: Revolution, mut rest: f64, mut reason: NoMotion) -> Result<(), NoMotion> {
+    fn down_to_rest(
+        &mut self,
+        mut high: Revolution,
+        mut rest: f64,
+        mut reason: NoMotion,
+    ) -> Result<(), NoMotion> {
         // Every start between falls to what rests, or what gains is followed to the brink.
         while (high.gain() < 0.0 && high.end > rest) || high.start - rest > BRINK * high.start {
             match self.revolution(0.5 * (high.start + rest)) {
