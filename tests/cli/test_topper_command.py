@@ -54,6 +54,7 @@ def told(*words: str) -> dict[str, Any]:
 def test_tables_of_a_field(file: str) -> None:
     result = run("field", file, "--over", "edge_angle=0 deg:30 deg:3")
     assert result.exit_code == 0
+    assert result.stdout.startswith("Topper\n")
     for words in (
         "500 heads of 10 rows",
         "heads cut right through",
@@ -134,6 +135,7 @@ def test_best_knife(file: str, tmp_path: Path) -> None:
     sets = ("--set", "topper.limits.slicing_min=0.5", "--set", "topper.limits.complete_min=0.9")
     result = run("best", file, *sets, "--out", str(out))
     assert result.exit_code == 0, result.output
+    assert result.stdout.startswith("Topper\n")
     for words in ("Shortest edge", "over other", "≥ 90 %", "[topper]", "edge_angle = "):
         assert words in result.output
     best = json.loads((out / "results.json").read_text())["results"]["topper_best"]

@@ -48,7 +48,7 @@ def run(
     """
     from contextlib import nullcontext
 
-    from linkwright.kernel.command.terminal import progress
+    from linkwright.kernel.command.console import progress
 
     folder = output_folder(out, force=force)
     steps = step if method == "baranov" else None
@@ -97,7 +97,7 @@ def _tables(study: Study) -> list[Table]:
 def _files(study: Study) -> dict[str, str]:
     """The curves and the report, by name."""
     from linkwright.app.report.page import report_html
-    from linkwright.kernel.command.terminal import progress
+    from linkwright.kernel.command.console import progress
     from linkwright.kernel.files.output import file_names
     from linkwright.kernel.page.csv import curves_csv
 

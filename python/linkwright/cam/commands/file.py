@@ -62,7 +62,7 @@ def cam_file(
     Lift, pressure angle, curvature, forces, what is wrong and what would mend it; with --out a report with
     figures, and drawings for manufacture, each read back and compared with the profile.
     """
-    from linkwright.kernel.command.terminal import progress
+    from linkwright.kernel.command.console import progress
 
     folder = output_folder(out, force=force)
     options = _options(tolerance, step, by, form, formats)

@@ -7,7 +7,8 @@ sees to it that no other module makes a console.
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from contextlib import AbstractContextManager, nullcontext
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -38,6 +39,21 @@ def styled(*parts: str | tuple[str, str]) -> Text:
     from rich.text import Text
 
     return Text.assemble(*parts)
+
+
+def progress(words: str) -> AbstractContextManager[Any]:
+    """A moving sign on standard error while something takes long; nothing where nobody looks.
+
+    Parameters
+    ----------
+    words : str
+        What is being done.
+    """
+    # Asked of the stream itself: a console is large, and JSON for programs needs none.
+    if not sys.stderr.isatty():
+        return nullcontext()
+    out = console(error=True)
+    return out.status(words) if out.is_terminal else nullcontext()
 
 
 def progress_bar(words: str, total: float) -> Progress:

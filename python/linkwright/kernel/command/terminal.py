@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from linkwright.kernel.command.console import console, styled
 from linkwright.kernel.limits import SENTENCES, TABLE_ROWS, TABLES, grouped
@@ -51,21 +49,6 @@ def _print_more(count: int, words: str) -> None:
     """How much is not shown."""
     if count > 0:
         console().print(f"… and {grouped(count)} more {words}; --json has all")
-
-
-def progress(words: str) -> AbstractContextManager[Any]:
-    """A moving sign on standard error while something takes long; nothing where nobody looks.
-
-    Parameters
-    ----------
-    words : str
-        What is being done.
-    """
-    # Asked of the stream itself: a console is large, and JSON for programs needs none.
-    if not sys.stderr.isatty():
-        return nullcontext()
-    out = console(error=True)
-    return out.status(words) if out.is_terminal else nullcontext()
 
 
 def _drawn(table: Table) -> RenderableType:

@@ -77,6 +77,7 @@ def _answer(name: str, found: KnifeSearch) -> Answer:
         results=lambda _: {"topper_best": results},
         findings=[] if failing is None else [failing.words + "."],
         warnings=[] if failing else list(best_warnings(found)),
+        head=lambda: name,
         tables=lambda: [] if best is None else [best_table(found, best)],
         tail=lambda: "" if best is None else best_lines(best),
         files=partial(_files, found),

@@ -89,6 +89,7 @@ def field(
         results=lambda _: _results(found, swept),
         findings=list(field_findings(found, described)),
         warnings=list(field_cautions(found, described, edges_of(machine, described)[0].knife)),
+        head=lambda: machine.name,
         tables=partial(_tables, found, swept),
         **_written(machine, found, swept, seed),
     )

@@ -47,7 +47,7 @@ def torsion(
     Natural frequencies, shapes and nodes; with torques and [train.run] in the file also critical speeds,
     torques, stresses, limits, barred speeds, unevenness and heat. Exit code 1 if a limit is exceeded.
     """
-    from linkwright.kernel.command.terminal import progress
+    from linkwright.kernel.command.console import progress
     from linkwright.machine.read import read
     from linkwright.torsion.study import torsion_study
 
@@ -82,8 +82,8 @@ def _tables(study: TorsionStudy) -> list[Table]:
 
 def _files(study: TorsionStudy) -> dict[str, str]:
     """The report."""
+    from linkwright.kernel.command.console import progress
     from linkwright.kernel.command.out import command_line
-    from linkwright.kernel.command.terminal import progress
     from linkwright.torsion.page import torsion_html
 
     with progress("drawing"):
