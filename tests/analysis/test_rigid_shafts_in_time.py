@@ -1,4 +1,4 @@
-"""Manoeuvres with shafts from soft to as good as rigid: the train whose discs are one, and exact modal motion."""
+"""Manoeuvres with shafts as good as rigid: the train whose discs are one, and exact modal motion."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def moved(k: float, c: float, accuracy: float, speed: float = 1.0) -> TorsionTra
 
 @pytest.fixture(scope="module")
 def one() -> tuple[Floats, Floats, Floats]:
-    """Torques of both shafts where the last two discs are one, of the rigid one by equilibrium; speed of that disc."""
+    """Where the last two discs are one: torques of the soft and the rigid shaft, and speed of that disc."""
     train = chain(
         [J[0], J[1] + J[2]], [K], damping=[C], ground=[GROUND[0], sum(GROUND[1:])], torques=raised_cosine()
     )
@@ -58,8 +58,8 @@ def test_rigid_shaft_makes_two_discs_one(
 ) -> None:
     found = moved(k, damped * k, accuracy, speed)
     soft, rigid, turning = one
-    # A shaft of k twists: the frequency changes by some K/k of itself, over swings of 0.5 s the phase by ten times
-    # that. J δω/h is left of the rounding of speeds, 4e-8 N m of 120 N m in steps of 1e-4 s.
+    # A shaft of k twists: the frequency changes by K/k of itself, over swings of 0.5 s the phase by some
+    # times that. J δω/h is left of the rounding of speeds, 4e-8 N m of 120 N m in steps of 1e-4 s.
     allowed = accuracy + 3 * K / k + 4e-10
     assert np.abs(found.torque[1] * speed - rigid).max() <= allowed * np.abs(rigid).max()
     assert np.abs(found.torque[0] - soft).max() <= allowed * np.abs(soft).max()
@@ -71,7 +71,7 @@ def test_rigid_shaft_makes_two_discs_one(
 
 
 def test_rigid_shafts_in_parallel_share_by_stiffness() -> None:
-    """Two shafts between the same discs, 3 to 1, one drawn the other way, and the disc beyond held in step."""
+    """Two shafts between the same discs, 3 to 1, one drawn the other way."""
     train = chain(J, [K, 3e17], damping=[C, 0.0], ground=GROUND, torques=raised_cosine())
     entries = {name: getattr(train, name) for name in train.__dataclass_fields__}
     entries["shafts"] = ("s0", "s1", "beside")
@@ -91,8 +91,9 @@ def test_rigid_shafts_in_parallel_share_by_stiffness() -> None:
 class ModalMotion:
     """Free motion of undamped discs in a row, exactly: each mode for itself.
 
-    The singular values of k^½ B J^-½ are the natural frequencies, known to rounding of the fastest, where squares from
-    an eigenvalue problem would lose the square of the ratio of frequencies. The rigid rotation is no twist at all.
+    The singular values of k^½ B J^-½ are the natural frequencies, known to rounding of the fastest, where
+    squares from an eigenvalue problem would lose the square of the ratio of frequencies. The rigid rotation
+    is no twist at all.
     """
 
     def __init__(self, inertia: Floats, stiffness: Floats, angle: Floats, speed: Floats) -> None:
