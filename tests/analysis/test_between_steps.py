@@ -1,4 +1,7 @@
-"""The accuracy asked for holds at any instant, between the ends of steps too: SciPy at 1e-13."""
+"""The accuracy asked for holds at any instant, between the ends of steps too: SciPy at 1e-13.
+
+Trains are also held against their exact modal motion in `test_rigid_shafts_in_time`.
+"""
 
 from __future__ import annotations
 

@@ -303,7 +303,7 @@ def test_limits_are_judged_in_the_manoeuvre(tmp_path: Path) -> None:
 
 
 def test_stress_while_a_resonance_is_passed() -> None:
-    """Half of greatest less least stress within two turns, against what is permitted while passing."""
+    """Half of greatest less least stress within two turns, against what is permitted in transient passage."""
     text = PLAIN.replace('"20 N m s/rad" }', '"20 N m s/rad", limit = { diameter = 0.05, LIMIT } }')
     pulse = """
 [train.excitations.e]
@@ -322,7 +322,7 @@ events = [{ kind = "speed_course", on = "engine", times = [0, 2], speed = [60, 1
 
     greatest, passing = moved("1e6", "1e6")
     W = np.pi / 16 * 0.05**3
-    assert (greatest.what, passing.what) == ("greatest stress", "vibratory stress while passing")
+    assert (greatest.what, passing.what) == ("greatest stress", "vibratory stress in transient passage")
     assert not greatest.is_kept
     assert not passing.is_kept
     assert passing.found < greatest.found

@@ -5,7 +5,7 @@ bounds are where the two are equal, sought with the response itself. About a cri
 classification societies ask for at least :math:`16 n_c/(18 - \lambda) \le n \le (18 - \lambda) n_c/16`, λ
 being its ratio to the speed of service. Critical is where the stress peaks: damping, dampers above all, has
 it beside the speed at which an order meets a natural frequency without damping. Where the stress is also
-above what is permitted while passing, the range may not even be passed.
+above what is permitted in transient passage, the range may not even be passed.
 
 References
 ----------

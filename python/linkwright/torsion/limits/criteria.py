@@ -30,7 +30,7 @@ from linkwright.torsion.response.stress import ShaftStress, shaft_stress
 Floats = NDArray[np.float64]
 
 VIBRATORY_STRESS = "vibratory stress"
-PASSING_STRESS = "vibratory stress while passing"
+PASSING_STRESS = "vibratory stress in transient passage"
 CONTACT = "drop of torque below its mean"
 
 

@@ -4,7 +4,7 @@ r"""Whether shafts and couplings bear a manoeuvre: largest torques and stresses 
 | --- | --- |
 | `torque_permitted` | largest torque either way |
 | `stress_greatest` | its stress |
-| vibratory stress while passing | half of greatest less least stress within two turns of the first disc |
+| vibratory stress in transient passage | half the peak-to-peak stress within two turns of the first disc |
 
 Limits of continuous operation, vibratory torques and heat among them, are those of steady running and not
 judged here. Largest torques are exact between the samples; those within two turns are read from the samples.
@@ -113,7 +113,7 @@ def _torques(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgemen
 
 
 def _stresses(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:
-    """Stresses of shafts with a section, largest and while passing."""
+    """Stresses of shafts with a section, largest and in transient passage."""
     shafts = train_of(machine).shafts
     for name, (section, limit) in stressed(shafts).items():
         if shafts[name].limit is None:

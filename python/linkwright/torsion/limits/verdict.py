@@ -203,7 +203,7 @@ def _against_barring(each: BarredRange) -> str:
         low, high = each.not_passable[0]
         return f"not to be passed from {_rpm(low)} to {_rpm(high)}"
     if each.is_passable is None:
-        return "no stress is given that is permitted while passing"
+        return "no stress permitted in transient passage is given"
     if not each.may_be_barred:
         highest = each.ratio_permitted
         return f"speeds above {highest:.0%} of the speed of service may not be barred in normal operation"

@@ -75,7 +75,7 @@ def crank_stress(speed_ratio: Floats, firing: Firing, strength: float | None = N
 def crank_transient_stress(
     speed_ratio: Floats, firing: Firing, yield_strength: float | None = None
 ) -> Floats:
-    """τ₂, while passing.
+    """τ₂, in transient passage.
 
     Parameters
     ----------

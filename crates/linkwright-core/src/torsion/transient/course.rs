@@ -1,5 +1,6 @@
 //! The motion from mark to mark: where something outside switches, a step ends, and the next begins anew.
 
+use super::equilibrium::Equilibrium;
 use super::explicit::{Explicit, STABLE_PHASE};
 use super::extremes::{Extreme, Extremes};
 use super::implicit::Implicit;
@@ -77,6 +78,10 @@ const STIFF: f64 = 200_000.0;
 /// Angle of a table over which a step may go, so that none is overlooked: a twelfth of its turn \[rad\].
 const REACH: f64 = 0.5;
 
+/// Fastest swing that implicit steps are asked to follow \[rad/s\]: 1.6 kHz, the twelfth harmonic of ignition in an engine of
+/// twelve cylinders at 1300 rpm. What swings faster stands still for them, and says nothing about speeds.
+const FOLLOWED: f64 = 1e4;
+
 /// First step as a share of the fastest swing's radian, and of the whole time.
 const FIRST: (f64, f64) = (0.1, 1e-3);
 
@@ -107,7 +112,12 @@ struct Follower<'a, S> {
     rates: Rates<'a>,
     stepper: S,
     scale: Scale,
+    /// Fastest swing that the steps may have to follow \[rad/s\].
+    followed: f64,
     extremes: Extremes,
+    equilibrium: Equilibrium,
+    /// Whether it tells the torque of a shaft in this step.
+    rigid: bool,
     course: Course,
     state: Vec<f64>,
     end: Vec<f64>,
@@ -139,17 +149,20 @@ impl<'a, S: Stepper> Follower<'a, S> {
             evaluations: 0,
             fastest,
         };
-        let accuracy = match method {
-            Method::Implicit => estimated(request.accuracy),
-            _ => request.accuracy,
+        let (accuracy, followed) = match method {
+            Method::Implicit => (estimated(request.accuracy), fastest.min(FOLLOWED)),
+            _ => (request.accuracy, fastest),
         };
-        let mut scale = Scale::new([accuracy, request.accuracy], &rates, fastest);
+        let mut scale = Scale::new([accuracy, request.accuracy], &rates, followed);
         scale.widen(&state);
         Follower {
             request,
             stepper,
             scale,
+            followed,
             extremes: Extremes::new(&rates),
+            equilibrium: Equilibrium::new(rates.system),
+            rigid: false,
             course,
             end: state.clone(),
             sample: state.clone(),
@@ -189,16 +202,12 @@ impl<'a, S: Stepper> Follower<'a, S> {
     fn stretch(&mut self, mark: f64) -> End {
         let start = self.course.time;
         self.rates.enter(0.5 * (start + mark));
-        let first = (FIRST.0 / self.course.fastest.max(f64::MIN_POSITIVE)).min(FIRST.1 * (mark - start));
+        let first = (FIRST.0 / self.followed.max(f64::MIN_POSITIVE)).min(FIRST.1 * (mark - start));
         self.stepper.begin(&mut self.rates, start, &self.state, first);
         if !self.rates.acceleration.iter().all(|a| a.is_finite()) {
             return End::NotFinite;
         }
-        self.extremes.begin(&self.rates, start);
-        while self.next_sample < self.request.times.len() && self.request.times[self.next_sample] <= start {
-            self.sample.copy_from_slice(&self.state);
-            self.write_sample();
-        }
+        self.extremes.begin(&self.rates);
         while self.course.time < mark {
             if self.course.steps == self.request.steps_max {
                 return End::TooManySteps;
@@ -217,15 +226,21 @@ impl<'a, S: Stepper> Follower<'a, S> {
         let Some((h, reached)) = self.find_step(mark) else { return false };
         let at = (t, &self.state);
         self.stepper.work(&mut self.rates, at, h, &mut self.course.work);
-        self.extremes.take(&self.rates, &self.stepper, at, h);
+        self.rigid = self.equilibrium.find(&self.rates, &self.stepper, &self.end, h);
+        let equilibrium = &mut self.equilibrium;
+        if self.rigid {
+            self.extremes.balance(&mut self.rates, &self.stepper, equilibrium, at, h);
+        }
+        self.extremes.take(&mut self.rates, &self.stepper, equilibrium, at, h);
         self.extremes.advance(reached);
         while self.next_sample < self.request.times.len() && self.request.times[self.next_sample] <= reached {
             let time = self.request.times[self.next_sample];
+            let share = if time == reached { 1.0 } else { ((time - t) / h).clamp(0.0, 1.0) };
             for i in 0..self.sample.len() {
-                let inside = || self.stepper.component(((time - t) / h).clamp(0.0, 1.0), &self.state, i);
+                let inside = || self.stepper.component(share, &self.state, i);
                 self.sample[i] = if time == reached { self.end[i] } else { inside() };
             }
-            self.write_sample();
+            self.write_sample(h, share);
         }
         self.stepper.advance();
         std::mem::swap(&mut self.state, &mut self.end);
@@ -260,12 +275,19 @@ impl<'a, S: Stepper> Follower<'a, S> {
         None
     }
 
-    /// Writes what the sample's state says into the next column.
-    fn write_sample(&mut self) {
+    /// Writes what the sample's state, at a share of the step, says into the next column.
+    fn write_sample(&mut self, h: f64, share: f64) {
         let (n, columns, column) = (self.rates.system.len(), self.request.times.len(), self.next_sample);
+        if self.rigid {
+            let at = (self.course.time, &self.state);
+            self.equilibrium.at(&mut self.rates, &self.stepper, at, h, share);
+        }
         let sample = &mut self.sample;
-        let links = self.rates.system.links.iter();
-        let torques: Vec<f64> = links.map(|link| self.rates.link_torque_at(link, |i| sample[i])).collect();
+        let torque = |(s, link)| match self.equilibrium.torque(s).filter(|_| self.rigid) {
+            Some(torque) => torque,
+            None => self.rates.link_torque_at(link, |i| sample[i]),
+        };
+        let torques: Vec<f64> = self.rates.system.links.iter().enumerate().map(torque).collect();
         let energies = self.rates.energies(sample);
         self.rates.to_absolute(sample);
         let values = sample[..2 * n].iter().chain(&torques).chain(&energies);

@@ -109,6 +109,10 @@ impl Stepper for Explicit {
         self.stages.component(share, state[i], i)
     }
 
+    fn slope(&self, share: f64, h: f64, i: usize) -> f64 {
+        self.stages.slope(share, i) / h
+    }
+
     fn work(&mut self, _: &mut Rates<'_>, _: (f64, &Vec<f64>), h: f64, to: &mut [f64]) {
         for (&weight, powers) in WEIGHTS.iter().zip(&self.powers) {
             if weight != 0.0 {

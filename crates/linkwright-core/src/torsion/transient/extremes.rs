@@ -3,6 +3,7 @@
 //! Values and their rates at both ends of a step tell where the cubic between them turns; where that could be a new extreme,
 //! the method's own polynomial is asked.
 
+use super::equilibrium::Equilibrium;
 use super::rates::Rates;
 use super::stepper::Stepper;
 
@@ -28,10 +29,10 @@ impl Extremes {
         Extremes { rows: vec![none; n], before: vec![(0.0, 0.0); n], now: vec![(0.0, 0.0); n] }
     }
 
-    /// Takes values and rates at the instant last evaluated, where a stretch of time begins.
-    pub fn begin(&mut self, rates: &Rates<'_>, t: f64) {
+    /// Looks at values and rates at the instant last evaluated, where a stretch of time begins.
+    pub fn begin(&mut self, rates: &Rates<'_>) {
         self.look(rates);
-        self.advance(t);
+        std::mem::swap(&mut self.before, &mut self.now);
     }
 
     /// Looks at values and rates at the instant last evaluated, the end of a step.
@@ -42,11 +43,48 @@ impl Extremes {
         self.now.iter_mut().zip(links.chain(speeds)).for_each(|(now, found)| *now = found);
     }
 
-    /// Takes what lies inside a step from an instant, by the polynomial that was made of it.
-    pub fn take(&mut self, rates: &Rates<'_>, stepper: &impl Stepper, (t, state): (f64, &Vec<f64>), h: f64) {
+    /// Sets the torques of shafts as good as rigid at both ends of a step, with the rates of the parabola through them and the
+    /// torque amid the step: those of the equations of motion are rounding times the stiffness.
+    pub fn balance(
+        &mut self,
+        rates: &mut Rates<'_>,
+        stepper: &impl Stepper,
+        equilibrium: &mut Equilibrium,
+        at: (f64, &Vec<f64>),
+        h: f64,
+    ) {
+        let links = rates.system.links.len();
+        let [a, b, c] = [0.0, 0.5, 1.0].map(|share| {
+            equilibrium.at(rates, stepper, at, h, share);
+            (0..links).map(|s| equilibrium.torque(s)).collect::<Vec<_>>()
+        });
+        for (s, values) in a.into_iter().zip(b).zip(c).enumerate() {
+            if let ((Some(a), Some(b)), Some(c)) = values {
+                self.before[s] = (a, (4.0 * b - 3.0 * a - c) / h);
+                self.now[s] = (c, (3.0 * c + a - 4.0 * b) / h);
+            }
+        }
+    }
+
+    /// Takes the start and the inside of a step from an instant, by the polynomial that was made of it.
+    pub fn take(
+        &mut self,
+        rates: &mut Rates<'_>,
+        stepper: &impl Stepper,
+        equilibrium: &mut Equilibrium,
+        (t, state): (f64, &Vec<f64>),
+        h: f64,
+    ) {
         for row in 0..self.rows.len() {
+            note(&mut self.rows[row], self.before[row].0, t);
             for turn in self.inside(row, h).collect::<Vec<_>>() {
-                let value = |share: f64| value_at(rates, stepper, state, row, share);
+                let value = |share: f64| {
+                    if equilibrium.torque(row).is_some() {
+                        equilibrium.at(rates, stepper, (t, state), h, share);
+                    }
+                    let balanced = equilibrium.torque(row);
+                    balanced.unwrap_or_else(|| value_at(rates, stepper, state, row, share))
+                };
                 let (share, value) = refined(value, turn.share);
                 note(&mut self.rows[row], value, t + share * h);
             }
@@ -115,11 +153,11 @@ fn turns((v0, r0): (f64, f64), (v1, r1): (f64, f64), h: f64) -> impl Iterator<It
 }
 
 /// Share and value of the extreme near a share, by parabolas through three values, twice.
-fn refined(value: impl Fn(f64) -> f64, near: f64) -> (f64, f64) {
+fn refined(mut value: impl FnMut(f64) -> f64, near: f64) -> (f64, f64) {
     let mut share = near;
     for reach in [0.05, 0.005] {
         let middle = share.clamp(reach, 1.0 - reach);
-        let [a, b, c] = [middle - reach, middle, middle + reach].map(&value);
+        let [a, b, c] = [middle - reach, middle, middle + reach].map(&mut value);
         let bend = a - 2.0 * b + c;
         if bend != 0.0 {
             share = (middle + 0.5 * reach * (a - c) / bend).clamp(middle - reach, middle + reach);

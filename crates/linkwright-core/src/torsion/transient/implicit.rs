@@ -377,6 +377,11 @@ impl Stepper for Implicit {
         state[i] + share * (a[i] + share * (b[i] + share * c[i]))
     }
 
+    fn slope(&self, share: f64, h: f64, i: usize) -> f64 {
+        let [a, b, c] = &self.polynomial;
+        (a[i] + share * (2.0 * b[i] + share * 3.0 * c[i])) / h
+    }
+
     fn work(&mut self, rates: &mut Rates<'_>, (t, state): (f64, &Vec<f64>), h: f64, to: &mut [f64]) {
         for k in 0..3 {
             sum(&mut self.stage, state, &self.beyond[k]);

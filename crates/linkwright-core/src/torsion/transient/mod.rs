@@ -9,11 +9,13 @@
 //! | [`stepper`] | what a method of integration can do |
 //! | [`explicit`] | steps of order 8, as long as the fastest swing allows |
 //! | [`matrix`], [`implicit`] | steps of order 5, whatever the stiffness |
+//! | [`equilibrium`] | torques of shafts as good as rigid |
 //! | [`extremes`] | largest and least torques and speeds, with their times |
 //! | [`course`] | the motion from event to event, sampled |
 
 pub mod course;
 pub mod curve;
+pub mod equilibrium;
 pub mod explicit;
 pub mod extremes;
 pub mod implicit;

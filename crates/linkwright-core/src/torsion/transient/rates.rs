@@ -61,6 +61,11 @@ impl<'a> Rates<'a> {
         }
     }
 
+    /// Inertia of a mass at the instant last evaluated, without bound for the ground \[kg m²\].
+    pub fn inertia_of(&self, mass: usize) -> f64 {
+        self.inertia.get(mass).copied().unwrap_or(f64::INFINITY)
+    }
+
     /// Whether angles of the state are counted from that of the first mass.
     pub fn is_relative(&self) -> bool {
         self.relative

@@ -5,8 +5,8 @@ use super::system::System;
 use crate::kernel::rk::{over, worse};
 
 /// Steps through a motion. In order for each step: [`Stepper::step`], [`Stepper::accept`], [`Stepper::fill`], and then
-/// [`Stepper::component`], [`Stepper::work`], [`Stepper::advance`]. Where the polynomial errs too much, [`Stepper::shorten`],
-/// and the step is taken again.
+/// [`Stepper::component`], [`Stepper::slope`], [`Stepper::work`], [`Stepper::advance`]. Where the polynomial errs too much,
+/// [`Stepper::shorten`], and the step is taken again.
 pub trait Stepper {
     /// Starts anew at an event, with a length to try first.
     fn begin(&mut self, rates: &mut Rates<'_>, t: f64, state: &[f64], first: f64);
@@ -39,6 +39,9 @@ pub trait Stepper {
 
     /// One number of the state at a share 0…1 of the step.
     fn component(&self, share: f64, state: &[f64], i: usize) -> f64;
+
+    /// Rate of one number of the state at a share of the step \[1/s\].
+    fn slope(&self, share: f64, h: f64, i: usize) -> f64;
 
     /// Adds the work of each power over the step.
     fn work(&mut self, rates: &mut Rates<'_>, at: (f64, &Vec<f64>), h: f64, to: &mut [f64]);
