@@ -130,8 +130,9 @@ def _external(machine: lw.Machine, scene: Scene) -> dict[str, np.ndarray]:
             found[name] += acts.on_member(name)[:, :2]
     result = forces(machine, speed=SPEED, acceleration=ACCELERATION)
     for drive in scene.structure.drives:
-        follower = follower_at(scene, drive.name)
-        if follower is not None:
+        driver = scene.mechanism.linear_drivers.get(drive.name) or scene.mechanism.cranks[drive.name]
+        if driver.follows() is not None:
+            follower = follower_at(scene, drive.name)
             found[drive.member] += _pressed(scene, follower, drive.name, result.drives[drive.name])
         elif drive.guide is not None:
             push = result.drives[drive.name][:, None] * scene.direction(drive.guide)

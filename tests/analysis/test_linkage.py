@@ -351,7 +351,7 @@ def test_circuits_of_four_bars() -> None:
 
 
 def test_circuits_need_dyads_that_are_free() -> None:
-    with pytest.raises(InputError, match="change points"):
+    with pytest.raises(InputError, match="change point of R at 0°, 180°"):
         lw.circuits(four_bar(0.1, 0.4, 0.1, 0.4))
 
 

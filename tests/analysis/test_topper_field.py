@@ -11,6 +11,8 @@ from topper_fields import TOPPER, machine
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineError
+from linkwright.kernel.files.templates import template
+from linkwright.machine.write import dumps
 from linkwright.topping import passes
 from linkwright.topping.constant_speed import constant_speed_lengths
 from linkwright.topping.edge import edges_of
@@ -18,6 +20,7 @@ from linkwright.topping.field import TopperField, topper_field
 from linkwright.topping.field_verdict import field_cautions, field_findings
 from linkwright.topping.head import cap_volume, head_diameter
 from linkwright.topping.knife import knives
+from linkwright.topping.model.field import RandomField
 from linkwright.topping.passes import pass_over
 from linkwright.topping.roots import draw_roots
 
@@ -85,7 +88,7 @@ def test_share_at_rest_is_a_convolution() -> None:
     shares = (np.arange(400) + 0.5) / 400
     assert topped.topper is not None
     field = topped.topper.field
-    assert isinstance(field, lw.machine.RandomField)
+    assert isinstance(field, RandomField)
     assert field.root_diameter is not None
     assert field.cut_height is not None
     D, h = np.meshgrid(field.root_diameter.values(shares), field.cut_height.values(shares))
@@ -269,7 +272,7 @@ def test_measured_roots_from_a_file(tmp_path: Path) -> None:
         float(np.mean(cap_volume([0.1, 0.12, 0.131, 0.1], [0.025, 0.031, 0.04, 0.0]))), rel=1e-12
     )
     # The file that is written has the roots themselves, and reads back as the same machine.
-    again = lw.loads(lw.files.dumps(topped))
+    again = lw.loads(dumps(topped))
     assert topper_field(again).to_dict() == found.to_dict()
 
 
@@ -318,7 +321,7 @@ def test_wrong_arguments() -> None:
     with pytest.raises(InputError, match="level: found 1,"):
         topper_field(topped, level=1.0)
     with pytest.raises(InputError, match=r"has no \[topper\]"):
-        topper_field(lw.loads(lw.files.template("slider-crank")))
+        topper_field(lw.loads(template("slider-crank")))
 
 
 def test_intervals_of_greater_shares_are_not_lower(tmp_path: Path) -> None:

@@ -7,8 +7,9 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import linkwright as lw
+from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantTorqueMotor, DcMotor, InductionMotor, TableMotor
-from linkwright.kernel.core.curve import product, straight, switched
+from linkwright.kernel.core.curve import Curve, product, straight, switched
 from linkwright.kernel.core.periodic_table import smooth, spline, waves
 from linkwright.kernel.errors import InputError
 from linkwright.machine.program.compiled import compile_machine
@@ -123,7 +124,7 @@ def test_motor_curve_is_the_characteristic(
     motor: InductionMotor | DcMotor | TableMotor | ConstantTorqueMotor,
 ) -> None:
     text = 'format = 1\nname = "m"\n[mechanism.cranks]\nA = { radius = "1 m" }\n'
-    machine = lw.loads(text).with_entries({"drive": lw.machine.Drive(motor=motor)})
+    machine = lw.loads(text).with_entries({"drive": Drive(motor=motor)})
     speeds = np.linspace(1.0, 300.0, 1499)
     wanted = compile_machine(machine).motor_torques(speeds)[0]
     curve = motor_curve(motor)
@@ -132,7 +133,7 @@ def test_motor_curve_is_the_characteristic(
     assert found == pytest.approx(wanted, abs=1e-5 * np.abs(wanted).max())
 
 
-def cubic(curve: lw.engine.curve.Curve, x: np.ndarray) -> np.ndarray:
+def cubic(curve: Curve, x: np.ndarray) -> np.ndarray:
     """Values of a curve by Hermite's cubics, straight lines outside."""
     k = np.clip(np.searchsorted(curve.x, x, side="right") - 1, 0, max(len(curve.x) - 2, 0))
     left = curve.y[0] + curve.before[0] * (x - curve.x[0])

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.cam.manufacture.drawing import Drawing
 from linkwright.cam.manufacture.track import Track
 
 ROOT = Path(__file__).parents[2]
@@ -29,7 +30,7 @@ sections = [
 """
 
 
-def drawings(entries: str) -> tuple[lw.exchange.drawing.Drawing, ...]:
+def drawings(entries: str) -> tuple[Drawing, ...]:
     return lw.cam_drawings(lw.cam_profile(lw.loads(TEXT.format(entries=entries))))
 
 
