@@ -15,12 +15,13 @@ from linkwright.kernel.files.library import library_path
 from linkwright.kinetostatics.forces import forces
 from linkwright.machine.program.compiled import drive_inertia
 from linkwright.machine.read import read
+from linkwright.papers.paper2 import checks
 from linkwright.papers.paper2.alternatives import Alternative
 from linkwright.papers.paper2.conclusions import conclusions, named
 from linkwright.papers.paper2.figures import figures
 from linkwright.papers.paper2.formulas import Formulas
 from linkwright.papers.paper2.page import page
-from linkwright.papers.paper2.paper import Paper2, checks, paper2
+from linkwright.papers.paper2.paper import Paper2, paper2
 from linkwright.papers.paper2.roller import centre_distance
 from linkwright.papers.paper2.rows import rows_of
 from linkwright.papers.published import printed_values

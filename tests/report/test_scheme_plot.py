@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sys
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,14 +11,12 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.transforms import Bbox
+from trains import Gear, Shaft, text
 
 import linkwright as lw
 from linkwright.kernel.figure.svg import svg
 from linkwright.torsion.figures.scheme import scheme_figure
 from linkwright.torsion.modes.scheme import Scheme, scheme
-
-sys.path.append(str(Path(__file__).parents[1] / "analysis"))
-from trains import Gear, Shaft, text
 
 THROWS = {"hub": 0.8, **{f"throw_{n}": 1.35 for n in range(1, 13)}, "flywheel": 38.0, "propeller": 52.0}
 MARINE = {"engine_1": 420.0, "hub_1": 35.0, "pinion_1": 12.0, "wheel": 310.0, "thrust": 40.0}
