@@ -1,4 +1,4 @@
-"""The compiled kernels. Used by files named `core` and by `machine.program` only; everything is SI and contiguous."""
+"""The compiled kernels, for files named `core` and `machine.program` alone; everything is SI and contiguous."""
 
 from collections.abc import Sequence
 from typing import final
