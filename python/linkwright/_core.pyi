@@ -1,4 +1,4 @@
-"""The compiled kernels, for files named `core` and `machine.program` alone; everything is SI and contiguous."""
+"""The compiled kernels, for files named `core` and `machine.program` alone; all is SI and contiguous."""
 
 from collections.abc import Sequence
 from typing import final
