@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from linkwright.pumping.gear_torque import GearTorque
     from linkwright.pumping.rod_rotator import RodRotatorMotion
     from linkwright.pumping.unit import PumpingUnitMotion
+    from linkwright.topping.model.topper import Topper
     from linkwright.topping.topper import TopperStudy
 
 # Intervals of the turn for forces, a degree: no line shows more, and four times as many take as much time as
@@ -87,6 +88,12 @@ class Study(DriveStudy):
     def gear_torque(self) -> GearTorque | None:
         """Torque of the gearbox of a pumping unit under its load."""
         return self.pumping_unit.gear if self.pumping_unit else None
+
+    @property
+    def knife(self) -> tuple[Topper, TopperStudy] | None:
+        """The topper with what its knife cuts; None without one."""
+        described, cut = self.machine.topper, self.topper
+        return None if described is None or cut is None else (described, cut)
 
     def results(self) -> dict[str, Result]:
         """The results that there are, by analysis."""

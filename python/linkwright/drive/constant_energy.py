@@ -101,11 +101,7 @@ def _exactly(compiled: Compiled) -> float:
         found: Floats = (J_d1 / J**2)[None]
         return found
 
-    turn = turn_curve(
-        acceleration,
-        np.array(sorted(set(compiled.kinks().tolist()))),
-        "angular acceleration at constant energy",
-    )
+    turn = turn_curve(acceleration, compiled.kinks(), "angular acceleration at constant energy")
     return max(abs(turn.extreme(sign)[0]) for sign in (1, -1))
 
 

@@ -4,11 +4,11 @@
 | --- | --- |
 | `cautions` | What the user of a pumping unit or of a rotator should know although it runs |
 | `figures/` | Figures of pumping units and rotators |
-| `gear_torque` | How does the polished rod move, and what does its gearbox carry? |
-| `lever` | How does the lever turn the rod string? |
+| `gear_torque` | Torque of the gearbox of a pumping unit: polished-rod load and counterbalance |
+| `lever` | Link and lever of a rotator as functions of the crank angle, and what the lever gives the worm |
 | `model/` | Pumping units and rotators in a machine file; the mechanism that they are |
-| `rod_rotator` | How does the lever turn the rod string? |
+| `rod_rotator` | The rotator of a sucker-rod string |
 | `tables` | Results of pumping units and of rotators as tables of text |
 | `template` | Machine files of the pumping units of the catalogue |
-| `unit` | How does the polished rod move, and what does its gearbox carry? |
+| `unit` | Beam pumping units |
 """

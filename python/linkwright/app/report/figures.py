@@ -23,10 +23,10 @@ def figures(study: Study) -> Iterator[Captioned]:
 
 def _slices(study: Study) -> Iterator[Captioned]:
     """Those of topper, cams and pumping unit, where the machine has such."""
-    if study.topper is not None and study.machine.topper is not None:
+    if study.knife is not None:
         from linkwright.topping.figures.captions import topper_figures
 
-        yield from topper_figures(study.machine, study.machine.topper, study.topper)
+        yield from topper_figures(study.machine, *study.knife)
     if study.cams:
         from linkwright.cam.figures.captions import cam_figures
 

@@ -84,11 +84,11 @@ def _context(study: Study, command: str) -> dict[str, Any]:
 
 def knife_scene(study: Study) -> dict[str, Any] | None:
     """Data of the moving view of a topper from above; None without one."""
-    if study.machine.topper is None or study.topper is None:
+    if study.knife is None:
         return None
     from linkwright.topping.scene import topper_scene
 
-    return topper_scene(study.machine, study.machine.topper, study.topper)
+    return topper_scene(study.machine, *study.knife)
 
 
 def _topper_formulas(study: Study) -> list[Formula]:
@@ -100,11 +100,11 @@ def _topper_formulas(study: Study) -> list[Formula]:
 
 
 def _topper_headline(study: Study) -> Iterator[tuple[str, str, str]]:
-    if study.machine.topper is None or study.topper is None:
+    if study.knife is None:
         return
     from linkwright.topping.tables.words import topper_headline
 
-    yield from topper_headline(study.machine.topper, study.topper)
+    yield from topper_headline(*study.knife)
 
 
 def _formulas(study: Study) -> list[Formula]:

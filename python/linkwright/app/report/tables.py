@@ -21,10 +21,10 @@ def tables(study: Study) -> list[Table]:
 
 def _slices(study: Study) -> Iterator[Table]:
     """Those of topper, cams and pumping unit, where the machine has such."""
-    if study.topper is not None and study.machine.topper is not None:
+    if study.knife is not None:
         from linkwright.topping.tables.topper import topper_tables
 
-        yield from topper_tables(study.machine.topper, study.topper)
+        yield from topper_tables(*study.knife)
     if study.cams:
         from linkwright.cam.tables.cam import cam_tables
 

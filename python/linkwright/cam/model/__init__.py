@@ -2,12 +2,12 @@
 
 | module | |
 | --- | --- |
-| `cam` | Cams, their followers as drivers, and what vibrates behind them |
-| `follower` | Cams, their followers as drivers, and what vibrates behind them |
-| `follower_motion` | The motion over a turn; what is wrong with sections |
-| `follower_train` | Cams, their followers as drivers, and what vibrates behind them |
-| `motion_law` | Sections of a cam's motion, and their laws |
-| `motion_section` | Sections of a cam's motion, and their laws |
-| `point_law` | Sections of a cam's motion, and their laws |
-| `section_faults` | The motion over a turn; what is wrong with sections |
+| `cam` | A cam on the crankshaft and the follower that it moves |
+| `follower` | The follower of a cam in the mechanism |
+| `follower_motion` | How the follower of a cam moves over a turn |
+| `follower_train` | The train between a cam and the mass that it moves, as one mass on one stiffness |
+| `motion_law` | The motion law of a section, as it is written in a machine file |
+| `motion_section` | A motion programme as it is written in a machine file |
+| `point_law` | Laws through points, as they are written in a machine file: splines and tables |
+| `section_faults` | What is wrong with a motion programme |
 """

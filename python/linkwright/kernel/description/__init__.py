@@ -2,13 +2,13 @@
 
 | module | |
 | --- | --- |
-| `base` | What all descriptions share; reading checked and raw ones alike |
+| `base` | What all descriptions share |
 | `curve` | Curves given by points |
 | `elsewhere` | Tables of a machine file that another room describes |
 | `formula` | Formulas as texts |
 | `formula_faults` | What can be wrong with a formula in a file: its text, its names, its constants |
-| `plain` | What all descriptions share; reading checked and raw ones alike |
-| `problems` | What belongs where; errors in the words of the file |
-| `schema_walk` | What belongs where; errors in the words of the file |
+| `plain` | Look into a description that may be a checked model or the raw tables of a file |
+| `problems` | Errors of pydantic, told in the words of the file |
+| `schema_walk` | What belongs at an address, read from the annotations of the models |
 | `text` | Entries by address |
 """

@@ -3,9 +3,9 @@
 | module | |
 | --- | --- |
 | `captions` | The figures of toppers with their captions |
-| `field` | Fields of roots under a topper; its knife varied, the best one |
+| `field` | A topper over a field of roots |
 | `lengths` | Lengths of their edges, and for which heads published ones do |
-| `phase` | Knives of toppers over the phase, and from above |
-| `sweep` | Fields of roots under a topper; its knife varied, the best one |
-| `view` | Knives of toppers over the phase, and from above |
+| `phase` | Toppers over the phase of the knife |
+| `sweep` | A topper over a field of roots with its knife varied: curves, maps, and the best knife |
+| `view` | The knife of a topper from above: its edge over a head, the area it sweeps, and what it leaves |
 """

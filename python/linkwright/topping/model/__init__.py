@@ -2,9 +2,9 @@
 
 | module | |
 | --- | --- |
-| `field` | Roots of a field, lengths that scatter; limits of a knife |
-| `limits` | Roots of a field, lengths that scatter; limits of a knife |
-| `motion` | Knives of root-crop toppers, and how they move |
-| `scatter` | Roots of a field, lengths that scatter; limits of a knife |
-| `topper` | Knives of root-crop toppers, and how they move |
+| `field` | The roots of a field that a topper goes over |
+| `limits` | What a knife of a topper shall reach, and the bounds within which the best is sought |
+| `motion` | How the knife of a topper is moved to and fro across the row |
+| `scatter` | Lengths that scatter from one piece to the next |
+| `topper` | The topper of a root-crop harvester |
 """

@@ -2,7 +2,7 @@
 
 | module | |
 | --- | --- |
-| `damper_design` | The best damper, in closed form and for a mode |
-| `damper_rules` | The best damper, in closed form and for a mode |
+| `damper_design` | The best damper for a mode of a train |
+| `damper_rules` | Dampers of one mass on a spring in closed form |
 | `ring_on_train` | The best damper for a train |
 """

@@ -2,18 +2,18 @@
 
 | module | |
 | --- | --- |
-| `carried` | Torque and heat of shafts; amplitudes and unevenness of discs |
+| `carried` | What the shafts of a train carry as it vibrates: torque, its extremes over all orders, heat |
 | `drive_line` | The train of a drive line, and how its mechanism excites it |
 | `engine_data` | What an engine is in a train |
-| `engine_torques` | What makes a train vibrate |
-| `excited` | What makes a train vibrate |
-| `forced` | Torque and heat of shafts; amplitudes and unevenness of discs |
-| `mechanism_torques` | What makes a train vibrate |
-| `mesh_torque` | Stresses in shafts, with those permitted; torque of gear stages |
+| `engine_torques` | Torques of an engine on its throws: gas, inertia, weight |
+| `excited` | A train made ready for forced vibration: its torques, and what it is at each speed |
+| `forced` | Forced vibration of a train: amplitudes, shaft torques and unevenness at every speed |
+| `mechanism_torques` | What a mechanism does to its drive line |
+| `mesh_torque` | Torque in the gear stages of a train, and where their teeth lose contact |
 | `peaks` | The largest torques of shafts over all speeds, also at resonances between the speeds of a run |
-| `stress` | Stresses in shafts, with those permitted; torque of gear stages |
+| `stress` | Shear stress in the shafts of a train, and what is permitted there |
 | `survey` | What is asked, at which speeds, and where it is not kept |
 | `synthesis` | Orders added up in phase |
-| `torques` | What makes a train vibrate |
+| `torques` | Torques on the discs of a train as harmonics of the angle of its first disc |
 | `unevenness_along` | The measure N over the cylinders, at every disc |
 """
