@@ -41,3 +41,22 @@ def test_peak_of_a_run_up() -> None:
     speeds = run.motion.at(np.linspace(0.0, run.time, 300_001))[1]
     assert run.speed_peak >= speeds.max()
     assert run.speed_peak == pytest.approx(speeds.max(), rel=1e-8)
+
+
+def test_peak_of_a_motor_in_a_narrow_corner() -> None:
+    """A tooth of 40 N m on a straight characteristic, a hundredth of the range of speed wide."""
+    made = lw.read("machines/roller_two_carts.toml")
+    plain = lw.steady_state(made)
+    assert made.drive is not None
+    ratio = made.drive.gearbox.ratio
+    low, high = (ratio * speed for speed in (plain.speed_min, plain.speed_max))
+    # Near the least speed, where the straight line has its greatest torque in the turn: 235 N m.
+    tip, half = low + 0.05 * (high - low), 0.005 * (high - low)
+    speed = np.array([0.0, tip - half, tip, tip + half, 2 * high])
+    torque = 215.0 - 265.0 * (speed - low) / (high - low) + [0.0, 0.0, 40.0, 0.0, 0.0]
+    motor = {"kind": "table", "speed": speed.tolist(), "torque": torque.tolist(), "inertia": 0.138}
+    found = lw.steady_state(lw.replace(made, {"drive.motor": motor}))
+    assert ratio * found.speed_min < tip < ratio * found.speed_max
+    # The tip is a point of the table: rounding of the speed there counts by the steepness of the tooth.
+    assert found.torque_motor_max == pytest.approx(torque[2], rel=1e-12)
+    assert found.power_motor_max == pytest.approx(torque[2] * tip, rel=1e-12)

@@ -318,3 +318,45 @@ def test_a_turn_needs_an_interval(two_carts: lw.Machine, n: int) -> None:
     for analysis in (lw.steady_state, lw.reduction):
         with pytest.raises(InputError, match="at least 1"):
             analysis(two_carts, n=n)
+
+
+@pytest.mark.parametrize("share", [1e-5, 3e-5, 1e-4, 3e-4])
+@pytest.mark.parametrize("start", range(0, 360, 45))
+def test_a_kink_over_speed_that_is_passed_and_passed_back(share: float, start: int) -> None:
+    """A flywheel swings by a torque −B cos φ; a brake bites from just below its greatest speed on."""
+    J, B, speed = 1.0, 20.0, 10.0
+    phi = np.radians(start)
+    energy = 0.5 * J * speed**2 + B * np.sin(phi)
+    bites = np.sqrt(2 * (energy + B) / J) * (1 - share)
+    text = f"""
+    format = 1
+    name = "flywheel with a brake"
+    [drive]
+    motor = {{ kind = "constant_torque", torque = 1e-9 }}
+    flywheel = {{ inertia = {J} }}
+    [mechanism.cranks.A]
+    radius = 0.1
+    [loads.swing]
+    kind = "formula"
+    on = "A"
+    torque = "-{B}*cos(phi)"
+    [loads.brake]
+    kind = "torque_speed"
+    speed = [0.0, {bites}, {bites + 1.0}]
+    torque = [0.0, 0.0, 1000.0]
+    """
+
+    def rhs(_: float, y: np.ndarray) -> list[float]:
+        return [y[1], (1e-9 - B * np.cos(y[0]) - 1000.0 * max(y[1] - bites, 0.0)) / J]
+
+    def kink(_: float, y: np.ndarray) -> float:
+        return float(y[1] - bites)
+
+    # SciPy sees the kink since its steps are short against the way past it, 0.01 rad or more.
+    reference = solve_ivp(
+        rhs, (0, 1.4), [phi, speed], "DOP853", rtol=1e-12, atol=1e-12, max_step=2e-4, events=kink
+    )
+    path = lw.transient(lw.loads(text), angle=phi, speed=speed, duration=1.4, accuracy=1e-10)
+    assert len(reference.t_events[0]) >= 2
+    assert path.speed[-1] == pytest.approx(reference.y[1, -1], rel=1e-8)
+    assert path.crank_angle[-1] == pytest.approx(reference.y[0, -1], rel=1e-8)

@@ -18,6 +18,9 @@ from linkwright.kernel.errors import LinkwrightError
 # Far more than any case needs on a busy machine, far less than anyone would wait.
 SECONDS = 60.0
 
+# A case that integrates by other means as well, or runs a command, takes longer.
+LONGEST = 120.0
+
 
 class PromiseError(Exception):
     """A promise that did not hold, with what is needed to see it again.

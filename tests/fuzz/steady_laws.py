@@ -22,6 +22,9 @@ _X, _W = np.polynomial.legendre.leggauss(6)
 # Rounding of a sum of torques that nearly cancel.
 _ROUNDING = 1e-13
 
+# Rounding of a speed: it comes from sums of about ten terms, each rounded to 1.1e-16.
+_ROUNDING_OF_SPEED = 2e-15
+
 
 def violations(machine: Machine, steady: SteadyState, accuracy: float) -> dict[str, float]:
     """Broken laws with their error as a share of the peak, where that is larger than the accuracy.
@@ -38,12 +41,30 @@ def violations(machine: Machine, steady: SteadyState, accuracy: float) -> dict[s
     found = {
         "numbers": 0.0 if all(np.isfinite(curve).all() for curve in _curves(steady)) else np.inf,
         "closure": abs(steady.speed[-1] / steady.speed[0] - 1) + abs(steady.time[-1] / steady.period - 1),
-        "energy": _energy(steady),
+        "energy": _energy(machine, steady),
         "balance": _balance(machine, steady),
         "extremes": _outside(steady),
         "integral": _integral(machine, steady),
     }
     return {law: error for law, error in found.items() if not error <= accuracy}
+
+
+def rounding(steady: SteadyState, compiled: Compiled) -> float:
+    """Torque that rounding makes: of the speed on the motor's characteristic, and of what goes to and fro [N m].
+
+    Where a drive idles this is all the torque that there is.
+
+    Parameters
+    ----------
+    steady : SteadyState
+        A steady motion.
+    compiled : Compiled
+        Its machine.
+    """
+    share = 1e-6
+    here, aside = (compiled.motor_torques(steady.speed * factor)[1] for factor in (1.0, 1.0 + share))
+    steep = np.abs(aside - here).max() / share
+    return float(_ROUNDING_OF_SPEED * steep + 1e-15 * (steady.inertia_reduced * steady.speed**2).max())
 
 
 def _curves(steady: SteadyState) -> list[Floats]:
@@ -56,10 +77,11 @@ def _peak(steady: SteadyState) -> float:
     return max(peak, 1e-4 * steady.speed_max**2)
 
 
-def _energy(steady: SteadyState) -> float:
+def _energy(machine: Machine, steady: SteadyState) -> float:
     """Work at the crank against that of the loads, as a share of what goes to and fro, rounding apart."""
     size = float(np.trapezoid(np.abs(steady.torque_load) + np.abs(steady.torque_drive), steady.crank_angle))
     idle = _ROUNDING * float((steady.inertia_reduced * steady.speed**2).max())
+    idle += 2 * np.pi * rounding(steady, compile_machine(machine))
     return max(abs(steady.energy_drive - steady.energy_load) - idle, 0.0) / max(size, idle)
 
 

@@ -282,15 +282,21 @@ def steady_state(
     status, scalars, curves = compiled.steady(phi, accuracy)
     if curves is None:
         raise _failure(status, scalars, compiled, accuracy)
-    return _from_core(scalars, curves, phi, compiled)
+    return _from_core(machine, scalars, curves, phi, compiled)
 
 
-def _motor_extremes(compiled: Compiled, low: float, high: float) -> tuple[float, float, float]:
+def _motor_extremes(
+    machine: Machine, compiled: Compiled, low: float, high: float
+) -> tuple[float, float, float]:
     """Minimum and maximum torque and maximum power of the motor for speeds of the crank between two.
 
     In a turn the speed takes every value between its extremes, and the torque depends on the speed alone.
     """
+    assert machine.drive is not None
+    assert machine.drive.motor is not None
     ratio = compiled.gear_factors[0]
+    marks = np.array(machine.drive.motor.speed_marks) / ratio
+    ends = np.unique(np.concatenate([[low, high], marks[(low < marks) & (marks < high)]]))
 
     def torque(omega: Floats) -> Floats:
         return compiled.motor_torques(omega)[0]
@@ -298,30 +304,36 @@ def _motor_extremes(compiled: Compiled, low: float, high: float) -> tuple[float,
     def power(omega: Floats) -> Floats:
         return torque(omega) * omega * ratio
 
-    return -_peak(lambda omega: -torque(omega), low, high), _peak(torque, low, high), _peak(power, low, high)
+    return -_peak(lambda omega: -torque(omega), ends), _peak(torque, ends), _peak(power, ends)
 
 
-def _peak(of: Callable[[Floats], Floats], low: float, high: float) -> float:
-    """Maximum of a function on an interval: the best sample, and again between its neighbours.
+def _peak(of: Callable[[Floats], Floats], ends: Floats) -> float:
+    """Maximum of a function that has one at most on each of some intervals, those from end to end.
 
-    A corner is met to the width of the last interval, 1e-9 of the first; a smooth peak to the square of that.
+    The best sample of each interval, and again between its neighbours, 1e-9 of it in the end: a smooth peak is met
+    to the square of that.
     """
-    best = -np.inf
-    for _ in range(_ZOOMS):
-        x = np.linspace(low, high, _SPEEDS_IN_TURN)
-        y = of(x)
-        top = int(np.argmax(y))
-        best = max(best, float(y[top]))
-        low, high = float(x[max(top - 1, 0)]), float(x[min(top + 1, _SPEEDS_IN_TURN - 1)])
+    best = float(of(ends).max())
+    low, high = ends[:-1, None], ends[1:, None]
+    for _ in range(_ZOOMS if len(ends) > 1 else 0):
+        x = low + (high - low) * np.linspace(0.0, 1.0, _SPEEDS_IN_TURN)
+        y = of(x.ravel()).reshape(x.shape)
+        best = max(best, float(y.max()))
+        top = y.argmax(axis=1)[:, None]
+        low, high = (
+            np.take_along_axis(x, np.clip(top + side, 0, _SPEEDS_IN_TURN - 1), axis=1) for side in (-1, 1)
+        )
     return best
 
 
-def _from_core(scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled) -> SteadyState:
+def _from_core(
+    machine: Machine, scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled
+) -> SteadyState:
     """The core's numbers by name; their order is that of `linkwright-core`, module `drive::batch`."""
     time, speed, acceleration, torque_motor, torque_drive, torque_load, inertia = curves
     low, high, drop, rise, period, multiplier, motor, drive, load, mean, rms, *places = scalars.tolist()
     low_at, high_at, drop_at, rise_at, reached, sweeps, steps, *others = places
-    weakest, strongest, most = _motor_extremes(compiled, low, high)
+    weakest, strongest, most = _motor_extremes(machine, compiled, low, high)
     ratio = compiled.gear_factors[0]
     return SteadyState(
         crank_angle=phi,

@@ -66,10 +66,10 @@ impl Rows<'_> {
 /// Quantities of a row's steady motion, in the order of a result row.
 pub const QUANTITIES: usize = 13;
 
-/// Steps a turn in lanes; [`PROMISED`] tells where they do not suffice.
-const STEPS: usize = 20;
+/// Steps a turn in lanes before they are halved; [`PROMISED`] tells where these do not suffice.
+const STEPS: usize = 16;
 
-/// Relative error that a row in lanes may have, by its estimate; rows above it are solved one by one.
+/// Relative error that a row in lanes may have, as measured; rows above it are solved one by one.
 const PROMISED: f64 = 1e-7;
 
 /// Rows that a thread takes at once: enough to amortise its buffers, few enough to share the work evenly.
@@ -149,13 +149,21 @@ impl Job for Chunk<'_> {
                 #[inline(always)]
                 || machine.breaks(&mut m),
             );
-            let mut turn = R::outline(
+            let mut coarse = R::outline(
                 #[inline(always)]
                 || Turn::of_machines(&machine, &breaks, STEPS, &mut m),
             );
             R::outline(
                 #[inline(always)]
-                || turn.start_from_balance(&machine),
+                || coarse.start_from_balance(&machine),
+            );
+            R::outline(
+                #[inline(always)]
+                || coarse.solve(&machine),
+            );
+            let mut turn = R::outline(
+                #[inline(always)]
+                || coarse.halved(&machine, &mut m),
             );
             R::outline(
                 #[inline(always)]
@@ -169,7 +177,7 @@ impl Job for Chunk<'_> {
                 #[inline(always)]
                 || turn.totals(&machine),
             );
-            sweeps += u64::from(turn.sweeps) * status.len() as u64;
+            sweeps += u64::from(coarse.sweeps + turn.sweeps) * status.len() as u64;
             for (k, quantity) in row_of(turn.multiplier, &extremes, &totals).into_iter().enumerate() {
                 quantity.store(&mut lane);
                 for i in 0..status.len() {
@@ -178,7 +186,7 @@ impl Job for Chunk<'_> {
             }
             let error = R::outline(
                 #[inline(always)]
-                || turn.estimate(&machine, &mut m),
+                || turn.error_against(&coarse, &machine, &mut m),
             );
             let may_have_faster = R::outline(
                 #[inline(always)]

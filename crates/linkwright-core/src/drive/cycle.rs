@@ -364,6 +364,30 @@ impl<R: Real> Turn<R> {
         Self::tabulate(machine, steps, Layout::Steps, m)
     }
 
+    /// The turn in steps of half the length, to be solved from this solution on.
+    #[inline(always)]
+    pub fn halved(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Self {
+        let mut steps = Vec::with_capacity(2 * self.steps.len());
+        for step in &self.steps {
+            let h = step.h * 0.5;
+            steps.extend([(step.phi, h), (step.phi + h, h)]);
+        }
+        let mut halved = Self::tabulate(machine, steps, self.layout, m);
+        let half = R::splat(0.5);
+        for (halves, whole) in halved.steps.chunks_exact_mut(2).zip(&self.steps) {
+            let quintic = whole.quintic();
+            let X = [R::splat(0.0), half].map(
+                #[inline(always)]
+                |from| stages_of_part(&quintic, from, half),
+            );
+            for (part, X) in halves.iter_mut().zip(X) {
+                part.X = X;
+            }
+            (halves[0].u, halves[1].u) = (whole.u, halves[0].end());
+        }
+        halved
+    }
+
     #[inline(always)]
     fn tabulate(machine: &Machine<'_, R>, steps: Vec<(R, R)>, layout: Layout, m: &mut Motion<R>) -> Self {
         let zero = R::splat(0.0);

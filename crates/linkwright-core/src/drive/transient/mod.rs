@@ -5,19 +5,23 @@
 //! ```
 //!
 //! by [`crate::kernel::rk`] with these events met exactly by the end of a step: kinks over the angle (dead centres
-//! under dry friction, knots of tables), speeds at which the drive's characteristic has a kink, standstill.
+//! under dry friction, knots of tables), speeds at which the drive's characteristic has a kink, standstill. A step whose
+//! speed passes such a speed and comes back inside is cut where the speed turns.
 //! At standstill the dry loads decide: what is left of the drive's torque must exceed them to move on.
 //!
 //! | module | answers |
 //! | --- | --- |
 //! | [`equation`] | the equation of motion, and which way the machine goes from rest |
 //! | [`attempt`] | steps of any length from one instant |
+//! | [`turns`] | where the speed turns inside a step, past a kink or not |
 
 pub mod attempt;
 pub mod equation;
+pub mod turns;
 
 use self::attempt::Attempt;
 use self::equation::{AT_REST, Equation, Y};
+use self::turns::{Bernstein, passed_and_back};
 use crate::drive::cycle::Machine;
 use crate::drive::mesh::crossing;
 use crate::drive::structure::Plan;
@@ -270,10 +274,14 @@ impl Path {
                 reason = End::of_error(on_the_way);
                 continue;
             }
+            let (rate, between) = attempt.ended();
+            if let Some(share) = self.passed_inside(y[1], &between[1]) {
+                longest = h * share;
+                continue;
+            }
             // A step cut short by an event says nothing about the length that the next may have.
             let grown = tried * next_factor(trial.error.max(on_the_way)).min(growth_max);
             let next = if tried < longest { grown.max(longest) } else { grown };
-            let (rate, between) = attempt.ended();
             return Ok(Accepted {
                 h,
                 y: end,
@@ -317,6 +325,12 @@ impl Path {
             }
         }
         first
+    }
+
+    /// The share of the step at which to cut it, where its speed passes a kink of the drive or zero and comes back.
+    fn passed_inside(&self, omega: f64, between: &[f64; 7]) -> Option<f64> {
+        let kinks = self.speeds.iter().copied().chain([0.0]);
+        passed_and_back(&Bernstein::new(omega, between), kinks, AT_REST * self.speed_scale)
     }
 
     fn finish(mut self, follower: &mut Equation<'_>) -> Trajectory {

@@ -153,8 +153,9 @@ impl<'a, S: Stepper> Follower<'a, S> {
             Method::Implicit => (estimated(request.accuracy), fastest.min(FOLLOWED)),
             _ => (request.accuracy, fastest),
         };
-        let mut scale = Scale::new([accuracy, request.accuracy], &rates, followed);
-        scale.widen(&state);
+        let scale = Scale::new([accuracy, request.accuracy], &rates, followed);
+        let mut scale = if method == Method::Implicit { scale } else { scale.following() };
+        scale.widen(rates.system, &state);
         Follower {
             request,
             stepper,
@@ -244,7 +245,7 @@ impl<'a, S: Stepper> Follower<'a, S> {
         }
         self.stepper.advance();
         std::mem::swap(&mut self.state, &mut self.end);
-        self.scale.widen(&self.state);
+        self.scale.widen(self.rates.system, &self.state);
         self.course.time = reached;
         self.course.steps += 1;
         true

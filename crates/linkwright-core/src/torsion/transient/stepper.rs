@@ -1,7 +1,7 @@
 //! What a method of integration can do, and how exact it has to be.
 
 use super::rates::Rates;
-use super::system::System;
+use super::system::{Link, System};
 use crate::kernel::rk::{over, worse};
 
 /// Steps through a motion. In order for each step: [`Stepper::step`], [`Stepper::accept`], [`Stepper::fill`], and then
@@ -57,10 +57,14 @@ pub trait Stepper {
 /// accuracy.
 const TWIST_FLOOR: f64 = 1e-6;
 
+/// Torque below which nothing is asked for \[N m\]: what that twist makes in a shaft of 1 MN m/rad. It counts in shafts
+/// stiffer than that, where steps follow their swings.
+const TORQUE_FLOOR: f64 = 1.0;
+
 /// A train without shafts has no swing that says how exact speeds shall be: then as if it had one this slow \[rad/s\].
 const SLOWEST: f64 = 1.0;
 
-/// Share of the largest twist or speed so far below which the accuracy is no longer relative to the number itself.
+/// Share of the largest twist, torque or speed so far below which the accuracy is no longer relative to the number itself.
 const SMALL: f64 = 0.01;
 
 /// How large an error of each number of the state may be.
@@ -73,8 +77,11 @@ pub struct Scale {
     n: usize,
     relative: bool,
     speed_floor: f64,
-    /// Largest twist, speed beside the first mass, and speed of the first mass so far.
+    /// Whether steps follow the swings of every shaft, so that its twist has to tell its torque.
+    follows: bool,
+    /// Largest twist, torque of a shaft, speed beside the first mass, and speed of the first mass so far.
     twist: f64,
+    torque: f64,
     aside: f64,
     speed: f64,
 }
@@ -89,10 +96,17 @@ impl Scale {
             n,
             relative,
             speed_floor: TWIST_FLOOR * omega.max(SLOWEST),
+            follows: false,
             twist: 0.0,
+            torque: 0.0,
             aside: 0.0,
             speed: 0.0,
         }
+    }
+
+    /// The same for steps that follow the swings of every shaft, however stiff.
+    pub fn following(self) -> Self {
+        Scale { follows: true, ..self }
     }
 
     /// Error that one number of the state, of a size, may have.
@@ -114,10 +128,17 @@ impl Scale {
             let size = size(&twist);
             let angle =
                 link.ratio * states[1][..self.n].iter().skip(1).fold(0.0, |most: f64, x| most.max(x.abs()));
-            let tolerance = self.between * size.max(SMALL * self.twist).max(TWIST_FLOOR);
+            let tolerance = self.between * size.max(self.twist_floor(link));
             over(twist(error), tolerance, size.max(angle))
         });
         numbers.chain(links).fold(0.0, worse)
+    }
+
+    /// Twist of a link below which the accuracy is no longer relative to it.
+    fn twist_floor(&self, link: &Link) -> f64 {
+        let by_angle = (SMALL * self.twist).max(TWIST_FLOOR);
+        let by_torque = (SMALL * self.torque).max(TORQUE_FLOOR) / link.stiffness;
+        if self.follows { by_angle.min(by_torque) } else { by_angle }
     }
 
     /// Size to which the accuracy of one number is relative.
@@ -133,7 +154,9 @@ impl Scale {
     }
 
     /// Takes note of a state that was reached.
-    pub fn widen(&mut self, state: &[f64]) {
+    pub fn widen(&mut self, system: &System, state: &[f64]) {
+        let torque = |link: &Link| link.stiffness * link.twist(self.n, self.relative, |i| state[i]).abs();
+        self.torque = system.links.iter().map(torque).fold(self.torque, f64::max);
         let first = usize::from(self.relative);
         let largest = |list: &[f64], so_far: f64| list.iter().fold(so_far, |most, x| most.max(x.abs()));
         self.twist = largest(&state[first..self.n], self.twist);
