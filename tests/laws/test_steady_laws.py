@@ -8,6 +8,7 @@ from __future__ import annotations
 from itertools import pairwise
 from pathlib import Path
 
+import kinds
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -321,3 +322,18 @@ def test_rows_of_a_batch_are_the_single_answer(machine: Path | int) -> None:
             assert getattr(rows, name)[row] == pytest.approx(getattr(steady, name), rel=allowed), name
         for name in ("acceleration_min", "acceleration_max"):
             assert getattr(rows, name)[row] == pytest.approx(getattr(steady, name), abs=allowed * peak), name
+
+
+@pytest.mark.parametrize(
+    "seed",
+    [1341495221215199450, 2238092810187960231, 4104776332472527687, 4285566245240791735, 1251784259052218246],
+)
+def test_rows_of_a_batch_are_the_machines_alone(seed: int) -> None:
+    """Machines whose error lies in steps that look no coarser than others: dead centres under tanh(20 v), narrow dips."""
+    kinds.run("batch", seed)
+
+
+@pytest.mark.parametrize("seed", [1130947188539268203, 2669891020757566098, 2862354225198245094])
+def test_laws_know_what_rounding_is(seed: int) -> None:
+    """Two drives that idle, and one so steep that SciPy has to march more finely than it does as a rule."""
+    kinds.run("drive", seed)

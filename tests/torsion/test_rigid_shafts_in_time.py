@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from test_torsion_transient import chain
 
+from linkwright.kernel.errors import ConvergenceError
 from linkwright.torsion.core.torque import Decaying, TrainTorque
 from linkwright.torsion.in_time.transient import TorsionTransient, follow_train
 
@@ -23,7 +26,14 @@ def raised_cosine() -> list[TrainTorque]:
     return [TrainTorque("mean", 0, M), TrainTorque("wave", 0, -M, wave)]
 
 
-def moved(k: float, c: float, accuracy: float, speed: float = 1.0) -> TorsionTransient:
+def moved(
+    k: float,
+    c: float,
+    accuracy: float,
+    speed: float = 1.0,
+    method: Literal["auto", "explicit", "implicit"] = "implicit",
+    duration: float = DURATION,
+) -> TorsionTransient:
     """Three discs; beyond the soft shaft a rigid one, at `speed` times that of the first disc."""
     n = np.array([1.0, speed, speed])
     train = chain(
@@ -34,7 +44,7 @@ def moved(k: float, c: float, accuracy: float, speed: float = 1.0) -> TorsionTra
         speed=[1.0, speed, speed],
         torques=raised_cosine(),
     )
-    return follow_train(train, duration=DURATION, accuracy=accuracy, method="implicit", sample_time=7e-4)
+    return follow_train(train, duration=duration, accuracy=accuracy, method=method, sample_time=7e-4)
 
 
 @pytest.fixture(scope="module")
@@ -68,6 +78,39 @@ def test_rigid_shaft_makes_two_discs_one(
     assert found.torque_max[1] >= found.torque[1].max()
     # Samples 7e-4 s apart miss the peak by (Ω·7e-4/2)²/2 of its wave at most, of the swing some times that.
     assert found.torque_max[1] * speed <= rigid.max() * (1 + 5e-3)
+
+
+# A tenth of the time, so that steps that follow the swings of the rigid shaft are some ten thousand.
+SHORT = 0.05
+
+
+def off_one(found: TorsionTransient, one: tuple[Floats, Floats, Floats]) -> float:
+    """Largest error of the rigid shaft's torque, as a share of its largest."""
+    # The last sample is the end, which no even sample of the longer motion meets.
+    rigid = one[1][: len(found.time) - 1]
+    return float(np.abs(found.torque[1, :-1] - rigid).max() / np.abs(rigid).max())
+
+
+@pytest.mark.parametrize(("k", "accuracy"), [(1e9, 1e-4), (1e9, 1e-6), (1e11, 1e-4), (1e11, 1e-6), (1e12, 1e-4)])
+def test_steps_that_follow_a_stiff_shaft_know_its_torque(
+    one: tuple[Floats, Floats, Floats], k: float, accuracy: float
+) -> None:
+    """Its twist is 1e-8 to 1e-11 rad: an accuracy of the angles says nothing about it."""
+    found = moved(k, 0.0, accuracy, method="explicit", duration=SHORT)
+    assert off_one(found, one) <= accuracy + 3 * K / k
+
+
+@pytest.mark.parametrize("k", [1e12, 1e13])
+@pytest.mark.parametrize("accuracy", [1e-6, 1e-8])
+def test_a_torque_lost_in_rounding_is_not_told(
+    one: tuple[Floats, Floats, Floats], k: float, accuracy: float
+) -> None:
+    """Steps that gather rounding of angles, 1e-18 rad each, are refused, and by themselves give way to others."""
+    with pytest.raises(ConvergenceError, match=r"shaft s1, 1e\+1[23] N m/rad, .* lost in the rounding"):
+        moved(k, 0.0, accuracy, method="explicit", duration=SHORT)
+    found = moved(k, 0.0, accuracy, method="auto", duration=SHORT)
+    assert found.method == "implicit"
+    assert off_one(found, one) <= accuracy + 3 * K / k + 4e-10
 
 
 def test_rigid_shafts_in_parallel_share_by_stiffness() -> None:

@@ -21,7 +21,7 @@ use crate::linkage::mechanism::{Element, Fixed, Mechanism};
 
 /// Number of the language in which machines, cams and trains cross the border: kinds of rows, order of lists and of
 /// results. It goes up with every change of these, here and in `linkwright.kernel.core.core_format`.
-pub const FORMAT: u32 = 11;
+pub const FORMAT: u32 = 12;
 
 /// The integer tables of a plan, row by row, and the knots of its tables end to end.
 #[derive(Clone, Copy, Debug)]

@@ -230,7 +230,8 @@ def follow_train(
         Relative, of a step, at its end and on the way there.
     method : str
         "explicit" steps of order 8 follow every swing; "implicit" ones of order 5 let die out those faster
-        than a step; "auto" takes these where stability would ask the others for more than 200 000 steps.
+        than a step; "auto" takes these where stability would ask the others for more than 200 000 steps, and
+        where a shaft is so stiff that its twist is lost in the rounding of the angles.
     steps_max : int
         Steps after which it is given up.
 
@@ -303,8 +304,19 @@ def _times(duration: float, sample_time: float | None) -> Floats:
     return np.linspace(0.0, duration, samples + 1)
 
 
+# The core's end of a motion in which a twist says too little of its shaft's torque.
+_ROUNDED = 4
+
+
 def _given_up(train: MovingTrain, moved: Moved, accuracy: float) -> str:
     """One sentence: when, why, and what to do."""
+    if moved.end == _ROUNDED:
+        shaft = int(np.argmax(train.stiffness))
+        return (
+            f"the torque of shaft {train.shafts[shaft]}, {train.stiffness[shaft]:.4g} N m/rad, is not known to the "
+            f"accuracy {accuracy:g}: its twist is lost in the rounding of the angles of its ends; take method "
+            '"auto" or "implicit", or ask for less'
+        )
     when = f"the motion was given up at {moved.time:.6g} s after {moved.steps} steps"
     if moved.end == 3:
         return f"{when}: an acceleration is no finite number; look at the torques"

@@ -5,6 +5,7 @@ use super::explicit::{Explicit, STABLE_PHASE};
 use super::extremes::{Extreme, Extremes};
 use super::implicit::Implicit;
 use super::rates::Rates;
+use super::rounding::Rounding;
 use super::stepper::{Scale, Stepper};
 use super::system::System;
 use crate::kernel::call::poll;
@@ -30,7 +31,7 @@ pub struct Request<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Method {
-    /// Explicit unless the fastest swing would ask for too many steps.
+    /// Explicit unless the fastest swing would ask for too many steps, or a torque be lost in the rounding of angles.
     Auto = 0,
     Explicit = 1,
     Implicit = 2,
@@ -48,6 +49,8 @@ pub enum End {
     Inaccurate = 2,
     /// An acceleration is no finite number at the start of a stretch.
     NotFinite = 3,
+    /// The torque of a shaft is lost in the rounding of angles.
+    Rounded = 4,
 }
 
 /// The motion.
@@ -93,18 +96,18 @@ pub fn follow(system: &System, request: &Request<'_>) -> Course {
     rates.derivative(request.start, &state, &mut state.clone());
     let fastest = rates.fastest();
     let stiff = (request.duration - request.start) * fastest / STABLE_PHASE > STIFF;
-    let method = match request.method {
-        Method::Auto if stiff => Method::Implicit,
-        Method::Auto => Method::Explicit,
-        chosen => chosen,
-    };
-    if method == Method::Implicit {
-        let stepper = Implicit::new(&rates);
-        Follower::new(rates, state, request, method, fastest, stepper).run()
-    } else {
+    let auto = request.method == Method::Auto;
+    if !(request.method == Method::Implicit || auto && stiff) {
         let stepper = Explicit::new(&rates);
-        Follower::new(rates, state, request, method, fastest, stepper).run()
+        let follower =
+            Follower::new(rates.clone(), state.clone(), request, Method::Explicit, fastest, stepper);
+        let course = follower.run();
+        if !(auto && course.end == End::Rounded) {
+            return course;
+        }
     }
+    let stepper = Implicit::new(&rates);
+    Follower::new(rates, state, request, Method::Implicit, fastest, stepper).run()
 }
 
 struct Follower<'a, S> {
@@ -118,6 +121,7 @@ struct Follower<'a, S> {
     equilibrium: Equilibrium,
     /// Whether it tells the torque of a shaft in this step.
     rigid: bool,
+    rounding: Rounding,
     course: Course,
     state: Vec<f64>,
     end: Vec<f64>,
@@ -164,6 +168,7 @@ impl<'a, S: Stepper> Follower<'a, S> {
             extremes: Extremes::new(&rates),
             equilibrium: Equilibrium::new(rates.system),
             rigid: false,
+            rounding: Rounding::new(rates.system),
             course,
             end: state.clone(),
             sample: state.clone(),
@@ -183,12 +188,22 @@ impl<'a, S: Stepper> Follower<'a, S> {
                 break;
             }
         }
+        let follows = self.course.method == Method::Explicit;
+        if follows && self.course.end == End::Time && self.is_rounded() {
+            self.course.end = End::Rounded;
+        }
         let [kinetic, potential] = self.rates.energies(&self.state);
         self.course.energies[2..].copy_from_slice(&[kinetic, potential]);
         self.course.extremes = self.extremes.rows;
         self.course.rejected = self.stepper.rejected();
         self.course.evaluations = self.rates.evaluations;
         self.course
+    }
+
+    /// Whether the twist of some shaft does not tell its torque as exactly as asked for.
+    fn is_rounded(&self) -> bool {
+        let Course { steps, .. } = self.course;
+        self.rounding.hides(self.rates.system, steps, self.request.accuracy, &self.extremes.rows)
     }
 
     /// Begins to record: extremes, work and energy count from here.
@@ -246,6 +261,7 @@ impl<'a, S: Stepper> Follower<'a, S> {
         self.stepper.advance();
         std::mem::swap(&mut self.state, &mut self.end);
         self.scale.widen(self.rates.system, &self.state);
+        self.rounding.note(self.rates.system, self.rates.is_relative(), &self.state);
         self.course.time = reached;
         self.course.steps += 1;
         true

@@ -10,6 +10,7 @@
 //! | [`explicit`] | steps of order 8, as long as the fastest swing allows |
 //! | [`matrix`], [`implicit`] | steps of order 5, whatever the stiffness |
 //! | [`equilibrium`] | torques of shafts as good as rigid |
+//! | [`rounding`] | what the rounding of angles leaves of torques |
 //! | [`extremes`] | largest and least torques and speeds, with their times |
 //! | [`course`] | the motion from event to event, sampled |
 
@@ -22,6 +23,7 @@ pub mod implicit;
 pub mod matrix;
 pub mod periodic;
 pub mod rates;
+pub mod rounding;
 pub mod stepper;
 pub mod system;
 pub mod torque;

@@ -67,6 +67,11 @@ const SLOWEST: f64 = 1.0;
 /// Share of the largest twist, torque or speed so far below which the accuracy is no longer relative to the number itself.
 const SMALL: f64 = 0.01;
 
+/// Torque of a shaft to which its accuracy is relative, from its own size and the greatest of any \[N m\].
+pub fn torque_counted(size: f64, greatest: f64) -> f64 {
+    size.max(SMALL * greatest).max(TORQUE_FLOOR)
+}
+
 /// How large an error of each number of the state may be.
 #[derive(Clone, Copy, Debug)]
 pub struct Scale {
@@ -137,7 +142,7 @@ impl Scale {
     /// Twist of a link below which the accuracy is no longer relative to it.
     fn twist_floor(&self, link: &Link) -> f64 {
         let by_angle = (SMALL * self.twist).max(TWIST_FLOOR);
-        let by_torque = (SMALL * self.torque).max(TORQUE_FLOOR) / link.stiffness;
+        let by_torque = torque_counted(0.0, self.torque) / link.stiffness;
         if self.follows { by_angle.min(by_torque) } else { by_angle }
     }
 
