@@ -354,7 +354,7 @@ def test_a_kink_over_speed_that_is_passed_and_passed_back(share: float, start: i
 
     # SciPy sees the kink since its steps are short against the way past it, 0.01 rad or more.
     reference = solve_ivp(
-        rhs, (0, 1.4), [phi, speed], "DOP853", rtol=1e-12, atol=1e-12, max_step=2e-4, events=kink
+        rhs, (0, 1.4), [phi, speed], "DOP853", rtol=1e-13, atol=1e-13, max_step=2e-4, events=kink
     )
     path = lw.transient(lw.loads(text), angle=phi, speed=speed, duration=1.4, accuracy=1e-10)
     assert len(reference.t_events[0]) >= 2

@@ -320,7 +320,7 @@ def test_work_of_a_known_motion() -> None:
         accuracy=1e-9,
     )
     assert isinstance(found, TorsionTransient)
-    assert (found.steps, found.steps_rejected, found.evaluations) == (1185, 73, 21388)
+    assert (found.steps, found.steps_rejected, found.evaluations) == (1195, 81, 21694)
 
 
 def test_wrong_numbers_are_told() -> None:
