@@ -27,8 +27,8 @@ Inputs = Mapping[str, str]
 # What every number and curve of a steady motion must keep; the solver's own promise is sharper.
 WITHIN = 1e-6
 
-# Marching errs by some of its tolerance a step, and passes kinks by ever smaller steps. Where a motor is so steep
-# that the first errs by more than is looked for, the second tells.
+# Marching errs by some of its tolerance a step, and passes kinks by ever smaller steps. Where a motor is so
+# steep that the first errs by more than is looked for, the second tells.
 MARCH = (1e-10, 1e-12)
 
 # Angles at which curves are compared.

@@ -50,7 +50,7 @@ def violations(machine: Machine, steady: SteadyState, accuracy: float) -> dict[s
 
 
 def rounding(steady: SteadyState, compiled: Compiled) -> float:
-    """Torque that rounding makes: of the speed on the motor's characteristic, and of what goes to and fro [N m].
+    """Torque that rounding makes: of the speed on the characteristic, and of what goes to and fro [N m].
 
     Where a drive idles this is all the torque that there is.
 

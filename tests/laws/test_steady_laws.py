@@ -329,7 +329,7 @@ def test_rows_of_a_batch_are_the_single_answer(machine: Path | int) -> None:
     [1341495221215199450, 2238092810187960231, 4104776332472527687, 4285566245240791735, 1251784259052218246],
 )
 def test_rows_of_a_batch_are_the_machines_alone(seed: int) -> None:
-    """Machines whose error lies in steps that look no coarser than others: dead centres under tanh(20 v), narrow dips."""
+    """Errors lie in steps that look no coarser than others: dead centres under tanh(20 v), narrow dips."""
     kinds.run("batch", seed)
 
 

@@ -95,7 +95,9 @@ def off_one(found: TorsionTransient) -> float:
     return float(np.abs(found.torque[1] - rigid).max() / np.abs(rigid).max())
 
 
-@pytest.mark.parametrize(("k", "accuracy"), [(1e9, 1e-4), (1e9, 1e-6), (1e11, 1e-4), (1e11, 1e-6), (1e12, 1e-4)])
+@pytest.mark.parametrize(
+    ("k", "accuracy"), [(1e9, 1e-4), (1e9, 1e-6), (1e11, 1e-4), (1e11, 1e-6), (1e12, 1e-4)]
+)
 def test_steps_that_follow_a_stiff_shaft_know_its_torque(k: float, accuracy: float) -> None:
     """Its twist is 1e-8 to 1e-11 rad: an accuracy of the angles says nothing about it."""
     found = moved(k, 0.0, accuracy, method="explicit", duration=SHORT)
@@ -105,7 +107,7 @@ def test_steps_that_follow_a_stiff_shaft_know_its_torque(k: float, accuracy: flo
 @pytest.mark.parametrize("k", [1e12, 1e13])
 @pytest.mark.parametrize("accuracy", [1e-6, 1e-8])
 def test_a_torque_lost_in_rounding_is_not_told(k: float, accuracy: float) -> None:
-    """Steps that gather rounding of angles, 1e-18 rad each, are refused, and by themselves give way to others."""
+    """Steps that gather rounding of angles, 1e-18 rad each, are refused; "auto" takes others."""
     with pytest.raises(ConvergenceError, match=r"shaft s1, 1e\+1[23] N m/rad, .* lost in the rounding"):
         moved(k, 0.0, accuracy, method="explicit", duration=SHORT)
     found = moved(k, 0.0, accuracy, method="auto", duration=SHORT)

@@ -310,8 +310,8 @@ def _motor_extremes(
 def _peak(of: Callable[[Floats], Floats], ends: Floats) -> float:
     """Maximum of a function that has one at most on each of some intervals, those from end to end.
 
-    The best sample of each interval, and again between its neighbours, 1e-9 of it in the end: a smooth peak is met
-    to the square of that.
+    The best sample of each interval, and again between its neighbours, 1e-9 of it in the end: a smooth peak
+    is met to the square of that.
     """
     best = float(of(ends).max())
     low, high = ends[:-1, None], ends[1:, None]

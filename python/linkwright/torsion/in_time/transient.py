@@ -313,9 +313,9 @@ def _given_up(train: MovingTrain, moved: Moved, accuracy: float) -> str:
     if moved.end == _ROUNDED:
         shaft = int(np.argmax(train.stiffness))
         return (
-            f"the torque of shaft {train.shafts[shaft]}, {train.stiffness[shaft]:.4g} N m/rad, is not known to the "
-            f"accuracy {accuracy:g}: its twist is lost in the rounding of the angles of its ends; take method "
-            '"auto" or "implicit", or ask for less'
+            f"the torque of shaft {train.shafts[shaft]}, {train.stiffness[shaft]:.4g} N m/rad, is not known "
+            f"to the accuracy {accuracy:g}: its twist is lost in the rounding of the angles of its ends; "
+            'take method "auto" or "implicit", or ask for less'
         )
     when = f"the motion was given up at {moved.time:.6g} s after {moved.steps} steps"
     if moved.end == 3:
