@@ -122,15 +122,17 @@ def _third() -> _Shown:
 
 def _fourth() -> _Shown:
     """Paper 4."""
-    from linkwright.papers.paper4.conclusions import conclusions
-    from linkwright.papers.paper4.figures import figures
-    from linkwright.papers.paper4.page import page
     from linkwright.papers.paper4.paper import paper4
+    from linkwright.papers.sheet import page
 
     paper = paper4()
-    show = partial(_print_rows, paper, conclusions(paper))
     return _Shown(
-        paper.number, paper.title, paper.to_dict(), partial(figures, paper), partial(page, paper), show
+        paper.number,
+        paper.title,
+        paper.to_dict(),
+        paper.figures,
+        partial(page, paper),
+        partial(_print_rows, paper, paper.conclusions),
     )
 
 

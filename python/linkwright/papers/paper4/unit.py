@@ -133,12 +133,12 @@ def _place(unit: Unit) -> Place:
 
 
 def rounded_lengths(data: dict[str, Any]) -> tuple[float, float]:
-    """Link and lever with k_1 = 3 m and the beam placed so that the printed link comes out."""
-    given, wanted = data["given"], data["continuous"]["l_4"]
+    """Link and lever with the chosen k_1 and the beam placed so that the printed link comes out."""
+    given, wanted, k_1 = data["given"], data["continuous"]["l_4"], data["chosen"]["k_1"]
 
     def gap(x: Floats) -> Floats:
-        return np.array([0.5 * sum(_extremes(given, 3.0, float(x[0]))) - wanted])
+        return np.array([0.5 * sum(_extremes(given, k_1, float(x[0]))) - wanted])
 
     top = float(_newton(gap, np.array([0.45]))[0])
-    least, greatest = _extremes(given, 3.0, top)
+    least, greatest = _extremes(given, k_1, top)
     return 0.5 * (least + greatest), 0.5 * (greatest - least)
