@@ -179,7 +179,8 @@ def judged(claim: Mapping[str, Any], values: Mapping[str, Any]) -> Row:
     words = claim.get("verdict", {}).get(kind)
     why = tolerance(claim["tolerance"]).why if "tolerance" in claim else ""
     verdict = filled(words, values) if words else verdict
-    return Row(claim["name"], printed, computed or printed, verdict, kind, claim["where"], why)
+    name = filled(claim["name"], values)
+    return Row(name, printed, computed or printed, verdict, kind, claim["where"], why)
 
 
 _Judged = tuple[str, str, str, str]

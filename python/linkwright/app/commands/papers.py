@@ -88,19 +88,19 @@ def _first() -> _Shown:
 
 def _second() -> _Shown:
     """Paper 2."""
-    from linkwright.papers.paper2.conclusions import conclusions
-    from linkwright.papers.paper2.figures import figures
-    from linkwright.papers.paper2.page import page
     from linkwright.papers.paper2.paper import paper2
-    from linkwright.papers.paper2.table import COLUMNS, cells
+    from linkwright.papers.sheet import page
 
     paper = paper2()
-    heads = [f"{head} [{unit}]" if unit else head for head, unit, _ in COLUMNS]
-    show = partial(
-        _print_rows, paper, conclusions(paper), [_grid(heads, cells(paper.alternatives), numbers=True)]
-    )
+    (table,) = paper.tables
+    grid = _grid(table.heads, [[each.text for each in row] for row in table.rows], numbers=True)
     return _Shown(
-        paper.number, paper.title, paper.to_dict(), partial(figures, paper), partial(page, paper), show
+        paper.number,
+        paper.title,
+        paper.to_dict(),
+        paper.figures,
+        partial(page, paper),
+        partial(_print_rows, paper, paper.conclusions, [grid]),
     )
 
 

@@ -92,6 +92,11 @@ class Alternative:
         """Greatest torque that the cart asks of the shaft in steady motion [N m]."""
         return float(self.torque.max())
 
+    @property
+    def jerk_step_shown(self) -> float | None:
+        """The step of the jerk, if it is more than rounding [m/s³]."""
+        return self.jerk_step if self.jerk_step > 1e-9 * self.jerk_max else None
+
     def to_dict(self) -> dict[str, Any]:
         """Its numbers, ready for JSON."""
         own = ("velocity_max", "acceleration_max", "jerk_max", "jerk_step", "force_max", "torque_max")
@@ -102,18 +107,7 @@ class Alternative:
 
 
 def alternatives(formulas: Formulas) -> tuple[Alternative, ...]:
-    """The drive of paper 2, the crank drive, and other laws.
-
-    Parameters
-    ----------
-    formulas : Formulas
-        As printed.
-
-    Returns
-    -------
-    tuple of Alternative
-        The printed law first, then the crank.
-    """
+    """The drive of paper 2, the crank drive, and other laws, in this order."""
     given = formulas.printed
     name = given["given"]["machine"]
     found = [_with(name, "combined, 1/6 each, as printed", "as printed", {})]
