@@ -11,12 +11,10 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from linkwright.papers.paper3.conclusions import conclusions
-from linkwright.papers.paper3.figures import figures
-from linkwright.papers.paper3.page import page
+from linkwright.papers.claim import holding, tolerance
 from linkwright.papers.paper3.paper import Paper3, paper3
-from linkwright.papers.paper3.rows import judged, share
-from linkwright.papers.paper3.table import COLUMNS, cells
+from linkwright.papers.sheet import page
+from linkwright.papers.words import share
 
 
 @pytest.fixture(scope="module")
@@ -224,23 +222,25 @@ def test_verdicts(paper: Paper3) -> None:
 
 
 def test_words_of_deviations() -> None:
-    assert judged(0.0) == ("holds exactly", "reproduced")
-    assert judged(4.87e-4) == ("holds within 0.049 %", "reproduced")
-    assert judged(-0.0036, "of this") == ("holds within 0.36 %: of this", "near")
-    assert judged(1.0, "of that") == ("does not hold: of that", "far")
+    digits = tolerance("digits")
+    assert holding(0.0, digits) == ("holds exactly", "reproduced")
+    assert holding(4.87e-4, digits) == ("holds within 0.049 %", "reproduced")
+    assert holding(-0.0036, digits) == ("holds within 0.36 %", "near")
+    assert holding(1.0, digits) == ("does not hold", "far")
     told = [share(each).replace("\N{NO-BREAK SPACE}", " ") for each in (0.0, -0.211, 0.0031, 1.0)]
     assert told == ["0 %", "−21 %", "+0.31 %", "+100 %"]
 
 
 def test_everything_is_told(paper: Paper3) -> None:
     told = json.loads(json.dumps(paper.to_dict(), allow_nan=False))
-    assert told["conclusions"] == conclusions(paper)
+    assert told["conclusions"] == paper.conclusions
     assert len(told["rows"]) == len(paper.rows)
-    drawn = figures(paper)
+    drawn = paper.figures()
     text = page(paper, drawn)
     assert text.count("<svg") == len(drawn) == 9
-    assert len(cells(paper)) == 1 + len(paper.shifts)
-    assert all(len(row) == len(COLUMNS) for row in cells(paper))
+    (table,) = paper.tables
+    assert len(table.rows) == 1 + len(paper.shifts)
+    assert all(len(row) == len(table.heads) for row in table.rows)
     for row in paper.rows:
         assert row.verdict.split("'")[0].split(":")[0] in text
 

@@ -106,17 +106,19 @@ def _second() -> _Shown:
 
 def _third() -> _Shown:
     """Paper 3."""
-    from linkwright.papers.paper3.conclusions import conclusions
-    from linkwright.papers.paper3.figures import figures
-    from linkwright.papers.paper3.page import page
     from linkwright.papers.paper3.paper import paper3
-    from linkwright.papers.paper3.table import COLUMNS, cells
+    from linkwright.papers.sheet import page
 
     paper = paper3()
-    heads = [f"{head} [{unit}]" if unit else head for head, unit in COLUMNS]
-    show = partial(_print_rows, paper, conclusions(paper), [_grid(heads, cells(paper), numbers=True)])
+    (table,) = paper.tables
+    grid = _grid(table.heads, [[each.text for each in row] for row in table.rows], numbers=True)
     return _Shown(
-        paper.number, paper.title, paper.to_dict(), partial(figures, paper), partial(page, paper), show
+        paper.number,
+        paper.title,
+        paper.to_dict(),
+        paper.figures,
+        partial(page, paper),
+        partial(_print_rows, paper, paper.conclusions, [grid]),
     )
 
 

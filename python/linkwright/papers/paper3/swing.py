@@ -15,6 +15,9 @@ from linkwright.torsion.model.engine.rod import Rod
 _GRAVITY = PRINTED_GRAVITY / 100
 _CM = 100.0
 
+# g (60/π)² with the paper's g [cm/min²].
+PENDULUM = PRINTED_GRAVITY * (60 / math.pi) ** 2
+
 
 @dataclass(frozen=True)
 class SwingChecks:
@@ -72,11 +75,11 @@ def swing_checks(rod: Rod, printed: dict[str, Any], bore_radius: float) -> Swing
     apart = rod.length + bore_radius
     exact, rounded = (
         pendulum.two_point_centre(factor / other**2 / _CM, factor / n**2 / _CM, apart) / b - 1
-        for factor in (PRINTED_GRAVITY * (60 / math.pi) ** 2, printed["pendulum"])
+        for factor in (PENDULUM, printed["pendulum"])
     )
     return SwingChecks(
         swings=(n, other),
-        factor=printed["pendulum"] / (PRINTED_GRAVITY * (60 / math.pi) ** 2) - 1,
+        factor=printed["pendulum"] / PENDULUM - 1,
         edge=edge / (J + m * b**2) - 1,
         centre=about / J - 1,
         axis=axis / rod.moment_small_end - 1,
