@@ -94,8 +94,8 @@ def _several(values: list[Any], spec: str, join: str) -> str:
     if not values:
         return "none"
     form, _, unit = spec.partition(" ")
-    each = [shown(value, f"{form} ({unit})" if unit in UNITS else form) for value in values]
-    return join.join(each) + UNITS.get(unit, (1, ""))[1]
+    each = [shown(value, f"{form} ({unit.strip('()')})" if unit else form) for value in values]
+    return join.join(each) + (UNITS[unit][1] if unit and not unit.startswith("(") else "")
 
 
 def _number(value: float, spec: str) -> str:

@@ -140,17 +140,23 @@ def _fourth() -> _Shown:
 
 def _fifth() -> _Shown:
     """Paper 5."""
-    from linkwright.papers.paper5.conclusions import conclusions
-    from linkwright.papers.paper5.figures import figures
-    from linkwright.papers.paper5.page import page
     from linkwright.papers.paper5.paper import paper5
-    from linkwright.papers.paper5.table import HEADS, tables
+    from linkwright.papers.sheet import page
 
     paper = paper5()
-    grids = [_grid(HEADS, rows, numbers=True, title=title) for title, rows in tables(paper)]
-    show = partial(_print_rows, paper, conclusions(paper), grids)
+    grids = [
+        _grid(
+            table.heads, [[each.text for each in row] for row in table.rows], numbers=True, title=table.title
+        )
+        for table in paper.tables
+    ]
     return _Shown(
-        paper.number, paper.title, paper.to_dict(), partial(figures, paper), partial(page, paper), show
+        paper.number,
+        paper.title,
+        paper.to_dict(),
+        paper.figures,
+        partial(page, paper),
+        partial(_print_rows, paper, paper.conclusions, grids),
     )
 
 

@@ -21,6 +21,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.topping.constant_speed import constant_speed_lengths
+from linkwright.topping.head import cap_volume, head_diameter
 from linkwright.topping.published import (
     PublishedLengths,
     length_consistent,
@@ -127,3 +129,26 @@ def _flips(angle: float, ratio: float) -> bool:
     length = float(length_consistent(1.0, angle, ratio))
     short, long = (_edge(angle, length * (1 + each), ratio).holds for each in (-_HAIR, _HAIR))
     return long and not short
+
+
+def condition_suffices(angles: Floats) -> bool:
+    """Whether no edge meets (1) that is shorter than a head needs, its knife at rest."""
+    shortest = np.sin(angles) + _HAIR
+    meets = [
+        _edge(a, length, 0.0).holds for a, length in zip(angles.tolist(), shortest.tolist(), strict=True)
+    ]
+    needed = constant_speed_lengths(1.0, 0.0, angles, 1.0, 0.0).max(axis=0)
+    return not bool((np.array(meets) & (shortest < needed)).any())
+
+
+def head_difference(root_diameter: float) -> float:
+    """Discs of the printed diameter piled up over h_p against the cap of a sphere D [m] that they fill [–].
+
+    d² is of the second degree in h_p, so that Simpson's rule piles them up without error.
+    """
+    heights = np.linspace(0, root_diameter, 41)
+    area = np.pi / 4 * head_diameter(root_diameter, heights) ** 2
+    low, middle, high = area[:-2:2], area[1:-1:2], area[2::2]
+    piled = np.cumsum((low + 4 * middle + high) * (heights[2] - heights[0]) / 6)
+    caps = cap_volume(root_diameter, heights[2::2])
+    return float(np.abs(piled - caps).max() / caps[-1])
