@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from linkwright.papers.paper1.paper import Drive, Paper1
+    from linkwright.papers.paper1.drive import Drive
+    from linkwright.papers.paper1.paper import Paper1
 
 SOLUTION, SCHEME, LIMIT = LINES[0], LINES[1], GREEN
 

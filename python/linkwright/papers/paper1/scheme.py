@@ -117,24 +117,6 @@ def turns_to_steady(motion: StepMotion) -> int:
     return int(np.flatnonzero(outside)[-1]) + 1 if outside.any() else 0
 
 
-def best_step(machine: Machine, speed_min: float, speed_max: float) -> dict[float, float]:
-    """How well each step of the angle reproduces two published speeds.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    speed_min, speed_max : float
-        Published extremes of the speed [rad/s].
-
-    Returns
-    -------
-    dict of float to float
-        Step in degrees → root of the mean square deviation of the two speeds [–].
-    """
-    found = {}
-    for degrees in STEPS:
-        motion = published_scheme(machine, step=np.radians(degrees))
-        off = (motion.speed_min / speed_min - 1, motion.speed_max / speed_max - 1)
-        found[degrees] = float(np.sqrt(0.5 * (off[0] ** 2 + off[1] ** 2)))
-    return found
+def schemes(machine: Machine) -> dict[float, StepMotion]:
+    """The published scheme by each step of the angle in degrees that is tried."""
+    return {degrees: published_scheme(machine, step=np.radians(degrees)) for degrees in STEPS}
