@@ -27,13 +27,13 @@ def test_step_in_closed_form(paper: Paper5) -> None:
     """(cos α + sin² α)/cos² α is 1 at 0, 1 + √2 at 45° and 5 at 60°."""
     assert factors(np.radians([0.0, 45.0, 60.0])) == pytest.approx([1, 1 + math.sqrt(2), 5], rel=1e-14)
     # A few roundings, over cos² α of the steepest angle.
-    assert paper.step.identity < 1e-14
-    assert paper.step.travel_identity < 1e-14
-    assert paper.step.flips
-    at = paper.step.angles.tolist()
+    assert paper.step["identity"] < 1e-14
+    assert paper.step["travel_identity"] < 1e-14
+    assert paper.step["flips"]
+    at = paper.step["angles"].tolist()
     cos, sin = np.cos(at), np.sin(at)
-    np.testing.assert_allclose(paper.step.times, cos**2 / (cos + sin**2), rtol=1e-14)
-    np.testing.assert_allclose(paper.step.times * paper.step.factors, 1, rtol=1e-14)
+    np.testing.assert_allclose(paper.step["times"], cos**2 / (cos + sin**2), rtol=1e-14)
+    np.testing.assert_allclose(paper.step["times"] * paper.step["factors"], 1, rtol=1e-14)
 
 
 def test_difference_of_the_bounds(paper: Paper5) -> None:
@@ -71,11 +71,11 @@ def test_only_a_knife_faster_than_the_machine_makes_it_long_enough() -> None:
 def test_scan_finds_the_bound(paper: Paper5) -> None:
     short = paper.short
     # The grid is a quarter of a degree fine, the top flat.
-    assert short.least == pytest.approx(short.bound, rel=1e-4)
-    assert short.least >= short.bound
-    assert short.least_axis == pytest.approx(2 / math.sqrt(1.25), rel=1e-4)
-    assert short.least_consistent > 1
-    assert (short.across, short.across_published) == (1.0, 0.0)
+    assert short["least"] == pytest.approx(short["bound"], rel=1e-4)
+    assert short["least"] >= short["bound"]
+    assert short["least_axis"] == pytest.approx(2 / math.sqrt(1.25), rel=1e-4)
+    assert short["least_consistent"] > 1
+    assert (short["across"], short["across_published"]) == (1.0, 0.0)
 
 
 def _crossed(x: NDArray[np.float64], y: NDArray[np.float64], length: float, ratio: float) -> bool:

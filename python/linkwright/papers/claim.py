@@ -146,30 +146,14 @@ class Row:
 
 
 def cell_of(claim: Mapping[str, Any], values: Mapping[str, Any]) -> Cell:
-    """A printed number beside the quantity that its claim names.
-
-    Parameters
-    ----------
-    claim : mapping
-        With ``value`` and ``quantity``.
-    values : mapping
-        Printed and computed.
-    """
+    """A printed number of a claim beside the quantity that it names among printed and computed values."""
     value = named(values, claim["value"]) if isinstance(claim["value"], str) else claim["value"]
     because = filled(claim.get("because", ""), values)
     return Cell(value, named(values, claim["quantity"]), because, allowed=claim["tolerance"])
 
 
 def judged(claim: Mapping[str, Any], values: Mapping[str, Any]) -> Row:
-    """Judge a claim.
-
-    Parameters
-    ----------
-    claim : mapping
-        As the table above has it.
-    values : mapping
-        Printed and computed.
-    """
+    """Judge a claim, as the table above has it, by printed and computed values."""
     form = next((each for each in _FORMS if each in claim), "")
     printed, computed, verdict, kind = _FORMS.get(form, _taken)(claim, values)
     printed, computed = (
@@ -216,15 +200,7 @@ def _deviation(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _Judged:
 
 
 def holding(deviation: float, allowed: Tolerance) -> tuple[str, str]:
-    """How well a formula holds, in words, and the kind of verdict.
-
-    Parameters
-    ----------
-    deviation : float
-        Formula over exact, less one [–].
-    allowed : Tolerance
-        Up to which it is reproduced, and near.
-    """
+    """How well a formula holds by its deviation, in words, and the kind of verdict."""
     kind = allowed.kind(deviation)
     if tolerance("rounding").kind(deviation) == "reproduced":
         return "holds exactly", kind

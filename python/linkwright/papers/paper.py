@@ -79,7 +79,9 @@ class Paper:
 
     def figures(self) -> dict[str, Figure]:
         """All figures, under names for files."""
-        raise NotImplementedError
+        module = import_module(f"linkwright.papers.paper{self.number}.figures")
+        drawn: dict[str, Figure] = module.figures(self)
+        return drawn
 
     @cached_property
     def values(self) -> dict[str, Any]:
@@ -133,11 +135,6 @@ def _cell(column: Mapping[str, str], row: Any) -> Text:
 def known_paper(number: int) -> int:
     """The number of a paper, if it is one of `PAPERS`.
 
-    Parameters
-    ----------
-    number : int
-        The number.
-
     Raises
     ------
     InputError
@@ -150,17 +147,7 @@ def known_paper(number: int) -> int:
 
 @cache
 def printed_values(number: int) -> dict[str, Any]:
-    """The file of data of a paper.
-
-    Parameters
-    ----------
-    number : int
-        Of the paper.
-
-    Returns
-    -------
-    dict
-        In SI.
+    """The file of data of a paper, in SI.
 
     Raises
     ------
@@ -174,11 +161,6 @@ def printed_values(number: int) -> dict[str, Any]:
 
 def paper(number: int) -> Paper:
     """Compute a paper anew.
-
-    Parameters
-    ----------
-    number : int
-        Of the paper.
 
     Raises
     ------

@@ -17,20 +17,7 @@ if TYPE_CHECKING:
 
 
 def page(paper: Paper, figures: Mapping[str, Figure]) -> str:
-    """Write a paper as an HTML page.
-
-    Parameters
-    ----------
-    paper : Paper
-        Published and computed values.
-    figures : mapping of str to Figure
-        By the names of their files.
-
-    Returns
-    -------
-    str
-        The page, with its figures in it.
-    """
+    """The page of a paper with its figures, by the names of their files, in it."""
     from jinja2 import Environment
 
     template = files("linkwright.papers").joinpath("paper.html").read_text(encoding="utf-8")

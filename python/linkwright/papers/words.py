@@ -28,15 +28,7 @@ UNITS = {
 
 
 def named(values: Any, name: str) -> Any:
-    """What a name with points leads to.
-
-    Parameters
-    ----------
-    values : Any
-        Where the first step is looked for.
-    name : str
-        Keys, attributes and places, such as ``"drives.0.steady.speed_min"``.
-    """
+    """What keys, attributes and places lead to, such as ``"drives.0.steady.speed_min"``."""
     found = values
     for step in name.split("."):
         if isinstance(found, Mapping):
@@ -57,28 +49,15 @@ class _Words(Formatter):
 
 
 def filled(template: str, values: Any) -> str:
-    """A template with its numbers; line breaks of the file are spaces.
-
-    Parameters
-    ----------
-    template : str
-        With fields in braces.
-    values : Any
-        What the fields name.
-    """
+    """A template, its fields in braces filled with what they name; line breaks of the file are spaces."""
     return _Words().vformat(re.sub(r"\s*\n\s*", " ", template.strip()), (), values)
 
 
 def shown(value: Any, spec: str) -> str:
-    """One value as a text.
+    """One value as a text; None is a dash, nothing in a list is "none".
 
-    Parameters
-    ----------
-    value : Any
-        None is a dash, nothing in a list is "none".
-    spec : str
-        Of Python, with a unit behind; ``share`` for a deviation; ``up2`` for two digits, rounded up; for a
-        statement, both of its words.
+    Besides formats of Python with a unit behind, ``share`` is a deviation, ``up2`` has two digits, rounded
+    up, and a statement has both of its words.
     """
     if isinstance(value, bool | np.bool_):
         return spec.split("|")[not value]
@@ -122,20 +101,10 @@ def rounded_up(value: float, digits: int) -> str:
 
 
 def conclusion(data: Mapping[str, Any], values: Mapping[str, Any]) -> str:
-    """A conclusion of a file of data.
+    """A conclusion of a file of data, marked if the numbers contradict it.
 
-    Parameters
-    ----------
-    data : mapping
-        ``text``; ``holds``, the name of the statement on which it stands; ``lists``, the enumerations in it:
-        name → ``of``, ``text`` and ``join``.
-    values : mapping
-        Printed and computed.
-
-    Returns
-    -------
-    str
-        The text, marked if the numbers contradict it.
+    It has a ``text``; ``holds``, the name of the statement on which it stands; and ``lists``, the
+    enumerations in it: name → ``of``, ``text`` and ``join``.
     """
     lists = {
         name: each["join"].join(filled(each["text"], item) for item in named(values, each["of"]))

@@ -38,21 +38,7 @@ _ANGLES = 1440
 
 @dataclass(frozen=True)
 class PublishedDrive:
-    """One row of the table of results.
-
-    Attributes
-    ----------
-    name, source : str
-        What it is; where it is printed.
-    machine : str
-        Its file in the library.
-    carts : int
-        How many.
-    motor_printed : bool
-        Whether the paper prints its motor.
-    values : dict of str to float
-        Quantity → printed value in SI.
-    """
+    """One row of the table of results: its machine in the library, and printed values by quantity [SI]."""
 
     name: str
     source: str
@@ -78,17 +64,7 @@ def published_drives() -> tuple[PublishedDrive, ...]:
 
 @dataclass(frozen=True)
 class Recomputed:
-    """A printed value against what follows from other printed values of the same row.
-
-    Attributes
-    ----------
-    quantity : str
-        Which.
-    printed, follows : float
-        As printed; from the others, by the paper's own formula [SI].
-    formula : str
-        That formula.
-    """
+    """A printed value against what follows from others of the same row by a formula of the paper [SI]."""
 
     quantity: str
     printed: float
@@ -126,10 +102,8 @@ class Drive:
 
     Attributes
     ----------
-    published : PublishedDrive
-        The printed row.
-    machine : Machine
-        Its file.
+    published, machine : PublishedDrive, Machine
+        The printed row and its file.
     reduced, steady, up, scheme : Reduction, SteadyState, RunUp, StepMotion
         The analyses.
     fit : Fit
@@ -257,12 +231,7 @@ class Drive:
                 "fits": self.fit.fits,
             },
             "printed_row": [
-                {
-                    "quantity": each.quantity,
-                    "printed": each.printed,
-                    "follows": each.follows,
-                    "agrees": each.agrees,
-                }
+                {name: getattr(each, name) for name in ("quantity", "printed", "follows", "agrees")}
                 for each in self.recomputed
             ],
             "sized_motor": self.sized_motor,
@@ -279,13 +248,6 @@ def _measures(motion: SteadyState | StepMotion) -> dict[str, float]:
 def drive(row: PublishedDrive) -> Drive:
     """All analyses of one drive.
 
-    Parameters
-    ----------
-    row : PublishedDrive
-        What is printed of it.
-
-    Notes
-    -----
     The motors of the drives with one, three and four carts are not printed. Their files take the smallest
     motor of the same series whose rated power reaches the required one, by which rule the printed motor of
     the two carts comes out too.

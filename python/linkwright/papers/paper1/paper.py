@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -19,9 +19,6 @@ from linkwright.papers.paper1.drive import Drive, drive, published_drives
 from linkwright.papers.paper1.limit import Fit, fitted_inertia
 from linkwright.papers.paper1.scheme import schemes
 from linkwright.sizing.power import RequiredPower, required_power
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 # Between neighbouring cranks of four carts that go two against two [rad].
 _OPPOSED = np.pi
@@ -174,13 +171,6 @@ class Paper1(Paper):
             "scheme_step_deviation": {f"{step:g} deg": off for step, off in self.steps.items()},
             "rankings": self.rankings,
         }
-
-    def figures(self) -> dict[str, Figure]:
-        """Evenness of all drives, then figures 5 to 12 of the paper by machine."""
-        from linkwright.papers.paper1.figures import drive_figure, evenness_figure
-
-        drawn = {each.published.machine: drive_figure(each) for each in self.drives}
-        return {"evenness": evenness_figure(self)} | drawn
 
 
 def _sized_coefficient(one: Drive) -> float:

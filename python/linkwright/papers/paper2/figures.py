@@ -50,18 +50,7 @@ _SHOWN = {
 
 
 def figures(paper: Paper2) -> dict[str, Figure]:
-    """All figures of paper 2.
-
-    Parameters
-    ----------
-    paper : Paper2
-        The paper.
-
-    Returns
-    -------
-    dict of str to Figure
-        Under names for files.
-    """
+    """All figures of paper 2, under names for files."""
     return {
         "figure1": _motion(paper),
         "figure3": _cam(paper),

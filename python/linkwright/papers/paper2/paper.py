@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -21,9 +21,6 @@ from linkwright.papers.paper2.course import Course, course
 from linkwright.papers.paper2.formulas import Formulas
 from linkwright.papers.paper2.roller import Rollers, rollers, two_cams
 from linkwright.papers.paper2.start import Start, starts
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 # Cam angles a turn of the curves.
 _ANGLES = 1440
@@ -143,12 +140,6 @@ class Paper2(Paper):
             "alternatives": [each.to_dict() for each in self.alternatives],
             "steady_motion": self.course.to_dict(),
         }
-
-    def figures(self) -> dict[str, Figure]:
-        """Figures 1 and 3 of the paper and further ones, under names for files."""
-        from linkwright.papers.paper2.figures import figures
-
-        return figures(self)
 
 
 def _fraction(value: float) -> str:

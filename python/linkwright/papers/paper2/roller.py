@@ -34,16 +34,12 @@ class Rollers:
 
     Attributes
     ----------
-    radius : float
-        Of the rollers looked at [m].
-    largest_in_hollow : float or None
-        Least concave radius of the printed profile: a roller that runs on it must be smaller [m].
-    largest_inside : float or None
-        Least convex radius of the printed curve: a roller whose centre runs on it must be smaller [m].
-    play : float
-        By how much the distance of two rollers on the printed profile changes over a turn [m].
-    lift_error : float
-        By how much the place of a roller's centre differs from ρ + r at most [m].
+    radius, largest_in_hollow, largest_inside : float
+        Of the rollers looked at; what a roller must stay below that runs on the printed profile, its least
+        concave radius, and whose centre runs on it, its least convex radius [m].
+    play, lift_error : float
+        By how much the distance of two rollers on the printed profile changes over a turn, and the place of a
+        roller's centre differs from ρ + r at most [m].
     offset : CamProfile
         The cam whose rollers' centres run on the printed curve.
     breadth_for_limit : float

@@ -9,22 +9,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from linkwright.kernel.files.library import library_path
 from linkwright.machine.read import read
 from linkwright.papers.claim import holding, tolerance
 from linkwright.papers.paper import Paper, printed_values
 from linkwright.papers.paper3.engine import Shift, TrialEngine
-from linkwright.papers.paper3.inertia import InertiaChecks, inertia_checks
-from linkwright.papers.paper3.swing import PENDULUM, SwingChecks, swing_checks
-from linkwright.papers.paper3.throw import ThrowChecks, throw_checks
+from linkwright.papers.paper3.inertia import inertia_checks
+from linkwright.papers.paper3.swing import PENDULUM, swing_checks
+from linkwright.papers.paper3.throw import throw_checks
 from linkwright.papers.paper3.uneven import UnevennessChecks, unevenness_checks
 from linkwright.papers.paper3.weak import WeakChecks, weak_checks
 from linkwright.papers.words import share, shown
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -35,12 +32,8 @@ class Paper3(Paper):
     ----------
     trial : TrialEngine
         The V-12.
-    inertia : InertiaChecks
-        (1) to (12).
-    swing : SwingChecks
-        (13) to (15).
-    throw : ThrowChecks
-        (16), (17).
+    inertia, swing, throw : dict
+        (1) to (12), (13) to (15), (16) and (17), each against the exact value.
     uneven : UnevennessChecks
         Unevenness along the shaft.
     weak : WeakChecks
@@ -48,16 +41,16 @@ class Paper3(Paper):
     """
 
     trial: TrialEngine
-    inertia: InertiaChecks
-    swing: SwingChecks
-    throw: ThrowChecks
+    inertia: dict[str, Any]
+    swing: dict[str, Any]
+    throw: dict[str, Any]
     uneven: UnevennessChecks
     weak: WeakChecks
 
     @property
     def shifts(self) -> tuple[Shift, ...]:
         """What each formula makes of the natural frequencies."""
-        return (*self.inertia.shifts, *self.throw.shifts)
+        return (*self.inertia["shifts"], *self.throw["shifts"])
 
     def quantities(self) -> dict[str, Any]:
         """Formula over exact, trains side by side, and what torsion does to the unevenness."""
@@ -66,44 +59,44 @@ class Paper3(Paper):
     def _of_rods(self) -> dict[str, Any]:
         """(1) to (15)."""
         found, swing, (low, high) = self.inertia, self.swing, self.published["printed"]["k"]
-        literal, reduced, low_k = found.shifts[0], found.shifts[1], found.shifts[3]
-        disc_off = max(abs(found.one_rod), abs(found.series))
+        literal, reduced, low_k = found["shifts"][0], found["shifts"][1], found["shifts"][3]
+        disc_off = max(abs(found["one_rod"]), abs(found["series"]))
         allowed = tolerance("digits")
         return {
             "usual": (low, high),
             "usual_centres": (1 - math.sqrt(low), 1 - math.sqrt(high)),
-            "usual_fits": low <= found.share <= high,
-            "usual_is_small_end": not low <= found.share <= high and low <= 1 - found.share <= high,
-            "small_share": 1 - found.share,
+            "usual_fits": low <= found["share"] <= high,
+            "usual_is_small_end": not low <= found["share"] <= high and low <= 1 - found["share"] <= high,
+            "small_share": 1 - found["share"],
             "low_k_takes": -low_k.deviation,
-            "simple_printed": (1 + found.simple) * (1 + found.printed) - 1,
-            "articulated_deviation": found.articulated_printed / found.articulated - 1,
-            "articulated_times": found.articulated_printed / found.articulated_share,
+            "simple_printed": (1 + found["simple"]) * (1 + found["printed"]) - 1,
+            "articulated_deviation": found["articulated_printed"] / found["articulated"] - 1,
+            "articulated_times": found["articulated_printed"] / found["articulated_share"],
             "disc_off": disc_off,
-            "discs_agree": disc_off < allowed.near and disc_off < abs(found.simple),
+            "discs_agree": disc_off < allowed.near and disc_off < abs(found["simple"]),
             "literal_times": 1 + literal.deviation,
             "reduced_off": abs(reduced.deviation),
             "articulated_misread": abs(literal.deviation) > allowed.near > abs(reduced.deviation),
             "pendulum": PENDULUM,
-            "two_point_is_exact": abs(swing.two_point_exact) < 1e-12,
+            "two_point_is_exact": abs(swing["two_point_exact"]) < 1e-12,
             # Counted over a minute, single swings are right to one.
-            "rounding_is_small": max(swing.edge, swing.centre, swing.axis) < 1 / swing.swings[0],
+            "rounding_is_small": max(swing["edge"], swing["centre"], swing["axis"]) < 1 / swing["swings"][0],
         }
 
     def _of_throws(self) -> dict[str, Any]:
         """(16) and (17), and the frequencies by each formula."""
         trial, found = self.trial, self.throw
-        first, *others = found.stiffness.values()
+        first, *others = found["stiffness"].values()
         off = (min(others) / first - 1, max(others) / first - 1)
         stiff = sorted((each for each in self.shifts if each.what == "k"), key=lambda each: each.critical)
         discs = max(abs(each.changes[1]) for each in self.shifts[1:] if each.what == "J")
-        words, kind = holding(found.inertia, tolerance("digits"))
+        words, kind = holding(found["inertia"], tolerance("digits"))
         return {
             "trains": [self._exact_train(), *(_train(each) for each in self.shifts)],
             "critical": trial.critical(float(trial.frequencies[1])),
             "rebuilt_inertia": words,
             "rebuilt_inertia_holds": kind != "far",
-            "stiffness": [f"{name} {1e-6 * each:.3g}" for name, each in found.stiffness.items()],
+            "stiffness": [f"{name} {1e-6 * each:.3g}" for name, each in found["stiffness"].items()],
             "others": off,
             "rebuilt_stiffness_is_usual": off[0] < 0 < off[1],
             "softest": stiff[0],
@@ -166,8 +159,8 @@ class Paper3(Paper):
                 "natural_frequencies": self.trial.frequencies.tolist(),
             },
             "formulas": [_plain(each) for each in self.shifts],
-            "restraint_length": self.throw.restraint,
-            "stiffness": self.throw.stiffness,
+            "restraint_length": self.throw["restraint"],
+            "stiffness": self.throw["stiffness"],
             "unevenness": {
                 "speed": uneven.speed,
                 "discs": uneven.discs,
@@ -186,12 +179,6 @@ class Paper3(Paper):
                 "factors_rigid_against_sound": weak.against_sound.tolist(),
             },
         }
-
-    def figures(self) -> dict[str, Figure]:
-        """Train, discs, formulas and vibration, under names for files."""
-        from linkwright.papers.paper3.figures import figures
-
-        return figures(self)
 
 
 def _plain(shift: Shift) -> dict[str, Any]:

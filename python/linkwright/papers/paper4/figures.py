@@ -16,18 +16,7 @@ if TYPE_CHECKING:
 
 
 def figures(paper: Paper4) -> dict[str, Figure]:
-    """All figures of paper 4.
-
-    Parameters
-    ----------
-    paper : Paper4
-        The paper.
-
-    Returns
-    -------
-    dict of str to Figure
-        Under names for files.
-    """
+    """All figures of paper 4, under names for files."""
     return {
         "figure3": _angle(paper, continuous=True),
         "figure4": _rate(paper, continuous=True),

@@ -8,7 +8,7 @@ continuous regime determines them: `unit` shows how.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -19,9 +19,6 @@ from linkwright.papers.paper import Paper, printed_values
 from linkwright.papers.paper4.formulas import LeverFormula, Unit
 from linkwright.papers.paper4.unit import Place, recomputed_places, rounded_lengths
 from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 # Intervals of the turn.
 _ANGLES = 1440
@@ -115,12 +112,6 @@ class Paper4(Paper):
             "straightness": self.straightness,
             "printed_intermittent_closes": list(self.closing),
         }
-
-    def figures(self) -> dict[str, Figure]:
-        """Figures 3 to 6 of the paper, under names for files."""
-        from linkwright.papers.paper4.figures import figures
-
-        return figures(self)
 
 
 def paper4() -> Paper4:

@@ -8,22 +8,19 @@ is judged for all of them.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from linkwright.papers.claim import tolerance
 from linkwright.papers.paper import Paper, printed_values
-from linkwright.papers.paper5.short import ShortChecks, short_checks
-from linkwright.papers.paper5.step import StepChecks, condition_suffices, head_difference, step_checks
+from linkwright.papers.paper5.short import short_checks
+from linkwright.papers.paper5.step import condition_suffices, head_difference, step_checks
 from linkwright.papers.paper5.surface import Surface, surfaces
 from linkwright.papers.paper5.verdict import ClaimVerdict, claim_verdict
 from linkwright.papers.words import shown
 from linkwright.topping.published import length_published
 from linkwright.topping.verdict import WAYS, Demand
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 # Ways → names in sentences.
 _NAMES = {"published": "(10)", "consistent": "(4)", "constant_speed": "the exact length"}
@@ -37,10 +34,8 @@ class Paper5(Paper):
     ----------
     head : float
         Discs of the printed diameter against the cap that they fill [–].
-    step : StepChecks
-        From (4) to (5).
-    short : ShortChecks
-        The exact length over those of the paper.
+    step, short : dict
+        From (4) to (5), and the exact length over those of the paper.
     surfaces : tuple of Surface
         Figure 3.
     verdict : ClaimVerdict
@@ -48,8 +43,8 @@ class Paper5(Paper):
     """
 
     head: float
-    step: StepChecks
-    short: ShortChecks
+    step: dict[str, Any]
+    short: dict[str, Any]
     surfaces: tuple[Surface, ...]
     verdict: ClaimVerdict
 
@@ -61,30 +56,30 @@ class Paper5(Paper):
     def _of_step(self) -> dict[str, Any]:
         """(1) to (5)."""
         step, same = self.step, tolerance("rounding").reproduced
-        at = int(np.abs(step.angles - np.radians(self.published["chosen"]["edge_angle"])).argmin())
-        suffices = condition_suffices(step.angles)
-        exact = np.abs(step.travels - 1) <= same
-        follows = np.abs(step.factors - 1) <= same
+        at = int(np.abs(step["angles"] - np.radians(self.published["chosen"]["edge_angle"])).argmin())
+        suffices = condition_suffices(step["angles"])
+        exact = np.abs(step["travels"] - 1) <= same
+        follows = np.abs(step["factors"] - 1) <= same
         return {
             "condition_suffices": suffices,
-            "condition_fails": not suffices and self.short.across_published < self.short.across,
-            "least_travel": (float(step.travels.min()), float(step.angles[step.travels.argmin()])),
+            "condition_fails": not suffices and self.short["across_published"] < self.short["across"],
+            "least_travel": (float(step["travels"].min()), float(step["angles"][step["travels"].argmin()])),
             "travel_is_exact": bool(exact.all()),
-            "travel_is_exact_across": bool(exact[step.angles == 0].all()),
+            "travel_is_exact_across": bool(exact[step["angles"] == 0].all()),
             "at": {
-                "angle": float(step.angles[at]),
-                "factor": float(step.factors[at]),
-                "longer": float(step.longer[at]),
-                "time": float(step.times[at]),
+                "angle": float(step["angles"][at]),
+                "factor": float(step["factors"][at]),
+                "longer": float(step["longer"][at]),
+                "time": float(step["times"][at]),
             },
             "factors": [
-                (f, a) for f, a in zip(step.factors.tolist(), step.angles.tolist(), strict=True) if a
+                (f, a) for f, a in zip(step["factors"].tolist(), step["angles"].tolist(), strict=True) if a
             ],
-            "longest": float(step.longer.max()),
-            "steepest": float(step.angles[-1]),
+            "longest": float(step["longer"].max()),
+            "steepest": float(step["angles"][-1]),
             "five_follows": bool(follows.all()),
-            "five_fails": bool((follows == (step.angles == 0)).all()) and step.identity <= same,
-            "five_keeps_condition": bool((step.times >= 1).all()),
+            "five_fails": bool((follows == (step["angles"] == 0)).all()) and step["identity"] <= same,
+            "five_keeps_condition": bool((step["times"] >= 1).all()),
         }
 
     def _of_lengths(self) -> dict[str, Any]:
@@ -103,10 +98,11 @@ class Paper5(Paper):
             for slow, fast in zip(self.surfaces, self.surfaces[1:], strict=False)
         )
         return {
-            "ten_is_enough": short.least <= 1,
-            "ten_fails": min(short.bound, short.least_consistent) > 1 and short.least >= short.bound,
+            "ten_is_enough": short["least"] <= 1,
+            "ten_fails": min(short["bound"], short["least_consistent"]) > 1
+            and short["least"] >= short["bound"],
             "ten_follows": bool(abs(nine / ten - 1) <= tolerance("rounding").reproduced),
-            "ten_has_limit": short.across_published >= short.across,
+            "ten_has_limit": short["across_published"] >= short["across"],
             "lengths_grow": grows and falls,
         }
 
@@ -144,17 +140,14 @@ class Paper5(Paper):
         """Computed values, ready for JSON."""
         return {
             "chosen": self.published["chosen"],
-            "step": self.step.to_dict(),
-            "exact_over_published": vars(self.short) | {"least_at": list(self.short.least_at)},
+            "step": {
+                key: each.tolist() if isinstance(each, np.ndarray) else each
+                for key, each in self.step.items()
+            },
+            "exact_over_published": self.short,
             "figure3": [each.to_dict() for each in self.surfaces],
             "verdict": self.verdict.to_dict(),
         }
-
-    def figures(self) -> dict[str, Figure]:
-        """Figure 3 of the paper and further ones, under names for files."""
-        from linkwright.papers.paper5.figures import figures
-
-        return figures(self)
 
 
 def _heads(low: float, high: float) -> tuple[float, ...]:
