@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Outside, Sets
+from linkwright.kernel.command.common import File, Json, Outside, Sets
 from linkwright.kernel.errors import AssemblyError
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from linkwright.topping.model.topper import Topper
 
 
-def check(file: File, set: Sets = None, allow_outside: Outside = False) -> None:
+def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Json = False) -> None:
     """Check a machine file.
 
     Says what is in it, or all that is wrong with it; and what its geometry does not allow, as far as that can
@@ -32,7 +32,13 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False) -> None:
     checked = f"\n  {'':<14} ".join(found.looked_at)
     told = [f"{verdict}  {file}\n\n{summary(machine)}\n\n  {'checked':<14} {checked}"]
     told += [f"\nFINDING  {text}" for text in found.findings]
-    hand_over(Answer(machine=machine.name, findings=found.findings, show=lambda: typer.echo("\n".join(told))))
+    answer = Answer(
+        machine=machine.name,
+        results=lambda curves: {"checked": list(found.looked_at)},
+        findings=found.findings,
+        show=lambda: typer.echo("\n".join(told)),
+    )
+    hand_over(answer, json=json)
 
 
 def summary(machine: Machine) -> str:
@@ -50,14 +56,28 @@ def summary(machine: Machine) -> str:
     """
     from linkwright.linkages.model.mobility import mobility
 
-    rows = [("machine", machine.name), *_topper(machine)]
-    if not machine.is_topper_alone:
+    rows = [("machine", machine.name), *_diagram(machine), *_topper(machine)]
+    if machine.has_crank or machine.is_train_alone:
         rows += [("motor", _motor(machine)), *_mechanism(machine)]
-    if not (machine.is_train_alone or machine.is_topper_alone):
+    if machine.has_crank:
         rows += [("mobility", str(mobility(_whole(machine))))]
     rows += _train(machine)
     rows += [("bodies", ", ".join(machine.bodies)), ("loads", _loads(machine))]
     return "\n".join(f"  {word:<14} {text}" for word, text in rows if text)
+
+
+def _diagram(machine: Machine) -> list[tuple[str, str]]:
+    """What drives a shaft, and what resists."""
+    described = machine.turning_moment
+    if described is None:
+        return []
+    if described.areas:
+        told = f"{len(described.areas)} areas between driver and load"
+    else:
+        torques = {"driver": described.driver, "load": described.load}
+        told = ", ".join(f"{name} {'constant' if t is None else t.kind}" for name, t in torques.items())
+    turns = "one revolution" if described.turns == 1 else f"{described.turns} revolutions"
+    return [("turning moment", f"{told}; cycle of {turns}, {described.speed:.4g} rad/s")]
 
 
 def _topper(machine: Machine) -> list[tuple[str, str]]:
