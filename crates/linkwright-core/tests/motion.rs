@@ -317,7 +317,7 @@ fn batch_is_the_single_machine() {
             for k in 0..11 {
                 let scale = exact[k].abs().max(if k == 5 { 1.0 } else { 1e-12 });
                 let error = (out[row * QUANTITIES + k] - exact[k]).abs() / scale;
-                // 20 steps a turn: speeds to 1e-8, accelerations to 1e-7, the multiplier to 1e-6.
+                // 32 steps a turn: speeds to 1e-8, accelerations to 1e-7, the multiplier to 1e-6.
                 assert!(error < 1e-6, "row {row}, number {k}: off by {error:e}");
             }
         }
