@@ -199,5 +199,5 @@ def _row_agrees(
         return
     for name in ("speed_min", "speed_max", "period"):
         one, many = getattr(alone, name), getattr(rows, name)[k]
-        if not abs(one - many) <= WITHIN * alone.speed_max:
+        if not abs(one - many) <= WITHIN * (alone.period if name == "period" else alone.speed_max):
             raise PromiseError(f"row {k} ({address} = {value}): {name} {many}, alone {one}", inputs)
