@@ -9,10 +9,10 @@ type; a curve runs over the first array of its result unless it says otherwise.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import cache
 from types import NoneType, UnionType
-from typing import Annotated, Any, NamedTuple, Protocol, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -82,51 +82,8 @@ class DeclaredQuantity(NamedTuple):
     over: str
 
 
-class _HasResults(Protocol):
-    """A study: results by the names of their analyses."""
-
-    def results(self) -> Mapping[str, Any]: ...
-
-
-class _HasUnits(Protocol):
-    """A result."""
-
-    def unit_of(self, name: str) -> str: ...
-
-
-def quantities(of: type | _HasResults | _HasUnits) -> tuple[DeclaredQuantity, ...]:
-    """The quantities of a result or of a whole study: kind, words, symbols and units.
-
-    Parameters
-    ----------
-    of : Result, type or Study
-        A result, its class, or a study, which has several.
-
-    Returns
-    -------
-    tuple of DeclaredQuantity
-        In the order of the declarations. The names are those of the attributes, and the keys of ``--json``.
-
-    Examples
-    --------
-    >>> import linkwright as lw
-    >>> steady = lw.steady_state(lw.read("machines/roller_two_carts.toml"))
-    >>> {each.name: each.unit for each in lw.quantities(steady)}["torque_motor_rms"]
-    'N m'
-    """
-    if isinstance(of, type):
-        return tuple(_quantities_of(of))
-    if hasattr(of, "results"):
-        return tuple(
-            each._replace(name=f"{name}.{each.name}", over=each.over and f"{name}.{each.over}")
-            for name, result in of.results().items()
-            for each in quantities(result)
-        )
-    # The unit of some depends on the machine, such as that of a lift on the kind of follower.
-    return tuple(each._replace(unit=of.unit_of(each.name)) for each in _quantities_of(type(of)))
-
-
-def _quantities_of(owner: type) -> Iterator[DeclaredQuantity]:
+def quantities_of(owner: type) -> Iterator[DeclaredQuantity]:
+    """The quantities that a class declares, fields before properties."""
     for name, (_, mark) in declared(owner).items():
         if isinstance(mark, Shown):
             kind = "curve" if is_array(owner, name) else "scalar"
