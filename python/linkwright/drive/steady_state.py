@@ -212,6 +212,18 @@ class SteadyState(Result):
         return self.energy_motor / self.period
 
     @property
+    def cyclic_load_factor(
+        self,
+    ) -> Annotated[
+        float | None,
+        Shown("cyclic load factor of the motor", "CLF", "", table="drive", before="torque_motor_min"),
+    ]:
+        """Root mean square over mean torque: what heats the motor against what works; None where the mean is
+        not positive.
+        """
+        return self.torque_motor_rms / self.torque_motor_mean if self.torque_motor_mean > 0 else None
+
+    @property
     def efficiency(
         self,
     ) -> Annotated[
