@@ -33,7 +33,8 @@ class Shown(NamedTuple):
     shape : str
         Of an array that is no list of numbers over another one, such as ``"(n, 2)"``.
     over : str
-        Attribute that a curve runs over, if that is not the first array of its result.
+        Attribute that a curve runs over, if that is not the first array of its result; its own name for an
+        array that runs over no quantity, such as over variants.
     table : str
         Name of the table that has a row for it; empty for none.
     before : str
