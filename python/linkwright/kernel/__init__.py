@@ -15,5 +15,5 @@
 | `public/` | What public functions have in common |
 | `quantities` | Words, symbols and units of results, declared at their attributes |
 | `result` | Scalars, curves and tables of a result |
-| `units` | Units stop here: a number or a text with a unit comes in, an SI float comes out |
+| `units/` | Units stop here: a number or a text with a unit comes in, an SI float comes out |
 """
