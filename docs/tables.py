@@ -32,12 +32,6 @@ PAGES = tuple(
     Path(__file__).with_name(name) for name in ("file_format.md", "units.md", "limits.md", "notation.md")
 )
 
-# Rooms in the order in which their results are listed.
-_ROOMS = (
-    *("drive", "kinetostatics", "linkages", "cam", "torsion", "pumping", "topping", "synthesis", "sizing"),
-    *("papers", "app"),
-)
-
 _RANGES = re.compile(r"(<!-- ranges -->\n).*?(<!-- end -->)", re.DOTALL)
 _BLOCK = re.compile(r"(<!-- keys: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
@@ -83,7 +77,7 @@ def limits() -> str:
 
 
 def results() -> list[type[Result]]:
-    """All classes of results, in the order of the house."""
+    """All classes of results, by their modules."""
     for found in pkgutil.walk_packages(linkwright.__path__, "linkwright."):
         if not found.name.endswith("__main__"):
             import_module(found.name)
@@ -92,7 +86,7 @@ def results() -> list[type[Result]]:
         below = {each for each in left.pop().__subclasses__() if each.__module__.startswith("linkwright.")}
         classes |= below
         left += below
-    return sorted(classes, key=lambda each: (_ROOMS.index(each.__module__.split(".")[1]), each.__name__))
+    return sorted(classes, key=lambda each: (each.__module__, each.__name__))
 
 
 def quantities() -> str:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from linkwright.kernel.page.numbers import degrees, number
-from linkwright.kernel.page.table import Row, Table, rows_in, with_unit
-from linkwright.kernel.quantities import in_table
-from linkwright.kernel.result import Result
+from linkwright.kernel.page.table import Row, Table, known_rows, rows_in, with_unit
 from linkwright.pumping.gear_torque import GearTorque
 from linkwright.pumping.rod_rotator import RodRotatorMotion
 from linkwright.pumping.unit import PumpingUnitMotion
@@ -27,16 +25,10 @@ def unit_tables(unit: PumpingUnitMotion | None, rotator: RodRotatorMotion | None
 _HEADS = ("quantity", "", "value", "where")
 
 
-def _known(result: Result, table: str, beside: Mapping[str, str] | None = None) -> list[Row]:
-    """The rows of a table but for what there is not."""
-    names = in_table(type(result), table)
-    return rows_in(result, table, beside, without=[each for each in names if getattr(result, each) is None])
-
-
 def _polished_rod(unit: PumpingUnitMotion) -> Table:
     factors = ("torque_factor_max", "torque_factor_min")
     places = {name: f"at θ = {degrees(getattr(unit, f'{name}_angle'))}" for name in factors}
-    return Table("pumping_unit", "Polished rod", _HEADS, _known(unit, "pumping_unit", places))
+    return Table("pumping_unit", "Polished rod", _HEADS, known_rows(unit, "pumping_unit", places))
 
 
 def _torque_factors(unit: PumpingUnitMotion) -> Table:
@@ -63,5 +55,5 @@ def _gear(gear: GearTorque) -> Table:
 
 def _rotator(rotator: RodRotatorMotion) -> Table:
     where = " and ".join(degrees(each) for each in rotator.change_points)
-    rows = [*_known(rotator, "rotator"), ("change points", "", where or "none", "")]
+    rows = [*known_rows(rotator, "rotator"), ("change points", "", where or "none", "")]
     return Table("rotator", f"Rotator: the lever {rotator.verdict.split(':')[0]}", _HEADS, rows)

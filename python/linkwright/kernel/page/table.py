@@ -64,3 +64,11 @@ def rows_in(
     """
     names = (name for name in in_table(type(result), table) if name not in without)
     return [row(result, name, (beside or {}).get(name, "")) for name in names]
+
+
+def known_rows(
+    result: Result, table: str, beside: Mapping[str, str] | None = None, *, without: Collection[str] = ()
+) -> list[Row]:
+    """`rows_in`, without attributes that are None."""
+    unknown = [name for name in in_table(type(result), table) if getattr(result, name) is None]
+    return rows_in(result, table, beside, without=[*unknown, *without])
