@@ -13,12 +13,14 @@ from test_docs import tables
 from test_docstrings import entries, section
 
 import linkwright as lw
+from linkwright.app.study import Study
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.tables import drive_tables
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.page.csv import curves_csv
 from linkwright.kernel.quantities import About, Shown, declared, in_table
 from linkwright.kernel.result import Result
+from linkwright.torsion.study import TorsionStudy
 
 REGISTRY = pint.UnitRegistry()
 RESULTS = [each for each in tables().results() if is_dataclass(each)]
@@ -131,6 +133,16 @@ def test_scalars_and_curves_of_a_study_are_keys_of_its_answer() -> None:
         for each in lw.quantities(found):
             analysis, _, attribute = each.name.rpartition(".")
             assert attribute in told[analysis], each.name
+
+
+@pytest.mark.parametrize("study", [Study, TorsionStudy], ids=lambda each: each.__name__)
+def test_every_result_of_a_study_declares_its_attributes(study: type) -> None:
+    # A study imports the rooms of its results when it needs them.
+    hints = get_type_hints(study, localns={each.__name__: each for each in RESULTS}).values()
+    kinds = {kind for hint in hints for kind in (hint, *get_args(hint)) if isinstance(kind, type)}
+    results = {kind for kind in kinds if issubclass(kind, Result)}
+    assert len(results) > 8
+    assert {each.__name__ for each in results if not declared(each)} == set()
 
 
 def test_a_unit_may_depend_on_the_machine() -> None:
