@@ -8,11 +8,13 @@ use pyo3::exceptions::{PyIndexError, PyValueError};
 pub(crate) fn plan_error(error: PlanError) -> PyErr {
     let text = error.to_string();
     match error {
-        PlanError::Index { .. } => PyIndexError::new_err(text),
+        PlanError::Index { .. } | PlanError::Missing { .. } | PlanError::Order { .. } => {
+            PyIndexError::new_err(text)
+        }
         PlanError::Length { .. }
         | PlanError::Kind { .. }
         | PlanError::Table { .. }
-        | PlanError::Formula { .. }
+        | PlanError::In { .. }
         | PlanError::MotionLaw => PyValueError::new_err(text),
     }
 }
