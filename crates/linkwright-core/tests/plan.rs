@@ -11,7 +11,7 @@ use linkwright_core::linkage::folding::{ChangePoint, Folding};
 use linkwright_core::linkage::group::{Condition, Group};
 use linkwright_core::linkage::guided::Line;
 use linkwright_core::linkage::mechanism::{Element, Fixed};
-use linkwright_core::plan::{Builder, FRAME};
+use linkwright_core::plan::builder::{Builder, FRAME};
 
 const DRIVE: Drive = Drive {
     motor: Motor::Off,
@@ -131,7 +131,7 @@ fn a_line_on_the_frame_is_on_the_link_after_the_last() {
     let place = Sum { start: 0, terms: vec![(Source::Drive, 0)] };
     b.element(Element::Runner(Runner { point: 3, slide: 0, line, place })).expect("a linear driver");
     b.element(crank(4, 1, 0)).expect("another crank");
-    let plan = b.build(DRIVE).expect("a sound drive");
+    let plan = b.into_plan(DRIVE).expect("a sound drive");
     let Element::Runner(runner) = &plan.mechanism.elements[1] else { panic!("no runner") };
     assert_eq!((runner.line.link, plan.mechanism.n_links), (2, 2));
 }
@@ -148,9 +148,9 @@ fn bodies_loads_and_drive_hang_on_what_exists() {
     let carrier = Carrier::Link { link: 0 };
     assert_eq!(b.formula_load(FormulaLoad { formula: 0, carrier }), missing("formula", 0, 0));
     let far = Formula::new(vec![Op::Number(4)]).expect("one number");
-    assert_eq!(b.formula(far), missing("parameter", 4, 4));
+    assert_eq!(b.formula(far).map(|_| ()), missing("parameter", 4, 4));
     let motor = Motor::Table { table: 0 };
-    let error = b.build(Drive { motor, ..DRIVE }).expect_err("no table");
+    let error = b.into_plan(Drive { motor, ..DRIVE }).expect_err("no table");
     assert_eq!(error, PlanError::Missing { what: "table", value: 0, made: 0 });
 }
 
@@ -163,7 +163,7 @@ fn formulas_are_sorted_by_their_degree() {
         let formula = b.formula(Formula::new(ops).expect("a formula")).expect("no parameters");
         b.formula_load(FormulaLoad { formula, carrier: Carrier::Link { link: 0 } }).expect("on the crank");
     }
-    let plan = b.build(DRIVE).expect("a sound drive");
+    let plan = b.into_plan(DRIVE).expect("a sound drive");
     assert!(matches!(plan.force_elements[..], [ForceElement::Formula(_), ForceElement::ViscousFormula(_)]));
     assert_eq!(plan.laws.len(), 1, "the square of a speed");
 }
@@ -189,7 +189,7 @@ fn loads_with_a_potential_are_told() {
         ForceElement::Damper { from: 0, to: 2, damping: 0 },
     ];
     elements.into_iter().try_for_each(|load| b.force_element(load)).expect("sound loads");
-    let rest = b.build(DRIVE).expect("a sound drive").without_conservative();
+    let rest = b.into_plan(DRIVE).expect("a sound drive").without_conservative();
     assert!(matches!(rest.loads[..], [Load::DryPoint { .. }, Load::TorqueAngle { .. }]));
     assert!(matches!(rest.force_elements[..], [ForceElement::Follow { .. }, ForceElement::Damper { .. }]));
 }

@@ -1,6 +1,6 @@
 //! Elements of the mechanism, each made of what was made before it.
 
-use super::{Builder, FRAME};
+use super::builder::{Builder, FRAME};
 use crate::kernel::error::PlanError;
 use crate::linkage::arm::{self, Arm};
 use crate::linkage::coupled::{Source, Sum};

@@ -1,8 +1,7 @@
-//! Bodies, loads, laws and the drive: what hangs on the mechanism.
+//! Bodies, loads and laws: what hangs on the mechanism.
 
-use super::{Builder, all_below};
+use super::builder::{Builder, all_below};
 use crate::drive::loads::{Body, Carrier, ForceElement, FormulaLoad, Law, Load};
-use crate::drive::motor::{Drive, Motor};
 use crate::kernel::error::PlanError;
 use crate::kernel::formula::Degree;
 
@@ -158,22 +157,6 @@ impl Builder {
                 self.slots(&[cos, sin])
             }
             Carrier::Link { link } => self.links(&[link]),
-        }
-    }
-
-    pub(super) fn check_drive(&self, drive: &Drive) -> Result<(), PlanError> {
-        let Drive { motor, ratio, forward, reverse, inertia, speed_start, speed_loads } = drive;
-        self.slots(&[*ratio, *forward, *reverse, *inertia, *speed_start])?;
-        self.tables(speed_loads)?;
-        match motor {
-            Motor::Off => Ok(()),
-            Motor::Constant { torque } => self.slots(&[*torque]),
-            Motor::Line { torque, inverse_speed } => self.slots(&[*torque, *inverse_speed]),
-            Motor::Induction { inverse_synchronous, torque, slip, resistance, spans } => {
-                self.slots(&[*inverse_synchronous, *torque, *slip, *resistance])?;
-                spans.iter().try_for_each(|s| self.slots(&[s.x0, s.y0, s.x1, s.y1, s.inverse_width]))
-            }
-            Motor::Table { table } => self.tables(&[*table]),
         }
     }
 }

@@ -14,7 +14,7 @@ use linkwright_core::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
 use linkwright_core::linkage::in_line::in_line;
 use linkwright_core::linkage::mechanism::{Element, Fixed};
 use linkwright_core::linkage::trace::{Path, follow};
-use linkwright_core::plan;
+use linkwright_core::plan::builder as plan;
 
 /// A plan and the numbers that go with it.
 pub struct Built {
@@ -357,7 +357,7 @@ impl Builder {
     pub fn finish(mut self, motor: Motor, factors: [f64; 5]) -> Built {
         let [ratio, forward, reverse, inertia, speed_start] = factors.map(|x| self.number(x));
         let drive = Drive { motor, ratio, forward, reverse, inertia, speed_start, speed_loads: vec![] };
-        let plan = self.plan.build(drive).expect("a sound drive");
+        let plan = self.plan.into_plan(drive).expect("a sound drive");
         Built { plan, q: self.q }
     }
 

@@ -1,7 +1,7 @@
 //! The drive line: `drive::motor` of the core, with the same names.
 
 use linkwright_core::drive::motor::{self, Motor as CoreMotor};
-use linkwright_core::plan::Builder;
+use linkwright_core::plan::builder::Builder;
 use pyo3::prelude::*;
 
 use super::numbers::Knots;

@@ -2,7 +2,7 @@
 
 use linkwright_core::drive::loads::{Body as CoreBody, Carrier, ForceElement, FormulaLoad, Load as CoreLoad};
 use linkwright_core::kernel::error::PlanError;
-use linkwright_core::plan::Builder;
+use linkwright_core::plan::builder::Builder;
 use pyo3::prelude::*;
 
 use super::numbers::{Formula, Knots};

@@ -17,7 +17,7 @@ pub(crate) mod parts;
 use drive::Drive;
 use elements::{Element, Fixed};
 use linkwright_core::drive::structure::Plan as CorePlan;
-use linkwright_core::plan::Builder;
+use linkwright_core::plan::builder::Builder;
 use loads::{Body, Load};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -55,7 +55,7 @@ impl Plan {
             each.add_to(&mut builder).map_err(plan_error)?;
         }
         let drive = drive.core(&mut builder);
-        builder.build(drive).map(Plan).map_err(plan_error)
+        builder.into_plan(drive).map(Plan).map_err(plan_error)
     }
 
     /// Whether loads depend on both angle and speed in their own way, or on time.

@@ -4,7 +4,7 @@ use linkwright_core::linkage::coupled::{Source, Sum as CoreSum};
 use linkwright_core::linkage::folding;
 use linkwright_core::linkage::group::{self, Condition as CoreCondition};
 use linkwright_core::linkage::guided::Line as CoreLine;
-use linkwright_core::plan::FRAME;
+use linkwright_core::plan::builder::FRAME;
 use pyo3::prelude::*;
 
 /// A straight guide on a link, or on the frame.
