@@ -74,6 +74,7 @@ _HOME = {
     "line_contact": "cam.dynamics.hertz",
     "pumping_unit": "pumping.unit",
     "rod_rotator": "pumping.rod_rotator",
+    "turning_moment": "turning.diagram",
     "topper": "topping.topper",
     "topper_field": "topping.field",
     "length_verdict": "topping.verdict",
@@ -230,3 +231,4 @@ if TYPE_CHECKING:
     from linkwright.torsion.response.mesh_torque import mesh_torques as mesh_torques
     from linkwright.torsion.response.stress import shaft_stress as shaft_stress
     from linkwright.torsion.study import torsion_study as torsion_study
+    from linkwright.turning.diagram import turning_moment as turning_moment

@@ -20,7 +20,9 @@ from linkwright.kernel.errors import UnitError
 
 REGISTRY: pint.UnitRegistry[Any] = pint.UnitRegistry()
 REGISTRY.define("@alias turn = rev")
-SPELLINGS = [(text, f, d) for d, row in units.COMMON.items() for text, f in row.items()]
+SPELLINGS = [
+    (text, f, units.Dimension.of(unit)) for unit, row in units.COMMON.items() for text, f in row.items()
+]
 
 
 @pytest.mark.parametrize(("text", "factor", "dimension"), SPELLINGS, ids=[each[0] for each in SPELLINGS])
@@ -60,6 +62,28 @@ def test_common_spellings_agree_with_pint(text: str, factor: float, dimension: u
         ("5 delta_degC", units.TEMPERATURE, 5.0),
         ("90 %", units.RATIO, 0.9),
         ("0.9", units.RATIO, 0.9),
+        # Products run together, and what other trades write.
+        ("120 Nm", units.TORQUE, 120.0),
+        ("1.2kNm", units.TORQUE, 1200.0),
+        ("500 Nmm", units.TORQUE, 0.5),
+        ("3 Nm/rad", units.TORSIONAL_STIFFNESS, 3.0),
+        ("3 Nmm/rad", units.TORSIONAL_STIFFNESS, 0.003),
+        ("300 Ns/m", units.DAMPING, 300.0),
+        ("4 Nms/rad", units.TORSIONAL_DAMPING, 4.0),
+        ("0.14 kgm^2", units.INERTIA, 0.14),
+        ("0.14 kgm²", units.INERTIA, 0.14),
+        ("1400 kgcm²", units.INERTIA, 0.14),
+        ("2 kWh", units.ENERGY, 7.2e6),
+        ("960 RPM", units.SPEED, 32 * math.pi),
+        ("960 r/min", units.SPEED, 32 * math.pi),
+        ("960 U/min", units.SPEED, 32 * math.pi),
+        ("10 ft lb", units.TORQUE, 13.558179483314004),
+        ("10 ft-lb", units.TORQUE, 13.558179483314004),
+        ("10 lb·ft", units.TORQUE, 13.558179483314004),
+        ("10 ft lbf", units.TORQUE, 13.558179483314004),
+        ("10 in lb", units.TORQUE, 1.129848290276167),
+        ("100 lbf", units.FORCE, 444.82216152605),
+        ("100 lbf/in", units.STIFFNESS, 17512.683524647636),
         # Spellings that only pint knows.
         ("2 inch", units.LENGTH, 0.0508),
         ("1 metre", units.LENGTH, 1.0),
@@ -84,6 +108,12 @@ def test_texts_give_si(text: object, kind: units.Kind, value: float | None) -> N
         ("0.2 kg", units.LENGTH, "unit of mass"),
         ("0.2", units.LENGTH, '0.2 m"'),
         ("0,2 m", units.LENGTH, "point"),
+        ("0,5 kN m", units.TORQUE, "point"),
+        ("1,500 rpm", units.SPEED, "thousands"),
+        ("1,500.5 mm", units.LENGTH, "thousands"),
+        ("20 lb", units.FORCE, "lbf"),
+        ("20 lb/in", units.STIFFNESS, "lbf"),
+        ("4 Nms", units.TORSIONAL_DAMPING, "N m s"),
         ("", units.LENGTH, "a length"),
         ("m", units.LENGTH, "a length"),
         ("1 m m", units.LENGTH, "something else"),
@@ -170,6 +200,13 @@ def test_lists() -> None:
     for value in ("0, x", {"a": 1}, 3, None, [[1]], "0, 1"):
         with pytest.raises(UnitError):
             units.parse_list(value, units.LENGTH)
+
+
+@pytest.mark.parametrize("text", ["0,2 m", "1,5; 2,5 mm", "1,5, 2,5 mm", "0,2; 3 m"])
+def test_a_comma_that_may_be_decimal_is_no_list(text: str) -> None:
+    with pytest.raises(UnitError, match="decimal point"):
+        units.parse_list(text, units.LENGTH)
+    assert units.parse_list("0,100,200 mm", units.LENGTH) == [0.0, 0.1, 0.2]
 
 
 def test_common_spellings_do_not_load_pint() -> None:

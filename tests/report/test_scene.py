@@ -15,14 +15,14 @@ from linkwright.app.study import study
 from linkwright.kernel.files.templates import template, templates
 from linkwright.machine.read import loads, read
 
-# A torsional train, and a knife that follows a law, have no mechanism to be drawn.
+# A torsional train, a knife that follows a law, and a turning-moment diagram have no mechanism to be drawn.
 GALLERY = [
     path
     for path in sorted((Path(__file__).parents[2] / "examples").glob("*/machine.toml"))
-    if not (read(path).is_train_alone or read(path).is_topper_alone)
+    if read(path).has_crank
 ]
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
-MECHANISMS = [name for name in templates() if not loads(template(name)).is_topper_alone]
+MECHANISMS = [name for name in templates() if loads(template(name)).has_crank]
 
 
 def drawn(text: str, *overrides: str) -> dict[str, Any]:

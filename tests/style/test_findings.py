@@ -28,7 +28,10 @@ SILENT = {
     ("cam/scene.py", "_contacts"): "a cam without room for its second follower is told by the study",
     ("torsion/figures/captions.py", "_manoeuvre"): "a record too short for orders has no waterfall",
     ("sizing/flywheel.py", "_unevenness"): "no steady motion is an answer there: δ counts as infinite",
-    ("kernel/units.py", "_from_pint"): "a text that pint does not know is told with the units that are known",
+    (
+        "kernel/units/spellings.py",
+        "_from_pint",
+    ): "a text that pint does not know is told with the units that are known",
 }
 
 

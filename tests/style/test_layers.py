@@ -41,6 +41,7 @@ SUBJECTS = (
     "torsion",
     "pumping",
     "topping",
+    "turning",
     "synthesis",
     "sizing",
 )

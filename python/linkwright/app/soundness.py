@@ -7,6 +7,7 @@
 | pumping unit | the crank turns all round | `PolishedRod` |
 | rotator | the lever does as its regime asks | `rod_rotator` |
 | cams | undercut, crossed, locked, hollow, no room for a second follower | `cam_profile`, `cam_faults` |
+| turning-moment diagram | driver and load balance over a cycle | `turning_moment` |
 | knife of a topper | advances, over its field too; long enough for all | `topper`, `require_advance` |
 | train, drive line that twists | has natural frequencies | `free_vibration` |
 
@@ -68,8 +69,22 @@ def soundness(machine: Machine) -> Soundness:
         What was looked at, and the findings.
     """
     found = Findings()
-    looked = [*_knife(machine, found), *_mechanism(machine, found), *_train(machine, found)]
+    looked = [
+        *_diagram(machine, found),
+        *_knife(machine, found),
+        *_mechanism(machine, found),
+        *_train(machine, found),
+    ]
     return Soundness(tuple(looked), found.findings)
+
+
+def _diagram(machine: Machine, found: Findings) -> Iterator[str]:
+    if machine.turning_moment is None:
+        return
+    from linkwright.turning.diagram import turning_moment
+
+    found.of(turning_moment, machine, n=1)
+    yield "turning-moment diagram: driver and load balance over a cycle"
 
 
 def _knife(machine: Machine, found: Findings) -> Iterator[str]:
@@ -90,7 +105,7 @@ def _knife(machine: Machine, found: Findings) -> Iterator[str]:
 
 
 def _mechanism(machine: Machine, found: Findings) -> Iterator[str]:
-    if machine.is_train_alone or machine.is_topper_alone:
+    if not machine.has_crank:
         return
     if machine.pumping_unit is not None:
         from linkwright.pumping.unit import PolishedRod

@@ -2,6 +2,7 @@
 
 | order | analysis | needs |
 | --- | --- | --- |
+| 1 | `turning_moment` | such a diagram |
 | 1 | `topper` | a topper; a mechanism that closes if that moves its knife |
 | 2 | `pumping_unit`, `rod_rotator` | such a unit, such a rotator |
 | 3 | `linkage` | a linkage that closes somewhere |
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from linkwright.pumping.unit import PumpingUnitMotion
     from linkwright.topping.model.topper import Topper
     from linkwright.topping.topper import TopperStudy
+    from linkwright.turning.diagram import TurningMomentDiagram
 
 # Intervals of the turn for forces, a degree: no line shows more, and four times as many take as much time as
 # all the rest.
@@ -59,6 +61,8 @@ class Study(DriveStudy):
         Motion of the polished rod and of its rotator.
     topper : TopperStudy or None
         What the knife of a topper cuts.
+    turning_moment : TurningMomentDiagram or None
+        Fluctuation of energy of a turning-moment diagram, and its flywheel.
     linkage : Linkage or None
         Extreme positions, transmission angles and Grashof classes.
     cams : tuple of CamProfile
@@ -77,6 +81,7 @@ class Study(DriveStudy):
     pumping_unit: PumpingUnitMotion | None = None
     rotator: RodRotatorMotion | None = None
     topper: TopperStudy | None = None
+    turning_moment: TurningMomentDiagram | None = None
     linkage: Linkage | None = None
     cams: tuple[CamProfile, ...] = ()
     cam_sizes: tuple[LeastSizes, ...] = ()
@@ -97,7 +102,7 @@ class Study(DriveStudy):
 
     def results(self) -> dict[str, Result]:
         """The results that there are, by analysis."""
-        first = ("topper", "linkage", "pumping_unit", "gear_torque", "rotator", "reduction")
+        first = ("turning_moment", "topper", "linkage", "pumping_unit", "gear_torque", "rotator", "reduction")
         names = (*first, "constant_energy", "steady_state", "step_method", "run_up", "run_down", "forces")
         found: dict[str, Result | None] = {name: getattr(self, name) for name in names}
         single = len(self.cams) == 1
@@ -156,9 +161,12 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         The accuracy or the step makes no sense.
     """
     found = Findings()
+    diagram = _diagram(machine, found)
+    if machine.is_diagram_alone:
+        return Study(machine, turning_moment=diagram, findings=found.findings)
     cut = _cut(machine, found)
     if machine.is_topper_alone:
-        return _topped(Study(machine, findings=found.findings), cut)
+        return _topped(Study(machine, turning_moment=diagram, findings=found.findings), cut)
     unit, rotator = _pumped(machine, found)
     moved = found.of(linkage, machine)
     whole = _turned(machine, found, accuracy, step)
@@ -166,11 +174,21 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         whole,
         pumping_unit=unit,
         rotator=rotator,
+        turning_moment=diagram,
         linkage=moved if moved is not None and moved.elements else None,
     )
     whole = _with_cams(whole, found)
     warnings = (*_of_units(whole), *whole.warnings, *found.warnings)
     return _topped(replace(whole, findings=found.findings, warnings=warnings), cut)
+
+
+def _diagram(machine: Machine, found: Findings) -> TurningMomentDiagram | None:
+    """The turning-moment diagram of a shaft."""
+    if machine.turning_moment is None:
+        return None
+    from linkwright.turning.diagram import turning_moment
+
+    return found.of(turning_moment, machine)
 
 
 def _cut(machine: Machine, found: Findings) -> TopperStudy | None:

@@ -14,5 +14,5 @@
 | `page/` | What all pages share: quantities in words, tables, formulas, templates |
 | `public/` | What public functions have in common |
 | `result` | Scalars, curves and tables of a result |
-| `units` | Units stop here: a number or a text with a unit comes in, an SI float comes out |
+| `units/` | Units stop here: a number or a text with a unit comes in, an SI float comes out |
 """

@@ -23,6 +23,7 @@ Nothing here needs the compiled core.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import ClassVar
@@ -283,3 +284,24 @@ class SynthesisError(FindingError):
 
 class ExchangeError(FindingError):
     """A curve has no outline that can be manufactured, or what was read back is not what was written."""
+
+
+# A value is shown on one line of a terminal, together with a few words.
+_SHOWN = 80
+
+# Longer whole numbers are told by their length.
+_WHOLE_BITS = 256
+
+
+def show(value: object) -> str:
+    """Write a value as the user may have written it, shortened to fit in a line."""
+    if isinstance(value, list | tuple | dict):
+        return "a table" if isinstance(value, dict) else "a list"
+    if isinstance(value, int) and value.bit_length() > _WHOLE_BITS:
+        # Python refuses to write numbers of thousands of digits.
+        return f"a whole number of about {int(value.bit_length() * math.log10(2)) + 1} digits"
+    # What lies beyond the part that is shown costs nothing.
+    text = f'"{value[: 4 * _SHOWN]}"' if isinstance(value, str) else str(value)
+    text = " ".join(text.lower().split() if isinstance(value, bool) else text.split())
+    text = plain(text)
+    return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."

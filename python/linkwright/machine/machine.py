@@ -26,11 +26,13 @@ if TYPE_CHECKING:
     from linkwright.pumping.model.unit import PumpingUnit
     from linkwright.topping.model.topper import Topper
     from linkwright.torsion.model.train import Train
+    from linkwright.turning.model.turning_moment import TurningMoment
 else:
     PumpingUnit = elsewhere("pumping.model.unit", "PumpingUnit")
     RodRotator = elsewhere("pumping.model.rod_rotator", "RodRotator")
     Topper = elsewhere("topping.model.topper", "Topper")
     Train = elsewhere("torsion.model.train", "Train")
+    TurningMoment = elsewhere("turning.model.turning_moment", "TurningMoment")
 
 # The format that this version reads and writes.
 FORMAT = 1
@@ -75,6 +77,9 @@ class Machine(Description):
     rod_rotator: RodRotator | None = Field(None, description="Rotator of the rod string on the pumping unit.")
     topper: Topper | None = Field(None, description="Knife that slices the heads of roots in a row.")
     train: Train | None = Field(None, description="Torsional train: discs, shafts and gears.")
+    turning_moment: TurningMoment | None = Field(
+        None, description="Turning-moment diagram of a shaft: torques over the angle, and a flywheel."
+    )
     bodies: dict[str, Body] = Field(default_factory=dict, description="Masses by name.")
     loads: dict[Name, AnyLoad] = Field(default_factory=dict, description="Forces and torques by name.")
     run_up: RunUp = Field(default_factory=RunUp, description="How the run-up starts and ends.")
@@ -94,6 +99,17 @@ class Machine(Description):
     def is_topper_alone(self) -> bool:
         """Whether it is a topper whose knife moves by a law, and nothing else."""
         return self.topper is not None and self.pumping_unit is None and _is_left_out(self)
+
+    @property
+    def is_diagram_alone(self) -> bool:
+        """Whether it is a turning-moment diagram and nothing else."""
+        beside = (self.topper, self.train, self.pumping_unit)
+        return self.turning_moment is not None and not any(beside) and _is_left_out(self)
+
+    @property
+    def has_crank(self) -> bool:
+        """Whether a crank moves a mechanism: not so in a train, a topper or a diagram that stands alone."""
+        return not (self.is_train_alone or self.is_topper_alone or self.is_diagram_alone)
 
     @model_validator(mode="wrap")
     @classmethod
@@ -121,7 +137,8 @@ def _reference_faults(machine: object) -> list[InitErrorDetails]:
     mechanism, unit = look(machine, "mechanism"), look(machine, "pumping_unit")
     train, topper = look(machine, "train"), look(machine, "topper")
     faults = list(_faults_of_train(machine, train))
-    stands_alone = any(each is not None for each in (unit, train, topper))
+    diagram = look(machine, "turning_moment")
+    stands_alone = any(each is not None for each in (unit, train, topper, diagram))
     if not stands_alone and (mechanism is None or _is_left_out(machine)):
         return [fault("mechanism", expected="a table")]
     faults += _faults_of_unit(machine)

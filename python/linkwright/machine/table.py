@@ -55,10 +55,16 @@ def machine_parts(machine: Machine) -> list[Part]:
     Returns
     -------
     list of Part
-        In the order topper, drive, train, pumping unit, mechanism, bodies, loads, run-up.
+        In the order turning moments, topper, drive, train, pumping unit, mechanism, bodies, loads, run-up.
     """
-    parts = (_topper, _drive, _train, _unit, _mechanism, _tables, _run_up)
+    parts = (_diagram, _topper, _drive, _train, _unit, _mechanism, _tables, _run_up)
     return [part for each in parts for part in each(machine)]
+
+
+def _diagram(machine: Machine) -> Iterator[Part]:
+    """A turning-moment diagram, its driver and its load."""
+    if machine.turning_moment is not None:
+        yield from _nested("Turning moment", machine, ("turning_moment",))
 
 
 def _topper(machine: Machine) -> Iterator[Part]:

@@ -50,14 +50,28 @@ def summary(machine: Machine) -> str:
     """
     from linkwright.linkages.model.mobility import mobility
 
-    rows = [("machine", machine.name), *_topper(machine)]
-    if not machine.is_topper_alone:
+    rows = [("machine", machine.name), *_diagram(machine), *_topper(machine)]
+    if machine.has_crank or machine.is_train_alone:
         rows += [("motor", _motor(machine)), *_mechanism(machine)]
-    if not (machine.is_train_alone or machine.is_topper_alone):
+    if machine.has_crank:
         rows += [("mobility", str(mobility(_whole(machine))))]
     rows += _train(machine)
     rows += [("bodies", ", ".join(machine.bodies)), ("loads", _loads(machine))]
     return "\n".join(f"  {word:<14} {text}" for word, text in rows if text)
+
+
+def _diagram(machine: Machine) -> list[tuple[str, str]]:
+    """What drives a shaft, and what resists."""
+    described = machine.turning_moment
+    if described is None:
+        return []
+    if described.areas:
+        told = f"{len(described.areas)} areas between driver and load"
+    else:
+        torques = {"driver": described.driver, "load": described.load}
+        told = ", ".join(f"{name} {'constant' if t is None else t.kind}" for name, t in torques.items())
+    turns = "one revolution" if described.turns == 1 else f"{described.turns} revolutions"
+    return [("turning moment", f"{told}; cycle of {turns}, {described.speed:.4g} rad/s")]
 
 
 def _topper(machine: Machine) -> list[tuple[str, str]]:

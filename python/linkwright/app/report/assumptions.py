@@ -60,13 +60,21 @@ def assumptions(study: Study) -> list[str]:
         Sentences, from the mechanism to the methods.
     """
     machine = study.machine
-    cut = _topper(machine)
-    if machine.is_topper_alone:
+    cut = [*_diagram(machine), *_topper(machine)]
+    if machine.is_topper_alone or machine.is_diagram_alone:
         return cut
     found = [*cut, *_mechanism(), *_bodies(machine), *_loads(machine)]
     if machine.drive is not None:
         found += [*_drive(machine.drive), *_motor(machine.drive)]
     return [*found, *_methods(study)]
+
+
+def _diagram(machine: Machine) -> list[str]:
+    if machine.turning_moment is None:
+        return []
+    from linkwright.turning.tables import ASSUMPTIONS
+
+    return list(ASSUMPTIONS)
 
 
 def _topper(machine: Machine) -> list[str]:

@@ -22,7 +22,11 @@ def figures(study: Study) -> Iterator[Captioned]:
 
 
 def _slices(study: Study) -> Iterator[Captioned]:
-    """Those of topper, cams and pumping unit, where the machine has such."""
+    """Those of turning moments, topper, cams and pumping unit, where the machine has such."""
+    if study.turning_moment is not None:
+        from linkwright.turning.figures import turning_figures
+
+        yield from turning_figures(study.turning_moment)
     if study.knife is not None:
         from linkwright.topping.figures.captions import topper_figures
 

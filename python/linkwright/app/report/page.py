@@ -99,6 +99,21 @@ def _topper_formulas(study: Study) -> list[Formula]:
     return topper_formulas(study.machine.topper, study.topper)
 
 
+def _turning_formulas(study: Study) -> list[Formula]:
+    if study.turning_moment is None:
+        return []
+    from linkwright.turning.tables import turning_formulas
+
+    return turning_formulas()
+
+
+def _turning_headline(study: Study) -> Iterator[tuple[str, str, str]]:
+    if study.turning_moment is not None:
+        from linkwright.turning.tables import turning_headline
+
+        yield from turning_headline(study.turning_moment)
+
+
 def _topper_headline(study: Study) -> Iterator[tuple[str, str, str]]:
     if study.knife is None:
         return
@@ -108,8 +123,8 @@ def _topper_headline(study: Study) -> Iterator[tuple[str, str, str]]:
 
 
 def _formulas(study: Study) -> list[Formula]:
-    cut = _topper_formulas(study)
-    if study.machine.is_topper_alone:
+    cut = [*_turning_formulas(study), *_topper_formulas(study)]
+    if study.machine.is_topper_alone or study.machine.is_diagram_alone:
         return cut
     motor = study.machine.drive.motor if study.machine.drive else None
     is_induction = isinstance(motor, InductionMotor)
@@ -119,6 +134,8 @@ def _formulas(study: Study) -> list[Formula]:
 
 def _papers(study: Study) -> str:
     """The papers that formulas are from."""
+    if study.machine.is_diagram_alone:
+        return ""
     if study.machine.topper is None:
         return PAPER_1
     from linkwright.topping.tables.words import PAPER_5
@@ -128,6 +145,7 @@ def _papers(study: Study) -> str:
 
 def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
     """The few numbers that one looks for first: symbol and word, value, unit."""
+    yield from _turning_headline(study)
     yield from _topper_headline(study)
     steady, run_up, reduced = study.steady_state, study.run_up, study.reduction
     if steady is not None:

@@ -20,7 +20,11 @@ def tables(study: Study) -> list[Table]:
 
 
 def _slices(study: Study) -> Iterator[Table]:
-    """Those of topper, cams and pumping unit, where the machine has such."""
+    """Those of turning moments, topper, cams and pumping unit, where the machine has such."""
+    if study.turning_moment is not None:
+        from linkwright.turning.tables import turning_tables
+
+        yield from turning_tables(study.turning_moment)
     if study.knife is not None:
         from linkwright.topping.tables.topper import topper_tables
 

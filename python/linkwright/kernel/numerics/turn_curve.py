@@ -67,6 +67,29 @@ class TurnCurve:
         found: NDArray[np.complex128] = np.einsum("pkn,opn->ko", values, waves, optimize=True)
         return found
 
+    def at(self, phi: Floats) -> Floats:
+        """Values at crank angles within the pieces, (k, n); at a jump those after it."""
+        last = len(self.ends) - 2
+        piece = np.clip(np.searchsorted(self.ends, phi, side="right") - 1, 0, last)
+        half = self._half()[piece]
+        x = (phi - self.ends[piece]) / half - 1.0
+        waves = chebyshev.chebvander(x, self.series.shape[-1] - 1)
+        found: Floats = np.einsum("nj,nkj->kn", waves, self.series[piece])
+        return found
+
+    def crossings(self, k: int = 0) -> Floats:
+        """Angles at which a quantity changes its sign, increasing [rad]; a touch is none."""
+        zeros = [_zeros(series) for series in self.series[:, k]]
+        middle, half = 0.5 * (self.ends[1:] + self.ends[:-1]), self._half()
+        inside = [m + h * x for m, h, x in zip(middle, half, zeros, strict=True)]
+        marks = np.unique(np.concatenate([self.ends, *inside]))
+        value = self.at(0.5 * (marks[1:] + marks[:-1]))[k]
+        # What is rounding has no sign.
+        kept = np.flatnonzero(np.abs(value) > _SAME * self.peak[k])
+        changed = np.flatnonzero(np.diff(np.sign(value[kept])))
+        found: Floats = marks[kept[changed + 1]]
+        return found
+
     def extreme(self, sign: int, k: int = 0) -> tuple[float, float]:
         """Greatest (+1) or least (−1) value of a quantity, and the first crank angle that has it [rad].
 
@@ -149,12 +172,16 @@ def _integrals(count: int) -> Floats:
 
 def _flat_points(series: Floats) -> Floats:
     """Where the derivative of a series is zero, within its piece."""
-    slope = chebyshev.chebder(series)
-    scale = np.abs(slope).max(initial=0.0)
+    return _zeros(np.asarray(chebyshev.chebder(series)))
+
+
+def _zeros(series: Floats) -> Floats:
+    """Where a series is zero, within its piece."""
+    scale = np.abs(series).max(initial=0.0)
     if scale == 0.0:
         return np.empty(0)
     # Leading coefficients of rounding would put zeros anywhere.
-    roots = chebyshev.chebroots(chebyshev.chebtrim(slope, 1e-15 * scale))
+    roots = chebyshev.chebroots(chebyshev.chebtrim(series, 1e-15 * scale))
     # A double zero splits into a complex pair by the root of rounding.
     real = roots.real[np.abs(roots.imag) < 1e-6]
     return np.asarray(real[np.abs(real) <= 1.0])

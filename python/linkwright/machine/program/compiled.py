@@ -225,6 +225,11 @@ def _require_mechanism(machine: Machine) -> None:
         raise InputError(
             f"{machine.name} is a train without a [mechanism]: its analyses are those of torsion"
         )
+    if machine.is_diagram_alone:
+        raise InputError(
+            f"{machine.name} is a turning-moment diagram without a [mechanism]: `linkwright run` has what "
+            "follows from it"
+        )
     if machine.is_topper_alone:
         raise InputError(
             f"{machine.name} is a topper without a [mechanism]: no crank moves its knife; `linkwright run` "

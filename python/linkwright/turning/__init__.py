@@ -1,0 +1,9 @@
+"""Turning-moment diagrams: torques of driver and load over a shaft's angle, and the flywheel between them.
+
+| module | |
+| --- | --- |
+| `diagram` | Fluctuation of energy over a cycle, and the flywheel that evens the motion |
+| `figures` | The diagram, the energy and the speed over a cycle |
+| `model/` | The turning-moment diagram of a machine file |
+| `tables` | The diagram as tables, headline and formulas |
+"""

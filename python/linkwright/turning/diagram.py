@@ -1,0 +1,312 @@
+r"""The turning-moment diagram: fluctuation of energy over a cycle, and the flywheel that evens the motion.
+
+With the torque of the driver T and that of the load M, equal in their means, the energy that the shaft has
+taken up is
+
+.. math:: E(\varphi) = \int_0^\varphi (T - M)\,d\varphi, \qquad \Delta E = E_{\max} - E_{\min},
+
+and from :math:`\tfrac12 J(\omega_{\max}^2 - \omega_{\min}^2) = \Delta E` with the mean of the extremes ω,
+
+.. math:: \delta = \frac{\omega_{\max} - \omega_{\min}}{\omega} = \frac{\Delta E}{J \omega^2},
+
+exactly, for a moment of inertia J that does not change with the angle.
+
+References
+----------
+.. [1] S. S. Rattan, Theory of Machines, 4th edition, chapter 13: turning-moment diagrams, flywheels.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.numerics.turn_curve import TurnCurve
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.public import public
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.turning.model.turning_moment import TurningMoment
+
+Floats = NDArray[np.float64]
+
+# Works of driver and load that differ by less than this share are equal: printed torques have four digits or
+# more, and a difference of this size changes the speed by a hundredth of its fluctuation in a cycle.
+_BALANCED = 1e-4
+
+# Rows of the curves of excess, driver and load.
+_EXCESS, _DRIVER, _LOAD = range(3)
+
+
+def _nothing() -> Floats:
+    """A curve that nobody knows."""
+    return np.empty(0)
+
+
+@dataclass(frozen=True)
+class TurningMomentDiagram(Result):
+    """A shaft over a cycle of its turning moments. What cannot be told is None.
+
+    Attributes
+    ----------
+    cycle : float
+        Angle of a cycle [rad].
+    speed_mean : float
+        Mean of the extreme speeds [rad/s].
+    torque_mean : float or None
+        Mean torque of driver and load [N m].
+    power_mean : float or None
+        Mean power [W].
+    energy_cycle : float or None
+        Work of the driver over a cycle [J].
+    energy_fluctuation : float
+        Maximum fluctuation of energy ΔE [J].
+    energy_coefficient : float or None
+        Coefficient of fluctuation of energy, ΔE over the work of a cycle [–].
+    torque_driver_max, torque_driver_max_angle, torque_driver_min, torque_driver_min_angle : float or None
+        Extremes of the driver's torque [N m] and where they are [rad].
+    speed_max_angle, speed_min_angle : float or None
+        Where the shaft is fastest and slowest [rad].
+    inertia : float or None
+        Moment of inertia of the shaft with its flywheel [kg m²].
+    flywheel_inertia : float or None
+        Moment of inertia of the flywheel that gives the evenness asked for [kg m²]; 0 if none is needed.
+    flywheel_mass : float or None
+        Its mass at the given radius of gyration [kg].
+    unevenness : float or None
+        Coefficient of speed fluctuation δ that results [–].
+    speed_max, speed_min : float or None
+        Extreme speeds [rad/s].
+    acceleration_max, acceleration_min : float or None
+        Extreme accelerations of the shaft [rad/s²].
+    accuracy : float
+        Error of the fluctuation of energy over itself, measured [–].
+    areas : tuple of dict
+        Areas between driver and load in order: ``start``, ``end`` [rad] or None, ``energy`` [J] and
+        ``energy_after`` [J], the excess at its end counted from the start of the first.
+    crank_angle, torque_driver, torque_load, energy, speed : ndarray, shape (n + 1,)
+        Curves over the cycle [rad, N m, N m, J, rad/s]; the energy from the start of the cycle. Empty where
+        areas are given; the speed is NaN without a moment of inertia.
+    """
+
+    cycle: float
+    speed_mean: float
+    energy_fluctuation: float
+    accuracy: float
+    areas: tuple[dict[str, float | None], ...]
+    torque_mean: float | None = None
+    power_mean: float | None = None
+    energy_cycle: float | None = None
+    energy_coefficient: float | None = None
+    torque_driver_max: float | None = None
+    torque_driver_max_angle: float | None = None
+    torque_driver_min: float | None = None
+    torque_driver_min_angle: float | None = None
+    speed_max_angle: float | None = None
+    speed_min_angle: float | None = None
+    inertia: float | None = None
+    flywheel_inertia: float | None = None
+    flywheel_mass: float | None = None
+    unevenness: float | None = None
+    speed_max: float | None = None
+    speed_min: float | None = None
+    acceleration_max: float | None = None
+    acceleration_min: float | None = None
+    crank_angle: Floats = field(default_factory=_nothing)
+    torque_driver: Floats = field(default_factory=_nothing)
+    torque_load: Floats = field(default_factory=_nothing)
+    energy: Floats = field(default_factory=_nothing)
+    speed: Floats = field(default_factory=_nothing)
+
+
+class _Evened(NamedTuple):
+    """What a moment of inertia makes of a fluctuation of energy; fields of the result."""
+
+    inertia: float | None = None
+    flywheel_inertia: float | None = None
+    flywheel_mass: float | None = None
+    unevenness: float | None = None
+    speed_min: float | None = None
+    speed_max: float | None = None
+
+
+@public
+def turning_moment(machine: Machine, *, n: int = 720) -> TurningMomentDiagram:
+    """Fluctuation of energy of a shaft over a cycle, and its flywheel.
+
+    Parameters
+    ----------
+    machine : Machine
+        A machine with the table ``turning_moment``.
+    n : int
+        Intervals of the curves over the cycle, 1 to 100 000. Scalars do not depend on it.
+
+    Returns
+    -------
+    TurningMomentDiagram
+        What follows from the diagram.
+
+    Raises
+    ------
+    InputError
+        The machine has no such table, or n makes no sense.
+    FindingError
+        Driver and load do not balance over a cycle, a torque has no value, or the shaft is too light to
+        keep turning.
+    """
+    described = machine.turning_moment
+    if described is None:
+        raise InputError("turning_moment: the machine has no table of this name")
+    if not 1 <= n <= 100_000:
+        raise InputError(f"n: found {n}, expected 1 to 100000")
+    return _of_areas(described) if described.areas else _of_curves(described, n)
+
+
+def _of_areas(described: TurningMoment) -> TurningMomentDiagram:
+    """From the areas of a diagram: the energies at its crossings are all that counts."""
+    areas = described.area_scale * np.asarray(described.areas)
+    after = np.cumsum(areas)
+    if abs(after[-1]) > _BALANCED * np.abs(areas).sum():
+        raise FindingError(
+            f"turning_moment.areas: they add up to {after[-1]:.6g} J: the shaft would gain that in every "
+            "cycle; areas above and below the mean have to be equal"
+        )
+    change = float(after.max() - after.min())
+    evened = _evened(described, change)
+    rows = tuple(
+        {"start": None, "end": None, "energy": float(each), "energy_after": float(then)}
+        for each, then in zip(areas, after, strict=True)
+    )
+    return TurningMomentDiagram(
+        cycle=described.cycle,
+        speed_mean=described.speed,
+        energy_fluctuation=change,
+        accuracy=0.0,
+        areas=rows,
+        **evened._asdict(),
+    )
+
+
+def _of_curves(described: TurningMoment, n: int) -> TurningMomentDiagram:
+    """From torques over the angle."""
+    cycle = described.cycle
+    curves = _curves(described)
+    driver, load = curves.mean()[[_DRIVER, _LOAD]]
+    _require_balance(float(driver), float(load), curves, described)
+    energy = curves.excess(_EXCESS, _EXCESS, 0.0)
+    most, at_most = energy.extreme(+1)
+    least, at_least = energy.extreme(-1)
+    change = most - least
+    evened = _evened(described, change)
+    phi = np.linspace(0.0, cycle, n + 1)
+    E = energy.at(phi)[0]
+    work = float(driver) * cycle
+    highest, at_highest = curves.extreme(+1, _DRIVER)
+    lowest, at_lowest = curves.extreme(-1, _DRIVER)
+    speeding, slowing = curves.extreme(+1)[0], curves.extreme(-1)[0]
+    J = evened.inertia
+    return TurningMomentDiagram(
+        cycle=cycle,
+        speed_mean=described.speed,
+        torque_mean=float(driver),
+        power_mean=float(driver) * described.speed,
+        energy_cycle=work,
+        energy_fluctuation=change,
+        energy_coefficient=change / work if work else None,
+        torque_driver_max=highest,
+        torque_driver_max_angle=at_highest,
+        torque_driver_min=lowest,
+        torque_driver_min_angle=at_lowest,
+        speed_max_angle=at_most,
+        speed_min_angle=at_least,
+        **evened._asdict(),
+        acceleration_max=None if J is None else speeding / J,
+        acceleration_min=None if J is None else slowing / J,
+        accuracy=float(curves.error[_EXCESS] / change) if change else 0.0,
+        areas=_areas(curves, energy, cycle),
+        crank_angle=phi,
+        torque_driver=curves.at(phi)[_DRIVER],
+        torque_load=curves.at(phi)[_LOAD],
+        energy=E,
+        speed=_speed(E - least, evened, len(phi)),
+    )
+
+
+def _curves(described: TurningMoment) -> TurnCurve:
+    """Excess, driver and load over the cycle; what is left out is the mean of the other."""
+    cycle, driver, load = described.cycle, described.driver, described.load
+    given = [each for each in (driver, load) if each is not None]
+    kinks = np.unique(np.concatenate([[0.0, cycle], *(each.kinks(cycle) for each in given)]))
+    if len(given) == 1:
+        alone = given[0]
+        mean = float(turn_curve(lambda phi: alone.at(phi, cycle)[None], kinks, "turning moment").mean()[0])
+
+    def torques(phi: Floats) -> Floats:
+        T, M = (np.full(len(phi), mean) if each is None else each.at(phi, cycle) for each in (driver, load))
+        return np.stack([T - M, T, M])
+
+    return turn_curve(torques, kinks, "turning moment")
+
+
+def _require_balance(driver: float, load: float, curves: TurnCurve, described: TurningMoment) -> None:
+    size = float(curves.size[_DRIVER] + curves.size[_LOAD]) / described.cycle
+    if abs(driver - load) > _BALANCED * size:
+        raise FindingError(
+            f"turning_moment: the mean torque of the driver is {driver:.6g} N m, that of the load "
+            f"{load:.6g} N m: the speed does not repeat; leave one of the two out if it is constant, or make "
+            "their means equal"
+        )
+
+
+def _evened(described: TurningMoment, change: float) -> _Evened:
+    """The flywheel that is asked for, or the evenness that the given inertia gives."""
+    omega, wanted, own = described.speed, described.unevenness, described.inertia or 0.0
+    flywheel = mass = None
+    total = own
+    if wanted is not None:
+        flywheel = max(change / (wanted * omega**2) - own, 0.0)
+        total = own + flywheel
+        radius = described.radius_of_gyration
+        mass = None if radius is None else flywheel / radius**2
+    if total == 0.0:
+        return _Evened(None, flywheel, mass)
+    delta = change / (total * omega**2)
+    if delta >= 2.0:
+        raise FindingError(
+            f"turning_moment.inertia: {total:.6g} kg m² cannot keep the shaft turning: at {omega:.6g} "
+            f"rad/s the energy changes by {change:.6g} J in a cycle, which asks for more than "
+            f"{change / (2 * omega**2):.6g} kg m²"
+        )
+    return _Evened(total, flywheel, mass, delta, omega * (1 - delta / 2), omega * (1 + delta / 2))
+
+
+def _areas(curves: TurnCurve, energy: TurnCurve, cycle: float) -> tuple[dict[str, float | None], ...]:
+    """Areas between the crossings of driver and load, once round."""
+    at = curves.crossings(_EXCESS)
+    first, last = (float(curves.at(np.array([phi]))[_EXCESS, 0]) for phi in (0.0, cycle * (1 - 1e-12)))
+    if first * last < 0:
+        # It crosses where one cycle meets the next.
+        at = np.append(0.0, at)
+    if len(at) < 2:
+        return ()
+    E = energy.at(at)[0]
+    gains = np.append(np.diff(E), E[0] - E[-1])
+    ends = np.append(at[1:], at[0] + cycle)
+    rows = zip(at, ends, gains, np.cumsum(gains), strict=True)
+    return tuple(
+        {"start": float(a), "end": float(b), "energy": float(gain), "energy_after": float(then)}
+        for a, b, gain, then in rows
+    )
+
+
+def _speed(above: Floats, evened: _Evened, n: int) -> Floats:
+    """Speed by the energy above its minimum."""
+    if evened.inertia is None or evened.speed_min is None:
+        return np.full(n, math.nan)
+    found: Floats = np.sqrt(evened.speed_min**2 + 2 * np.maximum(above, 0.0) / evened.inertia)
+    return found

@@ -1,0 +1,121 @@
+"""The turning-moment diagram, the energy and the speed over a cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import (
+    DRIVE,
+    GRID,
+    INERTIA,
+    LOAD,
+    SPEED,
+    legend_above,
+    level,
+    panels,
+    roomy,
+    styled,
+    zero_line,
+)
+from linkwright.kernel.page.quantities import degrees, number
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from linkwright.turning.diagram import TurningMomentDiagram
+
+# Ticks of the angle: a dozen at most.
+_TICKS = 12
+
+
+def turning_figures(found: TurningMomentDiagram) -> Iterator[Captioned]:
+    """The diagram with its energy, and the speed; nothing where areas alone are given."""
+    if not len(found.crank_angle):
+        return
+    coefficient = ""
+    if found.energy_coefficient is not None:
+        coefficient = f", {number(found.energy_coefficient)} of the work per cycle"
+    caption = (
+        f"Driver against load over a cycle. The energy of the shaft changes by "
+        f"{number(found.energy_fluctuation)} J{coefficient}."
+    )
+    yield Captioned("turning_moment", "Turning-moment diagram", caption, diagram_figure(found))
+    if found.inertia is not None and found.speed_max_angle is not None and found.speed_min_angle is not None:
+        caption = (
+            f"With {number(found.inertia)} kg m² the shaft turns at {number(found.speed_min)} to "
+            f"{number(found.speed_max)} rad/s: fastest at {degrees(found.speed_max_angle)}, slowest at "
+            f"{degrees(found.speed_min_angle)}."
+        )
+        yield Captioned("turning_speed", "Speed over the cycle", caption, speed_figure(found))
+
+
+@styled
+def diagram_figure(found: TurningMomentDiagram) -> Figure:
+    """Torques of driver and load, and the energy that the shaft takes up between them.
+
+    Parameters
+    ----------
+    found : TurningMomentDiagram
+        What to draw, with curves.
+
+    Returns
+    -------
+    Figure
+        Two panels, one above the other.
+    """
+    figure, (torque, energy) = panels(2, height=4.6)
+    angle = np.degrees(found.crank_angle)
+    torque.fill_between(angle, found.torque_driver, found.torque_load, color=GRID, linewidth=0)
+    torque.plot(angle, found.torque_driver, color=DRIVE, label="driver")
+    torque.plot(angle, found.torque_load, color=LOAD, label="load")
+    torque.set_ylabel("torque\n[N m]")
+    roomy(torque, found.torque_driver, found.torque_load)
+    zero_line(torque)
+    legend_above(torque)
+    energy.plot(angle, found.energy, color=INERTIA)
+    energy.set_ylabel("excess energy E\n[J]")
+    roomy(energy, found.energy)
+    zero_line(energy)
+    _angle_axis(torque, angle, label=False)
+    _angle_axis(energy, angle)
+    return figure
+
+
+@styled
+def speed_figure(found: TurningMomentDiagram) -> Figure:
+    """Speed of the shaft over the cycle.
+
+    Parameters
+    ----------
+    found : TurningMomentDiagram
+        What to draw, with a moment of inertia.
+
+    Returns
+    -------
+    Figure
+        One panel.
+    """
+    figure, (speed,) = panels(1, height=2.4)
+    angle = np.degrees(found.crank_angle)
+    speed.plot(angle, found.speed, color=SPEED, label="speed")
+    level(speed, found.speed_mean, f"mean of the extremes {found.speed_mean:.5g} rad/s")
+    speed.set_ylabel("speed ω\n[rad/s]")
+    roomy(speed, found.speed)
+    legend_above(speed)
+    _angle_axis(speed, angle)
+    return figure
+
+
+def _angle_axis(axes: Axes, angle: np.ndarray, *, label: bool = True) -> None:
+    """Degrees over one cycle, a tick every 45° or more."""
+    last = float(angle[-1])
+    axes.set_xlim(0.0, last)
+    axes.set_xticks(np.arange(0.0, last + 1.0, 45.0 * np.ceil(last / 45.0 / _TICKS)))
+    axes.tick_params(labelbottom=label)
+    if label:
+        axes.set_xlabel("shaft angle φ [°]")

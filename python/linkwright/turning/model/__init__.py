@@ -1,0 +1,7 @@
+"""The turning-moment diagram of a machine file.
+
+| module | |
+| --- | --- |
+| `torque` | Torques on a shaft by its angle: constant, a table, a formula |
+| `turning_moment` | What drives, what resists, and what evenness is asked for |
+"""
