@@ -761,7 +761,7 @@ class Plan:
     IndexError
         What is used was not made before, or what is made is not the next of its kind.
     ValueError
-        An element of the mechanism does either of these, or has a list of the wrong length.
+        A list has the wrong length.
     """
 
     def __new__(

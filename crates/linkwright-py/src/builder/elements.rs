@@ -1,4 +1,5 @@
-//! Elements of the mechanism: `linkage::mechanism::Element` of the core, with the same names.
+//! Elements of the mechanism: `linkage::mechanism::Element` of the core, with the same names. A dyad with change points is
+//! the dyad with a list of them; `Element::Bar` is a link by itself.
 
 use linkwright_core::kernel::table::Table;
 use linkwright_core::linkage::coupled::{AngleOf, Law, Programme, Runner, Turn};

@@ -5,7 +5,7 @@
 | `core` | The compiled core, refused if it was built from other sources; what a program consists of |
 | `compiled` | A machine in the core's terms, and what it is asked for |
 | `translator` | A description as plan and parameters |
-| `mechanism` | Program of a whole mechanism: fixed points, elements in build order, joints held by bars, groups |
+| `mechanism` | Program of a whole mechanism: fixed points, then elements in build order |
 | `elements` | Drivers, dyads, gears, racks, cables and rigid points, one by one |
 | `places` | Indices of points, links, slides and dyads by name; guides and sums |
 | `pending` | What is left open until the mechanism has been placed once |
