@@ -15,7 +15,7 @@ pub enum PlanError {
     In { what: &'static str, number: usize, error: Box<PlanError> },
     /// A list of the wrong length.
     Length { what: &'static str, found: usize, expected: usize },
-    /// An unknown kind of element, body, load or motor.
+    /// An unknown kind of row in a list.
     Kind { what: &'static str, kind: i32 },
     /// A table whose knots do not increase or are not finite.
     Table { number: usize },
