@@ -46,7 +46,9 @@ $(TOOLS): $(BUILT)
 	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt -e '.[dev]' --no-build-isolation
 	touch $@
 
-test: lint rust-test python-test
+# Two at a time: one waits for a compiler or for the network while the other computes.
+test:
+	$(MAKE) --no-print-directory -j2 --output-sync=target lint rust-test python-test
 
 lint: $(TOOLS)
 	cargo fmt --all --check

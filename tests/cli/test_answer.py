@@ -117,6 +117,8 @@ CASES = {
         "{roller_two_carts} --set loads.rolling1.force=1e5",
         "{roller_two_carts} --unevenness 3",
     ),
+    "motors": Case("--poles 6", NEVER, "--poles 7"),
+    "check": Case("{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts}" + _NO_KEY),
     "papers": Case("4", NEVER, "9"),
     "synthesise dead-centre": Case(
         "--swing 60deg", "--swing 60deg --time-ratio 9", "--swing 60deg --stroke 1m"
@@ -172,7 +174,7 @@ CASES = {
 }
 
 # Commands that print a text of their own, and no answer about a machine for programs.
-WITHOUT = {"check", "new", "schema"}
+WITHOUT = {"new", "schema"}
 # Keys besides those that all have.
 EXTRA = {"cam": {"files"}, "torsion": {"balance"}}
 

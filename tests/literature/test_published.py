@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tomllib
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -12,12 +14,11 @@ from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.files.library import library_path
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import read
-from linkwright.papers.paper1.conclusions import load_at_degrees
+from linkwright.papers.paper1.paper import load_by_steps
 from linkwright.papers.paper1.scheme import published_scheme, turns_to_steady
-from linkwright.papers.published import published
 from linkwright.sizing.power import required_power
 
-CASES = published(1).cases
+CASES = tomllib.loads((Path(__file__).parent / "paper1.toml").read_text(encoding="utf-8"))["case"]
 
 
 def scheme(machine: Machine) -> dict[str, float]:
@@ -34,7 +35,7 @@ def scheme(machine: Machine) -> dict[str, float]:
 
 METHODS = {
     "load": lambda machine: reduction(machine).to_dict(),
-    "load at degrees": lambda machine: {"torque_load_mean": load_at_degrees(reduction(machine, n=360))},
+    "load at degrees": lambda machine: {"torque_load_mean": load_by_steps(reduction(machine, n=360), 1.0)},
     "power": lambda machine: required_power(machine).to_dict(),
     "solution": lambda machine: steady_state(machine).to_dict(),
     "limit": lambda machine: constant_energy(machine).to_dict(),

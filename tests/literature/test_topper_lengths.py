@@ -6,8 +6,8 @@ import math
 
 import pytest
 
+from linkwright.papers.paper import printed_values
 from linkwright.papers.paper5.verdict import printed_claim
-from linkwright.papers.published import printed_values
 from linkwright.topping.head import head_diameter
 from linkwright.topping.published import published_lengths
 from linkwright.topping.verdict import PAPER

@@ -10,12 +10,11 @@ from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.files.library import library, library_path
 from linkwright.machine.address import replace
 from linkwright.machine.read import read
-from linkwright.papers.cell import Cell
-from linkwright.papers.paper1.conclusions import conclusions
+from linkwright.papers.claim import Cell
+from linkwright.papers.paper1.drive import published_drives, recompute
 from linkwright.papers.paper1.limit import limit_curves, scaled_to
-from linkwright.papers.paper1.paper import Paper1, paper1, recompute
+from linkwright.papers.paper1.paper import Paper1, paper1
 from linkwright.papers.paper1.scheme import motor_torque
-from linkwright.papers.published import QUANTITIES, published
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +23,7 @@ def paper() -> Paper1:
 
 
 def test_the_machines_are_found() -> None:
-    for each in published(1).drives:
+    for each in published_drives():
         assert each.machine in library()
         assert len(read(library_path(each.machine)).mechanism.cranks) == each.carts
 
@@ -81,7 +80,7 @@ def test_rankings(paper: Paper1) -> None:
 def test_the_printed_table_against_itself() -> None:
     wrong = {
         each.carts: [found.quantity for found in recompute(each.values) if not found.agrees]
-        for each in published(1).drives
+        for each in published_drives()
     }
     assert wrong == {1: [], 2: [], 3: ["speed_mean"], 4: ["speed_mean", "motion_coefficient"]}
 
@@ -93,8 +92,9 @@ def test_one_degree_reproduces_the_speeds(paper: Paper1) -> None:
 
 
 def test_values_on_the_way_are_reproduced(paper: Paper1) -> None:
-    for name, cell in paper.intermediates.items():
-        assert cell.verdict == "reproduced", name
+    assert len(paper.rows) == 3
+    for row in paper.rows:
+        assert row.verdict == "reproduced", row.name
 
 
 def test_the_motor_of_the_scheme() -> None:
@@ -127,8 +127,8 @@ def test_verdicts() -> None:
 
 def test_everything_is_told(paper: Paper1) -> None:
     found = paper.to_dict()
-    assert len(found["conclusions"]) == len(conclusions(paper)) == 8
+    assert len(found["conclusions"]) == len(paper.conclusions) == 8
     for drive in found["drives"]:
         for cells in drive["columns"].values():
-            assert list(cells) == list(QUANTITIES)
+            assert list(cells) == list(paper.published["quantities"])
             assert all(cell["verdict"] for cell in cells.values())

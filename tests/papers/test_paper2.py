@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from copy import deepcopy
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -15,16 +16,13 @@ from linkwright.kernel.files.library import library_path
 from linkwright.kinetostatics.forces import forces
 from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.machine.read import read
+from linkwright.papers.paper import printed_values
 from linkwright.papers.paper2 import checks
 from linkwright.papers.paper2.alternatives import Alternative
-from linkwright.papers.paper2.conclusions import conclusions, named
-from linkwright.papers.paper2.figures import figures
 from linkwright.papers.paper2.formulas import Formulas
-from linkwright.papers.paper2.page import page
 from linkwright.papers.paper2.paper import Paper2, paper2
 from linkwright.papers.paper2.roller import centre_distance
-from linkwright.papers.paper2.rows import rows_of
-from linkwright.papers.published import printed_values
+from linkwright.papers.sheet import page
 
 STROKE, TIME = 0.4, 3.0
 
@@ -32,6 +30,11 @@ STROKE, TIME = 0.4, 3.0
 @pytest.fixture(scope="module")
 def paper() -> Paper2:
     return paper2()
+
+
+def named(paper: Paper2, short: str) -> Alternative:
+    """A drive by its short name."""
+    return next(each for each in paper.alternatives if each.short == short)
 
 
 def test_numbers_of_the_worked_case(paper: Paper2) -> None:
@@ -79,7 +82,8 @@ def test_a_misprint_would_be_found(paper: Paper2, place: tuple[str, ...], value:
     for key in place[:-1]:
         node = node[key]
     node[place[-1]] = value
-    rows = {each.name: each for each in rows_of(Formulas(printed), paper.profile, paper.starts)}
+    typed = replace(paper, published=printed, formulas=Formulas(printed))
+    rows = {each.name: each for each in typed.rows}
     assert rows[row].kind in ("near", "far")
 
 
@@ -109,26 +113,26 @@ def _least(degree: int, *, jerk_ends_in_zero: bool) -> tuple[float, float]:
 
 
 def test_minimum_by_the_normal_equations(paper: Paper2) -> None:
-    free, printed = paper.starts.free_travel, paper.starts.printed
+    free, printed = paper.starts["free_travel"], paper.starts["printed"]
     for degree in (3, 4, 5, 7):
         assert _least(degree, jerk_ends_in_zero=False) == pytest.approx((12.0, 0.5), rel=1e-7)
     assert (free.cost, free.travel) == pytest.approx((12.0, 0.5), rel=1e-13)
     # ∫ 144 (1 − 4u + 3u²)² du = 144 (1 − 4 + 22/3 − 6 + 9/5)
     assert printed.cost == pytest.approx(144 * (1 - 4 + 22 / 3 - 6 + 9 / 5), rel=1e-13)
-    assert paper.starts.fixed_travel.cost == pytest.approx(printed.cost, rel=1e-13)
+    assert paper.starts["fixed_travel"].cost == pytest.approx(printed.cost, rel=1e-13)
 
 
 def test_jerk_at_an_end_is_no_condition(paper: Paper2) -> None:
     """With it the printed law is the only one of degree 4 in the velocity; higher ones come down to 12."""
     costs = [_least(degree, jerk_ends_in_zero=True)[0] for degree in (4, 5, 6, 8, 10)]
-    assert costs[0] == pytest.approx(paper.starts.printed.cost, rel=1e-9)
+    assert costs[0] == pytest.approx(paper.starts["printed"].cost, rel=1e-9)
     assert all(b < a for a, b in pairwise(costs))
     assert 12.0 < costs[-1] < 13.0
 
 
 def test_minimum_with_free_acceleration(paper: Paper2) -> None:
     """ẋ = (3u − u³)/2: jerk −3u, so ∫ jerk² = 3 and the travel 5/8."""
-    free, u = paper.starts.free_acceleration, np.linspace(0, 1, 11)
+    free, u = paper.starts["free_acceleration"], np.linspace(0, 1, 11)
     np.testing.assert_allclose(free.law.at(u, 1), (3 * u - u**3) / 2, atol=1e-14)
     assert (free.cost, free.travel) == pytest.approx((3.0, 0.625), rel=1e-13)
 
@@ -268,8 +272,10 @@ def test_two_cams_leave_no_side_force(paper: Paper2) -> None:
     """One cam presses with F tan γ across the travel; that of its mirror image is the opposite."""
     each = paper.alternatives[0]
     # At the design speed instead of the steady motion: within some percent.
-    assert paper.pair.side_force == pytest.approx(np.abs(each.force * np.tan(_gamma(each))).max(), rel=0.02)
-    assert paper.pair.left_over < 1e-12 * paper.pair.side_force
+    assert paper.pair["side_force"] == pytest.approx(
+        np.abs(each.force * np.tan(_gamma(each))).max(), rel=0.02
+    )
+    assert paper.pair["left_over"] < 1e-12 * paper.pair["side_force"]
 
 
 def test_course_of_the_cart(paper: Paper2) -> None:
@@ -287,9 +293,9 @@ def test_course_of_the_cart(paper: Paper2) -> None:
 
 def test_everything_is_told(paper: Paper2) -> None:
     told = json.loads(json.dumps(paper.to_dict(), allow_nan=False))
-    assert told["conclusions"] == conclusions(paper)
+    assert told["conclusions"] == paper.conclusions
     assert len(told["alternatives"]) == len(paper.alternatives)
-    drawn = figures(paper)
+    drawn = paper.figures()
     text = page(paper, drawn)
     assert text.count("<svg") == len(drawn)
     for row in paper.rows:

@@ -11,12 +11,10 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from linkwright.papers.paper3.conclusions import conclusions
-from linkwright.papers.paper3.figures import figures
-from linkwright.papers.paper3.page import page
+from linkwright.papers.claim import holding, tolerance
 from linkwright.papers.paper3.paper import Paper3, paper3
-from linkwright.papers.paper3.rows import judged, share
-from linkwright.papers.paper3.table import COLUMNS, cells
+from linkwright.papers.sheet import page
+from linkwright.papers.words import share
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +57,7 @@ def _rate(values: NDArray[np.complex128]) -> NDArray[np.complex128]:
 
 def test_machine_has_the_published_strokes(paper: Paper3) -> None:
     """180 mm and 186.7 mm: the pin's place in the file is rounded to a tenth of a millimetre."""
-    assert paper.inertia.strokes == pytest.approx((0.180, 0.1867), abs=5e-5)
+    assert paper.inertia["strokes"] == pytest.approx((0.180, 0.1867), abs=5e-5)
 
 
 def test_exact_disc_by_places_of_points(paper: Paper3) -> None:
@@ -67,7 +65,7 @@ def test_exact_disc_by_places_of_points(paper: Paper3) -> None:
     means = parts.mean(axis=1)
     assert paper.trial.own + means.sum() == pytest.approx(paper.trial.inertia, rel=1e-10)
     assert paper.trial.own + means[:2].sum() == pytest.approx(paper.trial.master_inertia, rel=1e-10)
-    assert means[2] == pytest.approx(paper.inertia.articulated_share, rel=1e-9)
+    assert means[2] == pytest.approx(paper.inertia["articulated_share"], rel=1e-9)
 
 
 def test_disc_of_one_rod_by_the_series(paper: Paper3) -> None:
@@ -76,11 +74,11 @@ def test_disc_of_one_rod_by_the_series(paper: Paper3) -> None:
     ratio = e.radius / rod.length
     left_out = ratio**4 / 16 + 5 * ratio**6 / 128
     moving = e.radius**2 * (rod.mass_piston + e.piston_mass)
-    two = paper.inertia.one_rod, paper.inertia.split
+    two = paper.inertia["one_rod"], paper.inertia["split"]
     of_two = paper.trial.master_inertia * (1 + two[1])
     # The next term of the series is λ⁸/30 or so.
-    assert -paper.inertia.series * of_two == pytest.approx(moving * left_out, rel=ratio**4)
-    assert (1 + paper.inertia.series) * (1 + two[1]) - 1 == pytest.approx(two[0], abs=1e-14)
+    assert -paper.inertia["series"] * of_two == pytest.approx(moving * left_out, rel=ratio**4)
+    assert (1 + paper.inertia["series"]) * (1 + two[1]) - 1 == pytest.approx(two[0], abs=1e-14)
 
 
 def test_speed_of_the_piston_by_its_third_term(paper: Paper3) -> None:
@@ -91,13 +89,13 @@ def test_speed_of_the_piston_by_its_third_term(paper: Paper3) -> None:
     printed = np.sin(phi) + ratio / 2 * np.sin(2 * phi)
     wanted = np.abs(exact - printed).max() / np.abs(exact).max()
     # Both look at some thousand angles.
-    assert paper.inertia.speed == pytest.approx(wanted, rel=1e-5)
+    assert paper.inertia["speed"] == pytest.approx(wanted, rel=1e-5)
 
 
 def test_printed_roundings(paper: Paper3) -> None:
-    assert paper.inertia.factor == pytest.approx(0.00051 * 2 * 981 - 1, abs=1e-15)
-    assert paper.swing.factor == pytest.approx(358000 / (981 * (60 / math.pi) ** 2) - 1, abs=1e-15)
-    assert paper.swing.edge == pytest.approx(paper.swing.factor, abs=1e-12)
+    assert paper.inertia["factor"] == pytest.approx(0.00051 * 2 * 981 - 1, abs=1e-15)
+    assert paper.swing["factor"] == pytest.approx(358000 / (981 * (60 / math.pi) ** 2) - 1, abs=1e-15)
+    assert paper.swing["edge"] == pytest.approx(paper.swing["factor"], abs=1e-12)
 
 
 def test_literal_articulated_inertia(paper: Paper3) -> None:
@@ -106,12 +104,12 @@ def test_literal_articulated_inertia(paper: Paper3) -> None:
     m, c, J = rod.body
     about_small_end = J + m * (rod.length - c) ** 2
     I_a = about_small_end * light.mass / m
-    assert paper.inertia.articulated_printed == pytest.approx(I_a, rel=1e-12)
+    assert paper.inertia["articulated_printed"] == pytest.approx(I_a, rel=1e-12)
     m_1 = about_small_end / rod.length**2
     R, lam = e.radius, e.radius / rod.length
     pistons = e.piston_mass * (1 + lam**2 / 4) / 2 + e.piston_mass * (1 + (R / light.length) ** 2 / 4) / 2
     disc = paper.trial.own + R**2 * (m_1 + (m - m_1) * (1 + lam**2 / 4) / 2 + pistons) + I_a
-    assert paper.inertia.shifts[0].value == pytest.approx(disc, rel=1e-12)
+    assert paper.inertia["shifts"][0].value == pytest.approx(disc, rel=1e-12)
 
 
 def test_other_discs_by_hand(paper: Paper3) -> None:
@@ -120,8 +118,8 @@ def test_other_discs_by_hand(paper: Paper3) -> None:
     R, both, own = e.radius, rod.mass + light.mass, paper.trial.own
     series = (1 + (R / rod.length) ** 2 / 4) / 2
     reduced = own + R**2 * (rod.share * both + ((1 - rod.share) * both + 2 * e.piston_mass) * series)
-    assert paper.inertia.shifts[1].value == pytest.approx(reduced, rel=1e-12)
-    for shift, k in zip(paper.inertia.shifts[2:], (rod.share, 0.25, 0.4), strict=True):
+    assert paper.inertia["shifts"][1].value == pytest.approx(reduced, rel=1e-12)
+    for shift, k in zip(paper.inertia["shifts"][2:], (rod.share, 0.25, 0.4), strict=True):
         # 0.00051 s²/cm by the paper's g is 0.50031 in SI, in place of ½.
         simple = own + 0.00051 * 981 * R**2 * ((1 + k) * both + 2 * e.piston_mass)
         assert shift.value == pytest.approx(simple, rel=1e-12)
@@ -133,11 +131,11 @@ def test_swings_of_a_compound_pendulum(paper: Paper3) -> None:
     m, c, J = rod.body
     b = rod.length - c + paper.published["chosen"]["bore_radius"]
     omega = math.sqrt(m * 9.81 * b / (J + m * b**2))
-    assert paper.swing.swings[0] == pytest.approx(60 * omega / math.pi, rel=1e-12)
+    assert paper.swing["swings"][0] == pytest.approx(60 * omega / math.pi, rel=1e-12)
     # A difference magnifies the rounding by its larger part over the whole.
     length = 9.81 / omega**2
-    assert paper.swing.centre == pytest.approx(paper.swing.factor * length / (length - b), rel=1e-9)
-    assert abs(paper.swing.two_point_exact) < 1e-12
+    assert paper.swing["centre"] == pytest.approx(paper.swing["factor"] * length / (length - b), rel=1e-9)
+    assert abs(paper.swing["two_point_exact"]) < 1e-12
 
 
 def test_frequencies_by_matrices(paper: Paper3) -> None:
@@ -164,7 +162,7 @@ def test_change_of_a_frequency_follows_the_energy(paper: Paper3) -> None:
     """A small change of all throws moves ω² by their share of the kinetic energy, by Rayleigh's quotient."""
     free = paper.trial.free
     throws = [n for n, name in enumerate(free.discs) if name.startswith("throw_")]
-    shift = paper.throw.shifts[0]
+    shift = paper.throw["shifts"][0]
     for mode, change in zip((1, 2, 3), shift.changes, strict=True):
         wanted = -0.5 * shift.deviation * free.kinetic_shares[mode, throws].sum()
         # Terms of the second order are the square of the deviation of 2e-4, against itself.
@@ -224,23 +222,25 @@ def test_verdicts(paper: Paper3) -> None:
 
 
 def test_words_of_deviations() -> None:
-    assert judged(0.0) == ("holds exactly", "reproduced")
-    assert judged(4.87e-4) == ("holds within 0.049 %", "reproduced")
-    assert judged(-0.0036, "of this") == ("holds within 0.36 %: of this", "near")
-    assert judged(1.0, "of that") == ("does not hold: of that", "far")
+    digits = tolerance("digits")
+    assert holding(0.0, digits) == ("holds exactly", "reproduced")
+    assert holding(4.87e-4, digits) == ("holds within 0.049 %", "reproduced")
+    assert holding(-0.0036, digits) == ("holds within 0.36 %", "near")
+    assert holding(1.0, digits) == ("does not hold", "far")
     told = [share(each).replace("\N{NO-BREAK SPACE}", " ") for each in (0.0, -0.211, 0.0031, 1.0)]
     assert told == ["0 %", "−21 %", "+0.31 %", "+100 %"]
 
 
 def test_everything_is_told(paper: Paper3) -> None:
     told = json.loads(json.dumps(paper.to_dict(), allow_nan=False))
-    assert told["conclusions"] == conclusions(paper)
+    assert told["conclusions"] == paper.conclusions
     assert len(told["rows"]) == len(paper.rows)
-    drawn = figures(paper)
+    drawn = paper.figures()
     text = page(paper, drawn)
     assert text.count("<svg") == len(drawn) == 9
-    assert len(cells(paper)) == 1 + len(paper.shifts)
-    assert all(len(row) == len(COLUMNS) for row in cells(paper))
+    (table,) = paper.tables
+    assert len(table.rows) == 1 + len(paper.shifts)
+    assert all(len(row) == len(table.heads) for row in table.rows)
     for row in paper.rows:
         assert row.verdict.split("'")[0].split(":")[0] in text
 

@@ -10,11 +10,9 @@ import pytest
 from linkwright.kernel.files.library import library_path
 from linkwright.linkages.closure import closure
 from linkwright.machine.read import read
-from linkwright.papers.paper4.conclusions import conclusions
-from linkwright.papers.paper4.figures import figures
 from linkwright.papers.paper4.formulas import LeverFormula
-from linkwright.papers.paper4.page import page
 from linkwright.papers.paper4.paper import Paper4, paper4
+from linkwright.papers.sheet import page
 
 
 @pytest.fixture(scope="module")
@@ -105,9 +103,9 @@ def test_verdicts(paper: Paper4) -> None:
 
 def test_everything_is_told(paper: Paper4) -> None:
     told = json.loads(json.dumps(paper.to_dict(), allow_nan=False))
-    assert told["conclusions"] == conclusions(paper)
+    assert told["conclusions"] == paper.conclusions
     assert len(told["rows"]) == len(paper.rows)
-    drawn = figures(paper)
+    drawn = paper.figures()
     assert list(drawn) == ["figure3", "figure4", "figure5", "figure6"]
     text = page(paper, drawn)
     assert text.count("<svg") == 4

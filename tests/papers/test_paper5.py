@@ -10,14 +10,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkwright.papers.paper5.conclusions import conclusions
-from linkwright.papers.paper5.figures import figures
-from linkwright.papers.paper5.page import page
-from linkwright.papers.paper5.paper import Paper5, paper5
-from linkwright.papers.paper5.rows import millimetres
+from linkwright.papers.paper5.paper import Paper5, _heads, paper5
 from linkwright.papers.paper5.short import exact_over
 from linkwright.papers.paper5.step import factors
-from linkwright.papers.paper5.table import tables
+from linkwright.papers.sheet import page
+from linkwright.papers.words import shown
 from linkwright.topping.published import length_consistent, length_published, published_lengths
 
 
@@ -30,13 +27,13 @@ def test_step_in_closed_form(paper: Paper5) -> None:
     """(cos α + sin² α)/cos² α is 1 at 0, 1 + √2 at 45° and 5 at 60°."""
     assert factors(np.radians([0.0, 45.0, 60.0])) == pytest.approx([1, 1 + math.sqrt(2), 5], rel=1e-14)
     # A few roundings, over cos² α of the steepest angle.
-    assert paper.step.identity < 1e-14
-    assert paper.step.travel_identity < 1e-14
-    assert paper.step.flips
-    at = paper.step.angles.tolist()
+    assert paper.step["identity"] < 1e-14
+    assert paper.step["travel_identity"] < 1e-14
+    assert paper.step["flips"]
+    at = paper.step["angles"].tolist()
     cos, sin = np.cos(at), np.sin(at)
-    np.testing.assert_allclose(paper.step.times, cos**2 / (cos + sin**2), rtol=1e-14)
-    np.testing.assert_allclose(paper.step.times * paper.step.factors, 1, rtol=1e-14)
+    np.testing.assert_allclose(paper.step["times"], cos**2 / (cos + sin**2), rtol=1e-14)
+    np.testing.assert_allclose(paper.step["times"] * paper.step["factors"], 1, rtol=1e-14)
 
 
 def test_difference_of_the_bounds(paper: Paper5) -> None:
@@ -45,7 +42,7 @@ def test_difference_of_the_bounds(paper: Paper5) -> None:
     apart = length_consistent(1.0, alpha, ratio) - length_published(1.0, alpha, ratio)
     cos = np.cos(alpha)
     np.testing.assert_allclose(apart, ratio * (1 - cos) * (1 + 2 * cos) / cos, atol=1e-13)
-    assert "(1 − cos α)(1 + 2 cos α)/cos α" in conclusions(paper)[0]
+    assert "(1 − cos α)(1 + 2 cos α)/cos α" in paper.conclusions[0]
 
 
 def test_condition_is_met_by_an_edge_that_covers_nothing() -> None:
@@ -74,11 +71,11 @@ def test_only_a_knife_faster_than_the_machine_makes_it_long_enough() -> None:
 def test_scan_finds_the_bound(paper: Paper5) -> None:
     short = paper.short
     # The grid is a quarter of a degree fine, the top flat.
-    assert short.least == pytest.approx(short.bound, rel=1e-4)
-    assert short.least >= short.bound
-    assert short.least_axis == pytest.approx(2 / math.sqrt(1.25), rel=1e-4)
-    assert short.least_consistent > 1
-    assert (short.across, short.across_published) == (1.0, 0.0)
+    assert short["least"] == pytest.approx(short["bound"], rel=1e-4)
+    assert short["least"] >= short["bound"]
+    assert short["least_axis"] == pytest.approx(2 / math.sqrt(1.25), rel=1e-4)
+    assert short["least_consistent"] > 1
+    assert (short["across"], short["across_published"]) == (1.0, 0.0)
 
 
 def _crossed(x: NDArray[np.float64], y: NDArray[np.float64], length: float, ratio: float) -> bool:
@@ -163,21 +160,22 @@ def test_verdicts(paper: Paper5) -> None:
     assert rows["result by (10)"].kind == "far"
     assert rows["result by the exact length"].kind == "near"
     assert "308…370 mm" in rows["result by (10)"].computed
-    assert millimetres(-0.02, -0.01) == "none"
-    assert millimetres(-0.02, 0.01) == "0…10 mm"
+    assert shown(_heads(-0.02, -0.01), ".0f mm") == "none"
+    assert shown(_heads(-0.02, 0.01), ".0f mm") == "0…10 mm"
 
 
 def test_everything_is_told(paper: Paper5) -> None:
     told = json.loads(json.dumps(paper.to_dict(), allow_nan=False))
-    assert told["conclusions"] == conclusions(paper)
+    assert told["conclusions"] == paper.conclusions
     assert len(told["rows"]) == len(paper.rows)
     assert len(told["verdict"]["angles"]) == len(paper.published["verdict"]["angles"])
-    drawn = figures(paper)
+    drawn = paper.figures()
     assert list(drawn) == ["figure3", "step", "bands", "heads"]
     text = unescape(page(paper, drawn))
     assert text.count("<svg") == 4
     for row in paper.rows:
         assert row.verdict.split(",")[0] in text
-    for title, cells in tables(paper):
-        assert title in text
-        assert all(f"<td>{cell}</td>" in text for line in cells for cell in line)
+    assert len(paper.tables) == 2
+    for table in paper.tables:
+        assert table.title in text
+        assert all(f"<td>{cell.text}</td>" in text for line in table.rows for cell in line)

@@ -22,7 +22,8 @@ COMMANDS = {
     "motion": "linkages.commands:motion",
     "forces": "kinetostatics.commands.forces:forces",
     "balance": "kinetostatics.commands.balance:balance",
-    "size": "sizing.commands:size",
+    "size": "sizing.commands.size:size",
+    "motors": "sizing.commands.motors:motors",
     "papers": "app.commands.papers:papers",
     "new": "app.commands.new:new",
     "schema": "app.commands.schema:schema",
@@ -98,7 +99,11 @@ def application(only: str = "") -> typer.Typer:
     """
     # Plain help: the boxes of rich cost more time than the whole of `check`.
     app = typer.Typer(
-        add_completion=False, no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False
+        add_completion=False,
+        no_args_is_help=True,
+        rich_markup_mode=None,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
     )
     app.callback()(_top)
     known = only in COMMANDS or only in GROUPS

@@ -15,6 +15,7 @@ from pydantic import BaseModel
 from linkwright.kernel.description.text import split
 from linkwright.kernel.errors import MachineError, MachineFileError, Problem
 from linkwright.kernel.files.bounds import deep_line, long_number_line, size_problems
+from linkwright.kernel.files.library import library, library_path
 from linkwright.kernel.files.lines import key_lines, line_of
 from linkwright.kernel.files.points import Column, with_points
 from linkwright.kernel.files.text_file import TextError, text_of
@@ -44,7 +45,7 @@ def read(path: str | os.PathLike[str], overrides: Overrides = (), *, allow_outsi
     Parameters
     ----------
     path : path
-        A TOML file.
+        A TOML file, or the name of a machine of the library, such as ``"roller_two_carts"``.
     overrides : sequence of str or Mapping
         Entries that replace or add to those of the file: texts ``PATH=VALUE``, or path → value.
     allow_outside : bool
@@ -62,7 +63,13 @@ def read(path: str | os.PathLike[str], overrides: Overrides = (), *, allow_outsi
     InputError
         An override is malformed.
     """
-    return read_as(Machine, path, overrides, allow_outside=allow_outside)
+    return read_as(Machine, _of_library(Path(path)), overrides, allow_outside=allow_outside)
+
+
+def _of_library(path: Path) -> Path:
+    """The file of a machine of the library that is named; the path itself if a file is meant."""
+    is_name = not path.suffix and len(path.parts) == 1
+    return library_path(path.name) if is_name and not path.exists() and path.name in library() else path
 
 
 def read_as(

@@ -3,7 +3,7 @@
 | module | |
 | --- | --- |
 | `checks` | Does a motor suffice: power, start, heat, overload, run-up? |
-| `commands` | `linkwright size FILE`: the smallest motor and flywheel that will do |
+| `commands/` | `linkwright size FILE`: the smallest motor and flywheel that will do |
 | `fit` | The machine with a motor or a flywheel put in |
 | `flywheel` | What flywheel keeps the speed within a wanted unevenness? |
 | `inertia` | What inertia has a rotor of which the catalogue says nothing? |

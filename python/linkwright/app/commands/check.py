@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Outside, Sets
+from linkwright.kernel.command.common import File, Json, Outside, Sets
 from linkwright.kernel.errors import AssemblyError
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from linkwright.topping.model.topper import Topper
 
 
-def check(file: File, set: Sets = None, allow_outside: Outside = False) -> None:
+def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Json = False) -> None:
     """Check a machine file.
 
     Says what is in it, or all that is wrong with it; and what its geometry does not allow, as far as that can
@@ -32,7 +32,13 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False) -> None:
     checked = f"\n  {'':<14} ".join(found.looked_at)
     told = [f"{verdict}  {file}\n\n{summary(machine)}\n\n  {'checked':<14} {checked}"]
     told += [f"\nFINDING  {text}" for text in found.findings]
-    hand_over(Answer(machine=machine.name, findings=found.findings, show=lambda: typer.echo("\n".join(told))))
+    answer = Answer(
+        machine=machine.name,
+        results=lambda curves: {"checked": list(found.looked_at)},
+        findings=found.findings,
+        show=lambda: typer.echo("\n".join(told)),
+    )
+    hand_over(answer, json=json)
 
 
 def summary(machine: Machine) -> str:

@@ -2,10 +2,9 @@
 
 | module | |
 | --- | --- |
-| `conclusions` | What the numbers of paper 1 say, in sentences that carry their numbers |
+| `drive` | One drive: its printed row, and what comes out in three ways |
 | `figures` | the figures of paper 1, computed anew |
 | `limit` | the constant-energy limit of a drive, and the inertia that would fit a published row |
-| `page` | Paper 1 as one HTML page |
-| `paper` | paper 1 computed anew: the four drives in three ways, and what follows |
+| `paper` | paper 1 computed anew: the four drives, and what follows |
 | `scheme` | the published scheme of paper 1, with its factor 1/i |
 """

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from linkwright.papers.paper1.paper import Drive, Paper1
+    from linkwright.papers.paper1.drive import Drive
+    from linkwright.papers.paper1.paper import Paper1
 
 SOLUTION, SCHEME, LIMIT = LINES[0], LINES[1], GREEN
 
@@ -32,20 +33,15 @@ SOLUTION, SCHEME, LIMIT = LINES[0], LINES[1], GREEN
 _TORQUE_SHOWN, _INERTIA_SHOWN = 1400.0, 120.0
 
 
+def figures(paper: Paper1) -> dict[str, Figure]:
+    """Evenness of all drives, then figures 5 to 12 of the paper by machine, under names for files."""
+    drawn = {each.published.machine: _drive(each) for each in paper.drives}
+    return {"evenness": _evenness(paper)} | drawn
+
+
 @styled
-def drive_figure(drive: Drive) -> Figure:
-    """Draw one drive: M_0 and I over the turn, run-up, ω and ε over a turn of steady motion.
-
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-
-    Returns
-    -------
-    Figure
-        Five panels, as figures 5 to 12 of the paper.
-    """
+def _drive(drive: Drive) -> Figure:
+    """One drive: M_0 and I over the turn, run-up, ω and ε over a turn of steady motion."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(7.1, 8.4), layout="constrained")
@@ -145,19 +141,8 @@ def _steady(speed: Axes, acceleration: Axes, drive: Drive) -> None:
 
 
 @styled
-def evenness_figure(paper: Paper1) -> Figure:
-    """Draw the coefficients k_p of the four drives side by side, in all ways.
-
-    Parameters
-    ----------
-    paper : Paper1
-        The paper.
-
-    Returns
-    -------
-    Figure
-        One panel of bars.
-    """
+def _evenness(paper: Paper1) -> Figure:
+    """The coefficients k_p of the four drives side by side, in all ways."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(7.1, 3.0), layout="constrained")

@@ -45,20 +45,7 @@ class Fit:
 
 
 def with_drive_inertia(reduced: Reduction, now: float, wanted: float) -> Reduction:
-    """The reduction with another inertia of the drive.
-
-    Parameters
-    ----------
-    reduced : Reduction
-        Of the machine.
-    now, wanted : float
-        Inertia of the drive at the crank that is in it, and that shall be [kg m²].
-
-    Returns
-    -------
-    Reduction
-        Its J raised by the difference.
-    """
+    """The reduction with another inertia of the drive at the crank than it has now [kg m²]."""
     more = wanted - now
     return replace(
         reduced,
@@ -69,21 +56,9 @@ def with_drive_inertia(reduced: Reduction, now: float, wanted: float) -> Reducti
 
 
 def fitted_inertia(reduced: Reduction, now: float, unevenness: float, dynamism: float) -> Fit:
-    """Find the inertia of the drive with which the limit comes nearest to published δ and H.
+    """Find the inertia of the drive [kg m²] with which the limit comes nearest to published δ and H.
 
-    Parameters
-    ----------
-    reduced : Reduction
-        Of the machine.
-    now : float
-        Inertia of the drive that is in it [kg m²].
-    unevenness, dynamism : float
-        Published δ and H [–].
-
-    Returns
-    -------
-    Fit
-        Between 0 and ten times the inertia that is in it, to 1 % of that, refined once to 0.01 %.
+    Between 0 and ten times the one that is in the reduction, to 1 % of that, refined once to 0.01 %.
     """
 
     def tried(wanted: float) -> Fit:
@@ -103,22 +78,7 @@ def _nearest(tried: list[Fit]) -> Fit:
 
 
 def scaled_to(found: ConstantEnergy, reduced: Reduction, speed_mean: float) -> dict[str, float]:
-    """The limit's table row at a mean speed.
-
-    Parameters
-    ----------
-    found : ConstantEnergy
-        δ and H.
-    reduced : Reduction
-        Of the same machine.
-    speed_mean : float
-        Mean of the extremes [rad/s].
-
-    Returns
-    -------
-    dict of str to float
-        Quantity → value [SI].
-    """
+    """The limit's row of the table of results at a mean of the extremes of the speed [rad/s]; SI."""
     half = 0.5 * found.unevenness * speed_mean
     _, epsilon = limit_curves(reduced, speed_mean)
     return {
@@ -134,20 +94,7 @@ def scaled_to(found: ConstantEnergy, reduced: Reduction, speed_mean: float) -> d
 
 
 def limit_curves(reduced: Reduction, speed_mean: float) -> tuple[Floats, Floats]:
-    """Speed and acceleration over the turn at constant energy.
-
-    Parameters
-    ----------
-    reduced : Reduction
-        Of the machine.
-    speed_mean : float
-        Mean of the extremes [rad/s].
-
-    Returns
-    -------
-    tuple of ndarray
-        ω [rad/s] and ε [rad/s²] at the angles of the reduction.
-    """
+    """ω [rad/s] and ε [rad/s²] over the turn at constant energy, at a mean of the extremes of ω."""
     J = reduced.inertia_reduced
     extremes = 0.5 * (reduced.inertia_min**-0.5 + reduced.inertia_max**-0.5)
     omega = speed_mean / (extremes * np.sqrt(J))

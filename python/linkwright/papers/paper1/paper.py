@@ -1,142 +1,59 @@
-"""Paper 1 computed anew: four drives of roller-forming machines, published against computed in three ways.
-
-| way | is |
-| --- | --- |
-| `solution` | the steady motion and the run-up of equation (1), solved exactly |
-| `limit` | the motion at constant energy, motor and load switched off, at the published mean speed |
-| `scheme` | the published step method with the net torque over the gear ratio, `paper1_scheme` |
-"""
+"""Paper 1 computed anew: four drives of roller-forming machines, published against computed in three ways."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from linkwright.drive.constant_energy import constant_energy_of
+from linkwright.drive.model.motor import InductionMotor
 from linkwright.drive.reduction import Reduction, reduction
-from linkwright.drive.run_up import RunUp, run_up
-from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.step_method import StepMotion
-from linkwright.kernel.files.library import library_path
+from linkwright.kinetostatics.model.loads.friction import DryFriction
 from linkwright.machine.address import replace as with_entries
-from linkwright.machine.machine import Machine
-from linkwright.machine.program.drive_line import drive_inertia
-from linkwright.machine.read import read
-from linkwright.papers.cell import Cell
-from linkwright.papers.paper1.conclusions import conclusions
-from linkwright.papers.paper1.limit import Fit, fitted_inertia, scaled_to
-from linkwright.papers.paper1.scheme import best_step, published_scheme, turns_to_steady
-from linkwright.papers.published import QUANTITIES, Published, PublishedDrive, published
-from linkwright.sizing.motor import choose_motor
-from linkwright.sizing.power import required_power
+from linkwright.papers.claim import cell_of
+from linkwright.papers.paper import Paper, printed_values
+from linkwright.papers.paper1.drive import Drive, drive, published_drives
+from linkwright.papers.paper1.limit import Fit, fitted_inertia
+from linkwright.papers.paper1.scheme import schemes
+from linkwright.sizing.power import RequiredPower, required_power
 
-WAYS = {"solution": "solution of (1)", "limit": "constant energy", "scheme": "published scheme"}
-
-# Intervals of the turn for curves; the paper's own step is a degree.
-_ANGLES = 1440
-
-Track = Callable[[Sequence[PublishedDrive]], Iterable[PublishedDrive]]
+# Between neighbouring cranks of four carts that go two against two [rad].
+_OPPOSED = np.pi
 
 
 @dataclass(frozen=True)
-class Recomputed:
-    """A printed value against what follows from other printed values of the same row.
-
-    Attributes
-    ----------
-    quantity : str
-        Which.
-    printed, follows : float
-        As printed; from the others, by the paper's own formula [SI].
-    formula : str
-        That formula.
-    """
-
-    quantity: str
-    printed: float
-    follows: float
-    formula: str
-
-    @property
-    def agrees(self) -> bool:
-        """Whether both differ by at most one in the last printed digit."""
-        decimals = len(repr(self.printed).partition(".")[2])
-        # A hair more than one unit, so that rounding of the binary numbers does not count.
-        return abs(self.follows - self.printed) <= 1.000001 * 10.0**-decimals
-
-
-@dataclass(frozen=True)
-class Drive:
-    """One drive: what is published, and what comes out.
-
-    Attributes
-    ----------
-    published : PublishedDrive
-        The printed row.
-    machine : Machine
-        Its file.
-    reduced, steady, up, scheme : Reduction, SteadyState, RunUp, StepMotion
-        The analyses.
-    values : dict of str to dict
-        Way → quantity → computed value [SI].
-    cells : dict of str to dict
-        Way → quantity → `Cell`.
-    fit : Fit
-        The inertia with which the limit comes nearest to the row.
-    recomputed : tuple of Recomputed
-        The row against itself.
-    sized : SteadyState or None
-        Steady motion with the motor that passes all checks of `linkwright.sizing`.
-    sized_motor : str
-        That motor.
-    """
-
-    published: PublishedDrive
-    machine: Machine
-    reduced: Reduction
-    steady: SteadyState
-    up: RunUp
-    scheme: StepMotion
-    values: dict[str, dict[str, float]]
-    cells: dict[str, dict[str, Cell]]
-    fit: Fit
-    recomputed: tuple[Recomputed, ...]
-    sized: SteadyState | None
-    sized_motor: str
-
-    @property
-    def drive_inertia(self) -> float:
-        """Inertia of motor, coupling and gearbox at the crank, I_0 i² [kg m²]."""
-        assert self.machine.drive is not None
-        return float(drive_inertia(self.machine.drive))
-
-
-@dataclass(frozen=True)
-class Paper1:
+class Paper1(Paper):
     """Paper 1, published against computed.
 
     Attributes
     ----------
-    published : Published
-        What is printed.
     drives : tuple of Drive
         The four drives.
-    intermediates : dict of str to Cell
-        Values that the paper prints on the way.
-    steps : dict of float to float
-        Step of the angle in degrees → deviation of the scheme from the published speeds of two carts [–].
+    power : RequiredPower
+        Values that the paper prints on the way, for two carts.
+    trials : dict of float to StepMotion
+        Step of the angle in degrees → two carts by the published scheme.
     opposed : Fit
         Row 4 by four carts at 180° between neighbours, two against two.
     """
 
-    published: Published
     drives: tuple[Drive, ...]
-    intermediates: dict[str, Cell]
-    steps: dict[float, float]
+    power: RequiredPower
+    trials: dict[float, StepMotion]
     opposed: Fit
+
+    @property
+    def steps(self) -> dict[float, float]:
+        """Step of the angle in degrees → deviation of the scheme from two published speeds [–]."""
+        row = self.drives[1].published.values
+        off = {
+            step: (motion.speed_min / row["speed_min"] - 1, motion.speed_max / row["speed_max"] - 1)
+            for step, motion in self.trials.items()
+        }
+        return {step: float(np.sqrt(0.5 * (low**2 + high**2))) for step, (low, high) in off.items()}
 
     @property
     def rankings(self) -> dict[str, list[int]]:
@@ -152,194 +69,151 @@ class Paper1:
             for way, value in ways.items()
         }
 
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
+    def quantities(self) -> dict[str, Any]:
+        """Drives by number of carts, loads on the way, and what the table of results comes to."""
+        _, two, _, four = self.drives
         return {
-            "drives": [_drive_dict(each) for each in self.drives],
-            "intermediates": {name: cell.to_dict() for name, cell in self.intermediates.items()},
+            "two": two,
+            "four": four,
+            "phases": {"four": four.published.phase, "opposed": _OPPOSED},
+            "fitted": [each for each in self.drives if not each.published.motor_printed and each.fit.fits],
+            "four_fits_not": not four.fit.fits and self.opposed.misfit < four.fit.misfit,
+            **self._of_two(two),
+            **self._of_rows(),
+            **self._of_rankings(four),
+        }
+
+    def _of_two(self, two: Drive) -> dict[str, Any]:
+        """Two carts: their load, and the step of the scheme."""
+        row, machine, mean = two.published.values, two.machine, self.published["claim"][0]["value"]
+        assert machine.drive is not None
+        assert isinstance(machine.drive.motor, InductionMotor)
+        step = float(np.degrees(two.scheme.step))
+        best = sorted(sorted(self.steps, key=lambda each: self.steps[each])[:2])
+        alone = [
+            each
+            for each in best
+            if round(self.trials[each].speed_max, 3) == row["speed_max"]
+            and round(load_by_steps(two.reduced, each), 2) == mean
+        ]
+        at_degrees = load_by_steps(two.reduced, step)
+        halves = two.steady.unevenness / two.values["limit"]["unevenness"]
+        far = two.cells["solution"]["unevenness"].kind == "far"
+        cells = [cell_of(each, {"power": self.power}).kind for each in self.published["claim"]]
+        return {
+            "step": np.radians(step),
+            "best_steps": [np.radians(each) for each in best],
+            "step_deviations": list(self.steps.items()),
+            "load_closed": _load_in_closed_form(two),
+            "load_at_degrees": at_degrees,
+            "load_lost": two.reduced.torque_load_mean - at_degrees,
+            "rated_speed": (machine.drive.motor.speed_rated or np.nan) / machine.drive.gearbox.ratio,
+            # To a tenth, as the word is used.
+            "row_solves_not": far and abs(halves - 0.5) < 0.05,
+            "scheme_gives_row": alone == [step] and two.values["scheme"]["turns"] == row["turns"],
+            "values_on_the_way_hold": cells == ["reproduced"] * 3 and round(at_degrees, 2) == mean,
+        }
+
+    def _of_rows(self) -> dict[str, Any]:
+        """The printed table against itself."""
+        symbols = self.published["quantities"]
+        rows = [
+            vars(each)
+            | {
+                "drive": one.published.name.split(",")[0],
+                "carts": one.published.carts,
+                "symbol": symbols[each.quantity]["symbol"],
+                "agrees": each.agrees,
+                "kind": "reproduced" if each.agrees else "far",
+            }
+            for one in self.drives
+            for each in one.recomputed
+        ]
+        wrong = [each for each in rows if not each["agrees"]]
+        four = self.drives[3].published.values
+        follows = {each.quantity: each.follows for each in self.drives[3].recomputed}
+        k_p = follows["unevenness"] ** 2 + four["dynamism"]
+        means = [each["carts"] for each in wrong if each["quantity"] == "speed_mean"]
+        others = [each["carts"] for each in wrong if each["quantity"] != "speed_mean"]
+        return {
+            "recomputed": rows,
+            "disagreeing": wrong,
+            "unrounded": follows,
+            "rows_disagree": (means, others) == ([3, 4], [4]) and round(k_p, 4) == four["motion_coefficient"],
+            "rows_fit": [each.published.carts for each in self.drives if each.fit.fits] == [1, 2, 3],
+        }
+
+    def _of_rankings(self, four: Drive) -> dict[str, Any]:
+        """Which drive is the most even one, and what motors do to that."""
+        published, *computed = self.rankings.values()
+        carts = four.published.carts
+        by_power = {each.published.carts: each.steady.motion_coefficient for each in self.drives}
+        small = [
+            each.published.carts
+            for each in self.drives
+            if any(check.passed is False for check in each.choice.present if check.name.startswith("torque"))
+        ]
+        return {
+            "ranked": list(self.rankings.items()),
+            "published_place": published.index(carts) + 1,
+            "four_is_most_even": published[0] != carts and all(order[0] == carts for order in computed),
+            "sized": [each for each in self.drives if each.sized],
+            # Estimated inertias are off by more than a percent.
+            "motors_are_small": small == [1, 2, 3] and abs(by_power[2] / by_power[3] - 1) < 0.01,
+        }
+
+    def entries(self) -> dict[str, Any]:
+        """Computed values, ready for JSON."""
+        claims = self.published["claim"]
+        return {
+            "drives": [each.to_dict() for each in self.drives],
+            "intermediates": {each["name"]: cell_of(each, self.values).to_dict() for each in claims},
             "scheme_step_deviation": {f"{step:g} deg": off for step, off in self.steps.items()},
             "rankings": self.rankings,
-            "conclusions": conclusions(self),
         }
 
 
-def _sized_coefficient(drive: Drive) -> float:
-    return drive.sized.motion_coefficient if drive.sized else np.inf
+def _sized_coefficient(one: Drive) -> float:
+    return one.sized.motion_coefficient if one.sized else np.inf
 
 
-def _drive_dict(drive: Drive) -> dict[str, Any]:
-    """One drive, ready for JSON."""
-    return {
-        "carts": drive.published.carts,
-        "name": drive.published.name,
-        "machine": drive.published.machine,
-        "published": drive.published.values,
-        "columns": {
-            way: {name: cell.to_dict() for name, cell in cells.items()} for way, cells in drive.cells.items()
-        },
-        "drive_inertia": drive.drive_inertia,
-        "limit_fit": {"drive_inertia": drive.fit.inertia, "misfit": drive.fit.misfit, "fits": drive.fit.fits},
-        "printed_row": [
-            {
-                "quantity": each.quantity,
-                "printed": each.printed,
-                "follows": each.follows,
-                "agrees": each.agrees,
-            }
-            for each in drive.recomputed
-        ],
-        "sized_motor": drive.sized_motor,
-        "sized_motion_coefficient": drive.sized.motion_coefficient if drive.sized else None,
-    }
+def load_by_steps(reduced: Reduction, degrees: float) -> float:
+    """Mean resisting torque over a turn, as a table by steps of an angle [°] gives it [N m].
+
+    The reduction has a whole number of intervals in a step.
+    """
+    every = round(degrees * (len(reduced.crank_angle) - 1) / 360)
+    return float(reduced.torque_load[:-1:every].mean())
 
 
-def paper1(track: Track = iter) -> Paper1:
+def _load_in_closed_form(two: Drive) -> float:
+    """Each cart travels 4r a turn against its resistance; gravity does no work over a turn [N m]."""
+    loads = [each.force for each in two.machine.loads.values() if isinstance(each, DryFriction)]
+    radii = [each.radius for each in two.machine.mechanism.cranks.values()]
+    return sum(4 * r * float(F or 0.0) for r, F in zip(radii, loads, strict=True)) / (2 * np.pi)
+
+
+def paper1() -> Paper1:
     """Compute paper 1 anew.
-
-    Parameters
-    ----------
-    track : callable, optional
-        Takes the drives and gives them back one by one, to show how far it is.
-
-    Returns
-    -------
-    Paper1
-        Published and computed values with verdicts.
-
-    Notes
-    -----
-    The motors of the drives with one, three and four carts are not printed. Their files take the smallest
-    motor of the same series whose rated power reaches the required one, by which rule the printed motor of
-    the two carts comes out too.
 
     References
     ----------
     .. [1] Paper 1, whole.
     """
-    data = published(1)
-    drives = tuple(_drive(each) for each in track(data.drives))
-    two = next(each for each in drives if each.published.carts == 2)
-    four = next(each for each in drives if each.published.carts == 4)
-    printed = two.published.values
+    drives = tuple(drive(each) for each in published_drives())
+    two, four = drives[1], drives[3]
     return Paper1(
-        published=data,
+        printed_values(1),
         drives=drives,
-        intermediates=_intermediates(data, two),
-        steps=best_step(two.machine, printed["speed_min"], printed["speed_max"]),
+        power=required_power(two.machine),
+        trials=schemes(two.machine),
         opposed=_opposed(four),
     )
 
 
-def _drive(row: PublishedDrive) -> Drive:
-    """All analyses of one drive."""
-    machine = read(library_path(row.machine))
-    assert machine.drive is not None
-    reduced = reduction(machine, n=_ANGLES)
-    steady = steady_state(machine, n=_ANGLES)
-    up = run_up(machine, steady=steady)
-    scheme = published_scheme(machine)
-    limit = scaled_to(constant_energy_of(reduced), reduced, row.values["speed_mean"])
-    values = {
-        "solution": _measures(steady) | {"turns": up.turns},
-        "limit": limit,
-        "scheme": _measures(scheme) | {"turns": float(turns_to_steady(scheme))},
-    }
-    now = float(drive_inertia(machine.drive))
-    chosen = choose_motor(machine).chosen
-    return Drive(
-        published=row,
-        machine=machine,
-        reduced=reduced,
-        steady=steady,
-        up=up,
-        scheme=scheme,
-        values=values,
-        cells={way: _cells(row, way, values[way]) for way in WAYS},
-        fit=fitted_inertia(reduced, now, row.values["unevenness"], row.values["dynamism"]),
-        recomputed=tuple(recompute(row.values)),
-        sized=chosen.steady if chosen else None,
-        sized_motor=chosen.type if chosen else "",
-    )
-
-
-def _measures(motion: SteadyState | StepMotion) -> dict[str, float]:
-    """The columns of the table that a steady motion has."""
-    found = {name: getattr(motion, name) for name in QUANTITIES if name not in ("turns", "speed_mean")}
-    return found | {"speed_mean": motion.speed_mean_extremes}
-
-
-def _cells(row: PublishedDrive, way: str, values: dict[str, float]) -> dict[str, Cell]:
-    """Every column of a row against one way of computing it."""
-    return {
-        name: Cell(
-            published=row.values[name],
-            computed=values.get(name),
-            because=_because(row, way, name),
-            # The limit has a shape but no speed of its own.
-            given=way == "limit" and name == "speed_mean",
-        )
-        for name in QUANTITIES
-    }
-
-
-def _because(row: PublishedDrive, way: str, quantity: str) -> str:
-    """Why a value differs, if it does."""
-    unknown = "" if row.motor_printed else ", and the motor of this drive is not printed"
-    if way == "limit":
-        if quantity == "turns":
-            return "at constant energy there is no run-up"
-        if row.carts == 4:
-            return "four carts at 90° keep an almost constant inertia, whatever the motor's"
-        return f"the limit has neither motor nor load{unknown}"
-    if way == "solution":
-        if quantity == "turns":
-            return "the full torque runs the machine up; the published run-up has 1/9.8 of it" + unknown
-        if row.carts == 4:
-            return "four carts at 90° keep an almost constant inertia; the published row contradicts (1)"
-        return f"the published row does not solve (1): only 1/9.8 of the net torque acts in it{unknown}"
-    if row.carts == 4:
-        return "four carts at 90° turn evenly by this scheme too"
-    return f"the paper prints neither its step nor its count of turns{unknown}"
-
-
-def recompute(row: dict[str, float]) -> list[Recomputed]:
-    """Set a printed row against itself.
-
-    Parameters
-    ----------
-    row : dict of str to float
-        Quantity → printed value.
-
-    Returns
-    -------
-    list of Recomputed
-        Mean speed, δ, H and k_p, each from other printed values by equations (13) to (15).
-    """
-    mean = row["speed_mean"]
-    steepest = max(abs(row["acceleration_min"]), abs(row["acceleration_max"]))
-    span = row["speed_max"] - row["speed_min"]
-    follows = {
-        "speed_mean": (0.5 * (row["speed_min"] + row["speed_max"]), "(ω_min + ω_max)/2"),
-        "unevenness": (span / mean, "(ω_max − ω_min)/ω_mean"),
-        "dynamism": (steepest / mean**2, "|ε|_max/ω_mean²"),
-        "motion_coefficient": (row["unevenness"] ** 2 + row["dynamism"], "δ² + H"),
-    }
-    return [Recomputed(name, row[name], *found) for name, found in follows.items()]
-
-
-def _intermediates(data: Published, two: Drive) -> dict[str, Cell]:
-    """The values printed on the way, for two carts."""
-    power = required_power(two.machine)
-    because = {each["quantity"]: each.get("note", "") for each in data.intermediates}
-    return {
-        each["name"]: Cell(each["value"], getattr(power, each["quantity"]), because[each["quantity"]])
-        for each in data.intermediates
-    }
-
-
 def _opposed(four: Drive) -> Fit:
     """Row 4 by carts two against two."""
-    phases = {f"mechanism.cranks.A{n + 1}.phase": n * np.pi for n in range(4)}
+    phases = {f"mechanism.cranks.A{n + 1}.phase": n * _OPPOSED for n in range(4)}
     reduced = reduction(with_entries(four.machine, phases), n=360)
     row = four.published.values
     return fitted_inertia(reduced, four.drive_inertia, row["unevenness"], row["dynamism"])

@@ -28,19 +28,9 @@ _SETTLED = 0.01
 
 
 def published_scheme(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotion:
-    """Motion from rest by the published scheme.
+    """Motion from rest by the published scheme: all turns, and the measures of the last.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine, with an induction motor.
-    step : float
-        Step of the crank angle [rad]; must divide the turn.
-
-    Returns
-    -------
-    StepMotion
-        All turns, and the measures of the last.
+    The step of the angle [rad] must divide the turn.
 
     Raises
     ------
@@ -70,19 +60,9 @@ def published_scheme(machine: Machine, *, step: float = np.radians(1.0)) -> Step
 
 
 def motor_torque(motor: InductionMotor, speed: float) -> float:
-    """Torque of the motor as the published row shows it.
+    """Torque at a speed of the shaft [rad/s] as the published row shows it [N m].
 
-    Parameters
-    ----------
-    motor : InductionMotor
-        With starting torque and breakdown point.
-    speed : float
-        Of its shaft [rad/s].
-
-    Returns
-    -------
-    float
-        Straight from the starting to the breakdown torque, then by Kloss's formula, paper 1 (8) [N m].
+    Straight from the starting to the breakdown torque, then by Kloss's formula, paper 1 (8).
     """
     omega_0, omega_cr = motor.speed_synchronous, motor.speed_breakdown
     M_start, M_cr = motor.torque_start, motor.torque_breakdown
@@ -98,18 +78,7 @@ def motor_torque(motor: InductionMotor, speed: float) -> float:
 
 
 def turns_to_steady(motion: StepMotion) -> int:
-    """Whole turns after which the speed stays within 1 % of that of the last turn at the same angle.
-
-    Parameters
-    ----------
-    motion : StepMotion
-        From rest to steady motion.
-
-    Returns
-    -------
-    int
-        Turns of run-up.
-    """
+    """Whole turns after which the speed stays within 1 % of that of the last turn at the same angle."""
     n = round(2 * np.pi / motion.step)
     speed = motion.speed[1:]
     turns = speed[: len(speed) // n * n].reshape(-1, n)
@@ -117,24 +86,6 @@ def turns_to_steady(motion: StepMotion) -> int:
     return int(np.flatnonzero(outside)[-1]) + 1 if outside.any() else 0
 
 
-def best_step(machine: Machine, speed_min: float, speed_max: float) -> dict[float, float]:
-    """How well each step of the angle reproduces two published speeds.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    speed_min, speed_max : float
-        Published extremes of the speed [rad/s].
-
-    Returns
-    -------
-    dict of float to float
-        Step in degrees → root of the mean square deviation of the two speeds [–].
-    """
-    found = {}
-    for degrees in STEPS:
-        motion = published_scheme(machine, step=np.radians(degrees))
-        off = (motion.speed_min / speed_min - 1, motion.speed_max / speed_max - 1)
-        found[degrees] = float(np.sqrt(0.5 * (off[0] ** 2 + off[1] ** 2)))
-    return found
+def schemes(machine: Machine) -> dict[float, StepMotion]:
+    """The published scheme by each step of the angle in degrees that is tried."""
+    return {degrees: published_scheme(machine, step=np.radians(degrees)) for degrees in STEPS}

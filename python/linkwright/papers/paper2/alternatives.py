@@ -8,7 +8,6 @@ the crankshaft turns unevenly:
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -24,7 +23,8 @@ from linkwright.kinetostatics.model.loads.friction import DryFriction
 from linkwright.linkages.kinematics import SlideMotion, kinematics
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import read
-from linkwright.papers.paper2.formulas import Formulas
+from linkwright.papers.paper2.formulas import SECTIONS, Formulas, fraction
+from linkwright.papers.words import filled
 
 Floats = NDArray[np.float64]
 
@@ -43,24 +43,18 @@ class Alternative:
     ----------
     name, short : str
         What it is; a word or two for figures.
-    machine : Machine
-        The machine.
-    steady : SteadyState
-        Its steady motion.
+    machine, steady : Machine, SteadyState
+        The machine and its steady motion.
     crank_angle : ndarray, shape (n,)
-        Of the curves below [rad].
+        Of the curves [rad].
     velocity, acceleration : ndarray, shape (n,)
         Of the cart at the design speed [m/s, m/s²].
     force, torque : ndarray, shape (n,)
         On the cart, and from there on the shaft, in steady motion [N, N m].
-    velocity_max, acceleration_max, jerk_max : float
-        Largest in size at the design speed [m/s, m/s², m/s³]; exact for a cam.
-    jerk_step : float
-        Largest step of the jerk [m/s³].
-    pressure_angle_max : float or None
-        Of a cam [rad].
-    concave_radius : float or None
-        Least concave radius of curvature of a cam [m]; None without hollows.
+    velocity_max, acceleration_max, jerk_max, jerk_step : float
+        Largest in size at the design speed, exact for a cam; largest step [m/s, m/s², m/s³].
+    pressure_angle_max, concave_radius : float or None
+        Of a cam [rad]; least concave radius of curvature, if there are hollows [m].
     steady_share : float
         Share of the stroke at constant speed [–].
     """
@@ -92,6 +86,11 @@ class Alternative:
         """Greatest torque that the cart asks of the shaft in steady motion [N m]."""
         return float(self.torque.max())
 
+    @property
+    def jerk_step_shown(self) -> float | None:
+        """The step of the jerk, if it is more than rounding [m/s³]."""
+        return self.jerk_step if self.jerk_step > 1e-9 * self.jerk_max else None
+
     def to_dict(self) -> dict[str, Any]:
         """Its numbers, ready for JSON."""
         own = ("velocity_max", "acceleration_max", "jerk_max", "jerk_step", "force_max", "torque_max")
@@ -102,72 +101,39 @@ class Alternative:
 
 
 def alternatives(formulas: Formulas) -> tuple[Alternative, ...]:
-    """The drive of paper 2, the crank drive, and other laws.
-
-    Parameters
-    ----------
-    formulas : Formulas
-        As printed.
-
-    Returns
-    -------
-    tuple of Alternative
-        The printed law first, then the crank.
-    """
+    """The drive of paper 2, then those of its file of data, the crank drive first."""
     given = formulas.printed
-    name = given["given"]["machine"]
-    found = [_with(name, "combined, 1/6 each, as printed", "as printed", {})]
-    found.append(_with(name, "crank r = 0.2 m, rod 0.8 m", "crank", {"mechanism": _crank(given["crank"])}))
-    for words, short, sections in _programmes(formulas.stroke):
-        found.append(_with(name, words, short, {"mechanism.cams.cart.sections": sections}))
+    machine = given["given"]["machine"]
+    found = [
+        _with(
+            machine,
+            filled("combined, {start.0}/{start.1} each, as printed", given["given"]),
+            "as printed",
+            {},
+        )
+    ]
+    for each in given["alternative"]:
+        if "mechanism" in each:
+            entries = {"mechanism": each["mechanism"]}
+        else:
+            entries = {"mechanism.cams.cart.sections": _sections(each, formulas)}
+        found.append(_with(machine, filled(each["name"], each), each["short"], entries))
     return tuple(found)
 
 
-def _crank(lengths: dict[str, float]) -> dict[str, Any]:
-    """The mechanism of paper 1 for the same cart."""
-    slider = {"crank": "A", "rod": lengths["rod"]}
-    return {"cranks": {"A": {"radius": lengths["radius"]}}, "sliders": {CART: slider}}
-
-
-def _programmes(stroke: float) -> Iterator[tuple[str, str, list[dict[str, Any]]]]:
-    """Names and sections of the other laws."""
-    for words, share in (("1/10", 1 / 10), ("1/4", 1 / 4), ("1/2", 1 / 2)):
-        law = {"kind": "combined", "start": share, "stop": share}
-        yield f"combined, {words} each", f"{words} each", _there_and_back(stroke, law)
-    law = {"kind": "combined", "ramp": "optimal_jerk_free"}
-    yield "combined, least ∫ jerk² over free travel", "free travel", _there_and_back(stroke, law)
-    smooth: dict[str, Any] = {"kind": "polynomial", "continuity_start": 3, "continuity_end": 3}
-    yield "combined, continuous jerk", "continuous jerk", _ramped(stroke, 1 / 2, smooth, smooth)
-    free: dict[str, Any] = {"kind": "optimal", "order": 3}
-    ends = free | {"free_start": [2]}, free | {"free_end": [2]}
-    yield "combined, acceleration free at the turn", "free at the turn", _ramped(stroke, 5 / 8, *ends)
-    for kind in ("polynomial_4_5_6_7", "cycloidal", "modified_sine", "harmonic"):
-        words = kind.replace("_4_5_6_7", " 4-5-6-7").replace("_", " ")
-        yield words, words, _there_and_back(stroke, kind)
-
-
-def _there_and_back(stroke: float, law: object) -> list[dict[str, Any]]:
-    """A law over each half of the turn."""
-    return [{"angle": np.pi, "lift": sign * stroke, "law": law} for sign in (1, -1)]
-
-
-def _ramped(stroke: float, travel: float, start: object, stop: object) -> list[dict[str, Any]]:
-    """Start, constant speed and braking from single sections; the ramps have a sixth of the time each.
-
-    The travel of a ramp is given over that of constant speed in the same time.
-    """
-    share = 1 / 6
-    cruise = 1 - 2 * share
-    speed = stroke / (2 * share * travel + cruise)
-    middle = {"angle": cruise * np.pi, "law": "constant_velocity"}
+def _sections(law: dict[str, Any], formulas: Formulas) -> list[dict[str, Any]]:
+    """Sections of both strokes."""
+    strokes = (formulas.stroke, -formulas.stroke)
+    if "law" in law:
+        return [{"angle": np.pi, "lift": lift, "law": law["law"]} for lift in strokes]
+    shares = [formulas.times[name] / formulas.time for name in SECTIONS]
+    ramp = fraction(law["travel"])
+    laws = (law["start"], "constant_velocity", law["stop"])
+    travels = [share * part for share, part in zip(shares, (ramp, 1.0, ramp), strict=True)]
     return [
-        part
-        for sign in (1, -1)
-        for part in (
-            {"angle": share * np.pi, "lift": sign * speed * share * travel, "law": start},
-            middle | {"lift": sign * speed * cruise},
-            {"angle": share * np.pi, "lift": sign * speed * share * travel, "law": stop},
-        )
+        {"angle": share * np.pi, "lift": lift * travel / sum(travels), "law": each}
+        for lift in strokes
+        for share, travel, each in zip(shares, travels, laws, strict=True)
     ]
 
 

@@ -6,6 +6,7 @@ All differences are the largest over many points, as a share of the largest valu
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,21 +19,39 @@ Floats = NDArray[np.float64]
 # Points of a stroke: middles of equal parts, none of them on a joint.
 _POINTS = 3600
 
-NAMES = ("x", "ẋ", "ẍ", "jerk")
 
-
-def motion_difference(formulas: Formulas, profile: CamProfile, order: int) -> float:
-    """(1) to (3), there and back, against the law of the machine at its design speed.
+def checks(formulas: Formulas, profile: CamProfile) -> dict[str, Any]:
+    """All checks by name.
 
     Parameters
     ----------
     formulas : Formulas
         As printed.
     profile : CamProfile
-        Of the machine.
-    order : int
-        Of the derivative by time, 0 to 3.
+        Of the machine, by the general synthesis.
+
+    Returns
+    -------
+    dict
+        Differences [–]; ``places`` and ``travels`` by the law of the machine [m].
     """
+    law = profile.cam.lift
+    places = [float(law.at(x)) for x in (0.0, *law.breaks[1:4])]
+    return {
+        "places": places,
+        "travels": dict(zip(SECTIONS, np.diff(places).tolist(), strict=False)),
+        "motion": [motion_difference(formulas, profile, order) for order in range(4)],
+        "chain": {section: _chain(formulas, section) for section in SECTIONS},
+        "mirror": _mirror(formulas),
+        "joint": _joint(formulas),
+        "radius": radius_difference(formulas, profile),
+        "radius_joint": _radius_joint(formulas),
+        "diameter": diameter_difference(formulas, profile),
+    }
+
+
+def motion_difference(formulas: Formulas, profile: CamProfile, order: int) -> float:
+    """(1) to (3), there and back, against the law of the machine at its design speed, derivative by time."""
     time = (np.arange(_POINTS) + 0.5) / _POINTS * formulas.time
     omega = np.pi / formulas.time
     printed = formulas.stroke_motion(time, order)
@@ -42,15 +61,7 @@ def motion_difference(formulas: Formulas, profile: CamProfile, order: int) -> fl
 
 
 def radius_difference(formulas: Formulas, profile: CamProfile) -> float:
-    """(17) to (22) against the curve that the core puts under the follower.
-
-    Parameters
-    ----------
-    formulas : Formulas
-        As printed.
-    profile : CamProfile
-        Of the machine.
-    """
+    """(17) to (22) against the curve that the core puts under the follower."""
     phi = (np.arange(2 * _POINTS) + 0.5) / _POINTS * np.pi
     x, y = profile.flanks[0].curve().points(phi).T
     printed = formulas.radius(phi, breadth_of(profile))
@@ -66,7 +77,7 @@ def diameter_difference(formulas: Formulas, profile: CamProfile) -> float:
     return float(np.abs(apart - b).max() / b)
 
 
-def chain_difference(formulas: Formulas, section: str) -> float:
+def _chain(formulas: Formulas, section: str) -> float:
     """Whether each line of (1) to (3) is the derivative of the line before, by its coefficients."""
     lines = [formulas.polynomial(section, order) for order in range(4)]
     off = [(line.deriv() - after).coef for line, after in pairwise(lines)]
@@ -74,14 +85,14 @@ def chain_difference(formulas: Formulas, section: str) -> float:
     return max(float(np.abs(each).max()) for each in off) / largest
 
 
-def mirror_difference(formulas: Formulas) -> float:
+def _mirror(formulas: Formulas) -> float:
     """Whether (3) is (1) run through backwards, by its values."""
     u = np.linspace(0.0, 1.0, 101)
     start, stop = formulas.polynomial("start", 0), formulas.polynomial("stop", 0)
     return _share(stop(u), start(1.0) - start(1 - u))
 
 
-def joint_difference(formulas: Formulas) -> float:
+def _joint(formulas: Formulas) -> float:
     """Whether velocity and acceleration pass from (1) to (2) and from (2) to (3) without a step."""
     scale, ends = formulas.speed / formulas.times["start"], np.array([0.0, 1.0])
     steps = []
@@ -91,7 +102,7 @@ def joint_difference(formulas: Formulas) -> float:
     return float(max(steps) / scale)
 
 
-def radius_joint_difference(formulas: Formulas) -> float:
+def _radius_joint(formulas: Formulas) -> float:
     """Whether (17) meets (18), (18) meets (19), and the two half turns meet."""
     ends = np.array([*formulas.branch_begins, np.pi])
     values = [formulas.branch(n, ends[n : n + 2]) for n in range(3)]
@@ -99,25 +110,6 @@ def radius_joint_difference(formulas: Formulas) -> float:
     # The return is the same with the other sign: the forward stroke has to end as far out as it begins in.
     steps.append(values[-1][1] + values[0][0])
     return float(np.abs(steps).max() / formulas.stroke)
-
-
-def peak(formulas: Formulas, order: int) -> float:
-    """Largest value of a derivative over a stroke by (1) to (3), from the zeros of the next one.
-
-    Parameters
-    ----------
-    formulas : Formulas
-        As printed.
-    order : int
-        Of the derivative, 1 to 3.
-    """
-    found = 0.0
-    for section in SECTIONS:
-        roots = formulas.polynomial(section, order).deriv().roots()
-        inside = roots[np.isreal(roots)].real
-        u = np.concatenate(([0.0, 1.0], inside[(inside > 0) & (inside < 1)]))
-        found = max(found, float(np.abs(formulas.over(section, order, u)).max()))
-    return found
 
 
 def breadth_of(profile: CamProfile) -> float:

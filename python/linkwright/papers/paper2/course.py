@@ -44,6 +44,11 @@ class Course:
     speed_constant: float
 
     @property
+    def period(self) -> float:
+        """Of the turn [s]."""
+        return float(self.time[-1])
+
+    @property
     def deviation(self) -> Floats:
         """Velocity less the intended one over the constant speed, (n,) [–]."""
         return (self.velocity - self.intended) / self.speed_constant
@@ -77,33 +82,17 @@ class Course:
 
 
 def course(drive: Alternative, formulas: Formulas) -> Course:
-    """The cart of a cam drive in steady motion.
-
-    Parameters
-    ----------
-    drive : Alternative
-        With the printed law.
-    formulas : Formulas
-        As printed.
-
-    Returns
-    -------
-    Course
-        Over one turn.
-    """
-    turn, law = drive.steady, the_cam(drive.machine)[1].lift
+    """The cart of the cam drive with the printed law over one turn of steady motion."""
+    turn, law, given = drive.steady, the_cam(drive.machine)[1].lift, formulas.printed["given"]
     mean = turn.speed_mean_time
-    even = np.mod(mean * turn.time, 2 * np.pi)
     half = np.mod(turn.crank_angle, np.pi) / np.pi
-    begin = fraction(formulas.printed["given"]["start"])
-    end = 1 - fraction(formulas.printed["given"]["stop"])
     return Course(
         time=turn.time,
         velocity=law.at(turn.crank_angle, 1) * turn.speed,
-        intended=law.at(even, 1) * mean,
+        intended=law.at(np.mod(mean * turn.time, 2 * np.pi), 1) * mean,
         speed=turn.speed,
         speed_mean=mean,
         speed_design=design_speed(drive.machine),
-        steady=(half >= begin) & (half <= end),
+        steady=(half >= fraction(given["start"])) & (half <= 1 - fraction(given["stop"])),
         speed_constant=formulas.speed * formulas.time * mean / np.pi,
     )

@@ -25,7 +25,7 @@ from linkwright.kernel.figure.style import (
     turn_axis,
     zero_line,
 )
-from linkwright.papers.paper2.checks import NAMES, breadth_of
+from linkwright.papers.paper2.checks import breadth_of
 from linkwright.papers.paper2.formulas import fraction
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-UNITS = ("m", "m/s", "m/s²", "m/s³")
+LINES_OF_MOTION = ("x [m]", "ẋ [m/s]", "ẍ [m/s²]", "jerk [m/s³]")
 
 # Drives that the figure of alternatives shows, by their short names.
 _SHOWN = {
@@ -50,18 +50,7 @@ _SHOWN = {
 
 
 def figures(paper: Paper2) -> dict[str, Figure]:
-    """All figures of paper 2.
-
-    Parameters
-    ----------
-    paper : Paper2
-        The paper.
-
-    Returns
-    -------
-    dict of str to Figure
-        Under names for files.
-    """
+    """All figures of paper 2, under names for files."""
     return {
         "figure1": _motion(paper),
         "figure3": _cam(paper),
@@ -96,7 +85,7 @@ def _motion(paper: Paper2) -> Figure:
             label="(1) to (3), as printed",
         )
         _steady_sections(axes, paper)
-        axes.set_ylabel(f"{NAMES[order]} [{UNITS[order]}]")
+        axes.set_ylabel(LINES_OF_MOTION[order])
         axes.set_xlim(0, 2 * formulas.time)
         zero_line(axes)
     every[-1].set_xlabel("time [s]")
@@ -201,9 +190,9 @@ def _start(paper: Paper2) -> Figure:
     figure, every = panels(1, height=2.9, columns=3, shared=False)
     u = np.linspace(0, 1, 201)
     for start, colour, name in (
-        (paper.starts.printed, BLUE, "(1), as printed"),
-        (paper.starts.free_travel, ORANGE, "travel free"),
-        (paper.starts.free_acceleration, GREEN, "travel and ẍ at rest free"),
+        (paper.starts["printed"], BLUE, "(1), as printed"),
+        (paper.starts["free_travel"], ORANGE, "travel free"),
+        (paper.starts["free_acceleration"], GREEN, "travel and ẍ at rest free"),
     ):
         for order, axes in enumerate(every, start=1):
             label = f"{name}: ∫ jerk² = {start.cost:.3g}"

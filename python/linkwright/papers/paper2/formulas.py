@@ -25,13 +25,7 @@ def fraction(pair: list[float]) -> float:
 
 @dataclass(frozen=True)
 class Formulas:
-    """The printed formulas for the printed stroke and time.
-
-    Attributes
-    ----------
-    printed : dict
-        ``paper2.toml``.
-    """
+    """The printed formulas for the printed stroke and time, from ``paper2.toml``."""
 
     printed: dict[str, Any]
 
@@ -48,7 +42,12 @@ class Formulas:
     @property
     def speed(self) -> float:
         """v = 15 Δx/(13 t_3) [m/s], (8)."""
-        return fraction(self.printed["travel"]["speed"]) * self.stroke / self.time
+        return self.fractions["speed"] * self.stroke / self.time
+
+    @property
+    def fractions(self) -> dict[str, float]:
+        """Travels over v t, speed over Δx/t_3, ends of the steady section over Δx [–], (4) to (10)."""
+        return {name: fraction(pair) for name, pair in self.printed["travel"].items()}
 
     @property
     def times(self) -> dict[str, float]:
@@ -58,60 +57,26 @@ class Formulas:
     @property
     def travels(self) -> dict[str, float]:
         """S_p, S_y and S_g by section [m]."""
-        return {
-            name: fraction(self.printed["travel"][name]) * self.speed * time
-            for name, time in self.times.items()
-        }
+        return {name: self.fractions[name] * self.speed * time for name, time in self.times.items()}
+
+    @property
+    def steady_ends(self) -> tuple[float, float]:
+        """Where constant speed begins and ends [m], (9) and (10)."""
+        return self.fractions["steady_from"] * self.stroke, self.fractions["steady_to"] * self.stroke
 
     def polynomial(self, section: str, order: int) -> np.polynomial.Polynomial:
-        """f_n(u) of a section.
-
-        Parameters
-        ----------
-        section : str
-            One of `SECTIONS`.
-        order : int
-            n, of the derivative.
-        """
+        """f_n(u) of a section, n the order of the derivative."""
         row = self.printed[section]["motion"][order]
         return np.polynomial.Polynomial([row["factor"] * term for term in row["terms"]])
 
     def over(self, section: str, order: int, u: Floats) -> Floats:
-        """Position in the section, or a derivative of it.
-
-        Parameters
-        ----------
-        section : str
-            One of `SECTIONS`.
-        order : int
-            Of the derivative, 0 to 3.
-        u : ndarray, shape (n,)
-            Share of the section's time.
-
-        Returns
-        -------
-        ndarray, shape (n,)
-            [m, m/s, …].
-        """
+        """Position in the section, or a derivative of it [m, m/s, …], at shares u of its time."""
         scale = self.speed * self.times[section] ** (1 - order)
         found: Floats = scale * self.polynomial(section, order)(u)
         return found
 
     def stroke_motion(self, time: Floats, order: int) -> Floats:
-        """Motion over a stroke that begins at time zero and place zero.
-
-        Parameters
-        ----------
-        time : ndarray, shape (n,)
-            From 0 to t_3 [s].
-        order : int
-            Of the derivative, 0 to 3.
-
-        Returns
-        -------
-        ndarray, shape (n,)
-            [m, m/s, …].
-        """
+        """Position, or a derivative of it [m, m/s, …], over a stroke that begins at 0 s and 0 m."""
         value, begin, place = np.zeros_like(time), 0.0, 0.0
         for section, length in self.times.items():
             here = time >= begin
@@ -120,21 +85,18 @@ class Formulas:
             begin, place = begin + length, place + self.travels[section]
         return value
 
+    def peak(self, order: int) -> float:
+        """Largest value of a derivative over a stroke by (1) to (3), from the zeros of the next one."""
+        found = 0.0
+        for section in SECTIONS:
+            roots = self.polynomial(section, order).deriv().roots()
+            inside = roots[np.isreal(roots)].real
+            u = np.concatenate(([0.0, 1.0], inside[(inside > 0) & (inside < 1)]))
+            found = max(found, float(np.abs(self.over(section, order, u)).max()))
+        return found
+
     def radius(self, angle: Floats, breadth: float) -> Floats:
-        """ρ by (17) to (22).
-
-        Parameters
-        ----------
-        angle : ndarray, shape (n,)
-            φ from 0 to 2π [rad].
-        breadth : float
-            b [m].
-
-        Returns
-        -------
-        ndarray, shape (n,)
-            [m].
-        """
+        """ρ by (17) to (22) [m], at φ from 0 to 2π, b the breadth [m]."""
         back = angle >= np.pi
         half = np.where(back, angle - np.pi, angle)
         from_middle = np.zeros_like(half)
@@ -149,20 +111,7 @@ class Formulas:
         return [fraction(row["begin"]) * np.pi for row in self.printed["profile"]]
 
     def branch(self, number: int, angle: Floats) -> Floats:
-        """ρ − b/2 by one of (17) to (19).
-
-        Parameters
-        ----------
-        number : int
-            0 to 2.
-        angle : ndarray, shape (n,)
-            φ [rad].
-
-        Returns
-        -------
-        ndarray, shape (n,)
-            [m].
-        """
+        """ρ − b/2 by one of (17) to (19), counted from 0 [m]."""
         row = self.printed["profile"][number]
         bracket = np.polynomial.Polynomial(row["terms"])((angle - self.branch_begins[number]) / np.pi)
         found: Floats = self.stroke * (row["from"] + fraction(row["factor"]) * bracket)

@@ -7,110 +7,164 @@ machine in the library, ``roller_cam``.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
+import numpy as np
+
 from linkwright.cam.profile.profile import CamProfile, cam_profile
+from linkwright.papers.claim import tolerance
+from linkwright.papers.paper import Paper, printed_values
 from linkwright.papers.paper2.alternatives import Alternative, alternatives
-from linkwright.papers.paper2.conclusions import conclusions
+from linkwright.papers.paper2.checks import breadth_of, checks
 from linkwright.papers.paper2.course import Course, course
 from linkwright.papers.paper2.formulas import Formulas
-from linkwright.papers.paper2.pair import Pair, pair
-from linkwright.papers.paper2.roller import Rollers, rollers
-from linkwright.papers.paper2.rows import rows_of
-from linkwright.papers.paper2.start import Starts, starts
-from linkwright.papers.published import printed_values
-from linkwright.papers.row import Row
+from linkwright.papers.paper2.roller import Rollers, rollers, two_cams
+from linkwright.papers.paper2.start import Start, starts
 
 # Cam angles a turn of the curves.
 _ANGLES = 1440
 
+# Share of a force up to which another is nothing beside it: that of sums of products of some hundred numbers.
+_NOTHING = 1e-9
+
 
 @dataclass(frozen=True)
-class Paper2:
+class Paper2(Paper):
     """Paper 2, published against computed.
 
     Attributes
     ----------
-    published : dict
-        What is printed.
     formulas : Formulas
         The printed formulas.
     profile : CamProfile
         The cam by the general synthesis.
-    starts : Starts
+    starts : dict of str to Start
         The start section, and those of least ∫ jerk².
     rollers : Rollers
         Rollers on the printed profile.
-    pair : Pair
-        One cam against two.
+    pair : dict of str to float
+        Forces of one cam against two [N].
     alternatives : tuple of Alternative
         The printed law, the crank drive, other laws.
     course : Course
         The cart in steady motion.
-    rows : tuple of Row
-        Every printed number and formula with its verdict.
     """
 
-    published: dict[str, Any]
     formulas: Formulas
     profile: CamProfile
-    starts: Starts
+    starts: dict[str, Start]
     rollers: Rollers
-    pair: Pair
+    pair: dict[str, float]
     alternatives: tuple[Alternative, ...]
     course: Course
-    rows: tuple[Row, ...]
 
-    @property
-    def number(self) -> int:
-        """Of the paper."""
-        return int(self.published["number"])
+    def quantities(self) -> dict[str, Any]:
+        """Checks of the formulas, drives by name, and one beside another [–]."""
+        found = checks(self.formulas, self.profile)
+        return {"checks": found, **self._of_formulas(found), **self._of_starts(), **self._of_drives()}
 
-    @property
-    def title(self) -> str:
-        """Of the paper, in English."""
-        return str(self.published["title"])
+    def _of_formulas(self, found: dict[str, Any]) -> dict[str, Any]:
+        """Numbers of the formulas and of the profile, and whether all formulas agree."""
+        formulas, profile, printed = self.formulas, self.profile, self.starts["printed"]
+        differences = [*found["motion"], *found["chain"].values()]
+        differences += [found[name] for name in ("mirror", "joint", "radius", "radius_joint", "diameter")]
+        sides = np.flatnonzero(np.diff(np.sign(profile.curvature_radius)))
+        return {
+            "breadth": breadth_of(profile),
+            "factors": {
+                "acceleration": _fraction(printed.acceleration_max),
+                "jerk": _fraction(printed.jerk_max),
+                "steady": _fraction(formulas.travels["steady"] / formulas.stroke),
+            },
+            "peaks": {"acceleration": formulas.peak(2), "jerk": formulas.peak(3)},
+            "hollows": profile.angle[sides].reshape(-1, 2).tolist(),
+            "formulas_agree": max(differences) <= tolerance("rounding").reproduced,
+            "diameter_is_constant": profile.opposite is not None and profile.opposite.is_constant,
+            "rollers_need_offset": self.rollers.play > _NOTHING * self.rollers.radius,
+            "pair_cancels": self.pair["left_over"] < _NOTHING * self.pair["side_force"],
+        }
 
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
+    def _of_starts(self) -> dict[str, Any]:
+        """The start section beside the minima."""
+        printed, fixed, free, turn = self.starts.values()
+        share = self.formulas.times["start"] / self.formulas.time
+        same = tolerance("rounding").reproduced
+        exceeds = {name: printed.cost / each.cost - 1 for name, each in (("fixed", fixed), ("free", free))}
+        return {
+            "saved": 1 - free.over_stroke(share) / printed.over_stroke(share),
+            "cost_share": turn.cost / printed.cost,
+            "jerk_step": 2 * printed.jerk_max,
+            "is_minimum": exceeds["free"] <= same,
+            "is_minimum_for_travel": abs(exceeds["fixed"]) <= same,
+            "is_no_minimum": exceeds["free"] > same and abs(exceeds["fixed"]) <= same,
+            "is_smooth": bool(printed.law.at(0.0, 2) == 0) and bool(printed.law.at(0.0, 3) == 0),
+            "is_soft": bool(printed.law.at(0.0, 2) == 0) and bool(printed.law.at(0.0, 3) != 0),
+        }
+
+    def _of_drives(self) -> dict[str, Any]:
+        """Drives side by side, and the cart in steady motion."""
+        laws = {each.short: each for each in self.alternatives}
+        cam, crank = laws["as printed"], laws["crank"]
+        free, smooth = laws["free at the turn"], laws["continuous jerk"]
+        whole = [each for each in laws.values() if each.steady_share < _NOTHING and each is not crank]
+        low, high = self.course.steady_range
+        peaks = ("velocity_max", "acceleration_max", "jerk_max", "torque_max")
+        lower = all(getattr(free, name) < getattr(cam, name) for name in peaks)
+        return {
+            "laws": laws,
+            "over_crank": {name: getattr(cam, name) / getattr(crank, name) for name in peaks},
+            "torque_saved": 1 - cam.torque_max / crank.torque_max,
+            "force_added": cam.force_max / crank.force_max - 1,
+            "dynamism_over_crank": cam.steady.dynamism / crank.steady.dynamism,
+            "smooth_added": {name: getattr(smooth, name) / getattr(cam, name) - 1 for name in peaks},
+            "smooth_jerk": smooth.jerk_max / cam.jerk_max,
+            "turn_is_better": lower and free.steady.unevenness < cam.steady.unevenness,
+            "cam_beside_crank": cam.torque_max < crank.torque_max and cam.jerk_max > crank.jerk_max,
+            "other_laws_cost": all(each.torque_max > cam.torque_max for each in (smooth, *whole)),
+            "faster": self.course.speed_mean / self.course.speed_design - 1,
+            "kept": 0.5 * (low + high),
+            "kept_within": high - low,
+            "holds_speed": high - low < 1 - low,
+            "deviates_at_start": 2 * self.course.deviation_time / self.course.period % 1 < 0.5,
+        }
+
+    def entries(self) -> dict[str, Any]:
+        """Computed values, ready for JSON."""
         rolled = {name: value for name, value in vars(self.rollers).items() if name != "offset"}
         return {
             "cam": self.profile.to_dict(),
-            "start_section": self.starts.to_dict(),
+            "start_section": {name: start.to_dict() for name, start in self.starts.items()},
             "rollers": rolled | {"cam": self.rollers.offset.to_dict()},
-            "two_cams": vars(self.pair),
+            "two_cams": self.pair,
             "alternatives": [each.to_dict() for each in self.alternatives],
             "steady_motion": self.course.to_dict(),
-            "rows": [vars(row) for row in self.rows],
-            "conclusions": conclusions(self),
         }
+
+
+def _fraction(value: float) -> str:
+    """A ratio of small numbers as it is written."""
+    return str(Fraction(value).limit_denominator(100))
 
 
 def paper2() -> Paper2:
     """Compute paper 2 anew.
-
-    Returns
-    -------
-    Paper2
-        Published and computed values with verdicts.
 
     References
     ----------
     .. [1] Paper 2, whole.
     """
     data = printed_values(2)
-    formulas = Formulas(data)
+    formulas, name = Formulas(data), data["given"]["machine"]
     drives = alternatives(formulas)
     profile = cam_profile(drives[0].machine, n=_ANGLES)
-    sections = starts(formulas)
     return Paper2(
-        published=data,
+        data,
         formulas=formulas,
         profile=profile,
-        starts=sections,
-        rollers=rollers(profile, data["given"]["machine"], data["chosen"]["roller_radius"]),
-        pair=pair(data["given"]["machine"], profile.name),
+        starts=starts(formulas),
+        rollers=rollers(profile, name, data["chosen"]["roller_radius"]),
+        pair=two_cams(name, profile.name),
         alternatives=drives,
         course=course(drives[0], formulas),
-        rows=rows_of(formulas, profile, sections),
     )

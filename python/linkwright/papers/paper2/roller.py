@@ -1,4 +1,4 @@
-"""What rollers do on the printed profile, which is made for points.
+"""What rollers do on the printed profile, which is made for points, and what two cams do for one.
 
 The centre of a roller runs on the curve at its radius from the profile. Two rollers at a fixed distance need
 a curve of centres of constant diameter; the printed profile has the constant diameter itself. So the printed
@@ -15,12 +15,17 @@ from numpy.typing import NDArray
 from linkwright.cam.profile.least_base import base_for_pressure_angle, largest_roller
 from linkwright.cam.profile.profile import CamProfile, cam_profile
 from linkwright.kernel.files.library import library_path
+from linkwright.kinetostatics.forces import forces
 from linkwright.machine.read import read
+from linkwright.papers.paper2.alternatives import design_speed
 
 Floats = NDArray[np.float64]
 
 # Points of the curve of centres, an even number: between them straight lines err by 1e-9 of the radius.
 _POINTS = 40_000
+
+# Angles of the turn at which forces are compared, every quarter of a degree, off the joints of the law.
+_ANGLES = 1440
 
 
 @dataclass(frozen=True)
@@ -29,16 +34,12 @@ class Rollers:
 
     Attributes
     ----------
-    radius : float
-        Of the rollers looked at [m].
-    largest_in_hollow : float or None
-        Least concave radius of the printed profile: a roller that runs on it must be smaller [m].
-    largest_inside : float or None
-        Least convex radius of the printed curve: a roller whose centre runs on it must be smaller [m].
-    play : float
-        By how much the distance of two rollers on the printed profile changes over a turn [m].
-    lift_error : float
-        By how much the place of a roller's centre differs from ρ + r at most [m].
+    radius, largest_in_hollow, largest_inside : float
+        Of the rollers looked at; what a roller must stay below that runs on the printed profile, its least
+        concave radius, and whose centre runs on it, its least convex radius [m].
+    play, lift_error : float
+        By how much the distance of two rollers on the printed profile changes over a turn, and the place of a
+        roller's centre differs from ρ + r at most [m].
     offset : CamProfile
         The cam whose rollers' centres run on the printed curve.
     breadth_for_limit : float
@@ -55,28 +56,12 @@ class Rollers:
 
 
 def rollers(profile: CamProfile, machine: str, radius: float) -> Rollers:
-    """Look at rollers on a cam that is made for points.
-
-    Parameters
-    ----------
-    profile : CamProfile
-        The cam with points.
-    machine : str
-        Its machine in the library.
-    radius : float
-        Of the rollers [m].
-
-    Returns
-    -------
-    Rollers
-        On the profile, and inside of it.
-    """
+    """Look at rollers of a radius [m] on the cam with points of a machine of the library."""
     cam, contact = profile.cam, profile.flanks[0].contact
     centres = centre_distance(profile, radius)
     half = _POINTS // 2
     apart = centres[:half] + centres[half:]
-    phi = _angles()
-    printed = np.hypot(*profile.flanks[0].curve().points(phi).T)
+    printed = np.hypot(*profile.flanks[0].curve().points(_angles()).T)
     place = f"mechanism.cams.{profile.name}"
     offset = read(library_path(machine), {f"{place}.contact": "roller", f"{place}.roller_radius": radius})
     base = base_for_pressure_angle(cam, contact, cam.limit)
@@ -93,28 +78,36 @@ def rollers(profile: CamProfile, machine: str, radius: float) -> Rollers:
 
 
 def centre_distance(profile: CamProfile, radius: float) -> Floats:
-    """Distance of a roller's centre from the cam's, the roller on the profile, over a turn.
+    """Distance of a roller's centre from the cam's at equal angles of a turn [m], the roller on the profile.
 
-    Parameters
-    ----------
-    profile : CamProfile
-        The cam with points.
-    radius : float
-        Of the roller, below the least concave radius of the profile [m].
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        At equal angles of the cam [m].
+    Its radius [m] is below the least concave radius of the profile.
     """
-    phi = _angles()
-    x, y = profile.flanks[0].curve(radius).points(phi).T
+    x, y = profile.flanks[0].curve(radius).points(_angles()).T
     # The cam is seen as it stands at the start: the place of contact goes round it backwards.
     polar = np.unwrap(-np.arctan2(y, x))
-    distance: Floats = np.interp(phi, polar, np.hypot(x, y), period=2 * np.pi)
+    distance: Floats = np.interp(_angles(), polar, np.hypot(x, y), period=2 * np.pi)
     return distance
 
 
 def _angles() -> Floats:
     """Equal angles of a turn [rad]."""
     return np.linspace(0.0, 2 * np.pi, _POINTS, endpoint=False)
+
+
+def two_cams(machine: str, cam: str) -> dict[str, float]:
+    """Two cams that turn in opposite directions, one on each side of the cart, against one alone.
+
+    Both move the cart in the same way, so each may be computed by itself, and their mean is what two cams
+    with half the force each do. Largest forces at the design speed [N]: ``side_force`` of one cam on the
+    guide, ``left_over`` of two, ``contact_force`` of one along the normal.
+    """
+    sides, angles = [], (np.arange(_ANGLES) + 0.5) * (2 * np.pi / _ANGLES)
+    for rotation in ("same", "opposite"):
+        found = read(library_path(machine), {f"mechanism.cams.{cam}.rotation": rotation})
+        acting = forces(found, speed=design_speed(found), angles=angles)
+        sides.append(acting.pairs[f"{cam}.guide"].normal)
+    return {
+        "side_force": float(np.abs(sides[0]).max()),
+        "left_over": float(np.abs(0.5 * (sides[0] + sides[1])).max()),
+        "contact_force": float(np.abs(acting.drives[cam]).max()),
+    }

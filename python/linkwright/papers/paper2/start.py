@@ -2,7 +2,7 @@ r"""Which start section has the least :math:`\int \dddot x^2 dt`, with what held
 
 | law | position at its end | acceleration at its begin |
 | --- | --- | --- |
-| `printed` | 3/5 v t_p | zero |
+| `printed`, `fixed_travel` | 3/5 v t_p | zero |
 | `free_travel` | free | zero |
 | `free_acceleration` | free | free |
 
@@ -17,18 +17,13 @@ from dataclasses import dataclass
 
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.optimal import optimal
+from linkwright.cam.laws.piece import Piece
 from linkwright.papers.paper2.formulas import Formulas
 
 
 @dataclass(frozen=True)
 class Start:
-    """A start section over u from 0 to 1, from rest to the velocity 1.
-
-    Attributes
-    ----------
-    law : MotionLaw
-        x(u).
-    """
+    """A start section x(u) over u from 0 to 1, from rest to the velocity 1."""
 
     law: MotionLaw
 
@@ -53,67 +48,23 @@ class Start:
         return abs(self.law.peak(3).value)
 
     def over_stroke(self, share: float) -> float:
-        """∫ jerk² of start and mirrored braking for a stroke of 1 in a time of 1.
-
-        Parameters
-        ----------
-        share : float
-            Of each of the two in the time.
-        """
+        """∫ jerk² of start and mirrored braking for a stroke of 1 in a time of 1, each a share of it."""
         speed = 1 / (2 * share * self.travel + 1 - 2 * share)
         return 2 * self.cost * speed**2 / share**3
 
     def to_dict(self) -> dict[str, float]:
         """Its numbers, ready for JSON."""
-        names = ("travel", "cost", "acceleration_max", "jerk_max")
-        return {name: getattr(self, name) for name in names}
+        return {name: getattr(self, name) for name in ("travel", "cost", "acceleration_max", "jerk_max")}
 
 
-@dataclass(frozen=True)
-class Starts:
-    """The printed start beside the minima.
-
-    Attributes
-    ----------
-    printed, fixed_travel, free_travel, free_acceleration : Start
-        As printed; the least for the printed travel; for any travel; and for any acceleration at rest too.
-    """
-
-    printed: Start
-    fixed_travel: Start
-    free_travel: Start
-    free_acceleration: Start
-
-    def to_dict(self) -> dict[str, dict[str, float]]:
-        """All of them, ready for JSON."""
-        return {name: start.to_dict() for name, start in vars(self).items()}
-
-
-def starts(formulas: Formulas) -> Starts:
-    """The printed start section, and those of least ∫ jerk².
-
-    Parameters
-    ----------
-    formulas : Formulas
-        As printed.
-
-    Returns
-    -------
-    Starts
-        By what is held fixed.
-    """
+def starts(formulas: Formulas) -> dict[str, Start]:
+    """The printed start section, and those of least ∫ jerk² by what is held fixed: the table above."""
     rest, end = {0: 0.0, 1: 0.0, 2: 0.0}, {1: 1.0, 2: 0.0}
-    printed = Start(law_of(formulas))
-    return Starts(
-        printed=printed,
-        fixed_travel=Start(optimal(3, rest, {0: printed.travel, **end})),
-        free_travel=Start(optimal(3, rest, end)),
-        free_acceleration=Start(optimal(3, {0: 0.0, 1: 0.0}, end)),
-    )
-
-
-def law_of(formulas: Formulas) -> MotionLaw:
-    """The printed position of the start section as a law over u."""
-    from linkwright.cam.laws.piece import Piece
-
-    return MotionLaw((0.0, 1.0), (Piece(tuple(formulas.polynomial("start", 0).coef.tolist())),))
+    piece = Piece(tuple(formulas.polynomial("start", 0).coef.tolist()))
+    printed = Start(MotionLaw((0.0, 1.0), (piece,)))
+    return {
+        "printed": printed,
+        "fixed_travel": Start(optimal(3, rest, {0: printed.travel, **end})),
+        "free_travel": Start(optimal(3, rest, end)),
+        "free_acceleration": Start(optimal(3, {0: 0.0, 1: 0.0}, end)),
+    }

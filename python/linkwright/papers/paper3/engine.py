@@ -30,18 +30,12 @@ class Shift:
 
     Attributes
     ----------
-    name : str
-        The formula, in words.
-    what : str
-        ``"J"`` of the disc of a throw, or ``"k"`` of the shaft between throws.
-    value : float
-        By the formula [kg m²] or [N m/rad].
-    deviation : float
-        From the exact mean inertia, or from the stiffness by (17), as a share [–].
-    frequencies : ndarray, shape (modes,)
-        Of `MODES` [Hz].
-    changes : ndarray, shape (modes,)
-        Shares of those of the exact train [–].
+    name, what : str
+        The formula, in words; ``"J"`` of the disc of a throw, or ``"k"`` of the shaft between throws.
+    value, deviation : float
+        By the formula [kg m²] or [N m/rad]; from the exact mean inertia or the stiffness by (17) [–].
+    frequencies, changes : ndarray, shape (modes,)
+        Of `MODES` [Hz], and shares of those of the exact train [–].
     critical : float
         Speed at which the order of the firing meets the first mode of the crankshaft [rad/s].
     """
@@ -57,13 +51,7 @@ class Shift:
 
 @dataclass(frozen=True)
 class TrialEngine:
-    """The engine by the letters of paper 3.
-
-    Attributes
-    ----------
-    machine : Machine
-        With a train of an engine with articulated rods, its throw given by its geometry.
-    """
+    """The engine by the letters of paper 3: a machine with a train, whose throw is given by its geometry."""
 
     machine: Machine
 
@@ -128,43 +116,17 @@ class TrialEngine:
         return self.machine.train.run.service
 
     def critical(self, frequency: float) -> float:
-        """Speed at which the order of the firing meets a frequency [rad/s]."""
+        """Speed at which the order of the firing meets a frequency [Hz → rad/s]."""
         return 2 * math.pi * frequency / self.order
 
     def with_inertia(self, name: str, inertia: float) -> Shift:
-        """Frequencies with another disc for each throw.
-
-        Parameters
-        ----------
-        name : str
-            The formula, in words.
-        inertia : float
-            Of the disc [kg m²].
-
-        Returns
-        -------
-        Shift
-            Against the exact mean.
-        """
+        """Frequencies with the disc of each throw [kg m²] by a formula."""
         # What does not turn with the crank stays as it is: the difference goes to what does.
         machine = replace(self.machine, {"train.engine.throw_inertia": self.own + inertia - self.inertia})
         return self._shift(name, "J", inertia, inertia / self.inertia - 1, machine)
 
     def with_stiffness(self, name: str, stiffness: float) -> Shift:
-        """Frequencies with another stiffness between throws.
-
-        Parameters
-        ----------
-        name : str
-            The formula, in words.
-        stiffness : float
-            [N m/rad].
-
-        Returns
-        -------
-        Shift
-            Against that of the machine file.
-        """
+        """Frequencies with the stiffness between throws [N m/rad] by a formula."""
         machine = replace(self.machine, {"train.engine.stiffness": stiffness})
         return self._shift(name, "k", stiffness, stiffness / self.stiffness - 1, machine)
 

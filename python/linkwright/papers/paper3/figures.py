@@ -39,18 +39,7 @@ if TYPE_CHECKING:
 
 
 def figures(paper: Paper3) -> dict[str, Figure]:
-    """All figures to paper 3.
-
-    Parameters
-    ----------
-    paper : Paper3
-        The paper.
-
-    Returns
-    -------
-    dict of str to Figure
-        Under names for files.
-    """
+    """All figures to paper 3, under names for files."""
     return {
         "scheme": scheme_figure(scheme(paper.trial.machine)),
         "modes": _modes(paper),
@@ -95,7 +84,7 @@ def _disc(paper: Paper3) -> Figure:
     exact = reduced_throw(trial.engine, phi).inertia_reduced
     axes.plot(np.degrees(phi), exact, color=BLUE, label="exact J(φ)")
     level(axes, trial.inertia, "its mean", INK)
-    for shift, colour in zip(paper.inertia.shifts[:2], (RED, GREEN), strict=True):
+    for shift, colour in zip(paper.inertia["shifts"][:2], (RED, GREEN), strict=True):
         axes.axhline(shift.value, color=colour, linewidth=1.2, label=shift.name)
     axes.set_ylim(0, None)
     axes.set_ylabel("inertia of a throw [kg m²]")

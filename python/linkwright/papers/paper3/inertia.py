@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -30,97 +30,40 @@ _ANGLES = 3600
 KGF_CM_S2 = PRINTED_GRAVITY * 1e-4
 
 
-@dataclass(frozen=True)
-class InertiaChecks:
-    """The disc of a throw by the formulas, each against the exact one.
-
-    Attributes
-    ----------
-    share : float
-        k of the master rod, (8).
-    centre, centre_split : float
-        Of its centre of mass from the big end, and that of the two masses of (1), (2) [m].
-    split : float
-        Mean inertia of a throw with the master rod alone, as two masses over exact, less one [–].
-    speed : float
-        Greatest difference of (3) from the exact speed, as a share of the greatest speed [–].
-    series : float
-        (7) over the exact mean of the same two masses, less one [–].
-    one_rod : float
-        (7) over the exact mean with the master rod alone, less one [–].
-    simple : float
-        (9) in SI over the same, less one [–].
-    factor : float
-        0.00051 over 1/(2·981), less one [–].
-    printed : float
-        (9) as printed over (9) in SI, less one [–].
-    articulated, articulated_printed : float
-        The articulated rod about its small end: exact, and by (12) [kg m²].
-    articulated_share : float
-        What the articulated rod adds to the exact mean, without its piston [kg m²].
-    strokes : tuple of float
-        Of both banks [m].
-    shifts : tuple of Shift
-        What the formulas make of the frequencies.
-    """
-
-    share: float
-    centre: float
-    centre_split: float
-    split: float
-    speed: float
-    series: float
-    one_rod: float
-    simple: float
-    factor: float
-    printed: float
-    articulated: float
-    articulated_printed: float
-    articulated_share: float
-    strokes: tuple[float, ...]
-    shifts: tuple[Shift, ...]
-
-
-def inertia_checks(trial: TrialEngine, printed: dict[str, Any]) -> InertiaChecks:
-    """Compare (1) to (12).
-
-    Parameters
-    ----------
-    trial : TrialEngine
-        The engine.
-    printed : dict
-        Printed numbers.
-
-    Returns
-    -------
-    InertiaChecks
-        Each formula against the exact one.
-    """
+def inertia_checks(trial: TrialEngine, printed: dict[str, Any]) -> dict[str, Any]:
+    """Compare (1) to (12), each with the exact value; deviations are shares, less one [–]."""
     e, own, exact = trial.engine, trial.own, trial.master_inertia
     rod, R, m_3 = e.rod, e.radius, e.piston_mass
     seven = disc_by_two_masses(R, rod.length, (rod.mass_pin, rod.mass_piston, m_3), own)
     nine = disc_by_distribution(R, rod.share, rod.mass, m_3, own)
     two = Rod(length=rod.length, mass=rod.mass, distribution=rod.share)
     of_two = central_mean_inertia(R, two, m_3, own)
-    cm = 100 * R
-    in_kgf = printed_disc(cm, rod.share, rod.mass, m_3, own / KGF_CM_S2) * KGF_CM_S2
-    return InertiaChecks(
-        share=rod.share,
-        centre=rod.body.centre,
-        centre_split=two.body.centre,
-        split=of_two / exact - 1,
-        speed=_speed_difference(R, rod.length),
-        series=seven / of_two - 1,
-        one_rod=seven / exact - 1,
-        simple=nine / exact - 1,
-        factor=2 * PRINTED_GRAVITY * printed["factor"] - 1,
-        printed=in_kgf / nine - 1,
-        articulated=trial.articulated.moment_small_end,
-        articulated_printed=articulated_inertia(rod.moment_small_end, rod.mass, trial.articulated.mass),
-        articulated_share=_without_piston(trial) - exact,
-        strokes=tuple(each.stroke for each in dead_centres(R, trial.gears)),
-        shifts=tuple(_shifts(trial, printed)),
-    )
+    in_kgf = printed_disc(100 * R, rod.share, rod.mass, m_3, own / KGF_CM_S2) * KGF_CM_S2
+    return {
+        # k of the master rod, (8) [–].
+        "share": rod.share,
+        # Its centre of mass from the big end, and that of the two masses of (1), (2) [m].
+        "centre": rod.body.centre,
+        "centre_split": two.body.centre,
+        # Mean inertia of a throw with the master rod alone, as two masses over exact.
+        "split": of_two / exact - 1,
+        # (3): greatest difference, as a share of the greatest speed.
+        "speed": _speed_difference(R, rod.length),
+        # (7) over the exact mean of the same two masses, and of the master rod; (9) in SI over the latter.
+        "series": seven / of_two - 1,
+        "one_rod": seven / exact - 1,
+        "simple": nine / exact - 1,
+        # 0.00051 over 1/(2·981), and (9) as printed over (9) in SI.
+        "factor": 2 * PRINTED_GRAVITY * printed["factor"] - 1,
+        "printed": in_kgf / nine - 1,
+        # The articulated rod about its small end, exact and by (12); what it adds to the exact mean [kg m²].
+        "articulated": trial.articulated.moment_small_end,
+        "articulated_printed": articulated_inertia(rod.moment_small_end, rod.mass, trial.articulated.mass),
+        "articulated_share": _without_piston(trial) - exact,
+        # Of both banks [m].
+        "strokes": tuple(each.stroke for each in dead_centres(R, trial.gears)),
+        "shifts": tuple(_shifts(trial, printed)),
+    }
 
 
 def _speed_difference(crank_radius: float, length: float) -> float:

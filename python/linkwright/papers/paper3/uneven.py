@@ -31,20 +31,16 @@ class UnevennessChecks:
     ----------
     speed : float
         Of service [rad/s].
-    discs : tuple of str
-        Along the shaft, from its free end.
-    places : list of int
-        Where they stand in results.
+    discs, places : tuple of str, list of int
+        Along the shaft, from its free end, and where they stand in results.
     sound : UnevennessAlong
         N of the sound engine, cylinder by cylinder.
     delta, delta_rigid : ndarray, shape (discs,), and float
         δ of the sound engine, with torsion, and if nothing twisted.
     swing : ndarray, shape (discs,)
         Half of greatest less least angle of vibration, all orders in phase [rad].
-    orders : tuple of float
-        Those that swing most.
-    by_order : ndarray, shape (orders, discs)
-        Amplitudes of these [rad].
+    orders, by_order : tuple of float, ndarray, shape (orders, discs)
+        Those that swing most, and their amplitudes [rad].
     weak, weak_rigid : ndarray, shape (cylinders, discs) and (cylinders,)
         δ with each cylinder weak in turn, with torsion, and if nothing twisted.
     """
@@ -88,22 +84,11 @@ class UnevennessChecks:
 
 
 def unevenness_checks(trial: TrialEngine, factor: float) -> UnevennessChecks:
-    """Unevenness along the shaft, sound and with each cylinder weak in turn.
+    """Unevenness along the shaft at the speed of service, sound and with each cylinder weak in turn.
 
-    Parameters
-    ----------
-    trial : TrialEngine
-        The engine and what it drives.
-    factor : float
-        Share of the combustion of a weak cylinder.
-
-    Returns
-    -------
-    UnevennessChecks
-        At the speed of service.
+    A weak cylinder has the share ``factor`` of its combustion.
     """
-    machine, engine = trial.machine, trial.engine
-    speed = trial.service
+    machine, engine, speed = trial.machine, trial.engine, trial.service
     at = excited(machine, np.array([speed]))
     found = responded(at)
     discs = _along(found, throw_names(len(engine.throws)))
@@ -130,24 +115,7 @@ def unevenness_checks(trial: TrialEngine, factor: float) -> UnevennessChecks:
 
 
 def weakened(machine: Machine, speed: float, number: int, factor: float) -> ForcedVibration:
-    """Forced vibration with one weak cylinder.
-
-    Parameters
-    ----------
-    machine : Machine
-        The engine and what it drives.
-    speed : float
-        Of the crankshaft [rad/s].
-    number : int
-        Of the cylinder, from 1.
-    factor : float
-        Share of its combustion.
-
-    Returns
-    -------
-    ForcedVibration
-        At this speed.
-    """
+    """Forced vibration at a speed [rad/s] with a share of the combustion in one cylinder, counted from 1."""
     weak = replace(machine, {"train.engine.factors": {str(number): factor}})
     return forced_vibration(weak, np.array([speed]))
 

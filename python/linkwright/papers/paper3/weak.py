@@ -43,23 +43,9 @@ class WeakChecks:
 
 
 def weak_checks(trial: TrialEngine, cylinder: int, factor: float, discs: tuple[str, ...]) -> WeakChecks:
-    """Tell the shares from speeds without noise, by the orders below that of the firing.
+    """Tell the shares of all cylinders at the speed of service from the speeds of some discs without noise.
 
-    Parameters
-    ----------
-    trial : TrialEngine
-        The engine and what it drives.
-    cylinder : int
-        The weak one, from 1.
-    factor : float
-        Share of its combustion.
-    discs : tuple of str
-        Whose speed is looked at.
-
-    Returns
-    -------
-    WeakChecks
-        At the speed of service.
+    By the orders below that of the firing; one cylinder, counted from 1, has a share of its combustion.
     """
     at = excited(trial.machine, np.array([trial.service]))
     sources = _sources(trial, at)

@@ -16,18 +16,7 @@ if TYPE_CHECKING:
 
 
 def figures(paper: Paper4) -> dict[str, Figure]:
-    """All figures of paper 4.
-
-    Parameters
-    ----------
-    paper : Paper4
-        The paper.
-
-    Returns
-    -------
-    dict of str to Figure
-        Under names for files.
-    """
+    """All figures of paper 4, under names for files."""
     return {
         "figure3": _angle(paper, continuous=True),
         "figure4": _rate(paper, continuous=True),
@@ -42,7 +31,11 @@ def _angle(paper: Paper4, *, continuous: bool) -> Figure:
     motion = paper.continuous if continuous else paper.intermittent
     figure, (axes,) = panels(1, height=2.9)
     degrees = np.degrees(motion.crank_angle)
-    label = "turning, lengths of (3) to (7)" if continuous else "lengths for a swing of 90°"
+    label = (
+        "turning, lengths of (3) to (7)"
+        if continuous
+        else f"lengths for a swing of {np.degrees(motion.lever_swing):.0f}°"
+    )
     axes.plot(degrees, np.degrees(motion.lever_angle), color=BLUE, label=label)
     if continuous:
         start = np.degrees(motion.lever_angle[0])

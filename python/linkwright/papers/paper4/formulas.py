@@ -22,16 +22,10 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Unit:
-    """Pumping unit and place of the pin, by the letters of paper 4.
+    """Pumping unit and place of the pin, by the letters of paper 4 [m].
 
-    Attributes
-    ----------
-    r, L, k, k_1 : float
-        Crank, pitman, rear arm, front arm [m].
-    x, y : float
-        Crankshaft from the saddle bearing [m].
-    l_K, l_3 : float
-        Free cable at the top; saddle bearing to the pin [m].
+    (x, y) is the crankshaft from the saddle bearing, k_1 the front arm, l_K the free cable at the top, l_3
+    the distance of the pin.
     """
 
     r: float
@@ -97,15 +91,7 @@ class Unit:
 
 @dataclass(frozen=True)
 class LeverFormula:
-    """Link and lever on a unit.
-
-    Attributes
-    ----------
-    unit : Unit
-        The unit.
-    l_4, l_5 : float
-        Link and lever [m].
-    """
+    """Link l_4 and lever l_5 on a unit [m]."""
 
     unit: Unit
     l_4: float

@@ -2,7 +2,7 @@
 
 The paper prints crank, pitman, rear arm, stroke, cable and the place of the pin, but not the radius k_1 of
 the horsehead, the extreme angles of the beam, or the place of the crankshaft. What it prints of the
-continuous regime determines them: `paper4_unit` shows how.
+continuous regime determines them: `unit` shows how.
 """
 
 from __future__ import annotations
@@ -11,69 +11,46 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.kernel.files.library import library_path
 from linkwright.kernel.numerics.roots import zero
 from linkwright.machine.read import read
-from linkwright.papers.paper4.conclusions import conclusions
+from linkwright.papers.paper import Paper, printed_values
 from linkwright.papers.paper4.formulas import LeverFormula, Unit
-from linkwright.papers.paper4.rows import rows_of
 from linkwright.papers.paper4.unit import Place, recomputed_places, rounded_lengths
-from linkwright.papers.published import printed_values
-from linkwright.papers.row import Row
 from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator
-from linkwright.pumping.unit import PumpingUnitMotion, pumping_unit
-
-Floats = NDArray[np.float64]
 
 # Intervals of the turn.
 _ANGLES = 1440
 
+# What counts as nearly a straight line: a degree, the width of a line as figures of angles are printed [rad].
+_NEARLY = np.radians(1.0)
+
 
 @dataclass(frozen=True)
-class Paper4:
+class Paper4(Paper):
     """Paper 4, published against computed.
 
     Attributes
     ----------
-    published : dict
-        What is printed.
     places : tuple of Place
         Places of the crankshaft, the chosen one first.
     rounded : tuple of float
         Link and lever with k_1 = 3 m, the beam placed so that the link comes out [m].
-    motion : PumpingUnitMotion
-        The unit.
     continuous, intermittent : RodRotatorMotion
         The rotators of the library.
     straightness : float
         Greatest distance of φ_5 from the straight line of one turn in a turn, continuous regime [rad].
     closing : tuple of float
         Crank angles of the machine file between which the printed intermittent lengths close [rad].
-    rows : tuple of Row
-        Every printed number with its verdict.
     """
 
-    published: dict[str, Any]
     places: tuple[Place, ...]
     rounded: tuple[float, float]
-    motion: PumpingUnitMotion
     continuous: RodRotatorMotion
     intermittent: RodRotatorMotion
     straightness: float
     closing: tuple[float, float]
-    rows: tuple[Row, ...]
-
-    @property
-    def number(self) -> int:
-        """Of the paper."""
-        return int(self.published["number"])
-
-    @property
-    def title(self) -> str:
-        """Of the paper, in English."""
-        return str(self.published["title"])
 
     @property
     def unit(self) -> Unit:
@@ -83,11 +60,43 @@ class Paper4:
     @property
     def printed_intermittent(self) -> LeverFormula:
         """The printed lengths of the intermittent regime on the unit."""
-        given = self.published["intermittent"]
-        return LeverFormula(self.unit, given["l_4"], given["l_5"])
+        return _printed(self.published, self.unit)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
+    def quantities(self) -> dict[str, Any]:
+        """Lengths [m], angles of the beam [rad], and what the statements of the paper come to."""
+        unit, lever, turning = self.unit, self.printed_intermittent, self.continuous
+        (_, top), (_, bottom) = unit.ends()
+        diagonal, reach = unit.extremes(), lever.l_4 + lever.l_5
+        phi = np.linspace(0.0, 2 * np.pi, _ANGLES)
+        rates, closes = lever.rocking(phi)[1], lever.closes(phi)
+        condition = lever.l_5 + unit.l_6(unit.front(phi)[0]) > unit.l_3 + lever.l_4
+        changes_sign = bool(np.nanmin(rates) < 0 < np.nanmax(rates))
+        chosen, other = self.places
+        # Half of the last digit printed, 0.1 m.
+        rounds = abs(self.rounded[1] - self.published["continuous"]["l_5"]) < 0.05
+        return {
+            "stroke": unit.k_1 * (top - bottom),
+            "beam": (top, bottom),
+            "diagonal": diagonal,
+            "reach": reach,
+            "least_lever": 0.5 * (diagonal[1] - diagonal[0]),
+            "lengths_close": reach > diagonal[1],
+            "lengths_fail": reach <= diagonal[1],
+            "rounds_to_printed": rounds,
+            "second_jams": other.least_angle < 0.5 * chosen.least_angle and chosen.upstroke > np.pi,
+            "is_straight": self.straightness < _NEARLY,
+            "turns_once": turning.lever_turns_per_cycle == 1,
+            "keeps_sign": turning.transfer_min * turning.transfer_max > 0,
+            "has_change_points": len(turning.change_points) == 2,
+            "changes_sign": changes_sign,
+            "rocks": changes_sign and bool(closes.all()),
+            "condition_share": condition.mean(),
+            "condition_suffices": bool(closes[condition].all()),
+            "swings": self.intermittent.transfer_min < 0 < self.intermittent.transfer_max,
+        }
+
+    def entries(self) -> dict[str, Any]:
+        """Computed values, ready for JSON."""
         return {
             "recomputed": {
                 "k_1": self.unit.k_1,
@@ -102,18 +111,11 @@ class Paper4:
             "intermittent": self.intermittent.to_dict(),
             "straightness": self.straightness,
             "printed_intermittent_closes": list(self.closing),
-            "rows": [vars(row) for row in self.rows],
-            "conclusions": conclusions(self),
         }
 
 
 def paper4() -> Paper4:
     """Compute paper 4 anew.
-
-    Returns
-    -------
-    Paper4
-        Published and computed values with verdicts.
 
     References
     ----------
@@ -121,19 +123,25 @@ def paper4() -> Paper4:
     """
     data = printed_values(4)
     places = recomputed_places(data)
-    continuous, intermittent = (
-        read(library_path(f"rod_rotator_{name}")) for name in ("continuous", "intermittent")
+    turning, rocking = (
+        rod_rotator(read(library_path(f"rod_rotator_{name}")), n=_ANGLES)
+        for name in ("continuous", "intermittent")
     )
-    turning, rocking = (rod_rotator(each, n=_ANGLES) for each in (continuous, intermittent))
-    motion = pumping_unit(continuous, n=_ANGLES)
     off = turning.lever_angle - turning.lever_angle[0] - turning.crank_angle
-    straightness = float(0.5 * np.ptp(off))
-    unit = places[0].unit
-    printed = LeverFormula(unit, data["intermittent"]["l_4"], data["intermittent"]["l_5"])
-    closing = _closing(printed)
-    rounded = rounded_lengths(data)
-    found = rows_of(data, places, rounded, turning, printed, closing, straightness)
-    return Paper4(data, places, rounded, motion, turning, rocking, straightness, closing, found)
+    return Paper4(
+        data,
+        places,
+        rounded_lengths(data),
+        turning,
+        rocking,
+        straightness=float(0.5 * np.ptp(off)),
+        closing=_closing(_printed(data, places[0].unit)),
+    )
+
+
+def _printed(data: dict[str, Any], unit: Unit) -> LeverFormula:
+    """Link and lever of the intermittent regime."""
+    return LeverFormula(unit, data["intermittent"]["l_4"], data["intermittent"]["l_5"])
 
 
 def _closing(printed: LeverFormula) -> tuple[float, float]:
@@ -143,9 +151,7 @@ def _closing(printed: LeverFormula) -> tuple[float, float]:
     def spare(phi: float) -> float:
         return printed.l_4 + printed.l_5 - float(printed.unit.diagonal_rates(np.asarray(phi))[0])
 
-    edges = []
-    for far in (bottom, bottom - 2 * np.pi if bottom > top else bottom + 2 * np.pi):
-        edges.append(zero(spare, top, far))
-    low, high = sorted(edges)
+    turn = -2 * np.pi if bottom > top else 2 * np.pi
+    low, high = sorted(zero(spare, top, far) for far in (bottom, bottom + turn))
     # The machine file counts from 12 o'clock.
     return float((low - np.pi / 2) % (2 * np.pi)), float((high - np.pi / 2) % (2 * np.pi))

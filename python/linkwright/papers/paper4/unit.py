@@ -14,6 +14,9 @@ from linkwright.papers.paper4.formulas import Unit
 
 Floats = NDArray[np.float64]
 
+# What a unit takes as printed.
+_PRINTED = ("r", "L", "k", "l_K", "l_3")
+
 # Newton's method on two smooth equations ends in a handful of steps.
 _STEPS = 50
 
@@ -38,20 +41,8 @@ class Place:
 
 
 def recomputed_places(data: dict[str, Any]) -> tuple[Place, ...]:
-    """Horsehead, angles of the beam and places of the crankshaft from what is printed.
+    """Horsehead, angles of the beam and places of the crankshaft; the larger angle of the pitman first.
 
-    Parameters
-    ----------
-    data : dict
-        Printed values.
-
-    Returns
-    -------
-    tuple of Place
-        The one with the larger angle between pitman and rear arm first.
-
-    Notes
-    -----
     By (7) the printed link and lever are half the sum and half the difference of the diagonal's extremes.
     With α = S/k_1, (5) and (6) are two equations for k_1 and φ_3max; Newton's method solves them. At the
     ends of the stroke crank and pitman are in line, so the crankshaft lies L − r from the end of the rear
@@ -68,18 +59,7 @@ def recomputed_places(data: dict[str, Any]) -> tuple[Place, ...]:
     k_1, top = _newton(gaps, np.array([given["S"], 0.5]))
     high, low = (-given["k"] * np.array([np.cos(at), np.sin(at)]) for at in (top, top - given["S"] / k_1))
     found = [
-        _place(
-            Unit(
-                r=given["r"],
-                L=given["L"],
-                k=given["k"],
-                k_1=float(k_1),
-                x=float(x),
-                y=float(y),
-                l_K=given["l_K"],
-                l_3=given["l_3"],
-            )
-        )
+        _place(Unit(x=float(x), y=float(y), k_1=float(k_1), **{name: given[name] for name in _PRINTED}))
         for x, y in _meets(high, low, given["L"] - given["r"], given["L"] + given["r"])
     ]
     return tuple(sorted(found, key=lambda each: -each.least_angle))
@@ -133,12 +113,12 @@ def _place(unit: Unit) -> Place:
 
 
 def rounded_lengths(data: dict[str, Any]) -> tuple[float, float]:
-    """Link and lever with k_1 = 3 m and the beam placed so that the printed link comes out."""
-    given, wanted = data["given"], data["continuous"]["l_4"]
+    """Link and lever with the chosen k_1 and the beam placed so that the printed link comes out."""
+    given, wanted, k_1 = data["given"], data["continuous"]["l_4"], data["chosen"]["k_1"]
 
     def gap(x: Floats) -> Floats:
-        return np.array([0.5 * sum(_extremes(given, 3.0, float(x[0]))) - wanted])
+        return np.array([0.5 * sum(_extremes(given, k_1, float(x[0]))) - wanted])
 
     top = float(_newton(gap, np.array([0.45]))[0])
-    least, greatest = _extremes(given, 3.0, top)
+    least, greatest = _extremes(given, k_1, top)
     return 0.5 * (least + greatest), 0.5 * (greatest - least)

@@ -47,18 +47,7 @@ _MILLI = 1e3
 
 
 def figures(paper: Paper5) -> dict[str, Figure]:
-    """All figures of paper 5.
-
-    Parameters
-    ----------
-    paper : Paper5
-        The paper.
-
-    Returns
-    -------
-    dict of str to Figure
-        Under names for files.
-    """
+    """All figures of paper 5, under names for files."""
     return {
         "figure3": _figure3(paper),
         "step": _step(paper),

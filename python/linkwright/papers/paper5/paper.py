@@ -7,82 +7,175 @@ is judged for all of them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from linkwright.papers.paper5.conclusions import conclusions
-from linkwright.papers.paper5.head import head_difference
-from linkwright.papers.paper5.rows import rows_of
-from linkwright.papers.paper5.short import ShortChecks, short_checks
-from linkwright.papers.paper5.step import StepChecks, step_checks
+from linkwright.papers.claim import tolerance
+from linkwright.papers.paper import Paper, printed_values
+from linkwright.papers.paper5.short import short_checks
+from linkwright.papers.paper5.step import condition_suffices, head_difference, step_checks
 from linkwright.papers.paper5.surface import Surface, surfaces
 from linkwright.papers.paper5.verdict import ClaimVerdict, claim_verdict
-from linkwright.papers.published import printed_values
-from linkwright.papers.row import Row
+from linkwright.papers.words import shown
+from linkwright.topping.published import length_published
+from linkwright.topping.verdict import WAYS, Demand
+
+# Ways → names in sentences.
+_NAMES = {"published": "(10)", "consistent": "(4)", "constant_speed": "the exact length"}
 
 
 @dataclass(frozen=True)
-class Paper5:
+class Paper5(Paper):
     """Paper 5, published against computed.
 
     Attributes
     ----------
-    published : dict
-        What is printed, and what is chosen.
     head : float
         Discs of the printed diameter against the cap that they fill [–].
-    step : StepChecks
-        From (4) to (5).
-    short : ShortChecks
-        The exact length over those of the paper.
+    step, short : dict
+        From (4) to (5), and the exact length over those of the paper.
     surfaces : tuple of Surface
         Figure 3.
     verdict : ClaimVerdict
         On the result.
-    rows : tuple of Row
-        Every formula and range with its verdict.
     """
 
-    published: dict[str, Any]
     head: float
-    step: StepChecks
-    short: ShortChecks
+    step: dict[str, Any]
+    short: dict[str, Any]
     surfaces: tuple[Surface, ...]
     verdict: ClaimVerdict
-    rows: tuple[Row, ...] = ()
 
-    @property
-    def number(self) -> int:
-        """Of the paper."""
-        return int(self.published["number"])
+    def quantities(self) -> dict[str, Any]:
+        """Numbers of the step, of the result, and what the statements of the paper come to."""
+        roots = tuple(self.published["chosen"]["root_diameters"])
+        return {"roots": roots, "ways": WAYS} | self._of_step() | self._of_lengths() | self._of_result()
 
-    @property
-    def title(self) -> str:
-        """Of the paper, in English."""
-        return str(self.published["title"])
+    def _of_step(self) -> dict[str, Any]:
+        """(1) to (5)."""
+        step, same = self.step, tolerance("rounding").reproduced
+        at = int(np.abs(step["angles"] - np.radians(self.published["chosen"]["edge_angle"])).argmin())
+        suffices = condition_suffices(step["angles"])
+        exact = np.abs(step["travels"] - 1) <= same
+        follows = np.abs(step["factors"] - 1) <= same
+        return {
+            "condition_suffices": suffices,
+            "condition_fails": not suffices and self.short["across_published"] < self.short["across"],
+            "least_travel": (float(step["travels"].min()), float(step["angles"][step["travels"].argmin()])),
+            "travel_is_exact": bool(exact.all()),
+            "travel_is_exact_across": bool(exact[step["angles"] == 0].all()),
+            "at": {
+                "angle": float(step["angles"][at]),
+                "factor": float(step["factors"][at]),
+                "longer": float(step["longer"][at]),
+                "time": float(step["times"][at]),
+            },
+            "factors": [
+                (f, a) for f, a in zip(step["factors"].tolist(), step["angles"].tolist(), strict=True) if a
+            ],
+            "longest": float(step["longer"].max()),
+            "steepest": float(step["angles"][-1]),
+            "five_follows": bool(follows.all()),
+            "five_fails": bool((follows == (step["angles"] == 0)).all()) and step["identity"] <= same,
+            "five_keeps_condition": bool((step["times"] >= 1).all()),
+        }
 
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
+    def _of_lengths(self) -> dict[str, Any]:
+        """(10), and figure 3."""
+        short, given = self.short, self.published["chosen"]
+        D, h_p, delta, alpha = (
+            np.max(given[name]) for name in ("root_diameters", "cut_height", "offset", "edge_angle")
+        )
+        rho, a = self.verdict.claim.ratios[1], np.radians(alpha)
+        ten = 2 * (np.sqrt(D * h_p - h_p**2) + delta) * (rho * np.cos(a) + np.sin(a))
+        nine = length_published(self.verdict.diameters[1] + 2 * delta, a, rho)
+        lengths = [each for surface in self.surfaces for each in (surface.published, surface.exact)]
+        grows = all((np.diff(each, axis=axis) > 0).all() for each in lengths for axis in (0, 1))
+        falls = all(
+            (slow.published > fast.published).all() and (slow.exact > fast.exact).all()
+            for slow, fast in zip(self.surfaces, self.surfaces[1:], strict=False)
+        )
+        return {
+            "ten_is_enough": short["least"] <= 1,
+            "ten_fails": min(short["bound"], short["least_consistent"]) > 1
+            and short["least"] >= short["bound"],
+            "ten_follows": bool(abs(nine / ten - 1) <= tolerance("rounding").reproduced),
+            "ten_has_limit": short["across_published"] >= short["across"],
+            "lengths_grow": grows and falls,
+        }
+
+    def _of_result(self) -> dict[str, Any]:
+        """Bands and offsets for which the result holds, in every way."""
+        found = self.verdict
+        angles = [each.edge_angle for each in found.angles]
+        bands = [{each.way: _band(each) for each in verdict.demands} for verdict in found.angles]
+        offsets = {way: [_heads(*pair) for pair in each.tolist()] for way, each in found.offsets.items()}
+        nearest = int(np.abs(np.array(angles) - found.chosen.edge_angle).argmin())
+        demands = {each.way: _demand(each) for each in found.chosen.demands}
+        return {
+            "bands": {
+                # Every other angle of the table is enough in a sentence.
+                way: [{"band": row[way], "angle": a} for row, a in zip(bands, angles, strict=True)][::2]
+                for way in WAYS
+            },
+            "band_rows": [{"angle": a} | row for row, a in zip(bands, angles, strict=True)],
+            "offset_rows": [
+                {"angle": a} | {way: offsets[way][n] for way in WAYS} for n, a in enumerate(angles)
+            ],
+            "offsets": {way: each[nearest] for way, each in offsets.items()},
+            "offsets_angle": angles[nearest],
+            "demands": demands,
+            "half_width": 0.5 * found.diameters[1],
+            "result_fails_by_ten": not demands["published"]["holds"],
+            "throughout": [
+                {"name": name, "angles": _angles(found.throughout.get(way))} for way, name in _NAMES.items()
+            ],
+            "holds_somewhere": bool(found.throughout),
+            "retreats": float(np.arctan(1 / found.claim.ratios[1])),
+        }
+
+    def entries(self) -> dict[str, Any]:
+        """Computed values, ready for JSON."""
         return {
             "chosen": self.published["chosen"],
-            "step": self.step.to_dict(),
-            "exact_over_published": vars(self.short) | {"least_at": list(self.short.least_at)},
+            "step": {
+                key: each.tolist() if isinstance(each, np.ndarray) else each
+                for key, each in self.step.items()
+            },
+            "exact_over_published": self.short,
             "figure3": [each.to_dict() for each in self.surfaces],
             "verdict": self.verdict.to_dict(),
-            "rows": [vars(row) for row in self.rows],
-            "conclusions": conclusions(self),
         }
+
+
+def _heads(low: float, high: float) -> tuple[float, ...]:
+    """A range of lengths of heads [m], what is negative left out; empty if all is."""
+    return (max(low, 0.0), high) if high > 0 else ()
+
+
+def _band(demand: Demand) -> tuple[float, ...]:
+    return _heads(demand.band_low, demand.band_high)
+
+
+def _demand(demand: Demand) -> dict[str, Any]:
+    """One way of computing the length, for the roots chosen."""
+    return {
+        "length": demand.length_greatest,
+        "band": _band(demand),
+        "holds": demand.holds,
+        "throughout": demand.holds_throughout,
+    }
+
+
+def _angles(ends: tuple[float, float] | None) -> str:
+    """A range of angles in words."""
+    return "at no angle" if ends is None else "for α = " + "…".join(shown(each, ".1f °") for each in ends)
 
 
 def paper5() -> Paper5:
     """Compute paper 5 anew.
-
-    Returns
-    -------
-    Paper5
-        Published and computed values with verdicts.
 
     References
     ----------
@@ -90,13 +183,11 @@ def paper5() -> Paper5:
     """
     data = printed_values(5)
     chosen, verdict = data["chosen"], claim_verdict(data)
-    angle, shown = float(np.radians(chosen["edge_angle"])), surfaces(data)
-    found = Paper5(
+    return Paper5(
         data,
-        head_difference(chosen["root_diameters"][1]),
-        step_checks(np.radians(data["verdict"]["angles"]), verdict.claim.ratios[1]),
-        short_checks(verdict.claim, angle, verdict.shares),
-        shown,
-        verdict,
+        head=head_difference(chosen["root_diameters"][1]),
+        step=step_checks(np.radians(data["verdict"]["angles"]), verdict.claim.ratios[1]),
+        short=short_checks(verdict.claim, float(np.radians(chosen["edge_angle"])), verdict.shares),
+        surfaces=surfaces(data),
+        verdict=verdict,
     )
-    return replace(found, rows=rows_of(found))

@@ -18,7 +18,7 @@ The scan here looks at what is proved, and at the length by (4), for which there
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,55 +33,8 @@ Floats = NDArray[np.float64]
 _RATIOS, _ANGLES, _SHARES = 141, 281, 21
 
 
-@dataclass(frozen=True)
-class ShortChecks:
-    """The exact length over those of the paper, in the box of its speeds.
-
-    Attributes
-    ----------
-    bound : float
-        2 cos²θ at the greatest v_h/v [–]: nothing is below it.
-    least : float
-        Least exact length over (10) in the scan [–].
-    least_at : tuple of float
-        v_h/v [–], α [rad] and share 2Δ/(d + 2Δ) [–] there.
-    least_axis : float
-        Least without offset [–].
-    least_consistent : float
-        Least exact length over that by (4) [–].
-    chosen : tuple of float
-        Least and greatest exact length over (10) for the angle and heads chosen [–].
-    chosen_consistent : tuple of float
-        The same over that by (4) [–].
-    across : float
-        The exact length of an edge at rest across the row, over the band of the heads [–].
-    across_published : float
-        The same by (10) [–].
-    """
-
-    bound: float
-    least: float
-    least_at: tuple[float, float, float]
-    least_axis: float
-    least_consistent: float
-    chosen: tuple[float, float]
-    chosen_consistent: tuple[float, float]
-    across: float
-    across_published: float
-
-
-def short_checks(claim: Claim, edge_angle: float, offset_share: tuple[float, float]) -> ShortChecks:
-    """Scan the box of the speeds.
-
-    Parameters
-    ----------
-    claim : Claim
-        The box.
-    edge_angle : float
-        α chosen [rad].
-    offset_share : tuple of float
-        Least and greatest 2Δ/(d + 2Δ) of the heads chosen [–].
-    """
+def short_checks(claim: Claim, edge_angle: float, offset_share: tuple[float, float]) -> dict[str, Any]:
+    """Scan the box of the speeds; α [rad] and extremes of 2Δ/(d + 2Δ) are chosen. Ratios of lengths [–]."""
     ratios = np.linspace(*claim.ratios, _RATIOS)
     shape = np.meshgrid(
         ratios, np.radians(np.linspace(0, 70, _ANGLES)), np.linspace(0, 1, _SHARES), indexing="ij"
@@ -92,26 +45,24 @@ def short_checks(claim: Claim, edge_angle: float, offset_share: tuple[float, flo
         *np.meshgrid(ratios, [edge_angle], np.linspace(*offset_share, _SHARES), indexing="ij")
     )
     (by_10, by_4) = ((float(each.min()), float(each.max())) for each in chosen)
-    return ShortChecks(
-        bound=2 / (1 + claim.ratios[1] ** 2),
-        least=float(over_10.min()),
-        least_at=tuple(float(each[at]) for each in shape),  # type: ignore[arg-type]
-        least_axis=float(over_10[..., 0].min()),
-        least_consistent=float(over_4.min()),
-        chosen=by_10,
-        chosen_consistent=by_4,
-        across=float(constant_speed_lengths(0.5, 0.25, 0.0, 1.0, 0.0).max()),
-        across_published=float(length_published(1.0, 0.0, 0.0)),
-    )
+    return {
+        # 2 cos²θ at the greatest v_h/v: nothing is below it.
+        "bound": 2 / (1 + claim.ratios[1] ** 2),
+        # Least exact length over (10), and v_h/v, α and share of the offsets there; the least without offset.
+        "least": float(over_10.min()),
+        "least_at": [float(each[at]) for each in shape],
+        "least_axis": float(over_10[..., 0].min()),
+        # Least over the length by (4); extremes over both for the angle and heads chosen.
+        "least_consistent": float(over_4.min()),
+        "chosen": by_10,
+        "chosen_consistent": by_4,
+        # The length of an edge at rest across the row over the band of the heads, exact and by (10).
+        "across": float(constant_speed_lengths(0.5, 0.25, 0.0, 1.0, 0.0).max()),
+        "across_published": float(length_published(1.0, 0.0, 0.0)),
+    }
 
 
 def exact_over(ratio: Floats, edge_angle: Floats, offset_share: Floats) -> tuple[Floats, Floats]:
-    """The exact length over (10), and over the length by (4), for a band of 1 m [–].
-
-    Parameters
-    ----------
-    ratio, edge_angle, offset_share : ndarray
-        v_h/v [–], α [rad], 2Δ/(d + 2Δ) [–]; they broadcast.
-    """
+    """The exact length over (10) and over that by (4), of v_h/v, α [rad], 2Δ/(d + 2Δ), which broadcast."""
     exact = constant_speed_lengths(1 - offset_share, offset_share / 2, edge_angle, 1.0, ratio).max(axis=0)
     return exact / length_published(1.0, edge_angle, ratio), exact / length_consistent(1.0, edge_angle, ratio)

@@ -15,12 +15,13 @@ and :math:`S_x\cos\alpha/d = 1 - \sin^2\alpha\,(1 - \cos\alpha)`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.topping.constant_speed import constant_speed_lengths
+from linkwright.topping.head import cap_volume, head_diameter
 from linkwright.topping.published import (
     PublishedLengths,
     length_consistent,
@@ -37,68 +38,25 @@ _ANGLES = np.radians(np.arange(0.5, 85.0, 0.5))
 _HAIR = 1e-9
 
 
-@dataclass(frozen=True)
-class StepChecks:
-    """The step from (4) to (5).
-
-    Attributes
-    ----------
-    angles : ndarray
-        α of the table [rad].
-    factors : ndarray
-        What (4) has before v_h/v over what (5) has there [–].
-    times : ndarray
-        t_y/t_x of an edge as long as (5) says [–].
-    longer : ndarray
-        The length by (4) over that by (5) at the greatest v_h/v [–].
-    travels : ndarray
-        S_x over the travel in which the edge passes the head, knife at rest [–].
-    identity : float
-        Greatest difference of the factors from the closed form, as a share.
-    travel_identity : float
-        Greatest difference of the travels from theirs.
-    flips : bool
-        Whether (1) breaks a hair below the length by (4), and holds a hair above, at every angle.
-    """
-
-    angles: Floats
-    factors: Floats
-    times: Floats
-    longer: Floats
-    travels: Floats
-    identity: float
-    travel_identity: float
-    flips: bool
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
-        arrays = {name: each.tolist() for name, each in vars(self).items() if isinstance(each, np.ndarray)}
-        return vars(self) | arrays
-
-
-def step_checks(angles: Floats, ratio: float) -> StepChecks:
-    """Check the step.
-
-    Parameters
-    ----------
-    angles : ndarray
-        α of the table [rad].
-    ratio : float
-        Greatest v_h/v [–].
-    """
+def step_checks(angles: Floats, ratio: float) -> dict[str, Any]:
+    """The step from (4) to (5) at angles α of a table [rad], for the greatest v_h/v."""
     cos, sin = np.cos(_ANGLES), np.sin(_ANGLES)
     closed = 1 + (1 - cos) * (1 + 2 * cos) / cos**2
     travel = 1 - sin**2 * (1 - cos)
-    return StepChecks(
-        angles=angles,
-        factors=factors(angles),
-        times=np.array([_at_printed_length(each, ratio) for each in angles.tolist()]),
-        longer=length_consistent(1.0, angles, ratio) / length_published(1.0, angles, ratio),
-        travels=_travels(angles),
-        identity=float(np.abs(factors(_ANGLES) / closed - 1).max()),
-        travel_identity=float(np.abs(_travels(_ANGLES) - travel).max()),
-        flips=all(_flips(each, ratio) for each in _ANGLES.tolist()),
-    )
+    return {
+        "angles": angles,
+        # What (4) has before v_h/v over what (5) has there; t_y/t_x of an edge as long as (5) says.
+        "factors": factors(angles),
+        "times": np.array([_at_printed_length(each, ratio) for each in angles.tolist()]),
+        # The length by (4) over that by (5); S_x over the travel that passes the head, knife at rest.
+        "longer": length_consistent(1.0, angles, ratio) / length_published(1.0, angles, ratio),
+        "travels": _travels(angles),
+        # Greatest differences of factors and travels from their closed forms.
+        "identity": float(np.abs(factors(_ANGLES) / closed - 1).max()),
+        "travel_identity": float(np.abs(_travels(_ANGLES) - travel).max()),
+        # Whether (1) breaks a hair below the length by (4), and holds a hair above, at every angle.
+        "flips": all(_flips(each, ratio) for each in _ANGLES.tolist()),
+    }
 
 
 def factors(angles: Floats) -> Floats:
@@ -127,3 +85,26 @@ def _flips(angle: float, ratio: float) -> bool:
     length = float(length_consistent(1.0, angle, ratio))
     short, long = (_edge(angle, length * (1 + each), ratio).holds for each in (-_HAIR, _HAIR))
     return long and not short
+
+
+def condition_suffices(angles: Floats) -> bool:
+    """Whether no edge meets (1) that is shorter than a head needs, its knife at rest."""
+    shortest = np.sin(angles) + _HAIR
+    meets = [
+        _edge(a, length, 0.0).holds for a, length in zip(angles.tolist(), shortest.tolist(), strict=True)
+    ]
+    needed = constant_speed_lengths(1.0, 0.0, angles, 1.0, 0.0).max(axis=0)
+    return not bool((np.array(meets) & (shortest < needed)).any())
+
+
+def head_difference(root_diameter: float) -> float:
+    """Discs of the printed diameter piled up over h_p against the cap of a sphere D [m] that they fill [–].
+
+    d² is of the second degree in h_p, so that Simpson's rule piles them up without error.
+    """
+    heights = np.linspace(0, root_diameter, 41)
+    area = np.pi / 4 * head_diameter(root_diameter, heights) ** 2
+    low, middle, high = area[:-2:2], area[1:-1:2], area[2::2]
+    piled = np.cumsum((low + 4 * middle + high) * (heights[2] - heights[0]) / 6)
+    caps = cap_volume(root_diameter, heights[2::2])
+    return float(np.abs(piled - caps).max() / caps[-1])

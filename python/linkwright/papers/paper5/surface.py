@@ -38,23 +38,27 @@ class Surface:
     published: Floats
     exact: Floats
 
+    @property
+    def published_range(self) -> tuple[float, float]:
+        """Extremes by (10) [m]."""
+        return float(self.published.min()), float(self.published.max())
+
+    @property
+    def exact_range(self) -> tuple[float, float]:
+        """Exact extremes [m]."""
+        return float(self.exact.min()), float(self.exact.max())
+
     def to_dict(self) -> dict[str, Any]:
         """Its extremes, ready for JSON."""
         return {
             "forward_speed": self.forward_speed,
-            "length_published": [float(self.published.min()), float(self.published.max())],
-            "length_exact_constant_speed": [float(self.exact.min()), float(self.exact.max())],
+            "length_published": list(self.published_range),
+            "length_exact_constant_speed": list(self.exact_range),
         }
 
 
 def surfaces(data: dict[str, Any]) -> tuple[Surface, ...]:
-    """One for each forward speed.
-
-    Parameters
-    ----------
-    data : dict
-        Printed and chosen values.
-    """
+    """One for each forward speed, from printed and chosen values."""
     given, chosen = data["given"], data["chosen"]
     D, v_h = (
         np.linspace(low, high, _POINTS) for low, high in (chosen["root_diameters"], given["knife_speeds"])

@@ -89,13 +89,7 @@ class ClaimVerdict:
 
 
 def claim_verdict(data: dict[str, Any]) -> ClaimVerdict:
-    """Judge the published lengths.
-
-    Parameters
-    ----------
-    data : dict
-        Printed and chosen values.
-    """
+    """Judge the published lengths, from printed and chosen values."""
     claim, chosen = printed_claim(data), data["chosen"]
     # A knife that moves harmonically is π/2 times as fast at mid-stroke as in the mean.
     stroke = Stroke(chosen["stroke"], np.pi / 2)
@@ -116,13 +110,7 @@ def claim_verdict(data: dict[str, Any]) -> ClaimVerdict:
 
 
 def printed_claim(data: dict[str, Any]) -> Claim:
-    """The printed result and its ranges.
-
-    Parameters
-    ----------
-    data : dict
-        Printed values.
-    """
+    """The printed result and its ranges."""
     speeds = data["given"]["forward_speeds"]
     return Claim(
         (min(speeds), max(speeds)), tuple(data["given"]["knife_speeds"]), tuple(data["result"]["lengths"])
