@@ -2,13 +2,17 @@
 
 In `docs/file_format.md` a table stands between ``<!-- keys: NAME -->`` and ``<!-- end -->``, where NAME is a
 description that a machine file may hold (`descriptions`); in `docs/units.md` the ranges of all quantities
-between ``<!-- ranges -->`` and ``<!-- end -->``. A test fails if a page is not what this file would write.
+between ``<!-- ranges -->`` and ``<!-- end -->``; in `docs/limits.md` all limits, ``<!-- limits -->``; in
+`docs/notation.md` the quantities of results that have a symbol, ``<!-- quantities -->``. A test fails if a
+page is not what this file would write.
 """
 
 from __future__ import annotations
 
+import pkgutil
 import re
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -16,17 +20,24 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
+import linkwright
 from linkwright.kernel.description.schema_walk import mark_of, model_of, models_in, words_of
 from linkwright.kernel.limits import ALL, grouped
+from linkwright.kernel.quantities import quantities_of
+from linkwright.kernel.result import Result
 from linkwright.kernel.units import COUNT, KINDS, Quantity, QuantityList, size_words
 from linkwright.machine.machine import Machine
 
-PAGES = tuple(Path(__file__).with_name(name) for name in ("file_format.md", "units.md", "limits.md"))
+PAGES = tuple(
+    Path(__file__).with_name(name) for name in ("file_format.md", "units.md", "limits.md", "notation.md")
+)
 
 _RANGES = re.compile(r"(<!-- ranges -->\n).*?(<!-- end -->)", re.DOTALL)
 _BLOCK = re.compile(r"(<!-- keys: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 _LIMITS = re.compile(r"(<!-- limits -->\n).*?(<!-- end -->)", re.DOTALL)
+
+_QUANTITIES = re.compile(r"(<!-- quantities -->\n).*?(<!-- end -->)", re.DOTALL)
 
 _HEAD = "| key | is | unit | if left out | meaning |\n| --- | --- | --- | --- | --- |\n"
 
@@ -34,6 +45,7 @@ _HEAD = "| key | is | unit | if left out | meaning |\n| --- | --- | --- | --- | 
 def written(text: str) -> str:
     """The page with all its tables made anew."""
     text = _RANGES.sub(lambda block: block[1] + ranges() + block[2], text)
+    text = _QUANTITIES.sub(lambda block: block[1] + quantities() + block[2], text)
     text = _LIMITS.sub(lambda block: block[1] + limits() + block[2], text)
     return _BLOCK.sub(lambda block: block[1] + table(descriptions()[block[2]]) + block[3], text)
 
@@ -62,6 +74,31 @@ def limits() -> str:
     """How much of everything there may be."""
     rows = "".join(f"| {grouped(each.most)} | {each.of} | {each.reason} |\n" for each in ALL)
     return f"| at most | of | since |\n| ---: | --- | --- |\n{rows}"
+
+
+def results() -> list[type[Result]]:
+    """All classes of results, by their modules."""
+    for found in pkgutil.walk_packages(linkwright.__path__, "linkwright."):
+        if not found.name.endswith("__main__"):
+            import_module(found.name)
+    left, classes = [Result], set()
+    while left:
+        below = {each for each in left.pop().__subclasses__() if each.__module__.startswith("linkwright.")}
+        classes |= below
+        left += below
+    return sorted(classes, key=lambda each: (each.__module__, each.__name__))
+
+
+def quantities() -> str:
+    """The quantities of all results that have a symbol, with the results that have them."""
+    found: dict[tuple[str, ...], list[str]] = {}
+    for result in results():
+        for each in quantities_of(result):
+            if each.symbol:
+                cells = (each.symbol, each.word, each.unit or "–", f"`{each.name}`")
+                found.setdefault(cells, []).append(f"`{result.__name__}`")
+    head = "| symbol | meaning | unit | word | results |\n| --- | --- | --- | --- | --- |\n"
+    return head + "".join(f"| {' | '.join(cells)} | {', '.join(of)} |\n" for cells, of in found.items())
 
 
 def ranges() -> str:

@@ -99,6 +99,7 @@ _HOME = {
     "design_damper": "torsion.damper.damper_design",
     "scheme": "torsion.modes.scheme",
     "station_damping": "torsion.response.drive_line",
+    "quantities": "app.quantities",
     "study": "app.study",
     "steady_states": "drive.batch",
     "required_power": "sizing.power",
@@ -134,6 +135,7 @@ def __dir__() -> list[str]:
 
 
 if TYPE_CHECKING:
+    from linkwright.app.quantities import quantities as quantities
     from linkwright.app.report.page import write_report as write_report
     from linkwright.app.study import study as study
     from linkwright.cam.dynamics.bearing import ArmPivot as ArmPivot

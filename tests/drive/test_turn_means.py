@@ -184,3 +184,28 @@ def test_a_constant_speed_reads_extremes_and_means_exactly() -> None:
     assert coarse.torque_motor_min == pytest.approx(fine.torque_motor.min(), rel=1e-8)
     square = np.trapezoid(fine.torque_motor**2, fine.crank_angle) / (2 * np.pi)
     assert coarse.torque_motor_rms == pytest.approx(np.sqrt(square), rel=1e-8)
+
+
+def driven(torque: str) -> Machine:
+    """A crank at constant speed under a torque."""
+    load = f'kind = "formula", on = "A", torque = "{torque}"'
+    return loads(
+        'format = 1\nname = "crank"\n[drive.motor]\nkind = "constant_speed"\nspeed = 12\n'
+        f"[mechanism.cranks.A]\nradius = 0.1\n[bodies]\nA = {{ inertia = 1 }}\n[loads]\nl = {{ {load} }}\n"
+    )
+
+
+def test_cyclic_load_factor_of_a_known_torque() -> None:
+    """Of a + b sin φ it is √(1 + (b/a)²/2), of an even torque 1; of a motor that brakes there is none."""
+    swinging = steady_state(driven("-40 - 30*sin(phi)"), n=8)
+    assert swinging.cyclic_load_factor == pytest.approx(np.sqrt(1 + 0.75**2 / 2), rel=1e-12)
+    assert steady_state(driven("-40"), n=8).cyclic_load_factor == pytest.approx(1.0, rel=1e-12)
+    assert steady_state(driven("40"), n=8).cyclic_load_factor is None
+
+
+def test_cyclic_load_factor_is_one_over_time() -> None:
+    """Of a motor that gives way: against the trapezoidal rule over time, good to the square of its steps."""
+    found = steady_state(lw.read("machines/roller_two_carts.toml"), n=4000)
+    mean = np.trapezoid(found.torque_motor, found.time) / found.period
+    square = np.trapezoid(found.torque_motor**2, found.time) / found.period
+    assert found.cyclic_load_factor == pytest.approx(np.sqrt(square) / mean, rel=1e-6)

@@ -14,7 +14,7 @@ from linkwright.app.report.page import report_html, write_report
 from linkwright.app.study import Study, study
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.templates import template, templates
-from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.numbers import number
 from linkwright.machine.read import loads, read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"

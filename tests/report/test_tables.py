@@ -11,7 +11,7 @@ from linkwright.app.report.tables import tables
 from linkwright.app.study import study
 from linkwright.kernel.files.templates import template
 from linkwright.kernel.page.csv import curves_csv
-from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.numbers import number
 from linkwright.machine.read import loads, read
 from linkwright.machine.table import machine_parts
 

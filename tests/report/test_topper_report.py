@@ -19,7 +19,7 @@ from linkwright.app.report.page import report_html
 from linkwright.app.report.tables import tables
 from linkwright.app.study import Study, study
 from linkwright.kernel.page.csv import curves_csv
-from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Table
 from linkwright.machine.read import read
 from linkwright.machine.table import machine_parts

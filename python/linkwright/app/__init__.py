@@ -7,6 +7,7 @@ time.
 | --- | --- |
 | `application` | All commands, one a file |
 | `commands/` | Commands that are of no single subject |
+| `quantities` | What quantities there are: of a result, and of a whole study |
 | `report/` | The report of a study: page, tables, figures, moving sketch, assumptions |
 | `soundness` | What a machine can be seen to be unable to do without solving for its motion |
 | `study` | A study |

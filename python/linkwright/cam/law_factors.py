@@ -18,6 +18,7 @@ Source: VDI 2143 Blatt 1 (1980); Norton, *Cam Design and Manufacturing Handbook*
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
@@ -26,6 +27,7 @@ from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
 from linkwright.cam.laws.zeros import zeros
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 
 # A jump below this share of the derivative's greatest value is rounding.
@@ -36,42 +38,33 @@ _NAMES = ("velocity", "acceleration")
 
 @dataclass(frozen=True)
 class LawFactors(Result):
-    """Factors of a motion law; all are numbers.
+    """Factors of a motion law; all are numbers."""
 
-    Attributes
-    ----------
-    C_v : float
-        Greatest velocity.
-    C_a, C_j : float or None
-        Greatest size of acceleration and jerk; None where they are infinite.
-    C_M : float or None
-        Greatest size of velocity times acceleration; None where it is infinite.
-    acceleration_squared, jerk_squared : float or None
-        ∫ of the square of acceleration and jerk; None where they are infinite.
-    C_a_inside, C_j_inside, C_M_inside : float
-        The same as C_a, C_j and C_M between the jumps.
-    acceleration_max, acceleration_min : float
-        Greatest and least acceleration between the jumps.
-    jerk_max, jerk_min : float
-        Greatest and least jerk between the jumps.
-    remarks : tuple of str
-        What jumps, and where.
-    """
-
-    C_v: float
-    C_a: float | None
-    C_j: float | None
-    C_M: float | None
-    acceleration_squared: float | None
-    jerk_squared: float | None
-    C_a_inside: float
-    C_j_inside: float
-    C_M_inside: float
-    acceleration_max: float
-    acceleration_min: float
-    jerk_max: float
-    jerk_min: float
-    remarks: tuple[str, ...]
+    C_v: Annotated[float, Shown("greatest velocity", "C_v", "")]
+    C_a: Annotated[
+        float | None, Shown("greatest size of acceleration", "C_a", "", "None where it is infinite.")
+    ]
+    C_j: Annotated[float | None, Shown("greatest size of jerk", "C_j", "", "None where it is infinite.")]
+    C_M: Annotated[
+        float | None,
+        Shown("greatest size of velocity times acceleration", "C_M", "", "None where it is infinite."),
+    ]
+    acceleration_squared: Annotated[
+        float | None, Shown("integral of the square of acceleration", "∫a²", "", "None where it is infinite.")
+    ]
+    jerk_squared: Annotated[
+        float | None, Shown("integral of the square of jerk", "∫j²", "", "None where it is infinite.")
+    ]
+    C_a_inside: Annotated[float, Shown("greatest size of acceleration between the jumps", "", "")]
+    C_j_inside: Annotated[float, Shown("greatest size of jerk between the jumps", "", "")]
+    C_M_inside: Annotated[
+        float, Shown("greatest size of velocity times acceleration between the jumps", "", "")
+    ]
+    acceleration_max: Annotated[float, Shown("greatest acceleration between the jumps", "", "")]
+    acceleration_min: Annotated[float, Shown("least acceleration between the jumps", "", "")]
+    jerk_max: Annotated[float, Shown("greatest jerk between the jumps", "", "")]
+    jerk_min: Annotated[float, Shown("least jerk between the jumps", "", "")]
+    remarks: Annotated[tuple[str, ...], About("What jumps, and where.")]
 
 
 @public

@@ -7,6 +7,7 @@ r"""The motor's characteristic and the mean load that it works against, both at 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor, Motor
 from linkwright.drive.reduction import Reduction, mean_laws, reduction
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.quantities import Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -26,35 +28,20 @@ _BEYOND = 0.04
 
 @dataclass(frozen=True)
 class Characteristic(Result):
-    """Torque of a motor over its speed.
+    """Torque of a motor over its speed."""
 
-    Attributes
-    ----------
-    speed : ndarray, shape (n,)
-        Of the motor's shaft, from standstill [rad/s].
-    torque : ndarray
-        Of the motor [N m].
-    torque_load : ndarray
-        Mean load over a turn, referred to the motor's shaft [N m].
-    ratio : float
-        Motor speed over crank speed [–].
-    speed_no_load : float or None
-        Synchronous speed, or speed without load [rad/s].
-    speed_rated, torque_rated : float or None
-        Rated point [rad/s, N m].
-    speed_breakdown, torque_breakdown : float or None
-        Point of greatest torque [rad/s, N m].
-    """
-
-    speed: Floats
-    torque: Floats
-    torque_load: Floats
-    ratio: float
-    speed_no_load: float | None
-    speed_rated: float | None
-    torque_rated: float | None
-    speed_breakdown: float | None
-    torque_breakdown: float | None
+    speed: Annotated[Floats, Shown("speed of the motor's shaft", "ω", "rad/s", "From standstill.")]
+    torque: Annotated[Floats, Shown("torque of the motor", "M", "N m")]
+    torque_load: Annotated[
+        Floats,
+        Shown("mean resisting torque", "M_r,mean", "N m", "Over a turn, referred to the motor's shaft."),
+    ]
+    ratio: Annotated[float, Shown("motor speed over crank speed", "i", "")]
+    speed_no_load: Annotated[float | None, Shown("synchronous speed, or speed without load", "ω₀", "rad/s")]
+    speed_rated: Annotated[float | None, Shown("rated speed", "ω_N", "rad/s")]
+    torque_rated: Annotated[float | None, Shown("rated torque", "M_N", "N m")]
+    speed_breakdown: Annotated[float | None, Shown("speed of greatest torque", "ω_k", "rad/s")]
+    torque_breakdown: Annotated[float | None, Shown("greatest torque", "M_k", "N m")]
 
 
 def characteristic(

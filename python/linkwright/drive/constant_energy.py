@@ -7,6 +7,7 @@ limit of a machine whose motor's characteristic is flat against its inertia.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from linkwright.drive.reduction import NO_INERTIA, Reduction, reduction
 from linkwright.kernel.errors import SteadyStateError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
@@ -25,24 +27,14 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ConstantEnergy(Result):
-    """Evenness of motion at constant kinetic energy.
+    """Evenness of motion at constant kinetic energy."""
 
-    Attributes
-    ----------
-    unevenness : float
-        δ [–].
-    dynamism : float
-        H [–].
-    motion_coefficient : float
-        k_p = δ² + H [–].
-    """
-
-    unevenness: float
-    dynamism: float
+    unevenness: Annotated[float, Shown("coefficient of unevenness", "δ", "")]
+    dynamism: Annotated[float, Shown("coefficient of dynamism", "H", "")]
 
     @property
-    def motion_coefficient(self) -> float:
-        """k_p = δ² + H [–], paper 1 (15)."""
+    def motion_coefficient(self) -> Annotated[float, Shown("generalised coefficient of motion", "k_p", "")]:
+        """k_p = δ² + H, paper 1 (15)."""
         return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
 

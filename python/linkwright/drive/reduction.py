@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.drive.sound_loads import require_turn
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import Shown
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import turn_angles
 from linkwright.linkages.period import turns_to_repeat
@@ -34,49 +36,42 @@ NO_INERTIA = (
 # Speeds at which laws are integrated together; more only take memory.
 _SPEEDS = 64
 
+_LOADS = "Of all loads that do not depend on the size of the speed, crank turning forward."
+
 
 @dataclass(frozen=True)
 class Reduction(Result):
-    """Reduced inertia and torque over a turn.
+    """Reduced inertia and torque over a turn."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (n + 1,)
-        0 to 2π [rad].
-    inertia_reduced : ndarray
-        J [kg m²], motor and gearbox included.
-    inertia_reduced_d1 : ndarray
-        dJ/dφ [kg m²/rad].
-    torque_load : ndarray
-        Resisting torque of all loads that do not depend on the size of the speed, crank turning forward
-        [N m].
-    torque_dry : ndarray
-        Share of it that always opposes the motion [N m].
-    viscous : ndarray
-        Resisting torque per speed [N m s/rad].
-    inertia_min, inertia_max : float
-        Extremes of J [kg m²].
-    inertia_min_angle, inertia_max_angle : float
-        Crank angles where they are [rad].
-    torque_load_mean, torque_load_max : float
-        Mean over the angle, and greatest value, of the resisting torque [N m].
-    viscous_mean : float
-        Mean over the angle of the resisting torque per speed [N m s/rad].
-    """
-
-    crank_angle: Floats
-    inertia_reduced: Floats
-    inertia_reduced_d1: Floats
-    torque_load: Floats
-    torque_dry: Floats
-    viscous: Floats
-    inertia_min: float
-    inertia_max: float
-    inertia_min_angle: float
-    inertia_max_angle: float
-    torque_load_mean: float
-    torque_load_max: float
-    viscous_mean: float
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "0 to 2π.", shape="(n + 1,)")]
+    inertia_reduced: Annotated[Floats, Shown("reduced inertia", "J", "kg m²", "Motor and gearbox included.")]
+    inertia_reduced_d1: Annotated[Floats, Shown("derivative of the reduced inertia", "J′", "kg m²/rad")]
+    torque_load: Annotated[Floats, Shown("resisting torque at the crank", "M_r", "N m", _LOADS)]
+    torque_dry: Annotated[
+        Floats,
+        Shown("share of dry friction", "M_dry", "N m", "What of it always opposes the motion."),
+    ]
+    viscous: Annotated[
+        Floats, Shown("viscous coefficient at the crank", "c", "N m s/rad", "Resisting torque per speed.")
+    ]
+    inertia_min: Annotated[float, Shown("least reduced inertia", "J_min", "kg m²", table="reduction")]
+    inertia_max: Annotated[float, Shown("greatest reduced inertia", "J_max", "kg m²", table="reduction")]
+    inertia_min_angle: Annotated[float, Shown("crank angle of the least inertia", "φ(J_min)", "rad")]
+    inertia_max_angle: Annotated[float, Shown("crank angle of the greatest inertia", "φ(J_max)", "rad")]
+    torque_load_mean: Annotated[
+        float, Shown("mean resisting torque", "M_r,mean", "N m", "Over the angle.", table="reduction")
+    ]
+    torque_load_max: Annotated[float, Shown("greatest resisting torque", "M_r,max", "N m", table="reduction")]
+    viscous_mean: Annotated[
+        float,
+        Shown(
+            "mean viscous coefficient at the crank",
+            "c_mean",
+            "N m s/rad",
+            "Over the angle.",
+            table="reduction",
+        ),
+    ]
 
 
 @public

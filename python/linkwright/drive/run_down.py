@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import Transient, transient
 from linkwright.kernel.errors import SteadyStateError
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 
@@ -19,22 +21,12 @@ _TURNS_MAX = 1000.0
 
 @dataclass(frozen=True)
 class RunDown(Result):
-    """The run-down from the steady speed at φ = 0.
+    """The run-down from the steady speed at φ = 0."""
 
-    Attributes
-    ----------
-    turns, time : float
-        Turns of the crank and time [s] until rest.
-    angle_end : float
-        Crank angle at rest [rad].
-    motion : Transient
-        The whole motion.
-    """
-
-    turns: float
-    time: float
-    angle_end: float
-    motion: Transient
+    turns: Annotated[float, Shown("turns of the crank", "n", "", "Until rest.", table="run_down")]
+    time: Annotated[float, Shown("time", "t", "s", "Until rest.", table="run_down")]
+    angle_end: Annotated[float, Shown("crank angle at rest", "φ_end", "rad", table="run_down")]
+    motion: Annotated[Transient, About("The whole motion.")]
 
 
 @public

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from linkwright.drive.transient import End, Transient, transient
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError
 from linkwright.kernel.numerics.roots import minima, zeros
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 
@@ -24,35 +26,27 @@ _ACCURACY = 1e-9
 # Turns after which it is looked again whether the motion has settled; most drives settle in the first ten.
 _FIRST_TURNS = 10.0
 
+_UNTIL = (
+    "From the start until the speed last differed from that of steady motion at the same angle by more than "
+    "``settled`` times the mean speed."
+)
+
 
 @dataclass(frozen=True)
 class RunUp(Result):
-    """The run-up.
+    """The run-up, at the ends of the solver's steps."""
 
-    Attributes
-    ----------
-    crank_time, crank_angle, speed, acceleration : ndarray, shape (n,)
-        The motion at the ends of the solver's steps [s, rad, rad/s, rad/s²].
-    turns, time : float
-        Turns of the crank and time [s] from the start until the speed last differed from that of steady
-        motion at the same angle by more than ``settled`` times the mean speed.
-    settled : float
-        That share [–].
-    speed_peak : float
-        Greatest speed until then [rad/s].
-    motion : Transient
-        The whole motion.
-    """
-
-    crank_time: Floats
-    crank_angle: Floats
-    speed: Floats
-    acceleration: Floats
-    turns: float
-    time: float
-    settled: float
-    speed_peak: float
-    motion: Transient
+    crank_time: Annotated[Floats, Shown("time", "t", "s")]
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
+    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
+    turns: Annotated[float, Shown("turns of the crank", "n", "", _UNTIL, table="run_up")]
+    time: Annotated[float, Shown("time", "t", "s", _UNTIL, table="run_up")]
+    settled: Annotated[float, Shown("share of the mean speed that counts as settled", "", "")]
+    speed_peak: Annotated[
+        float, Shown("greatest speed on the way", "ω_peak", "rad/s", "Until then.", table="run_up")
+    ]
+    motion: Annotated[Transient, About("The whole motion.")]
 
 
 @public

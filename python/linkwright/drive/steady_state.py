@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from linkwright.drive.sound_loads import require_same_turns, require_sound_loads
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_full_turn, require_one_turn, turn_angles
 from linkwright.machine.machine import Machine
@@ -68,86 +69,74 @@ class OtherMotion(NamedTuple):
         return abs(self.multiplier) < 1
 
 
+_MULTIPLIER = (
+    "What is left of a small disturbance of the speed after one turn, as a share; the motion is stable if it "
+    "is below 1 in size."
+)
+_ACCURACY = (
+    "Relative error as measured: of speeds, of accelerations against their peak (or against 1e-4 ω², if the "
+    "machine turns more evenly than that), and of the integrals. Every step was done again in halves."
+)
+_OTHERS = (
+    "Other motions of the machine that repeat, from the fastest down to a hundredth of the working speed."
+)
+
+
 @dataclass(frozen=True)
 class SteadyState(Result):
-    """One turn of steady motion.
+    """One turn of steady motion; extremes are exact, not those of the curves."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (n + 1,)
-        0 to 2π [rad].
-    time : ndarray
-        From the start of the turn [s].
-    speed, acceleration : ndarray
-        Of the crank [rad/s, rad/s²].
-    torque_motor : ndarray
-        At the motor's shaft [N m].
-    torque_drive, torque_load : ndarray
-        Driving and resisting torque at the crank [N m].
-    power_motor : ndarray
-        At the motor's shaft [W].
-    inertia_reduced : ndarray
-        [kg m²].
-    speed_min, speed_max, acceleration_min, acceleration_max : float
-        Exact extremes, not those of the curves.
-    speed_min_angle, speed_max_angle, acceleration_min_angle, acceleration_max_angle : float
-        Crank angles where they are [rad].
-    period : float
-        Duration of a turn [s].
-    multiplier : float
-        What is left of a small disturbance of the speed after one turn, as a share; the motion is stable if
-        it is below 1 in size.
-    energy_motor, energy_drive, energy_load : float
-        Work in a turn at the motor's shaft, at the crank, and taken by the loads [J].
-    torque_motor_mean, torque_motor_rms : float
-        Over time [N m].
-    torque_motor_min, torque_motor_max : float
-        Extremes at the motor's shaft [N m]; the least is negative where the load drives the motor.
-    power_motor_max : float
-        Greatest power at the motor's shaft [W].
-    accuracy : float
-        Relative error as measured: of speeds, of accelerations against their peak (or against 1e-4 ω², if the
-        machine turns more evenly than that), and of the integrals. Every step was done again in halves.
-    sweeps, steps : int
-        Newton sweeps over the turn in all, and steps of the finest mesh.
-    method : str
-        ``"collocation"`` or ``"constant speed"``.
-    others : tuple of OtherMotion
-        Other motions of the machine that repeat, from the fastest down to a hundredth of the working speed.
-    """
-
-    crank_angle: Floats
-    time: Floats
-    speed: Floats
-    acceleration: Floats
-    torque_motor: Floats
-    torque_drive: Floats
-    torque_load: Floats
-    power_motor: Floats
-    inertia_reduced: Floats
-    speed_min: float
-    speed_max: float
-    acceleration_min: float
-    acceleration_max: float
-    speed_min_angle: float
-    speed_max_angle: float
-    acceleration_min_angle: float
-    acceleration_max_angle: float
-    period: float
-    multiplier: float
-    energy_motor: float
-    energy_drive: float
-    energy_load: float
-    torque_motor_mean: float
-    torque_motor_rms: float
-    torque_motor_min: float
-    torque_motor_max: float
-    power_motor_max: float
-    accuracy: float
-    sweeps: int
-    steps: int
-    method: str = "collocation"
-    others: tuple[OtherMotion, ...] = ()
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "0 to 2π.", shape="(n + 1,)")]
+    time: Annotated[Floats, Shown("time", "t", "s", "From the start of the turn.")]
+    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
+    torque_motor: Annotated[Floats, Shown("torque of the motor", "M", "N m", "At its shaft.")]
+    torque_drive: Annotated[Floats, Shown("driving torque at the crank", "M_d", "N m")]
+    torque_load: Annotated[Floats, Shown("resisting torque at the crank", "M_r", "N m")]
+    power_motor: Annotated[Floats, Shown("power of the motor", "P", "W", "At its shaft.")]
+    inertia_reduced: Annotated[Floats, Shown("reduced inertia", "J", "kg m²")]
+    speed_min: Annotated[float, Shown("least speed", "ω_min", "rad/s", table="steady_state")]
+    speed_max: Annotated[float, Shown("greatest speed", "ω_max", "rad/s", table="steady_state")]
+    acceleration_min: Annotated[float, Shown("least acceleration", "ε_min", "rad/s²", table="steady_state")]
+    acceleration_max: Annotated[
+        float, Shown("greatest acceleration", "ε_max", "rad/s²", table="steady_state")
+    ]
+    speed_min_angle: Annotated[float, Shown("crank angle of the least speed", "φ(ω_min)", "rad")]
+    speed_max_angle: Annotated[float, Shown("crank angle of the greatest speed", "φ(ω_max)", "rad")]
+    acceleration_min_angle: Annotated[
+        float, Shown("crank angle of the least acceleration", "φ(ε_min)", "rad")
+    ]
+    acceleration_max_angle: Annotated[
+        float, Shown("crank angle of the greatest acceleration", "φ(ε_max)", "rad")
+    ]
+    period: Annotated[float, Shown("period of a turn", "T", "s", table="steady_state")]
+    multiplier: Annotated[
+        float,
+        Shown("rest of a disturbance after a turn", "μ", "", _MULTIPLIER, table="steady_state"),
+    ]
+    energy_motor: Annotated[float, Shown("work of the motor in a turn", "A_m", "J", table="drive")]
+    energy_drive: Annotated[float, Shown("work at the crank in a turn", "A_d", "J", table="drive")]
+    energy_load: Annotated[float, Shown("work taken by the loads in a turn", "A_r", "J", table="drive")]
+    torque_motor_mean: Annotated[
+        float, Shown("mean torque of the motor", "M_mean", "N m", "Over time.", table="drive")
+    ]
+    torque_motor_rms: Annotated[
+        float, Shown("root mean square torque of the motor", "M_rms", "N m", "Over time.", table="drive")
+    ]
+    torque_motor_min: Annotated[
+        float,
+        Shown("least torque of the motor", "M_min", "N m", "Negative: the load drives it.", table="drive"),
+    ]
+    torque_motor_max: Annotated[float, Shown("greatest torque of the motor", "M_max", "N m", table="drive")]
+    power_motor_max: Annotated[
+        float,
+        Shown("greatest power of the motor", "P_max", "W", table="drive", before="torque_motor_mean"),
+    ]
+    accuracy: Annotated[float, Shown("accuracy reached", "", "", _ACCURACY, table="steady_state")]
+    sweeps: Annotated[int, Shown("Newton sweeps", "", "", "Over the turn, in all.")]
+    steps: Annotated[int, Shown("steps of the finest mesh", "", "", table="steady_state")]
+    method: Annotated[str, About('``"collocation"`` or ``"constant speed"``.')] = "collocation"
+    others: Annotated[tuple[OtherMotion, ...], About(_OTHERS)] = ()
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """As `Result.to_dict`, other motions as tables with names.
@@ -165,43 +154,45 @@ class SteadyState(Result):
         return super().to_dict(curves=curves) | {"others": [each._asdict() for each in self.others]}
 
     @property
-    def speed_mean_extremes(self) -> float:
-        """(ω_max + ω_min)/2 [rad/s]."""
+    def speed_mean_extremes(self) -> Annotated[float, Shown("mean of the extreme speeds", "ω_m", "rad/s")]:
+        """(ω_max + ω_min)/2."""
         return evenness.mean_of_extremes(self.speed_min, self.speed_max)
 
     @property
-    def speed_mean_time(self) -> float:
-        """2π/period [rad/s]."""
+    def speed_mean_time(self) -> Annotated[float, Shown("mean speed over time", "ω_m", "rad/s")]:
+        """2π/period."""
         return 2 * np.pi / self.period
 
     @property
-    def unevenness(self) -> float:
-        """δ = (ω_max − ω_min)/ω_m with the mean of the extremes [–], paper 1 (13)."""
+    def unevenness(self) -> Annotated[float, Shown("coefficient of unevenness", "δ", "")]:
+        """δ = (ω_max − ω_min)/ω_m with the mean of the extremes, paper 1 (13)."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
 
     @property
-    def dynamism(self) -> float:
-        """H = |ε|_max/ω_m² with the mean of the extremes [–], paper 1 (14)."""
+    def dynamism(self) -> Annotated[float, Shown("coefficient of dynamism", "H", "")]:
+        """H = |ε|_max/ω_m² with the mean of the extremes, paper 1 (14)."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
 
     @property
-    def motion_coefficient(self) -> float:
-        """k_p = δ² + H with the mean of the extremes [–], paper 1 (15)."""
+    def motion_coefficient(self) -> Annotated[float, Shown("generalised coefficient of motion", "k_p", "")]:
+        """k_p = δ² + H with the mean of the extremes, paper 1 (15)."""
         return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
     @property
-    def unevenness_time(self) -> float:
-        """δ with the mean over time [–]."""
+    def unevenness_time(self) -> Annotated[float, Shown("coefficient of unevenness", "δ", "")]:
+        """δ with the mean over time."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_time)
 
     @property
-    def dynamism_time(self) -> float:
-        """H with the mean over time [–]."""
+    def dynamism_time(self) -> Annotated[float, Shown("coefficient of dynamism", "H", "")]:
+        """H with the mean over time."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_time)
 
     @property
-    def motion_coefficient_time(self) -> float:
-        """k_p with the mean over time [–]."""
+    def motion_coefficient_time(
+        self,
+    ) -> Annotated[float, Shown("generalised coefficient of motion", "k_p", "")]:
+        """k_p with the mean over time."""
         return evenness.motion_coefficient(self.unevenness_time, self.dynamism_time)
 
     @property
@@ -210,13 +201,34 @@ class SteadyState(Result):
         return abs(self.multiplier) < 1
 
     @property
-    def power_motor_mean(self) -> float:
-        """Mean power at the motor's shaft [W]."""
+    def power_motor_mean(
+        self,
+    ) -> Annotated[
+        float, Shown("mean power of the motor", "P_mean", "W", table="drive", before="power_motor_max")
+    ]:
+        """Work of the motor in a turn over its period."""
         return self.energy_motor / self.period
 
     @property
-    def efficiency(self) -> float | None:
-        """Work taken by the loads over work of the motor [–]; None without any work of the motor."""
+    def cyclic_load_factor(
+        self,
+    ) -> Annotated[
+        float | None,
+        Shown("cyclic load factor of the motor", "CLF", "", table="drive", before="torque_motor_min"),
+    ]:
+        """Root mean square over mean torque: what heats the motor against what works; None where the mean is
+        not positive.
+        """
+        return self.torque_motor_rms / self.torque_motor_mean if self.torque_motor_mean > 0 else None
+
+    @property
+    def efficiency(
+        self,
+    ) -> Annotated[
+        float | None,
+        Shown("efficiency of the drive over a turn", "η", "", table="drive", before="power_motor_mean"),
+    ]:
+        """Work taken by the loads over work of the motor; None without any work of the motor."""
         return self.energy_load / self.energy_motor if self.energy_motor > 0 else None
 
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,7 @@ from linkwright.kernel.errors import InputError, StartError, SteadyStateError, r
 from linkwright.kernel.limits import STEPS
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, positive
 from linkwright.linkages.closure import require_full_turn, require_one_turn, turn_angles
@@ -44,51 +46,42 @@ _TURNS_MAX = 2000
 
 @dataclass(frozen=True)
 class StepMotion(Result):
-    """Motion by the step method: all turns from rest, and the measures of the last.
+    """Motion by the step method: all turns from rest, and the measures of the last."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (n,)
-        Counted on over the turns [rad].
-    time, speed, acceleration : ndarray
-        [s, rad/s, rad/s²]; the acceleration belongs to the interval that begins at the angle.
-    turns : int
-        Whole turns until the speed repeats to 0.1 % at every step.
-    step : float
-        Step of the angle [rad].
-    speed_min, speed_max, acceleration_min, acceleration_max : float
-        Over the last turn.
-    """
-
-    crank_angle: Floats
-    time: Floats
-    speed: Floats
-    acceleration: Floats
-    turns: int
-    step: float
-    speed_min: float
-    speed_max: float
-    acceleration_min: float
-    acceleration_max: float
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "Counted on over the turns.")]
+    time: Annotated[Floats, Shown("time", "t", "s")]
+    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[
+        Floats,
+        Shown("acceleration of the crank", "ε", "rad/s²", "Of the interval that begins at the angle."),
+    ]
+    turns: Annotated[int, Shown("whole turns until the speed repeats to 0.1 % at every step", "n", "")]
+    step: Annotated[float, Shown("step of the crank angle", "Δφ", "rad")]
+    speed_min: Annotated[float, Shown("least speed", "ω_min", "rad/s", "Over the last turn.")]
+    speed_max: Annotated[float, Shown("greatest speed", "ω_max", "rad/s", "Over the last turn.")]
+    acceleration_min: Annotated[float, Shown("least acceleration", "ε_min", "rad/s²", "Over the last turn.")]
+    acceleration_max: Annotated[
+        float, Shown("greatest acceleration", "ε_max", "rad/s²", "Over the last turn.")
+    ]
 
     @property
-    def speed_mean_extremes(self) -> float:
-        """(ω_max + ω_min)/2 [rad/s]."""
+    def speed_mean_extremes(self) -> Annotated[float, Shown("mean of the extreme speeds", "ω_m", "rad/s")]:
+        """(ω_max + ω_min)/2."""
         return evenness.mean_of_extremes(self.speed_min, self.speed_max)
 
     @property
-    def unevenness(self) -> float:
-        """δ [–]."""
+    def unevenness(self) -> Annotated[float, Shown("coefficient of unevenness", "δ", "")]:
+        """δ = (ω_max − ω_min)/ω_m, paper 1 (13)."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
 
     @property
-    def dynamism(self) -> float:
-        """H [–]."""
+    def dynamism(self) -> Annotated[float, Shown("coefficient of dynamism", "H", "")]:
+        """H = |ε|_max/ω_m², paper 1 (14)."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
 
     @property
-    def motion_coefficient(self) -> float:
-        """k_p = δ² + H [–]."""
+    def motion_coefficient(self) -> Annotated[float, Shown("generalised coefficient of motion", "k_p", "")]:
+        """k_p = δ² + H, paper 1 (15)."""
         return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
 

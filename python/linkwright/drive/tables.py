@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Collection, Iterator, Sequence
 
 from linkwright.drive.steady_state import SteadyState
+from linkwright.drive.step_method import StepMotion
 from linkwright.drive.study import DriveStudy
-from linkwright.kernel.page.quantities import SHOWN, degrees, number
-from linkwright.kernel.page.table import Row, Table, row, rows_of, with_unit
+from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.table import Row, Table, rows_in, with_unit
+from linkwright.kernel.quantities import in_table, shown
 from linkwright.kernel.result import Result
 
 
@@ -18,9 +19,11 @@ def drive_tables(study: DriveStudy) -> Iterator[Table]:
     yield from (table for part in parts if (table := part(study)) is not None)
 
 
-def _extremes(result: Any, *names: str) -> list[Row]:
-    """Rows of values that have an angle."""
-    return [row(result, name, f"at φ = {_on_turn(getattr(result, f'{name}_angle'))}") for name in names]
+def _rows(result: Result, table: str, *, without: Collection[str] = ()) -> list[Row]:
+    """The rows of a table; of an extreme, with the crank angle where it is."""
+    extremes = [name for name in in_table(type(result), table) if hasattr(result, f"{name}_angle")]
+    places = {name: f"at φ = {_on_turn(getattr(result, f'{name}_angle'))}" for name in extremes}
+    return rows_in(result, table, places, without=without)
 
 
 def _on_turn(angle: float) -> str:
@@ -33,10 +36,8 @@ def _reduction(study: DriveStudy) -> Table | None:
     reduced = study.reduction
     if reduced is None:
         return None
-    rows = _extremes(reduced, "inertia_min", "inertia_max")
-    rows += rows_of(reduced, "torque_load_mean", "torque_load_max")
     # Most machines have no viscous friction, and no use for a row of zeros.
-    rows += rows_of(reduced, "viscous_mean") if reduced.viscous_mean else []
+    rows = _rows(reduced, "reduction", without=() if reduced.viscous_mean else ("viscous_mean",))
     return Table("reduction", "Reduced to the crank", ("quantity", "", "value", "where"), rows)
 
 
@@ -44,9 +45,8 @@ def _steady(study: DriveStudy) -> Table | None:
     steady = study.steady_state
     if steady is None:
         return None
-    rows = _extremes(steady, "speed_min", "speed_max", "acceleration_min", "acceleration_max")
-    rows += rows_of(steady, "period", "multiplier", "accuracy", "steps")
-    return Table("steady_state", "Steady motion", ("quantity", "", "value", "where"), rows)
+    heads = ("quantity", "", "value", "where")
+    return Table("steady_state", "Steady motion", heads, _rows(steady, "steady_state"))
 
 
 def _measures(study: DriveStudy) -> Table | None:
@@ -54,7 +54,7 @@ def _measures(study: DriveStudy) -> Table | None:
     columns = list(_measure_columns(study))
     if not columns:
         return None
-    words = [(shown.word, shown.symbol) for shown in (SHOWN[name] for name in _MEASURES)]
+    words = [(mark.word, mark.symbol) for mark in (shown(SteadyState, name) for name in _MEASURES)]
     speeds = ("mean speed", "ω_m", *(with_unit(values[0], "rad/s") for _, values in columns))
     # The limit has any speed.
     rows: list[Row] = [speeds] if study.steady_state is not None else []
@@ -89,11 +89,12 @@ def _drive(study: DriveStudy) -> Table | None:
     motor = drive.motor
     power, torque = with_unit(motor.power_rated, "W"), with_unit(motor.torque_rated, "N m")
     breakdown = with_unit(getattr(motor, "torque_breakdown", None), "N m")
-    rows = rows_of(steady, "energy_motor", "energy_drive", "energy_load", "efficiency")
-    rows += [row(steady, "power_motor_mean", _beside("rated", power)), row(steady, "power_motor_max")]
-    rows += rows_of(steady, "torque_motor_mean")
-    rows += [row(steady, "torque_motor_rms", _beside("rated", torque)), row(steady, "torque_motor_min")]
-    rows += [row(steady, "torque_motor_max", _beside("breakdown", breakdown))]
+    beside = {
+        "power_motor_mean": _beside("rated", power),
+        "torque_motor_rms": _beside("rated", torque),
+        "torque_motor_max": _beside("breakdown", breakdown),
+    }
+    rows = rows_in(steady, "drive", beside)
     return Table("drive", "Drive in a turn of steady motion", ("quantity", "", "value", "motor"), rows)
 
 
@@ -105,7 +106,7 @@ def _run_up(study: DriveStudy) -> Table | None:
     run_up = study.run_up
     if run_up is None:
         return None
-    rows = rows_of(run_up, "turns", "time", "speed_peak")
+    rows = rows_in(run_up, "run_up")
     title = f"Run-up, until within {100 * run_up.settled:.3g} % of steady motion"
     return Table("run_up", title, ("quantity", "", "value", ""), rows)
 
@@ -114,8 +115,8 @@ def _run_down(study: DriveStudy) -> Table | None:
     stop = study.run_down
     if stop is None:
         return None
-    rows = [*rows_of(stop, "turns", "time"), ("crank angle at rest", "φ_end", degrees(stop.angle_end), "")]
-    return Table("run_down", "Run-down, motor off, brake on", ("quantity", "", "value", ""), rows)
+    heads = ("quantity", "", "value", "")
+    return Table("run_down", "Run-down, motor off, brake on", heads, rows_in(stop, "run_down"))
 
 
 def _step_method(study: DriveStudy) -> Table | None:
@@ -130,10 +131,10 @@ def _step_method(study: DriveStudy) -> Table | None:
     return Table("step_method", title, ("quantity", "", "step method", "exact", "difference"), rows)
 
 
-def _compared(stepped: Result, steady: SteadyState | None, name: str) -> Row:
-    shown, value = SHOWN[name], getattr(stepped, name)
+def _compared(stepped: StepMotion, steady: SteadyState | None, name: str) -> Row:
+    mark, value = shown(StepMotion, name), getattr(stepped, name)
     if steady is None:
-        return shown.word, shown.symbol, with_unit(value, shown.unit), "–", "–"
+        return mark.word, mark.symbol, with_unit(value, mark.unit), "–", "–"
     exact = getattr(steady, name)
     off = f"{number(100 * (value / exact - 1), 2)} %" if exact else "–"
-    return shown.word, shown.symbol, with_unit(value, shown.unit), with_unit(exact, shown.unit), off
+    return mark.word, mark.symbol, with_unit(value, mark.unit), with_unit(exact, mark.unit), off

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +15,7 @@ from linkwright.drive.sound_loads import require_half_turns, require_sound_loads
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, Quantity, not_negative, positive
 from linkwright.linkages.closure import require_full_turn
@@ -74,39 +76,27 @@ class StepPolynomials:
 
 @dataclass(frozen=True)
 class Transient(Result):
-    """A motion in time, at the ends of the solver's steps.
+    """A motion in time, at the ends of the solver's steps."""
 
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        [s].
-    crank_angle : ndarray
-        Counted on over the turns [rad].
-    speed, acceleration : ndarray
-        Of the crank [rad/s, rad/s²].
-    end : End
-        How it ended.
-    torque_drive_end, torque_load_end : float
-        At the last angle and at rest: what the drive gives at the crank, and what the loads need [N m].
-    evaluations : int
-        How often the machine was evaluated.
-    between : StepPolynomials
-        What `at` reads between the ends of the steps.
-    """
-
-    time: Floats
-    crank_angle: Floats
-    speed: Floats
-    acceleration: Floats
-    end: End
-    torque_drive_end: float
-    torque_load_end: float
-    evaluations: int
-    between: StepPolynomials
+    time: Annotated[Floats, Shown("time", "t", "s")]
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "Counted on over the turns.")]
+    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
+    end: Annotated[End, About("How it ended.")]
+    torque_drive_end: Annotated[
+        float,
+        Shown("driving torque at the crank at the last angle", "", "N m", "What the drive gives at rest."),
+    ]
+    torque_load_end: Annotated[
+        float,
+        Shown("resisting torque at the crank at the last angle", "", "N m", "What the loads need at rest."),
+    ]
+    evaluations: Annotated[int, Shown("evaluations of the machine", "", "")]
+    between: Annotated[StepPolynomials, About("What `at` reads between the ends of the steps.")]
 
     @property
-    def turns(self) -> float:
-        """Turns of the crank from start to end [–]."""
+    def turns(self) -> Annotated[float, Shown("turns of the crank", "n", "")]:
+        """Turns of the crank from start to end."""
         return float(self.crank_angle[-1] - self.crank_angle[0]) / (2 * np.pi)
 
     @property

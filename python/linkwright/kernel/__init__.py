@@ -11,8 +11,9 @@
 | `findings` | What a study has to say |
 | `limits` | How much of everything there may be |
 | `numerics/` | Numerics that no library has as it is needed here |
-| `page/` | What all pages share: quantities in words, tables, formulas, templates |
+| `page/` | What all pages share: numbers as text, tables, formulas, templates |
 | `public/` | What public functions have in common |
+| `quantities` | Words, symbols and units of results, declared at their attributes |
 | `result` | Scalars, curves and tables of a result |
 | `units/` | Units stop here: a number or a text with a unit comes in, an SI float comes out |
 """

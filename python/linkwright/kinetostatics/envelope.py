@@ -73,9 +73,9 @@ def envelope(result: Forces) -> list[Extent]:
 
 def _quantities(result: Forces) -> Iterator[tuple[str, str, Floats]]:
     """Name, unit and values of what there is."""
-    yield "torque_drive", "N m", result.torque_drive
-    yield "shaking_force", "N", np.hypot(result.shaking_force[:, 0], result.shaking_force[:, 1])
-    yield "shaking_moment", "N m", result.shaking_moment
+    for name in ("torque_drive", "shaking_force", "shaking_moment"):
+        values = getattr(result, name)
+        yield name, result.unit_of(name), values if values.ndim == 1 else np.hypot(*values.T)
     for name, pair in result.pairs.items():
         yield from _of_pair(name, pair)
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.motion import Motion
 
@@ -73,59 +74,51 @@ class Contribution:
     shaking_moment: Floats
 
 
+_CONTRIBUTIONS = (
+    '``"inertia"``, ``"friction"`` (its viscous share), and each load as ``"loads.name"``. Dry friction '
+    "goes with what causes it."
+)
+
+
 @dataclass(frozen=True)
 class Forces(Result):
-    """Forces over the crank angle.
+    """Forces over the crank angle."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (n,)
-        [rad].
-    time, speed, acceleration : ndarray, shape (n,)
-        Of the motion [s, rad/s, rad/s²].
-    torque_drive : ndarray, shape (n,)
-        Driving torque at the crankshaft that the motion needs [N m].
-    power_drive, power_load, power_friction : ndarray, shape (n,)
-        Of the drive at the crankshaft, of all loads on the machine, of friction in the pairs [W].
-    power_kinetic : ndarray, shape (n,)
-        Change of the kinetic energy in time [W].
-    shaking_moment : ndarray, shape (n,)
-        On the frame about the origin, by pairs, springs and the torque of the drive [N m].
-    shaking_force : ndarray, shape (n, 2)
-        On the frame [N].
-    pairs : dict of str to PairForce
-        Forces of pins, guides, slots, teeth and cables by name.
-    drives : dict of str to ndarray, shape (n,)
-        Torque on each crank [N m], force on each linear driver along its guide [N].
-    contributions : dict of str to Contribution
-        ``"inertia"``, ``"friction"`` (its viscous share), and each load as ``"loads.name"``. Dry friction
-        goes with what causes it.
-    motion : Motion
-        As it was given.
-    findings : tuple of str
-        Where forces are unbounded, friction locks, or a cable pushes, in sentences.
-    """
-
-    crank_angle: Floats
-    time: Floats
-    speed: Floats
-    acceleration: Floats
-    torque_drive: Floats
-    power_drive: Floats
-    power_load: Floats
-    power_friction: Floats
-    power_kinetic: Floats
-    shaking_moment: Floats
-    shaking_force: Floats
-    pairs: dict[str, PairForce]
-    drives: dict[str, Floats]
-    contributions: dict[str, Contribution]
-    motion: Motion
-    findings: tuple[str, ...] = field(default=())
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
+    time: Annotated[Floats, Shown("time", "t", "s")]
+    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
+    torque_drive: Annotated[
+        Floats, Shown("driving torque at the crank", "M_d", "N m", "That the motion needs.")
+    ]
+    power_drive: Annotated[Floats, Shown("driving power at the crank", "P_d", "W")]
+    power_load: Annotated[Floats, Shown("power of the loads", "P_r", "W", "Of all loads on the machine.")]
+    power_friction: Annotated[Floats, Shown("power of friction in the pairs", "P_f", "W")]
+    power_kinetic: Annotated[Floats, Shown("change of the kinetic energy in time", "dE/dt", "W")]
+    shaking_moment: Annotated[
+        Floats,
+        Shown(
+            "moment on the frame about the origin",
+            "M_g",
+            "N m",
+            "By pairs, springs and the torque of the drive.",
+        ),
+    ]
+    shaking_force: Annotated[Floats, Shown("force on the frame", "F_g", "N", shape="(n, 2)")]
+    pairs: Annotated[dict[str, PairForce], About("Forces of pins, guides, slots, teeth and cables by name.")]
+    drives: Annotated[
+        dict[str, Floats],
+        About("Torque on each crank [N m], force on each linear driver along its guide [N]."),
+    ]
+    contributions: Annotated[dict[str, Contribution], About(_CONTRIBUTIONS)]
+    motion: Annotated[Motion, About("As it was given.")]
+    findings: Annotated[
+        tuple[str, ...], About("Where forces are unbounded, friction locks, or a cable pushes, in sentences.")
+    ] = field(default=())
 
     @property
-    def power_residual(self) -> Floats:
-        """Driving, load and friction power less the change of kinetic energy, (n,) [W]: rounding."""
+    def power_residual(self) -> Annotated[Floats, Shown("rest of the balance of powers", "", "W")]:
+        """Driving, load and friction power less the change of kinetic energy: rounding."""
         found: Floats = self.power_drive + self.power_load + self.power_friction - self.power_kinetic
         return found
 
@@ -140,18 +133,21 @@ class Forces(Result):
         return {name: float(np.nanmax(pair.size)) for name, pair in self.pairs.items()}
 
     @property
-    def torque_drive_max(self) -> float:
-        """Driving torque of the greatest size, with its sign [N m]."""
+    def torque_drive_max(
+        self,
+    ) -> Annotated[float, Shown("driving torque of the greatest size", "M_d,max", "N m")]:
+        """With its sign."""
         return float(self.torque_drive[np.nanargmax(np.abs(self.torque_drive))])
 
     @property
-    def shaking_force_max(self) -> float:
-        """Greatest size of the force on the frame [N]."""
+    def shaking_force_max(self) -> Annotated[float, Shown("greatest force on the frame", "F_g,max", "N")]:
+        """Greatest size among the angles."""
         return float(np.nanmax(np.hypot(self.shaking_force[:, 0], self.shaking_force[:, 1])))
 
     def columns(self) -> dict[str, Floats]:
         """Components of the forces by name and unit: the frame, each pair with its moment, each driver."""
-        found = {f"shaking_force_{axis} [N]": self.shaking_force[:, k] for k, axis in enumerate("xy")}
+        unit = self.unit_of("shaking_force")
+        found = {f"shaking_force_{axis} [{unit}]": self.shaking_force[:, k] for k, axis in enumerate("xy")}
         for name, pair in self.pairs.items():
             found |= {f"{name}_{axis} [N]": pair.force[:, k] for k, axis in enumerate("xy")}
             found[f"{name}_moment [N m]"] = pair.moment

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from linkwright.kernel.page.quantities import SHOWN, degrees, number
+from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kernel.page.table import Row, Table, with_unit
+from linkwright.kernel.quantities import declared, shown
 from linkwright.kinetostatics.balancing import Balance
 from linkwright.kinetostatics.envelope import Extent, envelope
 from linkwright.kinetostatics.result import Forces
@@ -45,8 +46,9 @@ def _row(each: Extent, forces: Forces) -> Row:
 
 def _words(name: str, forces: Forces) -> tuple[str, str]:
     """Words for a quantity, and its symbol or the name of the pair."""
-    if name in SHOWN:
-        return SHOWN[name].word, SHOWN[name].symbol
+    if name in declared(Forces):
+        mark = shown(Forces, name)
+        return mark.word, mark.symbol
     if name.endswith(" moment"):
         return "guide, moment", name.removesuffix(" moment")
     pair = forces.pairs[name]
@@ -132,14 +134,14 @@ def balance_tables(balance: Balance) -> list[Table]:
     heads = ("link", "", "mass", "radius", "direction from the link", "moment")
     rows: list[Row] = []
     for name, (before, after) in balance.measures().items():
-        unit = SHOWN[name].unit
+        mark = shown(Forces, name)
         change = "–" if before == 0 else f"{number(100 * (after / before - 1), 4)} %"
         rows.append(
             (
-                f"{SHOWN[name].word}, rms",
-                SHOWN[name].symbol,
-                with_unit(before, unit),
-                with_unit(after, unit),
+                f"{mark.word}, rms",
+                mark.symbol,
+                with_unit(before, mark.unit),
+                with_unit(after, mark.unit),
                 change,
             )
         )

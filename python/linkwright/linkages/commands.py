@@ -17,6 +17,7 @@ from linkwright.kernel.limits import ROWS_OUT
 
 if TYPE_CHECKING:
     from linkwright.linkages.law import Law
+    from linkwright.linkages.motion import Motion
     from linkwright.linkages.pose import Pose
     from linkwright.machine.machine import Machine
 
@@ -191,19 +192,21 @@ def _followed(
     if csv:
         typer.echo(head, err=True)
         return curves_csv(found)
-    return f"{head}\n{_table(found.curves())}"
+    return f"{head}\n{_table(found)}"
 
 
 def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:
     return {name: curve.tolist() for name, curve in curves.items()}
 
 
-def _table(curves: dict[str, Any]) -> str:
+def _table(found: Motion) -> str:
     """Positions alone, for people; everything is in the CSV."""
     from linkwright.kernel.page.csv import head
 
     shown = {
-        head(name): curve for name, curve in curves.items() if name == "time" or _is_position(name, curve)
+        head(found, name): curve
+        for name, curve in found.curves().items()
+        if name == "time" or _is_position(name, curve)
     }
     width = max(14, *(len(name) + 2 for name in shown))
     lines = ["".join(f"{name:>{width}}" for name in shown)]

@@ -8,7 +8,7 @@ r"""The path of a point: length, extent, curvature, its straightest portion, dou
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import MachineError, Problem, ShapeError
 from linkwright.kernel.numerics.roots import brackets, minima, zeros
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import closure_error, closure_of
 from linkwright.linkages.dyads import POINT, evaluate
@@ -59,54 +60,46 @@ class Cusp(NamedTuple):
 
 @dataclass(frozen=True)
 class CouplerCurve(Result):
-    """The path of a point over the cycle.
+    """The path of a point over the cycle."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (n,)
-        [rad].
-    x, y : ndarray
-        The path [m].
-    curvature : ndarray
-        Positive where it bends to the left; NaN where the point stands still [1/m].
-    point : str
-        Name of the point.
-    is_closed : bool
-        Whether the path comes back to its start.
-    length : float
-        [m].
-    x_min, x_max, y_min, y_max : float
-        Its extent, located exactly [m].
-    straight_length : float
-        Chord of the longest portion that is straight: nowhere farther from its chord than a thousandth of it
-        [m].
-    straight_from, straight_to : float
-        Crank angles at its ends [rad]; the second is greater.
-    straight_error : float
-        Greatest distance from that chord [m].
-    double_points : tuple of DoublePoint
-        Where the path crosses itself.
-    cusps : tuple of Cusp
-        Where the point stands still.
-    """
-
-    crank_angle: Floats
-    x: Floats
-    y: Floats
-    curvature: Floats
-    point: str
-    is_closed: bool
-    length: float
-    x_min: float
-    x_max: float
-    y_min: float
-    y_max: float
-    straight_length: float
-    straight_from: float
-    straight_to: float
-    straight_error: float
-    double_points: tuple[DoublePoint, ...]
-    cusps: tuple[Cusp, ...]
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
+    x: Annotated[Floats, Shown("place of the point, x", "x", "m")]
+    y: Annotated[Floats, Shown("place of the point, y", "y", "m")]
+    curvature: Annotated[
+        Floats,
+        Shown(
+            "curvature of the path",
+            "κ",
+            "1/m",
+            "Positive where it bends to the left; NaN where the point stands still.",
+        ),
+    ]
+    point: Annotated[str, About("Name of the point.")]
+    is_closed: Annotated[bool, About("Whether the path comes back to its start.")]
+    length: Annotated[float, Shown("length of the path", "", "m")]
+    x_min: Annotated[float, Shown("least x of the path", "x_min", "m", "Located exactly.")]
+    x_max: Annotated[float, Shown("greatest x of the path", "x_max", "m", "Located exactly.")]
+    y_min: Annotated[float, Shown("least y of the path", "y_min", "m", "Located exactly.")]
+    y_max: Annotated[float, Shown("greatest y of the path", "y_max", "m", "Located exactly.")]
+    straight_length: Annotated[
+        float,
+        Shown(
+            "chord of the longest straight portion",
+            "",
+            "m",
+            "Straight: nowhere farther from its chord than a thousandth of it.",
+        ),
+    ]
+    straight_from: Annotated[float, Shown("crank angle at the start of the straight portion", "", "rad")]
+    straight_to: Annotated[
+        float,
+        Shown("crank angle at the end of the straight portion", "", "rad", "Greater than that at its start."),
+    ]
+    straight_error: Annotated[
+        float, Shown("greatest distance from the chord of the straight portion", "", "m")
+    ]
+    double_points: Annotated[tuple[DoublePoint, ...], About("Where the path crosses itself.")]
+    cusps: Annotated[tuple[Cusp, ...], About("Where the point stands still.")]
 
 
 @public

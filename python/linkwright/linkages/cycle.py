@@ -12,12 +12,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import Closure, closure_error, closure_of
 from linkwright.linkages.dead_points import DeadPoint, dead_points
@@ -115,35 +116,27 @@ class ElementMotion:
         return {name: value for name, value in found.items() if value is not None}
 
 
+_VELOCITY_RATIOS = "Speed of the output over that of the crank, by name of the link or slide [– or m/rad]."
+
+
 @dataclass(frozen=True)
 class Linkage(Result):
-    """A linkage over its cycle.
+    """A linkage over its cycle."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (n,)
-        Over the period, or over the range in which it closes [rad].
-    transmission_angles : dict of str to ndarray
-        μ by element [rad].
-    velocity_ratios : dict of str to ndarray
-        Speed of the output over that of the crank, by name of the link or slide [– or m/rad].
-    elements : tuple of ElementMotion
-        In build order.
-    closure : Closure
-        Where it closes.
-    period_turns : int or None
-        Turns of the crank in a period; None if it has none or does not turn fully.
-    dead_points : tuple of DeadPoint
-        Limits, change points and reversals, by crank angle.
-    """
-
-    crank_angle: Floats
-    transmission_angles: dict[str, Floats] = field(repr=False)
-    velocity_ratios: dict[str, Floats] = field(repr=False)
-    elements: tuple[ElementMotion, ...]
-    closure: Closure
-    period_turns: int | None
-    dead_points: tuple[DeadPoint, ...]
+    crank_angle: Annotated[
+        Floats, Shown("crank angle", "φ", "rad", "Over the period, or over the range in which it closes.")
+    ]
+    transmission_angles: Annotated[dict[str, Floats], About("μ by element [rad].")] = field(repr=False)
+    velocity_ratios: Annotated[dict[str, Floats], About(_VELOCITY_RATIOS)] = field(repr=False)
+    elements: Annotated[tuple[ElementMotion, ...], About("In build order.")]
+    closure: Annotated[Closure, About("Where it closes.")]
+    period_turns: Annotated[
+        int | None,
+        Shown("turns of the crank in a period", "", "", "None if it has none or does not turn fully."),
+    ]
+    dead_points: Annotated[
+        tuple[DeadPoint, ...], About("Limits, change points and reversals, by crank angle.")
+    ]
 
     def element(self, name: str) -> ElementMotion:
         """The first entry of an element, or of the link or slide with this name.
@@ -192,6 +185,15 @@ class Linkage(Result):
         for name, curve in self.velocity_ratios.items():
             found[f"{name}.stroke_ratio" if name in slides else f"{name}.velocity_ratio"] = curve
         return found
+
+    def unit_of(self, name: str) -> str:
+        """SI unit of an attribute or a curve by its name."""
+        of, _, last = name.rpartition(".")
+        return _UNITS[last] if of else super().unit_of(name)
+
+
+# Units of the curves of elements and outputs, by the last word of their name.
+_UNITS = {"transmission_angle": "rad", "stroke_ratio": "m/rad", "velocity_ratio": ""}
 
 
 @public

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +19,7 @@ from linkwright.kernel.errors import AssemblyError, ShapeError
 from linkwright.kernel.numerics.roots import brackets, zeros
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import closure_of, require_closed
@@ -48,26 +49,16 @@ class Path:
 
 @dataclass(frozen=True)
 class Motion(Result):
-    """A mechanism over time.
+    """A mechanism over time."""
 
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        [s].
-    crank_angle, speed, acceleration, crank_jerk : ndarray, shape (n,)
-        Of the crank [rad, rad/s, rad/s², rad/s³].
-    points, links, slides : dict of str to Path
-        By name.
-    """
-
-    time: Floats
-    crank_angle: Floats
-    speed: Floats
-    acceleration: Floats
-    crank_jerk: Floats
-    points: dict[str, Path]
-    links: dict[str, Path]
-    slides: dict[str, Path]
+    time: Annotated[Floats, Shown("time", "t", "s")]
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
+    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
+    crank_jerk: Annotated[Floats, Shown("jerk of the crank", "dε/dt", "rad/s³")]
+    points: Annotated[dict[str, Path], About("By name.")]
+    links: Annotated[dict[str, Path], About("By name.")]
+    slides: Annotated[dict[str, Path], About("By name.")]
 
     def curves(self) -> dict[str, np.ndarray]:
         """All columns by name: ``K.x``, ``K.x.velocity``, ``R.rocker.angle``, …."""
@@ -81,11 +72,23 @@ class Motion(Result):
             found |= _columns(f"{name}.place", path, ...)
         return found
 
+    def unit_of(self, name: str) -> str:
+        """SI unit of an attribute or a column by its name."""
+        of, _, last = name.rpartition(".")
+        if not of:
+            return super().unit_of(name)
+        return self.unit_of(of) + _PER_TIME[last] if last in _PER_TIME else _COORDINATES[last]
+
+
+# Units of the columns of parts by the last word of their name; what a rate adds to that of its coordinate.
+_COORDINATES = {"x": "m", "y": "m", "place": "m", "angle": "rad"}
+_PER_TIME = {"velocity": "/s", "acceleration": "/s²", "jerk": "/s³"}
+
 
 def _columns(head: str, path: Path, at: Any) -> dict[str, Floats]:
     """Position and three rates of one coordinate."""
     places = {head: path.position[..., at] if at is not ... else path.position}
-    for rate in ("velocity", "acceleration", "jerk"):
+    for rate in _PER_TIME:
         values = getattr(path, rate)
         places[f"{head}.{rate}"] = values[..., at] if at is not ... else values
     return places

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.kernel.page.quantities import degrees, number
+from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.cycle import ElementMotion, Linkage
 

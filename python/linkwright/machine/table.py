@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.description.plain import field_names, keys, look
 from linkwright.kernel.description.text import join
-from linkwright.kernel.page.quantities import degrees, number, pretty_unit
+from linkwright.kernel.page.numbers import degrees, number, pretty_unit
 from linkwright.linkages.model.outline import TABLES
 from linkwright.machine.address import kind
 from linkwright.machine.machine import Machine

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +29,7 @@ from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.roots import zeros
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.quantities import Shown
 from linkwright.kernel.result import Result
 from linkwright.pumping.model.polished_rod_load import PolishedRodLoad
 from linkwright.pumping.model.unit import PumpingUnit
@@ -46,63 +48,77 @@ _HALVINGS = 40
 
 @dataclass(frozen=True)
 class GearTorque(Result):
-    """Torque of the gearbox over a turn.
+    """Torque of the gearbox over a turn."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (n + 1,)
-        0 to 2π by API [rad].
-    rod_load : ndarray
-        Load W of the polished rod [N].
-    torque_rod : ndarray
-        Torque at the crank by the polished rod [N m].
-    torque_counterbalance : ndarray
-        Torque at the crank by the counterbalance, as it resists [N m].
-    torque_net : ndarray
-        Their sum, what the gearbox gives [N m].
-    counterbalance : float or None
-        Greatest moment M of cranks and counterweights [N m].
-    counterbalance_effect : float or None
-        Effect E of the air cylinder [N].
-    torque_net_up, torque_net_down : float
-        Greatest net torque on the upstroke and on the downstroke [N m].
-    torque_net_min : float
-        Least net torque; below zero, the gears change flanks [N m].
-    torque_net_mean, torque_net_rms : float
-        Mean and root mean square over the crank angle [N m].
-    cyclic_load_factor : float or None
-        Root mean square over mean [–]; None where the mean is not positive.
-    torque_rated : float or None
-        Rating of the gearbox by the designation [N m].
-    load_max : float
-        Greatest load [N].
-    load_rated : float or None
-        Rating of the structure by the designation [N].
-    work : float
-        Of the polished rod in a stroke [J].
-    """
-
-    crank_angle: Floats
-    rod_load: Floats
-    torque_rod: Floats
-    torque_counterbalance: Floats
-    torque_net: Floats
-    counterbalance: float | None
-    counterbalance_effect: float | None
-    torque_net_up: float
-    torque_net_down: float
-    torque_net_min: float
-    torque_net_mean: float
-    torque_net_rms: float
-    cyclic_load_factor: float | None
-    torque_rated: float | None
-    load_max: float
-    load_rated: float | None
-    work: float
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "0 to 2π by API.")]
+    rod_load: Annotated[Floats, Shown("load of the polished rod", "W", "N")]
+    torque_rod: Annotated[Floats, Shown("torque by the polished rod", "M_W", "N m", "At the crank.")]
+    torque_counterbalance: Annotated[
+        Floats, Shown("torque by the counterbalance", "M_C", "N m", "At the crank, as it resists.")
+    ]
+    torque_net: Annotated[Floats, Shown("torque of the gearbox", "M_G", "N m", "The sum of both.")]
+    counterbalance: Annotated[
+        float | None,
+        Shown(
+            "greatest moment of the counterweights",
+            "M",
+            "N m",
+            "With that of the cranks.",
+            table="gear_torque",
+        ),
+    ]
+    counterbalance_effect: Annotated[
+        float | None,
+        Shown("counterbalance effect of the cylinder", "E", "N", "Of an air cylinder.", table="gear_torque"),
+    ]
+    torque_net_up: Annotated[
+        float, Shown("greatest torque of the gearbox, upstroke", "M_G,up", "N m", table="gear_torque")
+    ]
+    torque_net_down: Annotated[
+        float, Shown("greatest torque of the gearbox, downstroke", "M_G,down", "N m", table="gear_torque")
+    ]
+    torque_net_min: Annotated[
+        float,
+        Shown(
+            "least torque of the gearbox",
+            "M_G,min",
+            "N m",
+            "Below zero, the gears change flanks.",
+            table="gear_torque",
+        ),
+    ]
+    torque_net_mean: Annotated[
+        float,
+        Shown("mean torque of the gearbox", "M_G,mean", "N m", "Over the crank angle.", table="gear_torque"),
+    ]
+    torque_net_rms: Annotated[
+        float,
+        Shown(
+            "root mean square torque of the gearbox",
+            "M_G,rms",
+            "N m",
+            "Over the crank angle.",
+            table="gear_torque",
+        ),
+    ]
+    cyclic_load_factor: Annotated[
+        float | None,
+        Shown(
+            "cyclic load factor",
+            "CLF",
+            "",
+            "Root mean square over mean; None where the mean is not positive.",
+            table="gear_torque",
+        ),
+    ]
+    torque_rated: Annotated[float | None, Shown("rating of the gearbox by the designation", "", "N m")]
+    load_max: Annotated[float, Shown("greatest load of the polished rod", "W_max", "N", table="gear_torque")]
+    load_rated: Annotated[float | None, Shown("rating of the structure by the designation", "", "N")]
+    work: Annotated[float, Shown("work of the polished rod in a stroke", "A", "J", table="gear_torque")]
 
     @property
-    def gear_load(self) -> float | None:
-        """Greatest net torque over the rating of the gearbox [–]."""
+    def gear_load(self) -> Annotated[float | None, Shown("greatest torque over the rating", "", "")]:
+        """Greatest net torque over the rating of the gearbox."""
         peak = max(self.torque_net_up, self.torque_net_down)
         return None if self.torque_rated is None else peak / self.torque_rated
 

@@ -19,13 +19,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
@@ -53,101 +54,107 @@ _SAME_SWING = 1e-7
 _NO_ARM = 1e-6
 
 
+_EXTREMES_COINCIDE = (
+    "Whether l_d has its extremes where the beam has, as equations (5) and (6) of the paper take for granted."
+)
+_FINDINGS = "What the regime asks for and the lever does not do: turn all round, or swing as wanted."
+
+
 @dataclass(frozen=True)
 class RodRotatorMotion(Result):
-    """Motion of a rotator over a turn of the crank.
+    """Motion of a rotator over a turn of the crank."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (n + 1,)
-        As in `PumpingUnitMotion` [rad].
-    link_angle, lever_angle : ndarray
-        φ_4, from the beam's pin to the joint, and φ_5, from the hanger to the joint; continuous [rad].
-    link_transfer, lever_transfer : ndarray
-        dφ_4/dφ_1 and dφ_5/dφ_1 [–].
-    link_transfer_d1, lever_transfer_d1 : ndarray
-        Second transfer functions [–].
-    diagonal : ndarray
-        Distance l_d from the beam's pin to the hanger [m].
-    link_arm : ndarray
-        Arm of the link's force about the hanger [m].
-    regime : str
-        ``"continuous"`` or ``"intermittent"``, as described.
-    link_length, lever_length : float
-        l_4 and l_5 [m].
-    lever_turns_per_cycle : float
-        Whole turns of the lever in a turn of the crank, in either sense [–].
-    lever_swing : float
-        Range of the lever's angle, a full turn where it turns all round [rad].
-    transfer_min, transfer_max : float
-        Extremes of dφ_5/dφ_1 [–].
-    diagonal_min, diagonal_max : float
-        Extremes of l_d [m].
-    extremes_coincide : bool
-        Whether l_d has its extremes where the beam has, as equations (5) and (6) of the paper take for
-        granted.
-    change_points : tuple of float
-        Crank angles where link and lever are in line [rad].
-    loop_residual : float
-        Greatest gap in the loop of equation (8), over the longest link [–].
-    verdict : str
-        Why the lever turns, rocks, or does not close.
-    findings : tuple of str
-        What the regime asks for and the lever does not do: turn all round, or swing as wanted.
-    worm_turns_per_cycle : float
-        Turns that the lever gives the worm in a turn of the crank; through the clutch, one sense only [–].
-    speed : float or None
-        Design speed of the crank [rad/s].
-    lever_speed, lever_acceleration : ndarray or None
-        Of the lever at that speed [rad/s, rad/s²].
-    string_speed, string_acceleration : ndarray or None
-        Of the rod string; zero while the clutch slips [rad/s, rad/s²].
-    string_turn_days : float or None
-        Time of a full turn of the string [days].
-    string_turns_per_day : float or None
-        Its inverse.
-    worm_torque : float or None
-        Torque at the worm that turns the string, quasi-static [N m].
-    link_force : ndarray or None
-        Force in the link, positive in tension; infinite at change points [N].
-    link_force_max : float or None
-        Greatest size of it [N]; None where there are change points.
-    """
-
-    crank_angle: Floats
-    link_angle: Floats
-    lever_angle: Floats
-    link_transfer: Floats
-    lever_transfer: Floats
-    link_transfer_d1: Floats
-    lever_transfer_d1: Floats
-    diagonal: Floats
-    link_arm: Floats
-    regime: str
-    link_length: float
-    lever_length: float
-    lever_turns_per_cycle: float
-    lever_swing: float
-    transfer_min: float
-    transfer_max: float
-    diagonal_min: float
-    diagonal_max: float
-    extremes_coincide: bool
-    change_points: tuple[float, ...]
-    loop_residual: float
-    verdict: str
-    findings: tuple[str, ...]
-    worm_turns_per_cycle: float
-    speed: float | None
-    lever_speed: Floats | None
-    lever_acceleration: Floats | None
-    string_speed: Floats | None
-    string_acceleration: Floats | None
-    string_turn_days: float | None
-    string_turns_per_day: float | None
-    worm_torque: float | None
-    link_force: Floats | None
-    link_force_max: float | None
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "As in `PumpingUnitMotion`.")]
+    link_angle: Annotated[
+        Floats, Shown("angle of the link", "φ_4", "rad", "From the beam's pin to the joint; continuous.")
+    ]
+    lever_angle: Annotated[
+        Floats, Shown("angle of the lever", "φ_5", "rad", "From the hanger to the joint; continuous.")
+    ]
+    link_transfer: Annotated[Floats, Shown("transfer function of the link", "φ_4′", "", "dφ_4/dφ_1.")]
+    lever_transfer: Annotated[Floats, Shown("transfer function of the lever", "φ_5′", "", "dφ_5/dφ_1.")]
+    link_transfer_d1: Annotated[Floats, Shown("second transfer function of the link", "φ_4″", "")]
+    lever_transfer_d1: Annotated[Floats, Shown("second transfer function of the lever", "φ_5″", "")]
+    diagonal: Annotated[Floats, Shown("distance from pin to hanger", "l_d", "m", "Of the beam's pin.")]
+    link_arm: Annotated[Floats, Shown("arm of the link about the hanger", "", "m", "Of the link's force.")]
+    regime: Annotated[str, About('``"continuous"`` or ``"intermittent"``, as described.')]
+    link_length: Annotated[float, Shown("length of the link", "l_4", "m", table="rotator")]
+    lever_length: Annotated[float, Shown("length of the lever", "l_5", "m", table="rotator")]
+    lever_turns_per_cycle: Annotated[
+        float,
+        Shown(
+            "turns of the lever in a turn of the crank",
+            "",
+            "",
+            "Whole turns, in either sense.",
+            table="rotator",
+        ),
+    ]
+    lever_swing: Annotated[
+        float,
+        Shown(
+            "range of the lever's angle", "", "rad", "A full turn where it turns all round.", table="rotator"
+        ),
+    ]
+    transfer_min: Annotated[
+        float, Shown("least transfer function of the lever", "min φ_5′", "", table="rotator")
+    ]
+    transfer_max: Annotated[
+        float, Shown("greatest transfer function of the lever", "max φ_5′", "", table="rotator")
+    ]
+    diagonal_min: Annotated[float, Shown("least distance from pin to hanger", "min l_d", "m")]
+    diagonal_max: Annotated[float, Shown("greatest distance from pin to hanger", "max l_d", "m")]
+    extremes_coincide: Annotated[bool, About(_EXTREMES_COINCIDE)]
+    change_points: Annotated[tuple[float, ...], About("Crank angles where link and lever are in line [rad].")]
+    loop_residual: Annotated[
+        float, Shown("greatest gap in the loop over the longest link", "", "", "Of equation (8).")
+    ]
+    verdict: Annotated[str, About("Why the lever turns, rocks, or does not close.")]
+    findings: Annotated[tuple[str, ...], About(_FINDINGS)]
+    worm_turns_per_cycle: Annotated[
+        float,
+        Shown(
+            "turns of the worm in a turn of the crank",
+            "",
+            "",
+            "That the lever gives it; through the clutch, in one sense only.",
+            table="rotator",
+        ),
+    ]
+    speed: Annotated[float | None, Shown("design speed of the crank", "ω", "rad/s")]
+    lever_speed: Annotated[Floats | None, Shown("speed of the lever", "ω_5", "rad/s", "At that speed.")]
+    lever_acceleration: Annotated[
+        Floats | None, Shown("acceleration of the lever", "ε_5", "rad/s²", "At that speed.")
+    ]
+    string_speed: Annotated[
+        Floats | None, Shown("speed of the rod string", "ω_s", "rad/s", "Zero while the clutch slips.")
+    ]
+    string_acceleration: Annotated[
+        Floats | None,
+        Shown("acceleration of the rod string", "ε_s", "rad/s²", "Zero while the clutch slips."),
+    ]
+    string_turn_days: Annotated[
+        float | None, Shown("days for a turn of the rod string", "", "", table="rotator")
+    ]
+    string_turns_per_day: Annotated[float | None, Shown("turns of the rod string in a day", "", "")]
+    worm_torque: Annotated[
+        float | None,
+        Shown("torque at the worm", "M_w", "N m", "That turns the string, quasi-static.", table="rotator"),
+    ]
+    link_force: Annotated[
+        Floats | None,
+        Shown("force in the link", "F_4", "N", "Positive in tension; infinite at change points."),
+    ]
+    link_force_max: Annotated[
+        float | None,
+        Shown(
+            "greatest force in the link",
+            "F_4,max",
+            "N",
+            "None where there are change points.",
+            table="rotator",
+        ),
+    ]
 
 
 @public

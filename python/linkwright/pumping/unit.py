@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_full_turn, turn_angles
 from linkwright.linkages.kinematics import motion_arrays
@@ -32,75 +34,89 @@ Floats = NDArray[np.float64]
 _TABLE = 24
 
 
+_CRANK_ANGLE = "0 to 2π, by API: from 12 o'clock (class III: 6 o'clock) in the direction of rotation."
+
+
 @dataclass(frozen=True)
 class PumpingUnitMotion(Result):
-    """Motion of the polished rod over a turn of the crank.
+    """Motion of the polished rod over a turn of the crank."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (n + 1,)
-        0 to 2π, by API: from 12 o'clock (class III: 6 o'clock) in the direction of rotation [rad].
-    rod_position : ndarray
-        Rise of the polished rod over the stroke, 0 at the bottom, 1 at the top [–].
-    rod_travel : ndarray
-        Rise above the bottom of the stroke [m].
-    torque_factor : ndarray
-        dS/dθ, positive on the upstroke [m, or N m per N].
-    torque_factor_d1 : ndarray
-        d²S/dθ² [m/rad²].
-    stroke : float
-        Exact stroke [m].
-    stroke_nominal : float or None
-        Stroke of the designation [m].
-    torque_factor_max, torque_factor_min : float
-        Extremes over the turn [m].
-    torque_factor_max_angle, torque_factor_min_angle : float
-        Crank angles where they are [rad].
-    bottom_angle, top_angle : float
-        Crank angles at the ends of the stroke, crank and pitman in line [rad].
-    upstroke_angle : float
-        Angle that the crank turns in the upstroke [rad].
-    stroke_ratio : float
-        Angle of the upstroke over that of the downstroke [–].
-    torque_factors, rod_positions : tuple of float
-        `torque_factor` [m] and `rod_position` [–] at 0°, 15°, …, 345°.
-    speed : float or None
-        Design speed of the crankshaft [rad/s].
-    rod_velocity, rod_acceleration : ndarray or None
-        Of the polished rod, upward, at that speed [m/s, m/s²].
-    rod_velocity_max, rod_velocity_min : float or None
-        Extremes of the velocity [m/s].
-    rod_acceleration_max, rod_acceleration_min : float or None
-        Extremes of the acceleration [m/s²].
-    gear : GearTorque or None
-        Torque of the gearbox, where a load is given.
-    """
-
-    crank_angle: Floats
-    rod_position: Floats
-    rod_travel: Floats
-    torque_factor: Floats
-    torque_factor_d1: Floats
-    stroke: float
-    stroke_nominal: float | None
-    torque_factor_max: float
-    torque_factor_min: float
-    torque_factor_max_angle: float
-    torque_factor_min_angle: float
-    bottom_angle: float
-    top_angle: float
-    upstroke_angle: float
-    stroke_ratio: float
-    torque_factors: tuple[float, ...]
-    rod_positions: tuple[float, ...]
-    speed: float | None
-    rod_velocity: Floats | None
-    rod_acceleration: Floats | None
-    rod_velocity_max: float | None
-    rod_velocity_min: float | None
-    rod_acceleration_max: float | None
-    rod_acceleration_min: float | None
-    gear: GearTorque | None
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", _CRANK_ANGLE)]
+    rod_position: Annotated[
+        Floats, Shown("position of rods", "PR", "", "Rise of the polished rod over the stroke.")
+    ]
+    rod_travel: Annotated[
+        Floats, Shown("rise of the polished rod", "s", "m", "Above the bottom of the stroke.")
+    ]
+    torque_factor: Annotated[Floats, Shown("torque factor", "TF", "m", "dS/dθ, positive on the upstroke.")]
+    torque_factor_d1: Annotated[Floats, Shown("derivative of the torque factor", "TF′", "m/rad²")]
+    stroke: Annotated[float, Shown("stroke of the polished rod", "S", "m", "Exact.", table="pumping_unit")]
+    stroke_nominal: Annotated[
+        float | None, Shown("stroke by the designation", "S_n", "m", table="pumping_unit")
+    ]
+    torque_factor_max: Annotated[
+        float, Shown("greatest torque factor, upstroke", "max TF", "m", table="pumping_unit")
+    ]
+    torque_factor_min: Annotated[
+        float, Shown("least torque factor, downstroke", "min TF", "m", table="pumping_unit")
+    ]
+    torque_factor_max_angle: Annotated[float, Shown("crank angle of the greatest torque factor", "", "rad")]
+    torque_factor_min_angle: Annotated[float, Shown("crank angle of the least torque factor", "", "rad")]
+    bottom_angle: Annotated[
+        float,
+        Shown(
+            "bottom of the stroke",
+            "θ_b",
+            "rad",
+            "Crank angle where crank and pitman are in line.",
+            table="pumping_unit",
+            before="torque_factor_max",
+        ),
+    ]
+    top_angle: Annotated[
+        float,
+        Shown(
+            "top of the stroke",
+            "θ_t",
+            "rad",
+            "Crank angle where crank and pitman are in line.",
+            table="pumping_unit",
+            before="torque_factor_max",
+        ),
+    ]
+    upstroke_angle: Annotated[float, Shown("angle of the upstroke", "θ_u", "rad", "That the crank turns.")]
+    stroke_ratio: Annotated[
+        float,
+        Shown(
+            "angle of the upstroke over the downstroke",
+            "",
+            "",
+            table="pumping_unit",
+            before="torque_factor_max",
+        ),
+    ]
+    torque_factors: Annotated[tuple[float, ...], About("`torque_factor` [m] at 0°, 15°, …, 345°.")]
+    rod_positions: Annotated[tuple[float, ...], About("`rod_position` [–] at the same angles.")]
+    speed: Annotated[float | None, Shown("design speed of the crank", "ω", "rad/s")]
+    rod_velocity: Annotated[
+        Floats | None, Shown("velocity of the polished rod", "v", "m/s", "Upward, at that speed.")
+    ]
+    rod_acceleration: Annotated[
+        Floats | None, Shown("acceleration of the polished rod", "a", "m/s²", "Upward, at that speed.")
+    ]
+    rod_velocity_max: Annotated[
+        float | None, Shown("greatest velocity, upward", "v_max", "m/s", table="pumping_unit")
+    ]
+    rod_velocity_min: Annotated[
+        float | None, Shown("greatest velocity, downward", "v_min", "m/s", table="pumping_unit")
+    ]
+    rod_acceleration_max: Annotated[
+        float | None, Shown("greatest acceleration, upward", "a_max", "m/s²", table="pumping_unit")
+    ]
+    rod_acceleration_min: Annotated[
+        float | None, Shown("greatest acceleration, downward", "a_min", "m/s²", table="pumping_unit")
+    ]
+    gear: Annotated[GearTorque | None, About("Torque of the gearbox, where a load is given.")]
 
 
 @public

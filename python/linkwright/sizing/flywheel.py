@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,7 @@ from linkwright.kernel.errors import ConvergenceError, FindingError, InputError,
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import RATIO, Bound, Quantity
 from linkwright.linkages.closure import turn_angles
@@ -62,47 +64,41 @@ UNEVENNESS = Quantity(
 
 @dataclass(frozen=True)
 class FlywheelChoice(Result):
-    """A flywheel on the crankshaft.
+    """A flywheel on the crankshaft."""
 
-    Attributes
-    ----------
-    inertia : float
-        J_f [kg m²]; 0 if none is needed.
-    unevenness_wanted, unevenness : float
-        δ asked for, and δ of the machine with the flywheel, analysed again [–].
-    unevenness_without : float or None
-        δ without any flywheel; None if there is no steady motion then.
-    inertia_estimate : float
-        J_f by the classical estimate; not below 0 [kg m²].
-    excess_work : float
-        Largest excess of work in a turn, of the estimate [J].
-    run_up_time, run_up_time_without : float or None
-        Run-up with and without it [s]; None if the machine does not run up.
-    iterations : int
-        Steady motions that were solved.
-    warnings : tuple of str
-        What it costs.
-    machine : Machine
-        The machine with it.
-    steady : SteadyState
-        Its steady motion.
-    run_up : RunUp or None
-        Its run-up.
-    """
-
-    inertia: float
-    unevenness_wanted: float
-    unevenness: float
-    unevenness_without: float | None
-    inertia_estimate: float
-    excess_work: float
-    run_up_time: float | None
-    run_up_time_without: float | None
-    iterations: int
-    warnings: tuple[str, ...]
-    machine: Machine
-    steady: SteadyState
-    run_up: RunUp | None
+    inertia: Annotated[
+        float, Shown("moment of inertia of the flywheel", "J_f", "kg m²", "Zero if none is needed.")
+    ]
+    unevenness_wanted: Annotated[float, Shown("coefficient of unevenness asked for", "", "")]
+    unevenness: Annotated[
+        float,
+        Shown("coefficient of unevenness", "δ", "", "Of the machine with the flywheel, analysed again."),
+    ]
+    unevenness_without: Annotated[
+        float | None,
+        Shown(
+            "coefficient of unevenness without any flywheel",
+            "",
+            "",
+            "None if there is no steady motion then.",
+        ),
+    ]
+    inertia_estimate: Annotated[
+        float, Shown("moment of inertia by the classical estimate", "", "kg m²", "Not below zero.")
+    ]
+    excess_work: Annotated[float, Shown("largest excess of work in a turn", "", "J", "Of the estimate.")]
+    run_up_time: Annotated[
+        float | None, Shown("time of the run-up", "", "s", "None if the machine does not run up.")
+    ]
+    run_up_time_without: Annotated[
+        float | None,
+        Shown("time of the run-up without the flywheel", "", "s", "None if the machine does not run up."),
+    ]
+    iterations: Annotated[int, Shown("steady motions that were solved", "", "")]
+    warnings: Annotated[tuple[str, ...], About("What it costs.")]
+    machine: Annotated[Machine, About("The machine with it.")]
+    steady: Annotated[SteadyState, About("Its steady motion.")]
+    run_up: Annotated[RunUp | None, About("Its run-up.")]
 
 
 @public

@@ -8,12 +8,14 @@ Source: paper 1, the step before the choice of the motor.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
 from linkwright.drive.reduction import mean_laws, mean_over_turn
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_full_turn, require_one_turn
 from linkwright.machine.machine import Machine
@@ -22,28 +24,32 @@ from linkwright.machine.program.compiled import compile_machine
 
 @dataclass(frozen=True)
 class RequiredPower(Result):
-    """Power at the motor's shaft that the loads take at the design speed.
+    """Power at the motor's shaft that the loads take at the design speed."""
 
-    Attributes
-    ----------
-    power : float
-        P [W]; negative if the loads drive the machine.
-    torque_load_mean : float
-        Mean resisting torque over the crank angle at that speed, viscous and speed loads included [N m].
-    speed : float
-        Design speed of the crank [rad/s].
-    efficiency : float
-        Of the gearbox [–].
-    formula, source : str
-        What was computed, and where it is from.
-    """
-
-    power: float
-    torque_load_mean: float
-    speed: float
-    efficiency: float
-    formula: str = "P = M_load_mean · ω / η"
-    source: str = "paper 1, required power before the choice of the motor"
+    power: Annotated[
+        float,
+        Shown(
+            "power that the loads take at the motor's shaft",
+            "P",
+            "W",
+            "Negative if the loads drive the machine.",
+        ),
+    ]
+    torque_load_mean: Annotated[
+        float,
+        Shown(
+            "mean resisting torque",
+            "M_r,mean",
+            "N m",
+            "Over the crank angle at that speed, viscous and speed loads included.",
+        ),
+    ]
+    speed: Annotated[float, Shown("design speed of the crank", "ω", "rad/s")]
+    efficiency: Annotated[float, Shown("efficiency of the gearbox", "η", "")]
+    formula: Annotated[str, About("What was computed.")] = "P = M_load_mean · ω / η"
+    source: Annotated[str, About("Where it is from.")] = (
+        "paper 1, required power before the choice of the motor"
+    )
 
 
 @public

@@ -10,7 +10,7 @@ Source: VDI 2130; Volmer, Getriebetechnik: Koppelgetriebe.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError, SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.units import LENGTH, RATIO, positive
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints, slow_over_quick
@@ -30,38 +31,30 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class StrokeCrank(Transmits):
-    """A slider-crank for a given stroke and time ratio.
-
-    Attributes
-    ----------
-    stroke : float
-        Way of the slider between the dead centres [m].
-    crank_angle_forward : float
-        Crank angle φ₀ from the outer dead centre to the inner one [rad].
-    time_ratio : float
-        φ₀ over the rest of the turn [–].
-    crank, rod, offset : float
-        Lengths [m].
-    transmission_angle_min : float
-        Least angle between the rod and the normal of the guide [rad].
-    crank_angle_outer, crank_angle_inner : float
-        Crank angles of the dead centres in the machine [rad].
-    machine : Machine
-        The linkage, its guide along x.
-    """
+    """A slider-crank for a given stroke and time ratio."""
 
     remedy: ClassVar[str] = "give a longer rod, or a time ratio nearer to 1"
 
-    stroke: float
-    crank_angle_forward: float
-    time_ratio: float
-    crank: float
-    rod: float
-    offset: float
-    transmission_angle_min: float
-    crank_angle_outer: float
-    crank_angle_inner: float
-    machine: Machine
+    stroke: Annotated[float, Shown("stroke of the slider", "s", "m", "Between the dead centres.")]
+    crank_angle_forward: Annotated[
+        float,
+        Shown("crank angle of the forward stroke", "φ₀", "rad", "From the outer dead centre to the inner."),
+    ]
+    time_ratio: Annotated[float, Shown("time ratio", "", "", "φ₀ over the rest of the turn.")]
+    crank: Annotated[float, Shown("radius of the crank", "r", "m")]
+    rod: Annotated[float, Shown("length of the rod", "l", "m")]
+    offset: Annotated[float, Shown("offset of the guide", "e", "m")]
+    transmission_angle_min: Annotated[
+        float,
+        Shown("least transmission angle", "μ_min", "rad", "Between the rod and the normal of the guide."),
+    ]
+    crank_angle_outer: Annotated[
+        float, Shown("crank angle of the outer dead centre", "", "rad", "In the machine.")
+    ]
+    crank_angle_inner: Annotated[
+        float, Shown("crank angle of the inner dead centre", "", "rad", "In the machine.")
+    ]
+    machine: Annotated[Machine, About("The linkage, its guide along x.")]
 
 
 @public

@@ -20,13 +20,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import INSIDE_ONE, RATIO, Quantity
 from linkwright.machine.machine import Machine
@@ -47,77 +48,102 @@ _LENGTHS = 201
 
 @dataclass(frozen=True)
 class TopperField(Result):
-    """What an edge does to a field of roots.
+    """What an edge does to a field of roots."""
 
-    Attributes
-    ----------
-    length : ndarray, shape (k,)
-        Lengths of the edge from zero to that which cuts all heads that can be cut [m].
-    share, share_low, share_high : ndarray, shape (k,)
-        Share of heads that each cuts right through, and its interval, each length by itself [–].
-    length_needed : ndarray, shape (n,)
-        Length that each head needs [m]; infinite for one that is missed.
-    root_loss : ndarray, shape (n,)
-        Volume above the cut of each [m³].
-    n_roots, n_clusters : int
-        Roots that were looked at, of measured ones each in all its phases; and rows, or measured roots.
-    clusters : str
-        ``"rows"`` or ``"roots"``.
-    n_missed, n_lost : int
-        Roots that the knife passes above, and below.
-    level : float
-        Probability that an interval holds the truth.
-    edge_length : float
-        L of the edge [m].
-    share_complete, share_complete_low, share_complete_high : float
-        Share of heads that are cut right through [–].
-    haulm_mean, haulm_mean_low, haulm_mean_high : float
-        Mean share of the head that is left [–].
-    loss_mean, loss_mean_low, loss_mean_high : float
-        Mean volume of a root above the cut [m³].
-    loss_share, loss_share_low, loss_share_high : float
-        Of all roots, the share that is above the cut [–].
-    loss_mass_mean : float or None
-        Mean mass of a root above the cut [kg], with a density.
-    slicing_ratio_mean : float
-        Mean draw-cut ratio of the edge, in all phases [–].
-    quantile : tuple of float
-        Shares of heads.
-    quantile_length, quantile_length_low, quantile_length_high : tuple of float
-        Length for each of them [m]; infinite where so many cannot be cut.
-    """
-
-    length: Floats
-    share: Floats
-    share_low: Floats
-    share_high: Floats
-    length_needed: Floats
-    root_loss: Floats
-    n_roots: int
-    n_clusters: int
-    clusters: str
-    n_missed: int
-    n_lost: int
-    level: float
-    edge_length: float
-    share_complete: float
-    share_complete_low: float
-    share_complete_high: float
-    haulm_mean: float
-    haulm_mean_low: float
-    haulm_mean_high: float
-    loss_mean: float
-    loss_mean_low: float
-    loss_mean_high: float
-    loss_share: float
-    loss_share_low: float
-    loss_share_high: float
-    loss_mass_mean: float | None
-    slicing_ratio_mean: float
-    quantile: tuple[float, ...]
-    quantile_length: tuple[float, ...]
-    quantile_length_low: tuple[float, ...]
-    quantile_length_high: tuple[float, ...]
+    length: Annotated[
+        Floats,
+        Shown(
+            "length of the edge",
+            "L",
+            "m",
+            "From zero to that which cuts all heads that can be cut.",
+            shape="(k,)",
+        ),
+    ]
+    share: Annotated[Floats, Shown("share of heads that a length cuts right through", "", "")]
+    share_low: Annotated[
+        Floats,
+        Shown(
+            "least share of heads that a length cuts right through",
+            "",
+            "",
+            "End of its interval, each length by itself.",
+        ),
+    ]
+    share_high: Annotated[
+        Floats,
+        Shown(
+            "greatest share of heads that a length cuts right through",
+            "",
+            "",
+            "End of its interval, each length by itself.",
+        ),
+    ]
+    length_needed: Annotated[
+        Floats,
+        Shown(
+            "length that each head needs",
+            "",
+            "m",
+            "Infinite for one that is missed.",
+            shape="(n,)",
+            over="length_needed",
+        ),
+    ]
+    root_loss: Annotated[
+        Floats, Shown("volume of each root above the cut", "", "m³", shape="(n,)", over="root_loss")
+    ]
+    n_roots: Annotated[
+        int, Shown("roots that were looked at", "", "", "Of measured ones each in all its phases.")
+    ]
+    n_clusters: Annotated[int, Shown("rows, or measured roots", "", "")]
+    clusters: Annotated[str, About('``"rows"`` or ``"roots"``.')]
+    n_missed: Annotated[int, Shown("roots that the knife passes above", "", "")]
+    n_lost: Annotated[int, Shown("roots that the knife passes below", "", "")]
+    level: Annotated[float, Shown("probability that an interval holds the truth", "", "")]
+    edge_length: Annotated[float, Shown("length of the edge", "L", "m", "That it has.")]
+    share_complete: Annotated[float, Shown("share of heads that are cut right through", "", "")]
+    share_complete_low: Annotated[
+        float, Shown("least share of heads that are cut right through", "", "", "End of its interval.")
+    ]
+    share_complete_high: Annotated[
+        float, Shown("greatest share of heads that are cut right through", "", "", "End of its interval.")
+    ]
+    haulm_mean: Annotated[float, Shown("mean share of the head that is left", "", "")]
+    haulm_mean_low: Annotated[
+        float, Shown("least mean share of the head that is left", "", "", "End of its interval.")
+    ]
+    haulm_mean_high: Annotated[
+        float, Shown("greatest mean share of the head that is left", "", "", "End of its interval.")
+    ]
+    loss_mean: Annotated[float, Shown("mean volume of a root above the cut", "", "m³")]
+    loss_mean_low: Annotated[
+        float, Shown("least mean volume of a root above the cut", "", "m³", "End of its interval.")
+    ]
+    loss_mean_high: Annotated[
+        float, Shown("greatest mean volume of a root above the cut", "", "m³", "End of its interval.")
+    ]
+    loss_share: Annotated[float, Shown("share of all roots that is above the cut", "", "")]
+    loss_share_low: Annotated[
+        float, Shown("least share of all roots that is above the cut", "", "", "End of its interval.")
+    ]
+    loss_share_high: Annotated[
+        float, Shown("greatest share of all roots that is above the cut", "", "", "End of its interval.")
+    ]
+    loss_mass_mean: Annotated[
+        float | None, Shown("mean mass of a root above the cut", "", "kg", "With a density.")
+    ]
+    slicing_ratio_mean: Annotated[float, Shown("mean draw-cut ratio", "", "", "Of the edge, in all phases.")]
+    quantile: Annotated[tuple[float, ...], About("Shares of heads.")]
+    quantile_length: Annotated[
+        tuple[float, ...], About("Length for each of them [m]; infinite where so many cannot be cut.")
+    ]
+    quantile_length_low: Annotated[
+        tuple[float, ...], About("Least length for each of them [m]: end of its interval.")
+    ]
+    quantile_length_high: Annotated[
+        tuple[float, ...], About("Greatest length for each of them [m]: end of its interval.")
+    ]
 
     def length_at(self, share: float) -> float:
         """Least length that cuts a share of the heads right through [m].
@@ -131,28 +157,28 @@ class TopperField(Result):
         return float(np.sort(self.length_needed)[max(place, 0)])
 
     @property
-    def length_for_50(self) -> float:
-        """Length for half of the heads [m]."""
+    def length_for_50(self) -> Annotated[float, Shown("length for half of the heads", "", "m")]:
+        """Length for half of the heads."""
         return self.quantile_length[0]
 
     @property
-    def length_for_90(self) -> float:
-        """Length for 90 % of the heads [m]."""
+    def length_for_90(self) -> Annotated[float, Shown("length for 90 % of the heads", "", "m")]:
+        """Length for 90 % of the heads."""
         return self.quantile_length[1]
 
     @property
-    def length_for_95(self) -> float:
-        """Length for 95 % of the heads [m]."""
+    def length_for_95(self) -> Annotated[float, Shown("length for 95 % of the heads", "", "m")]:
+        """Length for 95 % of the heads."""
         return self.quantile_length[2]
 
     @property
-    def length_for_99(self) -> float:
-        """Length for 99 % of the heads [m]."""
+    def length_for_99(self) -> Annotated[float, Shown("length for 99 % of the heads", "", "m")]:
+        """Length for 99 % of the heads."""
         return self.quantile_length[3]
 
     @property
-    def length_for_99_9(self) -> float:
-        """Length for 99.9 % of the heads [m]."""
+    def length_for_99_9(self) -> Annotated[float, Shown("length for 99.9 % of the heads", "", "m")]:
+        """Length for 99.9 % of the heads."""
         return self.quantile_length[4]
 
 

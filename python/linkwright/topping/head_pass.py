@@ -15,10 +15,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
@@ -40,46 +42,43 @@ _STANDING = 2.0
 
 @dataclass(frozen=True)
 class HeadPass(Result):
-    """A pass.
+    """A pass."""
 
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        Zero when the middle of the edge is abreast of the head's centre [s].
-    middle_x, middle_y : ndarray, shape (n,)
-        Middle of the edge, along the row from the head's centre, and to the left of the row's axis [m].
-    along, normal : ndarray, shape (n,)
-        q and p: the same from the head's centre, along the edge and normal to it [m].
-    edge_angle, length : float
-        α [rad] and L [m].
-    diameter, offset, phase : float
-        Of the head [m, m], and phase of the knife [rad].
-    outlines : tuple of ndarray, shape (k, 2)
-        Corners of the areas that are left, as x and y of the middle [m].
-    """
-
-    time: Floats
-    middle_x: Floats
-    middle_y: Floats
-    along: Floats
-    normal: Floats
-    edge_angle: float
-    length: float
-    diameter: float
-    offset: float
-    phase: float
-    outlines: tuple[Floats, ...]
+    time: Annotated[
+        Floats, Shown("time", "t", "s", "Zero when the middle of the edge is abreast of the head's centre.")
+    ]
+    middle_x: Annotated[
+        Floats, Shown("middle of the edge along the row", "x", "m", "From the head's centre.")
+    ]
+    middle_y: Annotated[
+        Floats, Shown("middle of the edge across the row", "y", "m", "To the left of the row's axis.")
+    ]
+    along: Annotated[Floats, Shown("middle of the edge along the edge", "q", "m", "From the head's centre.")]
+    normal: Annotated[
+        Floats, Shown("middle of the edge normal to the edge", "p", "m", "From the head's centre.")
+    ]
+    edge_angle: Annotated[float, Shown("angle of the edge", "α", "rad")]
+    length: Annotated[float, Shown("length of the edge", "L", "m")]
+    diameter: Annotated[float, Shown("diameter of the head", "d", "m")]
+    offset: Annotated[float, Shown("offset of the head", "δ", "m")]
+    phase: Annotated[float, Shown("phase of the knife", "φ", "rad")]
+    outlines: Annotated[
+        tuple[Floats, ...],
+        About("Corners of the areas that are left, as x and y of the middle, each (k, 2) [m]."),
+    ]
 
     @property
-    def ends(self) -> Floats:
-        """Right and left end of the edge over the time, (2, n, 2) [m]."""
+    def ends(
+        self,
+    ) -> Annotated[Floats, Shown("right and left end of the edge", "", "m", shape="(2, n, 2)")]:
+        """Right and left end of the edge over the time, (2, n, 2)."""
         half = 0.5 * self.length * np.array([np.sin(self.edge_angle), np.cos(self.edge_angle)])
         middle = np.stack([self.middle_x, self.middle_y], axis=-1)
         return np.stack([middle - half, middle + half])
 
     @property
-    def uncut_area(self) -> float:
-        """Area inside the outlines [m²]."""
+    def uncut_area(self) -> Annotated[float, Shown("area inside the outlines", "", "m²")]:
+        """Area inside the outlines."""
         return float(sum(_area(each) for each in self.outlines))
 
 

@@ -12,10 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.topping.constant_speed import constant_speed_lengths
 from linkwright.topping.coverage import coverage
@@ -61,24 +63,14 @@ class Lines(Result):
 
 @dataclass(frozen=True)
 class LengthChart(Result):
-    """The chart.
+    """The chart."""
 
-    Attributes
-    ----------
-    forward_speeds : tuple of float
-        v [m/s].
-    root_diameter, knife_speed, edge_length : float
-        Of the machine [m, m/s, m].
-    over_roots, over_speeds : Lines
-        Over root diameters at the machine's mean knife speed, and the other way round.
-    """
-
-    forward_speeds: tuple[float, ...]
-    root_diameter: float
-    knife_speed: float
-    edge_length: float
-    over_roots: Lines
-    over_speeds: Lines
+    forward_speeds: Annotated[tuple[float, ...], About("Speeds along the row, v [m/s].")]
+    root_diameter: Annotated[float, Shown("diameter of a root", "D", "m")]
+    knife_speed: Annotated[float, Shown("mean speed across the row", "v_h", "m/s")]
+    edge_length: Annotated[float, Shown("length of the edge", "L", "m")]
+    over_roots: Annotated[Lines, About("Over root diameters at the machine's mean knife speed.")]
+    over_speeds: Annotated[Lines, About("Over mean knife speeds at the machine's root diameter.")]
 
 
 def length_chart(described: Topper, edges: Sequence[Edge]) -> LengthChart:

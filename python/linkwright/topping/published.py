@@ -28,10 +28,12 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 
 Floats = NDArray[np.float64]
@@ -39,29 +41,17 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class PublishedLengths(Result):
-    """Travels and lengths by the paper.
+    """Travels and lengths by the paper."""
 
-    Attributes
-    ----------
-    travel_along, travel_across : float
-        S_x and S_y [m].
-    time_along, time_across : float
-        t_x and t_y [s]; t_y is infinite for a knife at rest.
-    holds : bool
-        Whether t_y ≥ t_x, condition (1), for the length of the edge.
-    length_published : float
-        Least length by (10) [m].
-    length_consistent : float
-        Least length by (4) [m].
-    """
-
-    travel_along: float
-    travel_across: float
-    time_along: float
-    time_across: float
-    holds: bool
-    length_published: float
-    length_consistent: float
+    travel_along: Annotated[float, Shown("travel along the row", "S_x", "m")]
+    travel_across: Annotated[float, Shown("travel across the row", "S_y", "m")]
+    time_along: Annotated[float, Shown("time of the travel along the row", "t_x", "s")]
+    time_across: Annotated[
+        float, Shown("time of the travel across the row", "t_y", "s", "Infinite for a knife at rest.")
+    ]
+    holds: Annotated[bool, About("Whether t_y ≥ t_x, condition (1), for the length of the edge.")]
+    length_published: Annotated[float, Shown("least length by the paper's (10)", "", "m")]
+    length_consistent: Annotated[float, Shown("least length that follows from the paper's (4)", "", "m")]
 
 
 def published_lengths(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +19,7 @@ from linkwright.kernel.limits import FIELD_VARIANTS
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, INSIDE_ONE, LENGTH, RATIO, VELOCITY, Kind, Quantity, worded
 from linkwright.machine.machine import Machine
@@ -51,39 +52,62 @@ class FieldSweep(Result):
     """Variants of a knife over the same roots; arrays (n,), of two entries the second varies first.
 
     What is found is NaN for an edge that runs over heads and back again and again, and hardly goes on.
-
-    Attributes
-    ----------
-    entries : dict of str to ndarray
-        What was varied, by name; of each variant.
-    shape : tuple of int
-        How many values of each entry.
-    share_complete, share_complete_low, share_complete_high : ndarray, shape (n,)
-        Share of heads that are cut right through [–].
-    haulm_mean, haulm_mean_low, haulm_mean_high : ndarray, shape (n,)
-        Mean share of the head that is left [–].
-    loss_mean : ndarray, shape (n,)
-        Mean volume of a root above the cut [m³].
-    length_for_95 : ndarray, shape (n,)
-        Length for 95 % of the heads [m].
-    slicing_ratio_mean : ndarray, shape (n,)
-        Mean draw-cut ratio [–].
-    level : float
-        Probability that an interval holds the truth.
     """
 
-    entries: dict[str, Floats]
-    shape: tuple[int, ...]
-    share_complete: Floats
-    share_complete_low: Floats
-    share_complete_high: Floats
-    haulm_mean: Floats
-    haulm_mean_low: Floats
-    haulm_mean_high: Floats
-    loss_mean: Floats
-    length_for_95: Floats
-    slicing_ratio_mean: Floats
-    level: float
+    entries: Annotated[dict[str, Floats], About("What was varied, by name; of each variant.")]
+    shape: Annotated[tuple[int, ...], About("How many values of each entry.")]
+    share_complete: Annotated[
+        Floats,
+        Shown(
+            "share of heads that are cut right through",
+            "",
+            "",
+            "Of each variant.",
+            shape="(n,)",
+            over="share_complete",
+        ),
+    ]
+    share_complete_low: Annotated[
+        Floats,
+        Shown(
+            "least share of heads that are cut right through",
+            "",
+            "",
+            "End of its interval.",
+            over="share_complete_low",
+        ),
+    ]
+    share_complete_high: Annotated[
+        Floats,
+        Shown(
+            "greatest share of heads that are cut right through",
+            "",
+            "",
+            "End of its interval.",
+            over="share_complete_high",
+        ),
+    ]
+    haulm_mean: Annotated[Floats, Shown("mean share of the head that is left", "", "", over="haulm_mean")]
+    haulm_mean_low: Annotated[
+        Floats,
+        Shown(
+            "least mean share of the head that is left", "", "", "End of its interval.", over="haulm_mean_low"
+        ),
+    ]
+    haulm_mean_high: Annotated[
+        Floats,
+        Shown(
+            "greatest mean share of the head that is left",
+            "",
+            "",
+            "End of its interval.",
+            over="haulm_mean_high",
+        ),
+    ]
+    loss_mean: Annotated[Floats, Shown("mean volume of a root above the cut", "", "m³", over="loss_mean")]
+    length_for_95: Annotated[Floats, Shown("length for 95 % of the heads", "", "m", over="length_for_95")]
+    slicing_ratio_mean: Annotated[Floats, Shown("mean draw-cut ratio", "", "", over="slicing_ratio_mean")]
+    level: Annotated[float, Shown("probability that an interval holds the truth", "", "")]
 
     def columns(self) -> dict[str, Floats]:
         """All that varied and all that was found, by name."""

@@ -4,12 +4,13 @@ slices."""
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.topping.constant_speed import constant_speed_lengths
@@ -28,130 +29,149 @@ Floats = NDArray[np.float64]
 NOTHING = 1e-12
 
 
+_OBSTACLE = (
+    "Why what is cut could not be computed: lengths for the motion of the knife, but for that in every "
+    "phase of an edge that never retreats, and shares that are left are then NaN."
+)
+
+
 @dataclass(frozen=True)
 class TopperStudy(Result):
-    """What the knife cuts.
+    """What the knife cuts."""
 
-    Attributes
-    ----------
-    phase : ndarray, shape (n,)
-        Phase of the knife when the middle of the edge is abreast of a head [rad].
-    length_by_phase : ndarray, shape (n,)
-        Length that heads in this phase need, at the worst offset [m].
-    uncut_by_phase : ndarray, shape (n,)
-        Share of the head that is left in this phase, at the worst offset [–].
-    edge_place, edge_use : ndarray, shape (k,)
-        Places along the edge from its middle, and the way each goes through a head on average [m].
-    head_diameter : float
-        d of the disc that is cut [m].
-    cap_volume : float
-        Volume of the root above the cut [m³].
-    stroke : float
-        Of the knife [m]; zero if it does not turn back over a head.
-    frequency : float
-        Turns of its phase in a second [1/s].
-    knife_speed, knife_speed_max : float
-        v_h, mean over the time, and greatest speed across the row [m/s].
-    knife_acceleration_max : float
-        Greatest acceleration across the row [m/s²]; infinite at constant speed to and fro.
-    strokes_per_head : float
-        Strokes while the edge passes a head on the row [–].
-    travel_along, travel_across, time_along, time_across : float
-        S_x, S_y [m], t_x, t_y [s] of the paper, with Δ.
-    condition_holds : bool
-        Whether t_y ≥ t_x, the paper's (1).
-    length_published : float
-        Least length by the paper's (10) [m].
-    length_consistent : float
-        Least length that follows from the paper's (4) [m].
-    length_at_rest : float
-        Least length of an edge that does not move across the row [m].
-    length_exact_constant_speed : float
-        Least length for a knife that keeps its mean speed over the head, the worse of both directions [m].
-    length_exact : float
-        Least length for the motion of the knife: at the worst offset, in the worst phase or the given one
-        [m].
-    worst_phase, worst_offset : float
-        Of the head that needs it [rad, m].
-    last_x, last_y : float
-        The point of that head that is reached last, from its centre [m].
-    length_best_phase, best_phase : float
-        Length that heads in the best phase need [m], and that phase [rad].
-    uncut_share : float
-        Greatest share of a head that the edge leaves [–].
-    uncut_phase, uncut_offset : float
-        Of that head [rad, m].
-    uncut_right, uncut_left, uncut_between : float
-        Share that is left there on the right of the edge, on its left, and between two passes [–].
-    uncut_share_mean : float
-        Mean over phases and offsets, both even [–].
-    edge_retreats : bool
-        Whether the edge runs backwards at times.
-    least_advance : float
-        Least speed of the edge along its normal [m/s].
-    slicing_ratio_min, slicing_ratio_mean, slicing_ratio_max : float
-        Draw-cut ratio: speed along the edge over speed normal to it [–].
-    cutting_speed_min, cutting_speed_max : float
-        Speed of the edge against the head [m/s].
-    knife_mass, inertia_force_max : float or None
-        Of the bodies on the knife [kg], and greatest inertia force [N], where a mechanism moves it.
-    drive_torque_max, drive_torque_min, drive_torque_mean, drive_power_mean : float or None
-        At the crank, at the design speed [N m, W].
-    obstacle : str or None
-        Why what is cut could not be computed: lengths for the motion of the knife, but for that in every
-        phase of an edge that never retreats, and shares that are left are then NaN.
-    """
-
-    phase: Floats
-    length_by_phase: Floats
-    uncut_by_phase: Floats
-    edge_place: Floats
-    edge_use: Floats
-    head_diameter: float
-    cap_volume: float
-    stroke: float
-    frequency: float
-    knife_speed: float
-    knife_speed_max: float
-    knife_acceleration_max: float
-    strokes_per_head: float
-    travel_along: float
-    travel_across: float
-    time_along: float
-    time_across: float
-    condition_holds: bool
-    length_published: float
-    length_consistent: float
-    length_at_rest: float
-    length_exact_constant_speed: float
-    length_exact: float
-    worst_phase: float
-    worst_offset: float
-    last_x: float
-    last_y: float
-    length_best_phase: float
-    best_phase: float
-    uncut_share: float
-    uncut_phase: float
-    uncut_offset: float
-    uncut_right: float
-    uncut_left: float
-    uncut_between: float
-    uncut_share_mean: float
-    edge_retreats: bool
-    least_advance: float
-    slicing_ratio_min: float
-    slicing_ratio_mean: float
-    slicing_ratio_max: float
-    cutting_speed_min: float
-    cutting_speed_max: float
-    knife_mass: float | None
-    inertia_force_max: float | None
-    drive_torque_max: float | None
-    drive_torque_min: float | None
-    drive_torque_mean: float | None
-    drive_power_mean: float | None
-    obstacle: str | None
+    phase: Annotated[
+        Floats, Shown("phase of the knife", "φ", "rad", "When the middle of the edge is abreast of a head.")
+    ]
+    length_by_phase: Annotated[
+        Floats, Shown("length that heads need in a phase", "L", "m", "At the worst offset.")
+    ]
+    uncut_by_phase: Annotated[
+        Floats, Shown("share of the head that is left in a phase", "", "", "At the worst offset.")
+    ]
+    edge_place: Annotated[
+        Floats, Shown("place along the edge from its middle", "", "m", shape="(k,)", over="edge_place")
+    ]
+    edge_use: Annotated[
+        Floats, Shown("mean way through a head", "", "m", "Of each place of the edge.", over="edge_place")
+    ]
+    head_diameter: Annotated[float, Shown("diameter of the head", "d", "m", "Of the disc that is cut.")]
+    cap_volume: Annotated[float, Shown("volume of the slice", "V", "m³", "Of the root above the cut.")]
+    stroke: Annotated[
+        float, Shown("stroke of the knife", "S", "m", "Zero if it does not turn back over a head.")
+    ]
+    frequency: Annotated[float, Shown("strokes to and fro in a second", "f", "1/s")]
+    knife_speed: Annotated[float, Shown("mean speed across the row", "v_h", "m/s", "Over the time.")]
+    knife_speed_max: Annotated[float, Shown("greatest speed across the row", "ẏ_max", "m/s")]
+    knife_acceleration_max: Annotated[
+        float,
+        Shown(
+            "greatest acceleration of the knife", "ÿ_max", "m/s²", "Infinite at constant speed to and fro."
+        ),
+    ]
+    strokes_per_head: Annotated[
+        float, Shown("strokes over a head", "", "", "While the edge passes a head on the row.")
+    ]
+    travel_along: Annotated[float, Shown("travel along the row", "S_x", "m", "Of the paper, with Δ.")]
+    travel_across: Annotated[float, Shown("travel across the row", "S_y", "m", "Of the paper, with Δ.")]
+    time_along: Annotated[
+        float, Shown("time of the travel along the row", "t_x", "s", "Of the paper, with Δ.")
+    ]
+    time_across: Annotated[
+        float, Shown("time of the travel across the row", "t_y", "s", "Of the paper, with Δ.")
+    ]
+    condition_holds: Annotated[bool, About("Whether t_y ≥ t_x, the paper's (1).")]
+    length_published: Annotated[float, Shown("least length by the paper's (10)", "", "m")]
+    length_consistent: Annotated[float, Shown("least length that follows from the paper's (4)", "", "m")]
+    length_at_rest: Annotated[
+        float, Shown("least length of an edge that does not move across the row", "", "m")
+    ]
+    length_exact_constant_speed: Annotated[
+        float,
+        Shown(
+            "least length for a knife that keeps its mean speed over the head",
+            "",
+            "m",
+            "The worse of both directions.",
+        ),
+    ]
+    length_exact: Annotated[
+        float,
+        Shown(
+            "least length for the motion of the knife",
+            "L",
+            "m",
+            "At the worst offset, in the worst phase or the given one.",
+        ),
+    ]
+    worst_phase: Annotated[float, Shown("phase of the head that needs the greatest length", "", "rad")]
+    worst_offset: Annotated[float, Shown("offset of the head that needs the greatest length", "", "m")]
+    last_x: Annotated[float, Shown("point of that head that is reached last, x", "", "m", "From its centre.")]
+    last_y: Annotated[float, Shown("point of that head that is reached last, y", "", "m", "From its centre.")]
+    length_best_phase: Annotated[float, Shown("length that heads in the best phase need", "", "m")]
+    best_phase: Annotated[float, Shown("phase in which heads need the least length", "", "rad")]
+    uncut_share: Annotated[float, Shown("greatest share of a head that the edge leaves", "", "")]
+    uncut_phase: Annotated[float, Shown("phase of the head of which most is left", "", "rad")]
+    uncut_offset: Annotated[float, Shown("offset of the head of which most is left", "", "m")]
+    uncut_right: Annotated[float, Shown("share that is left there on the right of the edge", "", "")]
+    uncut_left: Annotated[float, Shown("share that is left there on the left of the edge", "", "")]
+    uncut_between: Annotated[float, Shown("share that is left there between two passes", "", "")]
+    uncut_share_mean: Annotated[
+        float,
+        Shown("mean share of a head that the edge leaves", "", "", "Over phases and offsets, both even."),
+    ]
+    edge_retreats: Annotated[bool, About("Whether the edge runs backwards at times.")]
+    least_advance: Annotated[float, Shown("least advance normal to the edge", "u_n,min", "m/s")]
+    slicing_ratio_min: Annotated[
+        float, Shown("least draw-cut ratio", "", "", "Speed along the edge over speed normal to it.")
+    ]
+    slicing_ratio_mean: Annotated[float, Shown("mean draw-cut ratio", "", "", "Over what is cut.")]
+    slicing_ratio_max: Annotated[float, Shown("greatest draw-cut ratio", "", "")]
+    cutting_speed_min: Annotated[
+        float, Shown("least cutting speed", "", "m/s", "Speed of the edge against the head.")
+    ]
+    cutting_speed_max: Annotated[
+        float, Shown("greatest cutting speed", "", "m/s", "Speed of the edge against the head.")
+    ]
+    knife_mass: Annotated[
+        float | None,
+        Shown(
+            "mass of the knife",
+            "m",
+            "kg",
+            "Of the bodies on it, where a mechanism moves it.",
+            table="topper_drive",
+        ),
+    ]
+    inertia_force_max: Annotated[
+        float | None, Shown("greatest inertia force of the knife", "m ÿ_max", "N", table="topper_drive")
+    ]
+    drive_torque_max: Annotated[
+        float | None,
+        Shown(
+            "greatest driving torque",
+            "M_max",
+            "N m",
+            "At the crank, at the design speed.",
+            table="topper_drive",
+        ),
+    ]
+    drive_torque_min: Annotated[
+        float | None,
+        Shown(
+            "least driving torque", "M_min", "N m", "At the crank, at the design speed.", table="topper_drive"
+        ),
+    ]
+    drive_torque_mean: Annotated[
+        float | None,
+        Shown(
+            "mean driving torque", "M_mean", "N m", "At the crank, at the design speed.", table="topper_drive"
+        ),
+    ]
+    drive_power_mean: Annotated[
+        float | None,
+        Shown("mean power", "P_mean", "W", "At the crank, at the design speed.", table="topper_drive"),
+    ]
+    obstacle: Annotated[str | None, About(_OBSTACLE)]
 
 
 @public

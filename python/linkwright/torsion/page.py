@@ -10,7 +10,7 @@ import numpy as np
 import linkwright
 from linkwright.kernel.page.formulas import Formula, formula
 from linkwright.kernel.page.html import environment, picture
-from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.numbers import number
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
 from linkwright.torsion.figures.captions import torsion_figures

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,7 @@ from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.turning.model.turning_moment import TurningMoment
@@ -48,80 +49,137 @@ def _nothing() -> Floats:
     return np.empty(0)
 
 
+_AREAS = (
+    "Areas between driver and load in order: ``start``, ``end`` [rad] or None, ``energy`` [J] and "
+    "``energy_after`` [J], the excess at its end counted from the start of the first."
+)
+
+
 @dataclass(frozen=True)
 class TurningMomentDiagram(Result):
-    """A shaft over a cycle of its turning moments. What cannot be told is None.
+    """A shaft over a cycle of its turning moments. What cannot be told is None."""
 
-    Attributes
-    ----------
-    cycle : float
-        Angle of a cycle [rad].
-    speed_mean : float
-        Mean of the extreme speeds [rad/s].
-    torque_mean : float or None
-        Mean torque of driver and load [N m].
-    power_mean : float or None
-        Mean power [W].
-    energy_cycle : float or None
-        Work of the driver over a cycle [J].
-    energy_fluctuation : float
-        Maximum fluctuation of energy ΔE [J].
-    energy_coefficient : float or None
-        Coefficient of fluctuation of energy, ΔE over the work of a cycle [–].
-    torque_driver_max, torque_driver_max_angle, torque_driver_min, torque_driver_min_angle : float or None
-        Extremes of the driver's torque [N m] and where they are [rad].
-    speed_max_angle, speed_min_angle : float or None
-        Where the shaft is fastest and slowest [rad].
-    inertia : float or None
-        Moment of inertia of the shaft with its flywheel [kg m²].
-    flywheel_inertia : float or None
-        Moment of inertia of the flywheel that gives the evenness asked for [kg m²]; 0 if none is needed.
-    flywheel_mass : float or None
-        Its mass at the given radius of gyration [kg].
-    unevenness : float or None
-        Coefficient of speed fluctuation δ that results [–].
-    speed_max, speed_min : float or None
-        Extreme speeds [rad/s].
-    acceleration_max, acceleration_min : float or None
-        Extreme accelerations of the shaft [rad/s²].
-    accuracy : float
-        Error of the fluctuation of energy over itself, measured [–].
-    areas : tuple of dict
-        Areas between driver and load in order: ``start``, ``end`` [rad] or None, ``energy`` [J] and
-        ``energy_after`` [J], the excess at its end counted from the start of the first.
-    crank_angle, torque_driver, torque_load, energy, speed : ndarray, shape (n + 1,)
-        Curves over the cycle [rad, N m, N m, J, rad/s]; the energy from the start of the cycle. Empty where
-        areas are given; the speed is NaN without a moment of inertia.
-    """
-
-    cycle: float
-    speed_mean: float
-    energy_fluctuation: float
-    accuracy: float
-    areas: tuple[dict[str, float | None], ...]
-    torque_mean: float | None = None
-    power_mean: float | None = None
-    energy_cycle: float | None = None
-    energy_coefficient: float | None = None
-    torque_driver_max: float | None = None
-    torque_driver_max_angle: float | None = None
-    torque_driver_min: float | None = None
-    torque_driver_min_angle: float | None = None
-    speed_max_angle: float | None = None
-    speed_min_angle: float | None = None
-    inertia: float | None = None
-    flywheel_inertia: float | None = None
-    flywheel_mass: float | None = None
-    unevenness: float | None = None
-    speed_max: float | None = None
-    speed_min: float | None = None
-    acceleration_max: float | None = None
-    acceleration_min: float | None = None
-    crank_angle: Floats = field(default_factory=_nothing)
-    torque_driver: Floats = field(default_factory=_nothing)
-    torque_load: Floats = field(default_factory=_nothing)
-    energy: Floats = field(default_factory=_nothing)
-    speed: Floats = field(default_factory=_nothing)
+    cycle: Annotated[float, Shown("angle of a cycle", "", "rad")]
+    speed_mean: Annotated[
+        float, Shown("mean speed", "ω", "rad/s", "Of the extreme speeds.", table="flywheel")
+    ]
+    energy_fluctuation: Annotated[
+        float, Shown("maximum fluctuation of energy", "ΔE", "J", table="turning_moment")
+    ]
+    accuracy: Annotated[
+        float, Shown("error of the fluctuation of energy over itself", "", "", "As measured.")
+    ]
+    areas: Annotated[tuple[dict[str, float | None], ...], About(_AREAS)]
+    torque_mean: Annotated[
+        float | None,
+        Shown(
+            "mean torque",
+            "T_mean",
+            "N m",
+            "Of driver and load.",
+            table="turning_moment",
+            before="energy_fluctuation",
+        ),
+    ] = None
+    power_mean: Annotated[
+        float | None, Shown("mean power", "P_mean", "W", table="turning_moment", before="energy_fluctuation")
+    ] = None
+    energy_cycle: Annotated[
+        float | None,
+        Shown("work of the driver per cycle", "A", "J", table="turning_moment", before="energy_fluctuation"),
+    ] = None
+    energy_coefficient: Annotated[
+        float | None,
+        Shown(
+            "coefficient of fluctuation of energy",
+            "C_E",
+            "",
+            "ΔE over the work of a cycle.",
+            table="turning_moment",
+        ),
+    ] = None
+    torque_driver_max: Annotated[
+        float | None,
+        Shown("maximum torque of the driver", "T_max", "N m", table="turning_moment", before="power_mean"),
+    ] = None
+    torque_driver_max_angle: Annotated[
+        float | None, Shown("angle of the maximum torque of the driver", "φ(T_max)", "rad")
+    ] = None
+    torque_driver_min: Annotated[
+        float | None,
+        Shown("minimum torque of the driver", "T_min", "N m", table="turning_moment", before="power_mean"),
+    ] = None
+    torque_driver_min_angle: Annotated[
+        float | None, Shown("angle of the minimum torque of the driver", "φ(T_min)", "rad")
+    ] = None
+    speed_max_angle: Annotated[float | None, Shown("angle of the maximum speed", "φ(ω_max)", "rad")] = None
+    speed_min_angle: Annotated[float | None, Shown("angle of the minimum speed", "φ(ω_min)", "rad")] = None
+    inertia: Annotated[
+        float | None,
+        Shown(
+            "moment of inertia of the shaft",
+            "J",
+            "kg m²",
+            "With its flywheel.",
+            table="flywheel",
+            before="speed_mean",
+        ),
+    ] = None
+    flywheel_inertia: Annotated[
+        float | None,
+        Shown(
+            "moment of inertia of the flywheel",
+            "J_f",
+            "kg m²",
+            "That gives the evenness asked for; zero if none is needed.",
+            table="flywheel",
+            before="inertia",
+        ),
+    ] = None
+    flywheel_mass: Annotated[
+        float | None,
+        Shown(
+            "mass of the flywheel",
+            "m",
+            "kg",
+            "At the given radius of gyration.",
+            table="flywheel",
+            before="inertia",
+        ),
+    ] = None
+    unevenness: Annotated[
+        float | None,
+        Shown(
+            "coefficient of speed fluctuation",
+            "δ",
+            "",
+            "That results.",
+            table="flywheel",
+            before="speed_mean",
+        ),
+    ] = None
+    speed_max: Annotated[float | None, Shown("maximum speed", "ω_max", "rad/s", table="flywheel")] = None
+    speed_min: Annotated[float | None, Shown("minimum speed", "ω_min", "rad/s", table="flywheel")] = None
+    acceleration_max: Annotated[
+        float | None, Shown("maximum acceleration", "ε_max", "rad/s²", "Of the shaft.", table="flywheel")
+    ] = None
+    acceleration_min: Annotated[
+        float | None, Shown("minimum acceleration", "ε_min", "rad/s²", "Of the shaft.", table="flywheel")
+    ] = None
+    crank_angle: Annotated[
+        Floats,
+        Shown("crank angle", "φ", "rad", "Empty where areas are given, as all curves.", shape="(n + 1,)"),
+    ] = field(default_factory=_nothing)
+    torque_driver: Annotated[Floats, Shown("torque of the driver", "T", "N m")] = field(
+        default_factory=_nothing
+    )
+    torque_load: Annotated[Floats, Shown("torque of the load", "M", "N m")] = field(default_factory=_nothing)
+    energy: Annotated[
+        Floats, Shown("energy that the shaft has taken up", "E", "J", "From the start of the cycle.")
+    ] = field(default_factory=_nothing)
+    speed: Annotated[
+        Floats, Shown("speed of the shaft", "ω", "rad/s", "NaN without a moment of inertia.")
+    ] = field(default_factory=_nothing)
 
 
 class _Evened(NamedTuple):

@@ -21,7 +21,7 @@ from linkwright.kernel.figure.style import (
     styled,
     zero_line,
 )
-from linkwright.kernel.page.quantities import degrees, number
+from linkwright.kernel.page.numbers import degrees, number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from linkwright.kernel.page.formulas import Formula, formula
-from linkwright.kernel.page.quantities import degrees, number
-from linkwright.kernel.page.table import Row, Table, with_unit
+from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.table import Row, Table, known_rows, with_unit
+from linkwright.kernel.quantities import in_table
 from linkwright.turning.diagram import TurningMomentDiagram
 
 _SOURCE = "Rattan, Theory of Machines, chapter 13"
@@ -45,47 +46,20 @@ def turning_headline(found: TurningMomentDiagram) -> Iterator[tuple[str, str, st
 def turning_tables(found: TurningMomentDiagram) -> Iterator[Table]:
     """The diagram, the flywheel, and the areas between driver and load."""
     heads = ("quantity", "", "value", "where")
-    yield Table("turning_moment", "Turning-moment diagram", heads, list(_diagram(found)))
-    evened = list(_evened(found))
+    yield Table("turning_moment", "Turning-moment diagram", heads, _rows(found, "turning_moment"))
+    # Without a moment of inertia, the mean speed alone says nothing of the motion.
+    evened = _rows(found, "flywheel", without=() if found.inertia is not None else ("speed_mean",))
     if evened:
         yield Table("flywheel", "Speed and flywheel", heads, evened)
     if found.areas:
         yield _areas(found)
 
 
-def _diagram(found: TurningMomentDiagram) -> Iterator[Row]:
-    if found.torque_mean is not None:
-        yield "mean torque", "T_mean", with_unit(found.torque_mean, "N m"), ""
-        yield from _extreme("maximum torque of the driver", "T_max", found, "torque_driver_max", "N m")
-        yield from _extreme("minimum torque of the driver", "T_min", found, "torque_driver_min", "N m")
-        yield "mean power", "P_mean", with_unit(found.power_mean, "W"), ""
-        yield "work of the driver per cycle", "A", with_unit(found.energy_cycle, "J"), ""
-    yield "maximum fluctuation of energy", "ΔE", with_unit(found.energy_fluctuation, "J"), ""
-    if found.energy_coefficient is not None:
-        yield "coefficient of fluctuation of energy", "C_E", number(found.energy_coefficient), ""
-
-
-def _evened(found: TurningMomentDiagram) -> Iterator[Row]:
-    if found.flywheel_inertia is not None:
-        yield "moment of inertia of the flywheel", "J_f", with_unit(found.flywheel_inertia, "kg m²"), ""
-    if found.flywheel_mass is not None:
-        yield "mass of the flywheel", "m", with_unit(found.flywheel_mass, "kg"), ""
-    if found.inertia is None:
-        return
-    yield "moment of inertia of the shaft", "J", with_unit(found.inertia, "kg m²"), ""
-    yield "coefficient of speed fluctuation", "δ", number(found.unevenness), ""
-    yield "mean speed", "ω", with_unit(found.speed_mean, "rad/s"), ""
-    yield from _extreme("maximum speed", "ω_max", found, "speed_max", "rad/s")
-    yield from _extreme("minimum speed", "ω_min", found, "speed_min", "rad/s")
-    if found.acceleration_max is not None:
-        yield "maximum acceleration", "ε_max", with_unit(found.acceleration_max, "rad/s²"), ""
-        yield "minimum acceleration", "ε_min", with_unit(found.acceleration_min, "rad/s²"), ""
-
-
-def _extreme(word: str, symbol: str, found: TurningMomentDiagram, name: str, unit: str) -> Iterator[Row]:
-    angle = getattr(found, f"{name}_angle")
-    where = "" if angle is None else f"at φ = {degrees(angle)}"
-    yield word, symbol, with_unit(getattr(found, name), unit), where
+def _rows(found: TurningMomentDiagram, table: str, *, without: Collection[str] = ()) -> list[Row]:
+    """The rows of a table; of an extreme, with the angle where it is."""
+    angles = {name: getattr(found, f"{name}_angle", None) for name in in_table(type(found), table)}
+    places = {name: f"at φ = {degrees(angle)}" for name, angle in angles.items() if angle is not None}
+    return known_rows(found, table, places, without=without)
 
 
 def _areas(found: TurningMomentDiagram) -> Table:

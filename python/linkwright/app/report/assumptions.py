@@ -13,7 +13,7 @@ from linkwright.drive.model.motor import (
     InductionMotor,
     TableMotor,
 )
-from linkwright.kernel.page.quantities import degrees, number
+from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kinetostatics.model.body import Body
 from linkwright.kinetostatics.model.loads.between import Damper, GasSpring, Spring, TorsionalSpring
 from linkwright.kinetostatics.model.loads.force import Gravity

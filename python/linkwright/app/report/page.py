@@ -16,7 +16,7 @@ from linkwright.drive.model.motor import InductionMotor
 from linkwright.kernel.files.output import write_file
 from linkwright.kernel.page.formulas import PAPER_1, Formula, formulas
 from linkwright.kernel.page.html import embedded, environment, picture
-from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.numbers import number
 from linkwright.kernel.public import public
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,7 @@ from linkwright.cam.dynamics.follower_load import CamCourse, FollowerLoad, force
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import LENGTH, RATIO, not_negative
 
@@ -47,67 +48,77 @@ _JAM = 1e-3
 _HALVINGS = 50
 
 
+_NORMAL = (
+    "Negative on the other flank of a form-closed follower, and what is lacking where a force-closed one "
+    "leaves the cam; NaN where it jams."
+)
+
+
 @dataclass(frozen=True)
 class ContactForce(Result):
-    """Forces between cam and follower over the cam angle.
+    """Forces between cam and follower over the cam angle."""
 
-    Attributes
-    ----------
-    cam_angle : ndarray, shape (n,)
-        φ [rad].
-    force_along : ndarray, shape (n,)
-        F, what the follower needs along its way, friction left out [N; N m of an oscillating follower].
-    normal : ndarray, shape (n,)
-        N; negative on the other flank of a form-closed follower, and what is lacking where a force-closed one
-        leaves the cam; NaN where it jams [N].
-    side : ndarray, shape (n,)
-        1 where the flank that lifts carries, −1 where the other does [–].
-    across : ndarray, shape (n,)
-        Force of the cam across the way, to where the surface runs [N].
-    near, far : ndarray, shape (n,)
-        Reactions at the ends of the guide, to where the surface runs; of a pivot its force [N].
-    torque : ndarray, shape (n,)
-        Driving torque that the cam shaft needs for this follower [N m].
-    power, power_friction : ndarray, shape (n,)
-        Of the cam shaft; of friction, never positive [W].
-    jammed : ndarray of bool, shape (n,)
-        Where no force of the cam moves the follower.
-    lost : ndarray of bool, shape (n,)
-        Where a force-closed follower leaves the cam.
-    normal_max : float
-        Largest size of N [N].
-    normal_max_angle : float
-        Where [rad].
-    normal_min : float
-        Least N [N].
-    torque_max, torque_min, torque_mean : float
-        Over the angles given; the mean by the trapezoidal rule [N m].
-    side_changes : tuple of SideChange
-        Where the force goes from one flank to the other, form-closed.
-    findings : tuple of str
-        Jams, loss of contact, changes of the flank, in sentences.
-    """
-
-    cam_angle: Floats
-    force_along: Floats
-    normal: Floats
-    side: Floats
-    across: Floats
-    near: Floats
-    far: Floats
-    torque: Floats
-    power: Floats
-    power_friction: Floats
-    jammed: Flags
-    lost: Flags
-    normal_max: float
-    normal_max_angle: float
-    normal_min: float
-    torque_max: float
-    torque_min: float
-    torque_mean: float
-    side_changes: tuple[SideChange, ...]
-    findings: tuple[str, ...]
+    cam_angle: Annotated[Floats, Shown("cam angle", "φ", "rad")]
+    force_along: Annotated[
+        Floats,
+        Shown(
+            "force that the follower needs along its way",
+            "F",
+            "N",
+            "Friction left out; N m of an oscillating follower.",
+        ),
+    ]
+    normal: Annotated[Floats, Shown("normal force", "N", "N", _NORMAL)]
+    side: Annotated[
+        Floats,
+        Shown("flank that carries", "", "", "1 where it is the one that lifts, −1 where it is the other."),
+    ]
+    across: Annotated[Floats, Shown("force of the cam across the way", "", "N", "To where the surface runs.")]
+    near: Annotated[
+        Floats,
+        Shown(
+            "reaction at the near end of the guide",
+            "",
+            "N",
+            "To where the surface runs; of a pivot its force.",
+        ),
+    ]
+    far: Annotated[
+        Floats,
+        Shown(
+            "reaction at the far end of the guide",
+            "",
+            "N",
+            "To where the surface runs; of a pivot its force.",
+        ),
+    ]
+    torque: Annotated[Floats, Shown("driving torque of the cam shaft for this follower", "", "N m")]
+    power: Annotated[Floats, Shown("power of the cam shaft", "", "W")]
+    power_friction: Annotated[Floats, Shown("power of friction", "", "W", "Never positive.")]
+    jammed: Annotated[Flags, About("Where no force of the cam moves the follower, shape (n,).")]
+    lost: Annotated[Flags, About("Where a force-closed follower leaves the cam, shape (n,).")]
+    normal_max: Annotated[float, Shown("greatest normal force", "N_max", "N", "Largest size.")]
+    normal_max_angle: Annotated[float, Shown("cam angle of the greatest normal force", "φ(N_max)", "rad")]
+    normal_min: Annotated[float, Shown("least normal force", "N_min", "N")]
+    torque_max: Annotated[
+        float, Shown("greatest driving torque of the cam shaft", "", "N m", "Over the angles given.")
+    ]
+    torque_min: Annotated[
+        float, Shown("least driving torque of the cam shaft", "", "N m", "Over the angles given.")
+    ]
+    torque_mean: Annotated[
+        float,
+        Shown(
+            "mean driving torque of the cam shaft",
+            "",
+            "N m",
+            "Over the angles given, by the trapezoidal rule.",
+        ),
+    ]
+    side_changes: Annotated[
+        tuple[SideChange, ...], About("Where the force goes from one flank to the other, form-closed.")
+    ]
+    findings: Annotated[tuple[str, ...], About("Jams, loss of contact, changes of the flank, in sentences.")]
 
 
 @public

@@ -15,7 +15,7 @@ F. Holzweißig, *Maschinendynamik*, Springer, on cam mechanisms.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,7 @@ from linkwright.kernel.limits import VIBRATIONS
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import Column
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import COUNT, SPEED, positive
 
@@ -50,59 +51,38 @@ class Impulse(NamedTuple):
     velocity_step: float
 
 
+_KEEPS_CONTACT = (
+    "Whether the train presses all the time; otherwise the follower leaves the cam, and the motion is not "
+    "what is given here."
+)
+
+
 @dataclass(frozen=True)
 class FollowerVibration(Result):
-    """Motion of the follower's mass over one turn.
+    """Motion of the follower's mass over one turn."""
 
-    Attributes
-    ----------
-    cam_angle : ndarray, shape (n + 1,)
-        One turn in even steps [rad].
-    lift : ndarray, shape (n + 1,)
-        s [m].
-    position, velocity, acceleration : ndarray, shape (n + 1,)
-        Of the mass: x, ẋ, ẍ [m, m/s, m/s²].
-    force : ndarray, shape (n + 1,)
-        Of the train on the cam, positive where it presses [N].
-    speed, natural_frequency : float
-        ω of the cam, Ω of the follower [rad/s].
-    vibrations_per_turn : float
-        Ω/ω [–].
-    force_max, force_min : float
-        Over the turn, exact [N].
-    force_max_angle, force_min_angle : float
-        Where [rad].
-    acceleration_max : float
-        Largest size of ẍ, exact [m/s²].
-    departure_max : float
-        Largest size of e = x − κs, exact [m].
-    impulses : tuple of Impulse
-        Where the cam strikes.
-    keeps_contact : bool
-        Whether the train presses all the time; otherwise the follower leaves the cam, and the motion is not
-        what is given here.
-    findings : tuple of str
-        Strikes and loss of contact, in sentences.
-    """
-
-    cam_angle: Floats
-    lift: Floats
-    position: Floats
-    velocity: Floats
-    acceleration: Floats
-    force: Floats
-    speed: float
-    natural_frequency: float
-    vibrations_per_turn: float
-    force_max: float
-    force_min: float
-    force_max_angle: float
-    force_min_angle: float
-    acceleration_max: float
-    departure_max: float
-    impulses: tuple[Impulse, ...]
-    keeps_contact: bool
-    findings: tuple[str, ...]
+    cam_angle: Annotated[Floats, Shown("cam angle", "φ", "rad", "One turn in even steps.", shape="(n + 1,)")]
+    lift: Annotated[Floats, Shown("lift", "s", "m")]
+    position: Annotated[Floats, Shown("position of the mass", "x", "m")]
+    velocity: Annotated[Floats, Shown("velocity of the mass", "ẋ", "m/s")]
+    acceleration: Annotated[Floats, Shown("acceleration of the mass", "ẍ", "m/s²")]
+    force: Annotated[Floats, Shown("force of the train on the cam", "", "N", "Positive where it presses.")]
+    speed: Annotated[float, Shown("speed of the cam", "ω", "rad/s")]
+    natural_frequency: Annotated[float, Shown("natural frequency of the follower", "Ω", "rad/s")]
+    vibrations_per_turn: Annotated[float, Shown("vibrations in a turn", "Ω/ω", "")]
+    force_max: Annotated[float, Shown("greatest force of the train on the cam", "", "N", "Exact.")]
+    force_min: Annotated[float, Shown("least force of the train on the cam", "", "N", "Exact.")]
+    force_max_angle: Annotated[float, Shown("cam angle of the greatest force", "", "rad")]
+    force_min_angle: Annotated[float, Shown("cam angle of the least force", "", "rad")]
+    acceleration_max: Annotated[
+        float, Shown("greatest acceleration of the mass", "", "m/s²", "In size, exact.")
+    ]
+    departure_max: Annotated[
+        float, Shown("greatest departure from the lift", "", "m", "Largest size of e = x − κs, exact.")
+    ]
+    impulses: Annotated[tuple[Impulse, ...], About("Where the cam strikes.")]
+    keeps_contact: Annotated[bool, About(_KEEPS_CONTACT)]
+    findings: Annotated[tuple[str, ...], About("Strikes and loss of contact, in sentences.")]
 
 
 class Train:
@@ -299,28 +279,14 @@ def _findings(impulses: tuple[Impulse, ...], low: Extreme) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class VibrationSweep(Result):
-    """Largest values of the periodic motion over the speed.
+    """Largest values of the periodic motion over the speed."""
 
-    Attributes
-    ----------
-    speed : ndarray, shape (n,)
-        ω [rad/s].
-    force_max, force_min : ndarray, shape (n,)
-        Of the train on the cam [N].
-    acceleration_max : ndarray, shape (n,)
-        Of the mass [m/s²].
-    departure_max : ndarray, shape (n,)
-        Of e = x − κs [m].
-    keeps_contact : ndarray of bool, shape (n,)
-        Whether the train presses all the time.
-    """
-
-    speed: Floats
-    force_max: Floats
-    force_min: Floats
-    acceleration_max: Floats
-    departure_max: Floats
-    keeps_contact: NDArray[np.bool_]
+    speed: Annotated[Floats, Shown("speed of the cam", "ω", "rad/s")]
+    force_max: Annotated[Floats, Shown("greatest force of the train on the cam", "", "N")]
+    force_min: Annotated[Floats, Shown("least force of the train on the cam", "", "N")]
+    acceleration_max: Annotated[Floats, Shown("greatest acceleration of the mass", "", "m/s²")]
+    departure_max: Annotated[Floats, Shown("greatest departure from the lift", "", "m", "Of e = x − κs.")]
+    keeps_contact: Annotated[NDArray[np.bool_], About("Whether the train presses all the time, shape (n,).")]
 
 
 @public

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,6 +31,7 @@ from linkwright.cam.profile.lift_steps import steps, without_steps
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FORCE, MASS, SPEED, not_negative, positive
 
@@ -47,24 +49,15 @@ _ROUNDING = 4e-16
 
 @dataclass(frozen=True)
 class LiftOff(Result):
-    """Where and when a follower leaves its cam.
+    """Where and when a follower leaves its cam."""
 
-    Attributes
-    ----------
-    speed : float
-        From which on it does; infinite if it never does [rad/s].
-    cam_angle : float
-        Where first [rad].
-    lift_d2 : float
-        s″ there [m/rad²].
-    force_spring : float
-        ks + F₀ + F_load there [N].
-    """
-
-    speed: float
-    cam_angle: float
-    lift_d2: float
-    force_spring: float
+    speed: Annotated[
+        float,
+        Shown("least speed at which the follower leaves the cam", "ω", "rad/s", "Infinite if it never does."),
+    ]
+    cam_angle: Annotated[float, Shown("cam angle where it leaves first", "φ", "rad")]
+    lift_d2: Annotated[float, Shown("second derivative of the lift there", "s″", "m/rad²")]
+    force_spring: Annotated[float, Shown("force of spring and load there", "", "N", "ks + F₀ + F_load.")]
 
 
 @public

@@ -23,6 +23,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +36,7 @@ from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 from linkwright.kinetostatics.forces import forces
@@ -60,65 +62,57 @@ _ACCURACY = 1e-10
 _LOOKS, _CLOSER = 3, 41
 
 
+_FINDINGS = (
+    "Contact that is lost, a roller that does not fit, angles at which there are no forces, in sentences."
+)
+
+
 @dataclass(frozen=True)
 class LoadedCam(Result):
-    """A cam under load over the crank angle.
+    """A cam under load over the crank angle."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (n,)
-        [rad].
-    force : ndarray, shape (n,)
-        Normal force; negative where the second contact, or the outer flank, carries [N].
-    pressure_angle : ndarray, shape (n,)
-        Of the first contact [rad].
-    name : str
-        The cam's.
-    force_max, force_max_angle : float
-        Greatest, with its sign [N], and the crank angle there [rad].
-    force_min, force_min_angle : float
-        Least, with its sign [N], and the crank angle there [rad].
-    speed : float
-        Mean speed of the motion [rad/s].
-    side_changes : int
-        How often in these angles, gone round, the force changes from one side to the other.
-    speed_lost : float
-        Crank speed at which a follower closed by a spring leaves the cam [rad/s]; None if it never does, or
-        if something else closes it.
-    speed_lost_angle : float
-        Crank angle there [rad].
-    pressure_max, pressure_max_angle : float
-        Largest pressure by Hertz [Pa], and the crank angle there [rad]; None without width, or for an edge.
-    shear_max, shear_depth : float
-        Largest shear stress below the surface [Pa], and its depth there [m].
-    pressure : ndarray, shape (n,), or None
-        Pressure over the crank angle [Pa].
-    findings : tuple of str
-        Contact that is lost, a roller that does not fit, angles at which there are no forces, in sentences.
-    """
-
-    crank_angle: Floats
-    force: Floats
-    pressure_angle: Floats
-    name: str
-    force_max: float
-    force_max_angle: float
-    force_min: float
-    force_min_angle: float
-    speed: float
-    side_changes: int
-    speed_lost: float | None
-    speed_lost_angle: float | None
-    pressure_max: float | None
-    pressure_max_angle: float | None
-    shear_max: float | None
-    shear_depth: float | None
-    pressure: Floats | None
-    findings: tuple[str, ...] = ()
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
+    force: Annotated[
+        Floats,
+        Shown("normal force", "N", "N", "Negative where the second contact, or the outer flank, carries."),
+    ]
+    pressure_angle: Annotated[Floats, Shown("pressure angle", "γ", "rad", "Of the first contact.")]
+    name: Annotated[str, About("The cam's.")]
+    force_max: Annotated[float, Shown("greatest normal force", "N_max", "N", "With its sign.")]
+    force_max_angle: Annotated[float, Shown("crank angle of the greatest normal force", "φ(N_max)", "rad")]
+    force_min: Annotated[float, Shown("least normal force", "N_min", "N", "With its sign.")]
+    force_min_angle: Annotated[float, Shown("crank angle of the least normal force", "φ(N_min)", "rad")]
+    speed: Annotated[float, Shown("mean speed of the motion", "ω_m", "rad/s")]
+    side_changes: Annotated[
+        int, Shown("changes of the force from one side to the other", "", "", "In these angles, gone round.")
+    ]
+    speed_lost: Annotated[
+        float | None,
+        Shown(
+            "crank speed at which the follower leaves the cam",
+            "",
+            "rad/s",
+            "One closed by a spring; None if it never does, or if something else closes it.",
+        ),
+    ]
+    speed_lost_angle: Annotated[
+        float | None, Shown("crank angle where the follower leaves the cam", "", "rad")
+    ]
+    pressure_max: Annotated[
+        float | None,
+        Shown("greatest contact pressure", "p₀", "Pa", "By Hertz; None without width, or for an edge."),
+    ]
+    pressure_max_angle: Annotated[
+        float | None, Shown("crank angle of the greatest contact pressure", "φ(p₀)", "rad")
+    ]
+    shear_max: Annotated[float | None, Shown("greatest shear stress below the surface", "", "Pa")]
+    shear_depth: Annotated[float | None, Shown("depth of the greatest shear stress", "", "m")]
+    pressure: Annotated[Floats | None, Shown("contact pressure", "p", "Pa")]
+    findings: Annotated[tuple[str, ...], About(_FINDINGS)] = ()
 
     @property
-    def force_size(self) -> float:
-        """Largest normal force in size [N]."""
+    def force_size(self) -> Annotated[float, Shown("largest normal force in size", "", "N")]:
+        """Largest normal force in size."""
         return max(abs(self.force_max), abs(self.force_min))
 
 

@@ -8,6 +8,7 @@ its acceleration if x⁗ is.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,7 @@ from linkwright.cam.profile.lift_steps import Ends, continuity, steps
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 
@@ -30,37 +32,23 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True)
 class Polydyne(Result):
-    """The lift of a polydyne cam.
+    """The lift of a polydyne cam."""
 
-    Attributes
-    ----------
-    lift : MotionLaw
-        s of the cam [m].
-    wanted : MotionLaw
-        x of the follower's mass [m].
-    speed : float
-        ω for which the cam is made [rad/s].
-    continuity : int
-        Highest order up to which the derivatives of x have no jump.
-    lift_max, lift_min : float
-        Greatest and least s; a cam dips below its base circle where s is less than at rest [m].
-    correction_max : float
-        Largest size of κs − x [m].
-    acceleration_max : float
-        Largest size of s″ω² [m/s²].
-    findings : tuple of str
-        Strikes, jumps of acceleration, and dips, in sentences.
-    """
-
-    lift: MotionLaw
-    wanted: MotionLaw
-    speed: float
-    continuity: int
-    lift_max: float
-    lift_min: float
-    correction_max: float
-    acceleration_max: float
-    findings: tuple[str, ...]
+    lift: Annotated[MotionLaw, About("s of the cam [m].")]
+    wanted: Annotated[MotionLaw, About("x of the follower's mass [m].")]
+    speed: Annotated[float, Shown("speed for which the cam is made", "ω", "rad/s")]
+    continuity: Annotated[int, Shown("highest order up to which the derivatives of x have no jump", "", "")]
+    lift_max: Annotated[float, Shown("greatest lift", "", "m")]
+    lift_min: Annotated[
+        float, Shown("least lift", "", "m", "A cam dips below its base circle where s is less than at rest.")
+    ]
+    correction_max: Annotated[
+        float, Shown("greatest correction of the lift", "", "m", "Largest size of κs − x.")
+    ]
+    acceleration_max: Annotated[
+        float, Shown("greatest acceleration by the lift", "", "m/s²", "Largest size of s″ω².")
+    ]
+    findings: Annotated[tuple[str, ...], About("Strikes, jumps of acceleration, and dips, in sentences.")]
 
 
 @public

@@ -15,7 +15,7 @@ from linkwright.cam.figures.cam import (
 )
 from linkwright.cam.profile.profile import CamProfile
 from linkwright.kernel.figure.captioned import Captioned
-from linkwright.kernel.page.quantities import degrees, number
+from linkwright.kernel.page.numbers import degrees, number
 
 
 def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) -> Iterator[Captioned]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 from linkwright.cam.profile.least_base import (
     base_for_curvature,
@@ -12,44 +13,47 @@ from linkwright.cam.profile.least_base import (
 )
 from linkwright.cam.profile.profile import CamProfile
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 
 
 @dataclass(frozen=True)
 class LeastSizes(Result):
-    """Sizes of the first contact of a cam, all else being as it is; None where nothing will do.
+    """Sizes of the first contact of a cam, all else being as it is; None where nothing will do."""
 
-    Attributes
-    ----------
-    name : str
-        The cam's.
-    base_radius_sound : float
-        Smallest base radius without undercut [m].
-    base_radius_pressure_angle : float
-        Smallest base radius that keeps the pressure angle within its limit [m].
-    base_radius_curvature : float
-        Smallest base radius that keeps the least convex radius of curvature [m]; None without such a limit.
-    base_radius_least : float
-        The largest of these: the smallest base radius that keeps all limits [m].
-    prime_radius_least : float
-        With the roller's radius [m].
-    roller_radius_max : float
-        Radius of the largest roller on the same pitch curve without undercut [m]; None under a flat face.
-    pressure_angle_limit : float
-        The limit [rad].
-    curvature_limit : float or None
-        Least convex radius of curvature allowed [m].
-    """
-
-    name: str
-    base_radius_sound: float | None
-    base_radius_pressure_angle: float | None
-    base_radius_curvature: float | None
-    base_radius_least: float | None
-    prime_radius_least: float | None
-    roller_radius_max: float | None
-    pressure_angle_limit: float
-    curvature_limit: float | None
+    name: Annotated[str, About("The cam's.")]
+    base_radius_sound: Annotated[float | None, Shown("smallest base radius without undercut", "", "m")]
+    base_radius_pressure_angle: Annotated[
+        float | None,
+        Shown("smallest base radius for the pressure angle", "", "m", "That keeps it within its limit."),
+    ]
+    base_radius_curvature: Annotated[
+        float | None,
+        Shown(
+            "smallest base radius for the curvature",
+            "",
+            "m",
+            "That keeps the least convex radius of curvature; None without such a limit.",
+        ),
+    ]
+    base_radius_least: Annotated[
+        float | None, Shown("smallest base radius that keeps all limits", "r₀", "m", "The largest of these.")
+    ]
+    prime_radius_least: Annotated[
+        float | None,
+        Shown("smallest prime radius that keeps all limits", "", "m", "With the roller's radius."),
+    ]
+    roller_radius_max: Annotated[
+        float | None,
+        Shown(
+            "radius of the largest roller without undercut",
+            "",
+            "m",
+            "On the same pitch curve; None under a flat face.",
+        ),
+    ]
+    pressure_angle_limit: Annotated[float, Shown("limit of the pressure angle", "", "rad")]
+    curvature_limit: Annotated[float | None, Shown("least convex radius of curvature allowed", "", "m")]
 
 
 @public

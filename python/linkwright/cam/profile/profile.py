@@ -10,7 +10,7 @@ The extremes are zeros of exact derivatives, not values at samples, and count bo
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from linkwright.cam.profile.opposite import Opposite, opposite
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import show
 from linkwright.machine.machine import Machine
@@ -90,81 +91,141 @@ _PARTS = ("cam", "flanks", "opposite")
 
 @dataclass(frozen=True)
 class CamProfile(Result):
-    """A cam and its followers over a turn.
+    """A cam and its followers over a turn."""
 
-    Attributes
-    ----------
-    angle : ndarray, shape (n,)
-        Cam angle from the start of the programme [rad], increasing; joints of the law stand twice.
-    lift, lift_d1, lift_d2, lift_d3 : ndarray, shape (n,)
-        Lift from the base circle and its derivatives by the cam angle [m or rad, per radⁿ].
-    pressure_angle, curvature_radius : ndarray, shape (n,)
-        Of the first contact [rad, m].
-    name : str
-        The cam's.
-    stroke : float
-        Greatest lift [m or rad].
-    velocity_max, acceleration_max, jerk_max : float
-        Largest in size at the design speed [m/s …, or rad/s …]; None without one.
-    speed_constant : float
-        Largest velocity that is kept over a section [m/s or rad/s]; None without such a section or speed.
-    base_radius, prime_radius : float
-        Of the first cam [m].
-    pressure_angle_max, pressure_angle_max_angle : float
-        Largest in size over all contacts, and the cam angle there [rad].
-    curvature_radius_min, curvature_radius_min_angle : float
-        Least radius of curvature in size, convex or concave, negative where undercut [m], and where [rad].
-    curvature_radius_convex_min, curvature_radius_concave_min : float
-        Of each kind by itself [m]; None where there is no such part.
-    diameter_min, diameter_max : float
-        Distance of two followers that touch one cam on opposite sides [m]; None for other closures.
-    face_min, face_max : float
-        Place of the contact on a flat face, to the left of its stem or along the arm [m]; None for rollers.
-    speed : float
-        Design speed of the cam [rad/s], or None.
-    cam : Cam
-        The description.
-    flanks : tuple of Flank
-        The contacts.
-    opposite : Opposite or None
-        Whether two followers touch one cam at every angle.
-    """
-
-    angle: Floats
-    lift: Floats
-    lift_d1: Floats
-    lift_d2: Floats
-    lift_d3: Floats
-    pressure_angle: Floats
-    curvature_radius: Floats
-    name: str
-    stroke: float
-    velocity_max: float | None
-    acceleration_max: float | None
-    jerk_max: float | None
-    speed_constant: float | None
-    base_radius: float
-    prime_radius: float
-    pressure_angle_max: float
-    pressure_angle_max_angle: float
-    curvature_radius_min: float | None
-    curvature_radius_min_angle: float | None
-    curvature_radius_convex_min: float | None
-    curvature_radius_concave_min: float | None
-    diameter_min: float | None
-    diameter_max: float | None
-    face_min: float | None
-    face_max: float | None
-    speed: float | None
-    cam: Cam
-    flanks: tuple[Flank, ...]
-    opposite: Opposite | None
+    angle: Annotated[
+        Floats,
+        Shown(
+            "cam angle",
+            "φ",
+            "rad",
+            "From the start of the programme, increasing; joints of the law stand twice.",
+        ),
+    ]
+    lift: Annotated[Floats, Shown("lift from the base circle", "s", "m or rad")]
+    lift_d1: Annotated[Floats, Shown("first derivative of the lift by the cam angle", "s′", "m/rad or –")]
+    lift_d2: Annotated[
+        Floats, Shown("second derivative of the lift by the cam angle", "s″", "m/rad² or 1/rad")
+    ]
+    lift_d3: Annotated[
+        Floats, Shown("third derivative of the lift by the cam angle", "s‴", "m/rad³ or 1/rad²")
+    ]
+    pressure_angle: Annotated[Floats, Shown("pressure angle", "γ", "rad", "Of the first contact.")]
+    curvature_radius: Annotated[
+        Floats, Shown("radius of curvature of the profile", "ρ", "m", "Of the first contact.")
+    ]
+    name: Annotated[str, About("The cam's.")]
+    stroke: Annotated[float, Shown("greatest lift", "h", "m or rad")]
+    velocity_max: Annotated[
+        float | None,
+        Shown(
+            "greatest velocity of the follower",
+            "",
+            "m/s or rad/s",
+            "Largest in size at the design speed; None without one.",
+        ),
+    ]
+    acceleration_max: Annotated[
+        float | None,
+        Shown(
+            "greatest acceleration of the follower",
+            "",
+            "m/s² or rad/s²",
+            "Largest in size at the design speed; None without one.",
+        ),
+    ]
+    jerk_max: Annotated[
+        float | None,
+        Shown(
+            "greatest jerk of the follower",
+            "",
+            "m/s³ or rad/s³",
+            "Largest in size at the design speed; None without one.",
+        ),
+    ]
+    speed_constant: Annotated[
+        float | None,
+        Shown(
+            "greatest velocity that is kept over a section",
+            "",
+            "m/s or rad/s",
+            "None without such a section or speed.",
+        ),
+    ]
+    base_radius: Annotated[float, Shown("base radius", "r₀", "m", "Of the first cam.")]
+    prime_radius: Annotated[float, Shown("prime radius", "", "m", "Of the first cam.")]
+    pressure_angle_max: Annotated[
+        float, Shown("greatest pressure angle", "γ_max", "rad", "Largest in size over all contacts.")
+    ]
+    pressure_angle_max_angle: Annotated[
+        float, Shown("cam angle of the greatest pressure angle", "φ(γ_max)", "rad")
+    ]
+    curvature_radius_min: Annotated[
+        float | None,
+        Shown(
+            "least radius of curvature", "ρ_min", "m", "In size, convex or concave, negative where undercut."
+        ),
+    ]
+    curvature_radius_min_angle: Annotated[
+        float | None, Shown("cam angle of the least radius of curvature", "φ(ρ_min)", "rad")
+    ]
+    curvature_radius_convex_min: Annotated[
+        float | None, Shown("least convex radius of curvature", "", "m", "None where there is no such part.")
+    ]
+    curvature_radius_concave_min: Annotated[
+        float | None, Shown("least concave radius of curvature", "", "m", "None where there is no such part.")
+    ]
+    diameter_min: Annotated[
+        float | None,
+        Shown(
+            "least distance of two followers on opposite sides",
+            "",
+            "m",
+            "That touch one cam; None for other closures.",
+        ),
+    ]
+    diameter_max: Annotated[
+        float | None,
+        Shown(
+            "greatest distance of two followers on opposite sides",
+            "",
+            "m",
+            "That touch one cam; None for other closures.",
+        ),
+    ]
+    face_min: Annotated[
+        float | None,
+        Shown(
+            "least place of the contact on a flat face",
+            "",
+            "m",
+            "To the left of its stem or along the arm; None for rollers.",
+        ),
+    ]
+    face_max: Annotated[
+        float | None,
+        Shown(
+            "greatest place of the contact on a flat face",
+            "",
+            "m",
+            "To the left of its stem or along the arm; None for rollers.",
+        ),
+    ]
+    speed: Annotated[float | None, Shown("design speed of the cam", "ω", "rad/s")]
+    cam: Annotated[Cam, About("The description.")]
+    flanks: Annotated[tuple[Flank, ...], About("The contacts.")]
+    opposite: Annotated[Opposite | None, About("Whether two followers touch one cam at every angle.")]
 
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:
         """Where sections meet: cam angle [rad], highest continuous derivative, jumps of the derivatives."""
         found = self.cam.motion.joints
         return tuple({"angle": j.angle, "order": j.order, "jumps": list(j.jumps)} for j in found)
+
+    def unit_of(self, name: str) -> str:
+        """SI unit of an attribute: a lift has metres, that of an oscillating follower radians."""
+        units = super().unit_of(name).split(" or ")
+        return units[-1 if self.cam.is_oscillating else 0].replace("–", "")
 
     def _entries(self) -> dict[str, Any]:
         """What is written out: numbers and curves, not the parts that they are from."""

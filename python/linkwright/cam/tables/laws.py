@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from linkwright.cam.law_factors import LawFactors
 from linkwright.cam.laws.bounds import BOUNDS
 from linkwright.cam.laws.catalogue import LAWS
-from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table
 
 _COLUMNS = {

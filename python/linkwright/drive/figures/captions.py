@@ -12,7 +12,7 @@ from linkwright.drive.figures.steady import speed_figure, time_figure, torque_fi
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.study import DriveStudy
 from linkwright.kernel.figure.captioned import Captioned
-from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.numbers import number
 
 # The motor's curve is drawn beyond the fastest instant of the turn by this share of it, and half the range of
 # speeds: as far as the detail beside it looks.

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.files.csv_text import csv_text
-from linkwright.kernel.page.quantities import SHOWN
 from linkwright.kernel.result import Result
 
 Floats = NDArray[np.float64]
@@ -28,7 +27,7 @@ def curves_csv(result: Result) -> str:
         One column a curve, such as ``speed [rad/s]``; numbers that read back exactly, empty cells where there
         is none; empty without curves.
     """
-    columns = {head(name): curve for name, curve in result.curves().items()} | result.columns()
+    columns = {head(result, name): curve for name, curve in result.curves().items()} | result.columns()
     return columns_csv(columns) if columns else ""
 
 
@@ -49,27 +48,6 @@ def columns_csv(columns: Mapping[str, Floats]) -> str:
     return csv_text(list(columns), rows)
 
 
-def head(name: str) -> str:
-    """Head of a column: the attribute's name with its unit."""
-    unit = SHOWN[name].unit if name in SHOWN else _unit_of_part(name)
-    return f"{name} [{unit or '-'}]"
-
-
-# Units of the columns of parts, by the last word of their name, and by that before a rate.
-_PARTS = {
-    "x": "m",
-    "y": "m",
-    "place": "m",
-    "angle": "rad",
-    "transmission_angle": "rad",
-    "stroke_ratio": "m/rad",
-}
-_RATES = {"velocity": "/s", "acceleration": "/s²", "jerk": "/s³"}
-
-
-def _unit_of_part(name: str) -> str:
-    """Unit of a column such as ``K.x.velocity``."""
-    head, _, last = name.rpartition(".")
-    if last in _RATES and head:
-        return _unit_of_part(head) + _RATES[last]
-    return _PARTS.get(last, "") if head else ""
+def head(result: Result, name: str) -> str:
+    """Head of a column: the curve's name with its unit."""
+    return f"{name} [{result.unit_of(name) or '-'}]"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.kernel.figure.captioned import Captioned
-from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.numbers import number
 from linkwright.kinetostatics.figures.forces import forces_figure, hodograph_figure, polar_figure
 from linkwright.kinetostatics.result import Forces
 

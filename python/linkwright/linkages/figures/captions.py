@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.kernel.figure.captioned import Captioned
-from linkwright.kernel.page.quantities import degrees, number
+from linkwright.kernel.page.numbers import degrees, number
 from linkwright.linkages.coupler_curve import CouplerCurve, coupler_curve
 from linkwright.linkages.cycle import Linkage
 from linkwright.linkages.figures.linkage import coupler_figure, transmission_figure

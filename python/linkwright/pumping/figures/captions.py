@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.kernel.figure.captioned import Captioned
-from linkwright.kernel.page.quantities import degrees, number
+from linkwright.kernel.page.numbers import degrees, number
 from linkwright.pumping.figures.unit import gear_torque_figure, polished_rod_figure, rotator_figure
 from linkwright.pumping.rod_rotator import RodRotatorMotion
 from linkwright.pumping.unit import PumpingUnitMotion

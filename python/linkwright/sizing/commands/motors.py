@@ -85,7 +85,7 @@ def _tables(found: list[CatalogueMotor]) -> list[Table]:
 
 def _row(motor: CatalogueMotor) -> Row:
     """A motor in the units of catalogues: kW, rpm, torques over the rated one."""
-    from linkwright.kernel.page.quantities import number
+    from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.table import with_unit
 
     entries = _entries(motor)

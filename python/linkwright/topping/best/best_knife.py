@@ -24,12 +24,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.topping.best.knife_failing import Failing, failing_limit
@@ -56,57 +57,76 @@ _OTHER_SEED = 1_000_003
 _ON = 1e-4
 
 
+_IS_VERIFIED = "Whether the other roots keep the limits, but for what the intervals over both leave open."
+
+
 @dataclass(frozen=True)
 class BestKnife(Result):
-    """The best knife.
+    """The best knife."""
 
-    Attributes
-    ----------
-    edge_angle, edge_length : float
-        α [rad] and L [m].
-    knife_speed, forward_speed : float
-        v_h and v [m/s].
-    crank_speed : float or None
-        Of the crank that moves the knife [rad/s]; None where it moves by a law.
-    slicing_ratio_mean : float
-        Mean draw-cut ratio [–].
-    share_complete, share_complete_low, share_complete_high : float
-        Share of heads that it cuts right through, over the roots that it was sought with [–].
-    haulm_mean, haulm_mean_low, haulm_mean_high : float
-        Mean share of the head that it leaves there [–].
-    share_verified, share_verified_low, share_verified_high : float
-        Share of heads over other roots, looked at more finely [–].
-    haulm_verified, haulm_verified_low, haulm_verified_high : float
-        Likewise [–].
-    seed_verified : int
-        Seed of the other roots.
-    is_verified : bool
-        Whether the other roots keep the limits, but for what the intervals over both leave open.
-    at_bounds : tuple of str
-        Bounds of the search on which it lies.
-    """
-
-    edge_angle: float
-    edge_length: float
-    knife_speed: float
-    forward_speed: float
-    crank_speed: float | None
-    slicing_ratio_mean: float
-    share_complete: float
-    share_complete_low: float
-    share_complete_high: float
-    haulm_mean: float
-    haulm_mean_low: float
-    haulm_mean_high: float
-    share_verified: float
-    share_verified_low: float
-    share_verified_high: float
-    haulm_verified: float
-    haulm_verified_low: float
-    haulm_verified_high: float
-    seed_verified: int
-    is_verified: bool
-    at_bounds: tuple[str, ...]
+    edge_angle: Annotated[float, Shown("angle of the edge", "α", "rad")]
+    edge_length: Annotated[float, Shown("length of the edge", "L", "m")]
+    knife_speed: Annotated[float, Shown("mean speed across the row", "v_h", "m/s")]
+    forward_speed: Annotated[float, Shown("speed along the row", "v", "m/s")]
+    crank_speed: Annotated[
+        float | None,
+        Shown("speed of the crank that moves the knife", "ω", "rad/s", "None where it moves by a law."),
+    ]
+    slicing_ratio_mean: Annotated[float, Shown("mean draw-cut ratio", "", "")]
+    share_complete: Annotated[
+        float,
+        Shown("share of heads that are cut right through", "", "", "Over the roots that it was sought with."),
+    ]
+    share_complete_low: Annotated[
+        float, Shown("least share of heads that are cut right through", "", "", "End of its interval.")
+    ]
+    share_complete_high: Annotated[
+        float, Shown("greatest share of heads that are cut right through", "", "", "End of its interval.")
+    ]
+    haulm_mean: Annotated[
+        float, Shown("mean share of the head that is left", "", "", "Over the roots that it was sought with.")
+    ]
+    haulm_mean_low: Annotated[
+        float, Shown("least mean share of the head that is left", "", "", "End of its interval.")
+    ]
+    haulm_mean_high: Annotated[
+        float, Shown("greatest mean share of the head that is left", "", "", "End of its interval.")
+    ]
+    share_verified: Annotated[
+        float,
+        Shown(
+            "share of heads that are cut right through, verified",
+            "",
+            "",
+            "Over other roots, looked at more finely.",
+        ),
+    ]
+    share_verified_low: Annotated[
+        float,
+        Shown("least share of heads that are cut right through, verified", "", "", "End of its interval."),
+    ]
+    share_verified_high: Annotated[
+        float,
+        Shown("greatest share of heads that are cut right through, verified", "", "", "End of its interval."),
+    ]
+    haulm_verified: Annotated[
+        float,
+        Shown(
+            "mean share of the head that is left, verified",
+            "",
+            "",
+            "Over other roots, looked at more finely.",
+        ),
+    ]
+    haulm_verified_low: Annotated[
+        float, Shown("least mean share of the head that is left, verified", "", "", "End of its interval.")
+    ]
+    haulm_verified_high: Annotated[
+        float, Shown("greatest mean share of the head that is left, verified", "", "", "End of its interval.")
+    ]
+    seed_verified: Annotated[int, Shown("seed of the other roots", "", "")]
+    is_verified: Annotated[bool, About(_IS_VERIFIED)]
+    at_bounds: Annotated[tuple[str, ...], About("Bounds of the search on which it lies.")]
 
 
 @dataclass(frozen=True)

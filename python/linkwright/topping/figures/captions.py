@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.kernel.figure.captioned import Captioned
-from linkwright.kernel.page.quantities import degrees, number
+from linkwright.kernel.page.numbers import degrees, number
 from linkwright.machine.machine import Machine
 from linkwright.topping.edge import Edge, edges_of
 from linkwright.topping.figures.lengths import length_chart_figure, verdict_figure

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.topping.best.best_knife import BestKnife, KnifeSearch
 from linkwright.topping.tables.field import field_csv

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.page.csv import columns_csv
-from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.topping.field import TopperField
 from linkwright.topping.sweep import FieldSweep

@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator
 
 from linkwright.kernel.page.csv import columns_csv, head
-from linkwright.kernel.page.quantities import SHOWN, degrees, number
-from linkwright.kernel.page.table import Row, Table, row, rows_of, with_unit
+from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.table import Row, Table, row, rows_in, rows_of
+from linkwright.kernel.quantities import shown
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy, leaves
 from linkwright.topping.verdict import PAPER, WAYS, Demand, Stroke, length_verdict
@@ -47,7 +48,7 @@ def edge_csv(found: TopperStudy) -> str:
     str
         Two columns.
     """
-    return columns_csv({head(name): getattr(found, name) for name in ("edge_place", "edge_use")})
+    return columns_csv({head(found, name): getattr(found, name) for name in ("edge_place", "edge_use")})
 
 
 def mm(value: float) -> str:
@@ -117,8 +118,8 @@ def _head(found: TopperStudy, described: Topper) -> Table:
     """The head, and what is left of it."""
     volume = f"{number(1e6 * found.cap_volume, 4)} cm³"
     rows: list[Row] = [
-        ("diameter of the head", "d", mm(found.head_diameter), "in the plane of the cut"),
-        ("volume of the slice", "V", volume, "of the root above the cut"),
+        _told("head_diameter", mm(found.head_diameter), "in the plane of the cut"),
+        _told("cap_volume", volume, "of the root above the cut"),
         ("band of the heads", "d + 2Δ", mm(found.head_diameter + 2 * described.offset), ""),
     ]
     if leaves(found):
@@ -173,20 +174,20 @@ def _way(found: TopperStudy) -> str:
 def _motion(found: TopperStudy) -> Table:
     rows: list[Row] = []
     if found.stroke:
-        rows.append(("stroke of the knife", "S", mm(found.stroke), ""))
+        rows.append(_told("stroke", mm(found.stroke), ""))
         rows += rows_of(found, "frequency")
         rows.append(row(found, "strokes_per_head", "while the edge passes a head on the row"))
     rows.append(row(found, "knife_speed", _way(found)))
     if found.stroke:
         rows += rows_of(found, "knife_speed_max")
         jumps = not math.isfinite(found.knife_acceleration_max)
-        told = ("greatest acceleration of the knife", "ÿ_max", "no bound", "it turns back at once")
+        told = _told("knife_acceleration_max", "no bound", "it turns back at once")
         rows.append(told if jumps else row(found, "knife_acceleration_max"))
     holds = "not less than along it: (1) holds" if found.condition_holds else "less than along it: (1) fails"
     rows += [row(found, name, "paper 5 (2), (8)") for name in ("travel_along", "travel_across")]
     rows.append(row(found, "time_along"))
-    across = "no bound" if math.isinf(found.time_across) else with_unit(found.time_across, "s")
-    rows.append(("time of the travel across the row", "t_y", across, holds))
+    is_endless = math.isinf(found.time_across)
+    rows.append(_told("time_across", "no bound", holds) if is_endless else row(found, "time_across", holds))
     return Table("topper_motion", "Motion of the knife", _HEADS, rows)
 
 
@@ -202,7 +203,7 @@ def _slicing(found: TopperStudy) -> Table:
 def _advance(found: TopperStudy) -> Row:
     """Zero but for rounding where the edge moves along itself."""
     if abs(found.least_advance) * _NO_BOUND < found.cutting_speed_max:
-        return SHOWN["least_advance"].word, SHOWN["least_advance"].symbol, "0 m/s", "it moves along itself"
+        return _told("least_advance", "0 m/s", "it moves along itself")
     return row(
         found, "least_advance", "its back meets the head" if found.edge_retreats else "it never retreats"
     )
@@ -212,18 +213,22 @@ def _ratio(found: TopperStudy, name: str, remark: str) -> Row:
     """A ratio that may have no bound."""
     if getattr(found, name) < _NO_BOUND:
         return row(found, name, remark)
-    return SHOWN[name].word, "", "no bound", "the edge moves along itself"
+    return _told(name, "no bound", "the edge moves along itself")
+
+
+def _told(name: str, value: str, remark: str) -> Row:
+    """A row whose value is not a number."""
+    mark = shown(TopperStudy, name)
+    return mark.word, mark.symbol, value, remark
 
 
 def _drive(found: TopperStudy) -> Table:
-    rows = rows_of(found, "knife_mass", "inertia_force_max")
-    rows += [row(found, "drive_torque_max", "at the crank"), *rows_of(found, "drive_torque_min")]
-    # Without losses the mean is zero but for rounding.
-    is_lossless = abs(found.drive_torque_mean or 0.0) * _NO_BOUND < abs(found.drive_torque_max or 0.0)
-    for name in ("drive_torque_mean", "drive_power_mean"):
-        shown = SHOWN[name]
-        nothing = (shown.word, shown.symbol, f"0 {shown.unit}", "nothing is lost")
-        rows.append(nothing if is_lossless else row(found, name))
+    rows = rows_in(found, "topper_drive", {"drive_torque_max": "at the crank"})
+    # Without losses the means are zero but for rounding.
+    if abs(found.drive_torque_mean or 0.0) * _NO_BOUND < abs(found.drive_torque_max or 0.0):
+        means = ("drive_torque_mean", "drive_power_mean")
+        rows = rows_in(found, "topper_drive", {"drive_torque_max": "at the crank"}, without=means)
+        rows += [_told(name, f"0 {found.unit_of(name)}", "nothing is lost") for name in means]
     return Table("topper_drive", "Drive of the knife at the design speed", _HEADS, rows)
 
 

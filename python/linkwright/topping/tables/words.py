@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from linkwright.kernel.page.formulas import Formula, formula
-from linkwright.kernel.page.quantities import degrees, number
+from linkwright.kernel.page.numbers import degrees, number
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy
 

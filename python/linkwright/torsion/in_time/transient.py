@@ -16,7 +16,7 @@ angle.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.kernel.errors import ConvergenceError, InputError
 from linkwright.kernel.limits import SAMPLES
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.transient import Moved, MovingTrain
@@ -48,73 +49,108 @@ _SETTLE = 1.0
 
 @dataclass(frozen=True)
 class TorsionTransient(Result):
-    """Motion of a train in time.
+    """Motion of a train in time."""
 
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        Of the samples [s].
-    discs : tuple of str
-        In the order of the file.
-    angle, speed : ndarray, shape (discs, n)
-        Of each disc, in its own sense [rad, rad/s].
-    shafts : tuple of str
-        What twists.
-    torque : ndarray, shape (shafts, n)
-        In each shaft at its own speed, with its damping; positive if the first end drives the second [N m].
-    kinetic_energy, potential_energy : ndarray, shape (n,)
-        [J].
-    torque_max, torque_max_time, torque_min, torque_min_time : ndarray, shape (shafts,)
-        Of the whole motion, between the samples as well [N m, s].
-    speed_max, speed_max_time, speed_min, speed_min_time : ndarray, shape (discs,)
-        Likewise [rad/s, s].
-    work : dict of str to float
-        Of each torque from outside [J].
-    loss : dict of str to float
-        In each shaft, and by the damping of the discs together, "discs" [J].
-    energy_error : float
-        What the energy gained less work and losses, over the largest of all these.
-    method : str
-        "explicit" or "implicit".
-    steps, steps_rejected, evaluations : int
-        Work done.
-    frequency_bound : float
-        Bound of the fastest swing at the start [Hz].
-    notes : tuple of str
-        What was assumed.
-    balance : str
-        What was changed so that mean torques balance at the start; empty where nothing was.
-    judgements : tuple of PeakJudgement
-        Limits of shafts and couplings against the largest torques.
-    """
-
-    time: Floats
-    discs: tuple[str, ...]
-    angle: Floats
-    speed: Floats
-    shafts: tuple[str, ...]
-    torque: Floats
-    kinetic_energy: Floats
-    potential_energy: Floats
-    torque_max: Floats
-    torque_max_time: Floats
-    torque_min: Floats
-    torque_min_time: Floats
-    speed_max: Floats
-    speed_max_time: Floats
-    speed_min: Floats
-    speed_min_time: Floats
-    work: dict[str, float]
-    loss: dict[str, float]
-    energy_error: float
-    method: str
-    steps: int
-    steps_rejected: int
-    evaluations: int
-    frequency_bound: float
-    notes: tuple[str, ...]
-    balance: str = ""
-    judgements: tuple[PeakJudgement, ...] = ()
+    time: Annotated[Floats, Shown("time", "t", "s", "Of the samples.")]
+    discs: Annotated[tuple[str, ...], About("Discs in the order of the file.")]
+    angle: Annotated[Floats, Shown("angle of each disc", "φ", "rad", "In its own sense.", shape="(discs, n)")]
+    speed: Annotated[
+        Floats, Shown("speed of each disc", "ω", "rad/s", "In its own sense.", shape="(discs, n)")
+    ]
+    shafts: Annotated[tuple[str, ...], About("What twists.")]
+    torque: Annotated[
+        Floats,
+        Shown(
+            "torque in each shaft",
+            "M",
+            "N m",
+            "At its own speed, with its damping; positive if the first end drives the second.",
+            shape="(shafts, n)",
+        ),
+    ]
+    kinetic_energy: Annotated[Floats, Shown("kinetic energy", "", "J")]
+    potential_energy: Annotated[Floats, Shown("potential energy", "", "J")]
+    torque_max: Annotated[
+        Floats,
+        Shown(
+            "greatest torque in each shaft",
+            "M_max",
+            "N m",
+            "Of the whole motion, between the samples as well.",
+            shape="(shafts,)",
+            over="torque_max",
+        ),
+    ]
+    torque_max_time: Annotated[
+        Floats, Shown("time of the greatest torque", "", "s", shape="(shafts,)", over="torque_max_time")
+    ]
+    torque_min: Annotated[
+        Floats,
+        Shown(
+            "least torque in each shaft",
+            "M_min",
+            "N m",
+            "Of the whole motion, between the samples as well.",
+            shape="(shafts,)",
+            over="torque_min",
+        ),
+    ]
+    torque_min_time: Annotated[
+        Floats, Shown("time of the least torque", "", "s", shape="(shafts,)", over="torque_min_time")
+    ]
+    speed_max: Annotated[
+        Floats,
+        Shown(
+            "greatest speed of each disc",
+            "ω_max",
+            "rad/s",
+            "Of the whole motion, between the samples as well.",
+            shape="(discs,)",
+            over="speed_max",
+        ),
+    ]
+    speed_max_time: Annotated[
+        Floats, Shown("time of the greatest speed", "", "s", shape="(discs,)", over="speed_max_time")
+    ]
+    speed_min: Annotated[
+        Floats,
+        Shown(
+            "least speed of each disc",
+            "ω_min",
+            "rad/s",
+            "Of the whole motion, between the samples as well.",
+            shape="(discs,)",
+            over="speed_min",
+        ),
+    ]
+    speed_min_time: Annotated[
+        Floats, Shown("time of the least speed", "", "s", shape="(discs,)", over="speed_min_time")
+    ]
+    work: Annotated[dict[str, float], About("Work of each torque from outside [J].")]
+    loss: Annotated[
+        dict[str, float], About('Loss in each shaft, and by the damping of the discs together, "discs" [J].')
+    ]
+    energy_error: Annotated[
+        float,
+        Shown(
+            "error of the energy",
+            "",
+            "",
+            "What the energy gained less work and losses, over the largest of all these.",
+        ),
+    ]
+    method: Annotated[str, About('``"explicit"`` or ``"implicit"``.')]
+    steps: Annotated[int, Shown("steps", "", "")]
+    steps_rejected: Annotated[int, Shown("steps that were done again", "", "")]
+    evaluations: Annotated[int, Shown("evaluations of the train", "", "")]
+    frequency_bound: Annotated[float, Shown("bound of the fastest swing at the start", "", "Hz")]
+    notes: Annotated[tuple[str, ...], About("What was assumed.")]
+    balance: Annotated[
+        str, About("What was changed so that mean torques balance at the start; empty where nothing was.")
+    ] = ""
+    judgements: Annotated[
+        tuple[PeakJudgement, ...], About("Limits of shafts and couplings against the largest torques.")
+    ] = ()
 
     @property
     def findings(self) -> list[str]:

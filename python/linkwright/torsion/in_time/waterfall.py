@@ -20,6 +20,7 @@ resampling over the angle.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,6 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import COUNT, positive
 
@@ -41,27 +43,16 @@ _HOPS = 4
 
 @dataclass(frozen=True)
 class Waterfall(Result):
-    """Amplitudes over speed and order.
+    """Amplitudes over speed and order."""
 
-    Attributes
-    ----------
-    time : ndarray, shape (windows,)
-        In the middle of each window [s].
-    speed : ndarray, shape (windows,)
-        Mean of the disc in each window [rad/s].
-    orders : ndarray, shape (orders,)
-        Waves a turn of the disc.
-    amplitudes : ndarray, shape (windows, orders)
-        In the unit of the signal.
-    turns : int
-        Of each window.
-    """
-
-    time: Floats
-    speed: Floats
-    orders: Floats
-    amplitudes: Floats
-    turns: int
+    time: Annotated[Floats, Shown("time", "t", "s", "In the middle of each window.", shape="(windows,)")]
+    speed: Annotated[Floats, Shown("mean speed of the disc", "ω", "rad/s", "In each window.")]
+    orders: Annotated[Floats, Shown("waves in a turn of the disc", "ν", "", shape="(orders,)", over="orders")]
+    amplitudes: Annotated[
+        Floats,
+        Shown("amplitude of each order", "", "", "In the unit of the signal.", shape="(windows, orders)"),
+    ]
+    turns: Annotated[int, Shown("turns of a window", "", "")]
 
     def order(self, wanted: float) -> Floats:
         """Amplitudes of one order over the windows.

@@ -17,11 +17,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.limits.criteria import PASSING_STRESS, VIBRATORY_STRESS, Criterion
@@ -35,53 +37,90 @@ Floats = NDArray[np.float64]
 _POINTS = 100
 
 
+_NOT_PASSABLE = (
+    "Lowest and highest speed of each part in which the stress is above what is permitted in transient "
+    "passage [rad/s]."
+)
+
+
 @dataclass(frozen=True)
 class BarredRange(Result):
-    """Speeds at which a shaft is stressed more than is permitted in continuous operation.
+    """Speeds at which a shaft is stressed more than is permitted in continuous operation."""
 
-    Attributes
-    ----------
-    shaft : str
-        The shaft.
-    speed_min, speed_max : float
-        Where the stress passes what is permitted in continuous operation [rad/s].
-    open_min, open_max : bool
-        Whether the range goes on beyond the speeds looked at.
-    worst_speed : float
-        Where stress over permitted stress is largest [rad/s].
-    worst_stress, continuous, transient : float
-        Vibratory stress there, permitted in continuous operation and in transient passage; NaN if nothing
-        is said [Pa].
-    not_passable : tuple of tuple of float
-        Lowest and highest speed of each part in which the stress is above what is permitted in transient
-        passage [rad/s].
-    critical_speed, order : float or None
-        Of the peaks of the stress in the range the highest [rad/s], and the order that makes most of it; None
-        where the stress peaks beyond the speeds looked at.
-    class_min, class_max : float or None
-        What is barred about all peaks in it by the formula of the societies [rad/s].
-    service_speed : float
-        That λ = 1 stands for [rad/s].
-    ratio_permitted : float
-        Up to which the rule lets speeds be barred; None without a rule.
-    """
-
-    shaft: str
-    speed_min: float
-    speed_max: float
-    open_min: bool
-    open_max: bool
-    worst_speed: float
-    worst_stress: float
-    continuous: float
-    transient: float | None
-    not_passable: tuple[tuple[float, float], ...]
-    critical_speed: float | None
-    order: float | None
-    class_min: float | None
-    class_max: float | None
-    service_speed: float
-    ratio_permitted: float | None
+    shaft: Annotated[str, About("The shaft.")]
+    speed_min: Annotated[
+        float,
+        Shown(
+            "least speed at which the stress is too large",
+            "ω_min",
+            "rad/s",
+            "Above what is permitted in continuous operation.",
+        ),
+    ]
+    speed_max: Annotated[
+        float,
+        Shown(
+            "greatest speed at which the stress is too large",
+            "ω_max",
+            "rad/s",
+            "Above what is permitted in continuous operation.",
+        ),
+    ]
+    open_min: Annotated[bool, About("Whether the range goes on below the speeds looked at.")]
+    open_max: Annotated[bool, About("Whether the range goes on above the speeds looked at.")]
+    worst_speed: Annotated[
+        float, Shown("speed at which stress over permitted stress is largest", "", "rad/s")
+    ]
+    worst_stress: Annotated[float, Shown("vibratory stress at that speed", "τ", "Pa")]
+    continuous: Annotated[
+        float, Shown("stress permitted there in continuous operation", "τ_C", "Pa", "NaN if nothing is said.")
+    ]
+    transient: Annotated[
+        float | None,
+        Shown("stress permitted there in transient passage", "τ_T", "Pa", "NaN if nothing is said."),
+    ]
+    not_passable: Annotated[tuple[tuple[float, float], ...], About(_NOT_PASSABLE)]
+    critical_speed: Annotated[
+        float | None,
+        Shown(
+            "critical speed of the highest peak in the range",
+            "",
+            "rad/s",
+            "None where the stress peaks beyond the speeds looked at.",
+        ),
+    ]
+    order: Annotated[
+        float | None,
+        Shown(
+            "order that makes most of that peak",
+            "ν",
+            "",
+            "None where the stress peaks beyond the speeds looked at.",
+        ),
+    ]
+    class_min: Annotated[
+        float | None,
+        Shown(
+            "least speed that is barred by the societies' formula",
+            "",
+            "rad/s",
+            "About all peaks in the range.",
+        ),
+    ]
+    class_max: Annotated[
+        float | None,
+        Shown(
+            "greatest speed that is barred by the societies' formula",
+            "",
+            "rad/s",
+            "About all peaks in the range.",
+        ),
+    ]
+    service_speed: Annotated[float, Shown("service speed", "", "rad/s", "That λ = 1 stands for.")]
+    ratio_permitted: Annotated[
+        float | None,
+        Shown("greatest speed ratio that the rule lets be barred", "λ", "", "None without a rule."),
+    ]
 
     @property
     def is_passable(self) -> bool | None:

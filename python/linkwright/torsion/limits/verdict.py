@@ -10,11 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import PRESSURE, Kind
 from linkwright.machine.machine import Machine
@@ -84,21 +85,14 @@ class Judgement:
 
 @dataclass(frozen=True)
 class Verdict(Result):
-    """All limits of a train.
+    """All limits of a train."""
 
-    Attributes
-    ----------
-    judgements : tuple of Judgement
-        Shafts, couplings, dampers, gear stages.
-    barred : tuple of BarredRange
-        Ranges in which shafts are stressed more than permitted in continuous operation.
-    notes : tuple of str
-        What was not judged, and why.
-    """
-
-    judgements: tuple[Judgement, ...]
-    barred: tuple[BarredRange, ...]
-    notes: tuple[str, ...]
+    judgements: Annotated[tuple[Judgement, ...], About("Shafts, couplings, dampers, gear stages.")]
+    barred: Annotated[
+        tuple[BarredRange, ...],
+        About("Ranges in which shafts are stressed more than permitted in continuous operation."),
+    ]
+    notes: Annotated[tuple[str, ...], About("What was not judged, and why.")]
 
     @property
     def state(self) -> State:

@@ -35,7 +35,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +43,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import COUNT, RATIO, SPEED, not_negative, positive
 from linkwright.machine.machine import Machine
@@ -101,24 +102,26 @@ class CriticalSpeed(NamedTuple):
 
 @dataclass(frozen=True)
 class CampbellDiagram(Result):
-    """Natural frequencies over the speed, and critical speeds.
+    """Natural frequencies over the speed, and critical speeds."""
 
-    Attributes
-    ----------
-    speeds : ndarray, shape (speeds,)
-        Of the first disc, from the lowest to the highest [rad/s].
-    frequencies : ndarray, shape (modes, speeds)
-        Natural frequencies, one row a mode, also those of zero [Hz].
-    orders : ndarray, shape (orders,)
-        Waves a turn of the first disc.
-    critical : tuple of CriticalSpeed
-        In the range, by speed.
-    """
-
-    speeds: Floats
-    frequencies: Floats
-    orders: Floats
-    critical: tuple[CriticalSpeed, ...]
+    speeds: Annotated[
+        Floats,
+        Shown("speed of the first disc", "ω", "rad/s", "From the lowest to the highest.", shape="(speeds,)"),
+    ]
+    frequencies: Annotated[
+        Floats,
+        Shown(
+            "natural frequencies",
+            "ω/2π",
+            "Hz",
+            "One row a mode, also those of zero.",
+            shape="(modes, speeds)",
+        ),
+    ]
+    orders: Annotated[
+        Floats, Shown("waves in a turn of the first disc", "ν", "", shape="(orders,)", over="orders")
+    ]
+    critical: Annotated[tuple[CriticalSpeed, ...], About("Critical speeds in the range, by speed.")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Critical speeds by name, with ``curves`` also the arrays as lists.

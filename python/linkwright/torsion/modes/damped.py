@@ -24,13 +24,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 from linkwright.machine.machine import Machine
@@ -49,66 +50,90 @@ class DampedVibration(Result):
 
     Modes come by their natural frequency: the motions as a whole first; then those that vibrate and, a row
     each, motions that creep back without vibration.
-
-    Attributes
-    ----------
-    natural_frequencies : ndarray, shape (modes,)
-        |s|/2π; of a motion that creeps σ/2π [Hz].
-    eigenvalues : ndarray of complex, shape (modes,)
-        s with an imaginary part of zero or more [1/s].
-    discs : tuple of str
-        In the order of the file.
-    mode_shapes : ndarray of complex, shape (modes, discs)
-        θ. The largest is 1; of several, the first in the file.
-    shafts : tuple of str
-        Shafts, then elastic meshes, in the order of the file.
-    shaft_shares : ndarray, shape (modes, shafts)
-        Of the damping σ; zero where there is none.
-    disc_shares : ndarray, shape (modes, discs)
-        Likewise of the damping of discs from outside.
     """
 
-    natural_frequencies: Floats
-    eigenvalues: Complexes
-    discs: tuple[str, ...]
-    mode_shapes: Complexes
-    shafts: tuple[str, ...]
-    shaft_shares: Floats
-    disc_shares: Floats
+    natural_frequencies: Annotated[
+        Floats,
+        Shown(
+            "natural frequencies",
+            "ω/2π",
+            "Hz",
+            "Size of s over 2π; of a motion that creeps σ/2π.",
+            shape="(modes,)",
+        ),
+    ]
+    eigenvalues: Annotated[
+        Complexes, Shown("eigenvalues", "s", "1/s", "Complex, with an imaginary part of zero or more.")
+    ]
+    discs: Annotated[tuple[str, ...], About("Discs in the order of the file.")]
+    mode_shapes: Annotated[
+        Complexes,
+        Shown(
+            "mode shapes",
+            "θ",
+            "",
+            "Complex; the largest is 1; of several, the first in the file.",
+            shape="(modes, discs)",
+        ),
+    ]
+    shafts: Annotated[tuple[str, ...], About("Shafts, then elastic meshes, in the order of the file.")]
+    shaft_shares: Annotated[
+        Floats,
+        Shown(
+            "share of each shaft in the damping", "", "", "Zero where there is none.", shape="(modes, shafts)"
+        ),
+    ]
+    disc_shares: Annotated[
+        Floats,
+        Shown(
+            "share of each disc in the damping",
+            "",
+            "",
+            "Of its damping from outside.",
+            shape="(modes, discs)",
+        ),
+    ]
 
     @property
-    def damped_frequencies(self) -> Floats:
-        """ω_d/2π, (modes,) [Hz]."""
+    def damped_frequencies(self) -> Annotated[Floats, Shown("damped natural frequencies", "ω_d/2π", "Hz")]:
+        """ω_d/2π, (modes,)."""
         frequencies: Floats = self.eigenvalues.imag / (2 * math.pi)
         return frequencies
 
     @property
-    def decay_rates(self) -> Floats:
-        """σ, (modes,) [1/s]."""
+    def decay_rates(self) -> Annotated[Floats, Shown("decay rates", "σ", "1/s")]:
+        """σ, (modes,)."""
         rates: Floats = -self.eigenvalues.real
         return rates
 
     @property
-    def damping_ratios(self) -> Floats:
+    def damping_ratios(self) -> Annotated[Floats, Shown("damping ratios", "ζ", "")]:
         """ζ = σ/|s|, (modes,): 1 without vibration, 0 for a motion as a whole."""
         size = np.abs(self.eigenvalues)
         return np.divide(self.decay_rates, size, out=np.zeros_like(size), where=size > 0)
 
     @property
-    def logarithmic_decrements(self) -> Floats:
+    def logarithmic_decrements(self) -> Annotated[Floats, Shown("logarithmic decrements", "", "")]:
         """2πσ/ω_d, (modes,): of two amplitudes a period apart; infinite without vibration."""
         omega, sigma = self.eigenvalues.imag, 2 * math.pi * self.decay_rates
         without = np.where(sigma == 0, 0.0, np.inf)
         return np.divide(sigma, omega, out=without, where=omega > 0)
 
     @property
-    def amplitudes(self) -> Floats:
+    def amplitudes(
+        self,
+    ) -> Annotated[Floats, Shown("amplitude of each disc", "", "", shape="(modes, discs)")]:
         """|θ|, (modes, discs)."""
         return np.abs(self.mode_shapes)
 
     @property
-    def phases(self) -> Floats:
-        """Lead of each disc before the one of the largest amplitude, (modes, discs), −π to π [rad]."""
+    def phases(
+        self,
+    ) -> Annotated[
+        Floats,
+        Shown("lead of each disc before that of the largest amplitude", "", "rad", shape="(modes, discs)"),
+    ]:
+        """Lead of each disc before the one of the largest amplitude, (modes, discs), −π to π."""
         return np.angle(self.mode_shapes)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:

@@ -24,12 +24,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
@@ -61,64 +62,81 @@ class Node(NamedTuple):
     distance: float | None
 
 
+_MODE_SHAPES = (
+    "The largest amplitude is 1; of several, the first in the file. Each disc counts in the sense in "
+    "which it turns with the train."
+)
+_TWISTS = "Angle of the first end less that of the second; of a mesh, as angle of its first disc."
+
+
 @dataclass(frozen=True)
 class FreeVibration(Result):
-    """Free vibration of a train, one row a mode.
+    """Free vibration of a train, one row a mode."""
 
-    Attributes
-    ----------
-    natural_frequencies : ndarray, shape (modes,)
-        Increasing; zero for the motion of a free train as a whole [Hz].
-    discs : tuple of str
-        In the order of the file.
-    mode_shapes : ndarray, shape (modes, discs)
-        Amplitudes. The largest is 1; of several, the first in the file. Each disc counts in the sense in
-        which it turns with the train.
-    shafts : tuple of str
-        Shafts, then elastic meshes, in the order of the file.
-    twists : ndarray, shape (modes, shafts)
-        Angle of the first end less that of the second; of a mesh, as angle of its first disc [rad per unit
-        of amplitude].
-    nodes : tuple of tuple of Node
-        Places at rest, in each mode; the ground is none.
-    kinetic_shares : ndarray, shape (modes, discs)
-        Of the kinetic energy; less their sign the sensitivities of ω² to the inertias.
-    potential_shares : ndarray, shape (modes, shafts)
-        Of the potential energy, which are the sensitivities of ω² to the stiffnesses; zero where ω = 0.
-    modal_inertia : ndarray, shape (modes,)
-        Σ J θ² [kg m²].
-    joined : tuple of tuple of str
-        The two ends of every shaft and gear stage.
-    """
-
-    natural_frequencies: Floats
-    discs: tuple[str, ...]
-    mode_shapes: Floats
-    shafts: tuple[str, ...]
-    twists: Floats
-    nodes: tuple[tuple[Node, ...], ...]
-    kinetic_shares: Floats
-    potential_shares: Floats
-    modal_inertia: Floats
-    joined: tuple[tuple[str, str], ...]
+    natural_frequencies: Annotated[
+        Floats,
+        Shown(
+            "natural frequencies",
+            "ω/2π",
+            "Hz",
+            "Increasing; zero for the motion of a free train as a whole.",
+            shape="(modes,)",
+        ),
+    ]
+    discs: Annotated[tuple[str, ...], About("Discs in the order of the file.")]
+    mode_shapes: Annotated[Floats, Shown("mode shapes", "θ", "", _MODE_SHAPES, shape="(modes, discs)")]
+    shafts: Annotated[tuple[str, ...], About("Shafts, then elastic meshes, in the order of the file.")]
+    twists: Annotated[
+        Floats,
+        Shown("twist of each shaft per unit of amplitude", "Δ", "rad", _TWISTS, shape="(modes, shafts)"),
+    ]
+    nodes: Annotated[tuple[tuple[Node, ...], ...], About("Places at rest, in each mode; the ground is none.")]
+    kinetic_shares: Annotated[
+        Floats,
+        Shown(
+            "share of each disc in the kinetic energy",
+            "",
+            "",
+            "Less their sign the sensitivities of ω² to the inertias.",
+            shape="(modes, discs)",
+        ),
+    ]
+    potential_shares: Annotated[
+        Floats,
+        Shown(
+            "share of each shaft in the potential energy",
+            "",
+            "",
+            "The sensitivities of ω² to the stiffnesses; zero where ω = 0.",
+            shape="(modes, shafts)",
+        ),
+    ]
+    modal_inertia: Annotated[Floats, Shown("modal inertia", "Σ J θ²", "kg m²")]
+    joined: Annotated[tuple[tuple[str, str], ...], About("The two ends of every shaft and gear stage.")]
 
     @property
-    def angular_frequencies(self) -> Floats:
-        """ω [rad/s]."""
+    def angular_frequencies(self) -> Annotated[Floats, Shown("angular natural frequencies", "ω", "rad/s")]:
+        """ω."""
         return 2 * math.pi * self.natural_frequencies
 
     @property
-    def modal_stiffness(self) -> Floats:
-        """ω² Σ J θ² [N m/rad]."""
+    def modal_stiffness(self) -> Annotated[Floats, Shown("modal stiffness", "ω² Σ J θ²", "N m/rad")]:
+        """ω² Σ J θ²."""
         return self.angular_frequencies**2 * self.modal_inertia
 
     @property
-    def sensitivity_to_stiffness(self) -> Floats:
+    def sensitivity_to_stiffness(
+        self,
+    ) -> Annotated[
+        Floats, Shown("sensitivity to the stiffness of each shaft", "", "", shape="(modes, shafts)")
+    ]:
         """∂ln ω²/∂ln k, (modes, shafts)."""
         return self.potential_shares
 
     @property
-    def sensitivity_to_inertia(self) -> Floats:
+    def sensitivity_to_inertia(
+        self,
+    ) -> Annotated[Floats, Shown("sensitivity to the inertia of each disc", "", "", shape="(modes, discs)")]:
         """∂ln ω²/∂ln J, (modes, discs); zero where ω = 0."""
         return np.where(self.natural_frequencies[:, None] > 0, -self.kinetic_shares, 0.0)
 

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FREQUENCY, not_negative
 from linkwright.machine.machine import Machine
@@ -39,48 +41,53 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class HolzerTable(Result):
-    """The state of a train that swings at one frequency.
+    """The state of a train that swings at one frequency."""
 
-    Attributes
-    ----------
-    frequency : float
-        [Hz].
-    discs : tuple of str
-        In the order of the file.
-    inertia : ndarray, shape (discs,)
-        J [kg m²].
-    inertia_squared : ndarray, shape (discs,)
-        J ω² [N m/rad].
-    amplitude : ndarray, shape (discs,)
-        θ, 1 at the first disc [rad].
-    torque : ndarray, shape (discs,)
-        J ω² θ, at the speed of the disc [N m].
-    shafts : tuple of str
-        Shafts, then elastic meshes.
-    stiffness : ndarray, shape (shafts,)
-        k [N m/rad].
-    twist : ndarray, shape (shafts,)
-        Angle of the first end less that of the second [rad].
-    shaft_torque : ndarray, shape (shafts,)
-        k times the twist: in a chain the sum of all torques before it [N m].
-    end : str
-        Disc that is not in equilibrium.
-    residual_torque : float
-        What is left over there: zero at a natural frequency [N m].
-    """
-
-    frequency: float
-    discs: tuple[str, ...]
-    inertia: Floats
-    inertia_squared: Floats
-    amplitude: Floats
-    torque: Floats
-    shafts: tuple[str, ...]
-    stiffness: Floats
-    twist: Floats
-    shaft_torque: Floats
-    end: str
-    residual_torque: float
+    frequency: Annotated[float, Shown("frequency of the swing", "ω/2π", "Hz")]
+    discs: Annotated[tuple[str, ...], About("Discs in the order of the file.")]
+    inertia: Annotated[
+        Floats, Shown("moment of inertia of each disc", "J", "kg m²", shape="(discs,)", over="inertia")
+    ]
+    inertia_squared: Annotated[
+        Floats, Shown("inertia times the square of the frequency", "J ω²", "N m/rad", over="inertia_squared")
+    ]
+    amplitude: Annotated[
+        Floats, Shown("angle of each disc", "θ", "rad", "1 at the first disc.", over="amplitude")
+    ]
+    torque: Annotated[
+        Floats,
+        Shown("inertia torque of each disc", "J ω² θ", "N m", "At the speed of the disc.", over="torque"),
+    ]
+    shafts: Annotated[tuple[str, ...], About("Shafts, then elastic meshes.")]
+    stiffness: Annotated[
+        Floats, Shown("stiffness of each shaft", "k", "N m/rad", shape="(shafts,)", over="stiffness")
+    ]
+    twist: Annotated[
+        Floats,
+        Shown(
+            "twist of each shaft",
+            "Δ",
+            "rad",
+            "Angle of the first end less that of the second.",
+            shape="(shafts,)",
+            over="twist",
+        ),
+    ]
+    shaft_torque: Annotated[
+        Floats,
+        Shown(
+            "torque in each shaft",
+            "k Δ",
+            "N m",
+            "In a chain the sum of all torques before it.",
+            shape="(shafts,)",
+            over="shaft_torque",
+        ),
+    ]
+    end: Annotated[str, About("Disc that is not in equilibrium.")]
+    residual_torque: Annotated[
+        float, Shown("torque that is left over at the end", "", "N m", "Zero at a natural frequency.")
+    ]
 
 
 @public

@@ -18,13 +18,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import LENGTH, positive
 from linkwright.machine.machine import Machine
@@ -72,28 +73,20 @@ class Connection(NamedTuple):
 
 @dataclass(frozen=True)
 class Scheme(Result):
-    """A train referred to the speed of its first disc.
+    """A train referred to the speed of its first disc."""
 
-    Attributes
-    ----------
-    discs : tuple of str
-        In the order of the file; rings of dampers last.
-    speed : ndarray, shape (discs,)
-        n, over that of the first disc.
-    inertia, inertia_referred : ndarray, shape (discs,)
-        At its own speed; referred [kg m²].
-    connections : tuple of Connection
-        Shafts, couplings and dampers, then gear stages.
-    diameter : float
-        Of the solid steel shaft of the equivalent lengths [m].
-    """
-
-    discs: tuple[str, ...]
-    speed: Floats
-    inertia: Floats
-    inertia_referred: Floats
-    connections: tuple[Connection, ...]
-    diameter: float
+    discs: Annotated[tuple[str, ...], About("Discs in the order of the file; rings of dampers last.")]
+    speed: Annotated[
+        Floats, Shown("speed of each disc over that of the first", "n", "", shape="(discs,)", over="speed")
+    ]
+    inertia: Annotated[
+        Floats, Shown("moment of inertia of each disc", "J", "kg m²", "At its own speed.", over="inertia")
+    ]
+    inertia_referred: Annotated[
+        Floats, Shown("referred moment of inertia of each disc", "n² J", "kg m²", over="inertia_referred")
+    ]
+    connections: Annotated[tuple[Connection, ...], About("Shafts, couplings and dampers, then gear stages.")]
+    diameter: Annotated[float, Shown("diameter of the solid steel shaft of the equivalent lengths", "", "m")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """As of any result, each connection by the names of its entries.

@@ -13,10 +13,12 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.torsion.core.response import respond, shaft_torques
 from linkwright.torsion.modes.free import lead_speeds
@@ -29,47 +31,68 @@ Complexes = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class Carried(Result):
-    """Vibration of the discs, and what the shafts carry in it.
+    """Vibration of the discs, and what the shafts carry in it."""
 
-    Attributes
-    ----------
-    speeds : ndarray, shape (speeds,)
-        Of the first disc [rad/s].
-    orders : ndarray, shape (orders,)
-        Waves a turn of the first disc.
-    discs, shafts : tuple of str
-        As in `FreeVibration`.
-    amplitudes : ndarray of complex, shape (orders, discs, speeds)
-        θ of each disc beside its steady turning [rad].
-    shaft_torques : ndarray of complex, shape (orders, shafts, speeds)
-        At the first end, elastic and damping part together [N m].
-    mean_torques : ndarray, shape (shafts, speeds)
-        What the shafts carry [N m].
-    torque_greatest, torque_least : ndarray, shape (shafts, speeds)
-        Of mean and vibration together [N m].
-    shaft_heat : ndarray, shape (shafts, speeds)
-        Mean power that each shaft, coupling or damper turns to heat [W].
-    """
-
-    speeds: Floats
-    orders: Floats
-    discs: tuple[str, ...]
-    shafts: tuple[str, ...]
-    amplitudes: Complexes
-    shaft_torques: Complexes
-    mean_torques: Floats
-    torque_greatest: Floats
-    torque_least: Floats
-    shaft_heat: Floats
+    speeds: Annotated[Floats, Shown("speed of the first disc", "ω", "rad/s", shape="(speeds,)")]
+    orders: Annotated[
+        Floats, Shown("waves in a turn of the first disc", "ν", "", shape="(orders,)", over="orders")
+    ]
+    discs: Annotated[tuple[str, ...], About("As in `FreeVibration`.")]
+    shafts: Annotated[tuple[str, ...], About("As in `FreeVibration`.")]
+    amplitudes: Annotated[
+        Complexes,
+        Shown(
+            "angle of each disc beside its steady turning",
+            "θ",
+            "rad",
+            "Complex, by orders.",
+            shape="(orders, discs, speeds)",
+        ),
+    ]
+    shaft_torques: Annotated[
+        Complexes,
+        Shown(
+            "torque at the first end of each shaft",
+            "",
+            "N m",
+            "Complex, by orders; elastic and damping part together.",
+            shape="(orders, shafts, speeds)",
+        ),
+    ]
+    mean_torques: Annotated[Floats, Shown("mean torque of each shaft", "", "N m", shape="(shafts, speeds)")]
+    torque_greatest: Annotated[
+        Floats,
+        Shown(
+            "greatest torque of each shaft",
+            "",
+            "N m",
+            "Mean and vibration together.",
+            shape="(shafts, speeds)",
+        ),
+    ]
+    torque_least: Annotated[
+        Floats,
+        Shown(
+            "least torque of each shaft", "", "N m", "Mean and vibration together.", shape="(shafts, speeds)"
+        ),
+    ]
+    shaft_heat: Annotated[
+        Floats,
+        Shown("heat of each shaft, coupling or damper", "", "W", "Mean power.", shape="(shafts, speeds)"),
+    ]
 
     @property
-    def shaft_torque_max(self) -> Floats:
-        """Largest torque either way, mean and vibration together, shape (shafts, speeds) [N m]."""
+    def shaft_torque_max(
+        self,
+    ) -> Annotated[Floats, Shown("largest torque of each shaft", "", "N m", shape="(shafts, speeds)")]:
+        """Either way, mean and vibration together."""
         return np.maximum(self.torque_greatest, -self.torque_least)
 
     @property
-    def shaft_torque_vibratory(self) -> Floats:
-        """Half of greatest less least torque, shape (shafts, speeds) [N m]."""
+    def shaft_torque_vibratory(
+        self,
+    ) -> Annotated[Floats, Shown("vibratory torque of each shaft", "", "N m", shape="(shafts, speeds)")]:
+        """Half of greatest less least torque."""
         return 0.5 * (self.torque_greatest - self.torque_least)
 
     @property

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
@@ -29,40 +30,35 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class EngineData(Result):
-    """An engine's part of a train.
+    """An engine's part of a train."""
 
-    Attributes
-    ----------
-    own_inertia : float
-        Of what turns with a throw, without rods [kg m²].
-    throw_inertia : float
-        Of the disc that stands for a throw: mean over the turn of its exact inertia [kg m²].
-    throw_inertia_published : float
-        The same by paper 3, (7) and (12) [kg m²].
-    stiffness : float or None
-        From throw to throw, as it is used; None with a single throw [N m/rad].
-    stiffness_by : str
-        Formula that it is by, or "given".
-    stiffness_formulas : dict of str to float
-        By every formula, where the geometry is known [N m/rad].
-    firing : dict of str to float
-        Crank angle at which each cylinder fires, by number, in their order [rad].
-    speed : float
-        At which the gas is told [rad/s].
-    mean_effective_pressure, peak_pressure : tuple of float
-        Of a sound cylinder of each bank [Pa].
-    """
-
-    own_inertia: float
-    throw_inertia: float
-    throw_inertia_published: float
-    stiffness: float | None
-    stiffness_by: str
-    stiffness_formulas: dict[str, float]
-    firing: dict[str, float]
-    speed: float
-    mean_effective_pressure: tuple[float, ...]
-    peak_pressure: tuple[float, ...]
+    own_inertia: Annotated[
+        float, Shown("moment of inertia of what turns with a throw", "J_k", "kg m²", "Without rods.")
+    ]
+    throw_inertia: Annotated[
+        float,
+        Shown(
+            "moment of inertia of the disc that stands for a throw",
+            "",
+            "kg m²",
+            "Mean over the turn of its exact inertia.",
+        ),
+    ]
+    throw_inertia_published: Annotated[float, Shown("the same by paper 3, (7) and (12)", "", "kg m²")]
+    stiffness: Annotated[
+        float | None,
+        Shown("stiffness from throw to throw", "k", "N m/rad", "As it is used; None with a single throw."),
+    ]
+    stiffness_by: Annotated[str, About('Formula that it is by, or "given".')]
+    stiffness_formulas: Annotated[
+        dict[str, float], About("Stiffness by every formula, where the geometry is known [N m/rad].")
+    ]
+    firing: Annotated[
+        dict[str, float], About("Crank angle at which each cylinder fires, by number, in their order [rad].")
+    ]
+    speed: Annotated[float, Shown("speed at which the gas is told", "ω", "rad/s")]
+    mean_effective_pressure: Annotated[tuple[float, ...], About("Of a sound cylinder of each bank [Pa].")]
+    peak_pressure: Annotated[tuple[float, ...], About("Of a sound cylinder of each bank [Pa].")]
 
     @property
     def intervals(self) -> tuple[float, ...]:

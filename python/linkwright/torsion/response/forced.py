@@ -21,12 +21,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import Shown
 from linkwright.machine.machine import Machine
 from linkwright.torsion.response.carried import Carried, carried_by, responses
 from linkwright.torsion.response.excited import Excited, excited
@@ -38,39 +39,21 @@ Complexes = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class ForcedVibration(Carried):
-    """Forced vibration of a train over its speeds, with all that its shafts carry.
+    """Forced vibration of a train over its speeds, with all that its shafts carry."""
 
-    Attributes
-    ----------
-    speeds : ndarray, shape (speeds,)
-        Of the first disc [rad/s].
-    orders : ndarray, shape (orders,)
-        Waves a turn of the first disc.
-    discs, shafts : tuple of str
-        As in `FreeVibration`.
-    amplitudes : ndarray of complex, shape (orders, discs, speeds)
-        θ of each disc beside its steady turning [rad].
-    shaft_torques : ndarray of complex, shape (orders, shafts, speeds)
-        At the first end, elastic and damping part together [N m].
-    mean_torques : ndarray, shape (shafts, speeds)
-        What the shafts carry [N m].
-    torque_greatest, torque_least : ndarray, shape (shafts, speeds)
-        Of mean and vibration together [N m].
-    shaft_heat : ndarray, shape (shafts, speeds)
-        Mean power that each shaft, coupling or damper turns to heat [W].
-    unevenness, unevenness_rigid, unevenness_torsional : ndarray, shape (discs, speeds)
-        δ; of the train as a whole; of the rest.
-    disc_heat : ndarray, shape (discs, speeds)
-        Mean power that damping of the discs takes [W].
-    power : ndarray, shape (speeds,)
-        Mean power of the pulsating torques, which is the sum of all heat [W].
-    """
-
-    unevenness: Floats
-    unevenness_rigid: Floats
-    unevenness_torsional: Floats
-    disc_heat: Floats
-    power: Floats
+    unevenness: Annotated[
+        Floats, Shown("coefficient of unevenness of each disc", "δ", "", shape="(discs, speeds)")
+    ]
+    unevenness_rigid: Annotated[
+        Floats, Shown("coefficient of unevenness of the train as a whole", "", "", shape="(discs, speeds)")
+    ]
+    unevenness_torsional: Annotated[
+        Floats, Shown("coefficient of unevenness of the rest", "", "", shape="(discs, speeds)")
+    ]
+    disc_heat: Annotated[
+        Floats, Shown("heat by the damping of each disc", "", "W", "Mean power.", shape="(discs, speeds)")
+    ]
+    power: Annotated[Floats, Shown("mean power of the pulsating torques", "", "W", "The sum of all heat.")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Curves over the speeds by name of shaft and disc.

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.torsion.limits.exceedance import peaks_between
 from linkwright.torsion.response.survey import Survey
@@ -16,21 +18,23 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class TorquePeaks(Result):
-    """Where each shaft swings most.
+    """Where each shaft swings most."""
 
-    Attributes
-    ----------
-    shafts : tuple of str
-        As in `ForcedVibration`.
-    vibratory : ndarray, shape (shafts,)
-        Half of greatest less least torque; infinite at a resonance that nothing damps [N m].
-    speed : ndarray, shape (shafts,)
-        There, of the first disc [rad/s].
-    """
-
-    shafts: tuple[str, ...]
-    vibratory: Floats
-    speed: Floats
+    shafts: Annotated[tuple[str, ...], About("As in `ForcedVibration`.")]
+    vibratory: Annotated[
+        Floats,
+        Shown(
+            "vibratory torque in each shaft",
+            "",
+            "N m",
+            "Half of greatest less least torque; infinite at a resonance that nothing damps.",
+            shape="(shafts,)",
+            over="vibratory",
+        ),
+    ]
+    speed: Annotated[
+        Floats, Shown("speed of the first disc there", "ω", "rad/s", shape="(shafts,)", over="speed")
+    ]
 
 
 def torque_peaks(seen: Survey) -> TorquePeaks:

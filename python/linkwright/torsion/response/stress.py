@@ -18,12 +18,14 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 from linkwright.machine.machine import Machine
@@ -41,37 +43,64 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ShaftStress(Result):
-    """Stresses in those shafts of which a section is known.
+    """Stresses in those shafts of which a section is known."""
 
-    Attributes
-    ----------
-    speeds : ndarray, shape (speeds,)
-        Of the first disc [rad/s].
-    shafts : tuple of str
-        Shafts with sections, or with a section in their limit.
-    section_modulus : ndarray, shape (shafts,)
-        Torque per nominal stress [m³].
-    concentration : ndarray, shape (shafts,)
-        K.
-    mean, vibratory, greatest : ndarray, shape (shafts, speeds)
-        Of the torque's mean, of half its range, of its largest value [Pa].
-    continuous, transient : ndarray, shape (shafts, speeds)
-        Vibratory stress permitted in continuous operation and in transient passage [Pa]; NaN where
-        nothing is said.
-    """
-
-    speeds: Floats
-    shafts: tuple[str, ...]
-    section_modulus: Floats
-    concentration: Floats
-    mean: Floats
-    vibratory: Floats
-    greatest: Floats
-    continuous: Floats
-    transient: Floats
+    speeds: Annotated[Floats, Shown("speed of the first disc", "ω", "rad/s", shape="(speeds,)")]
+    shafts: Annotated[tuple[str, ...], About("Shafts with sections, or with a section in their limit.")]
+    section_modulus: Annotated[
+        Floats,
+        Shown(
+            "section modulus of each shaft",
+            "W",
+            "m³",
+            "Torque per nominal stress.",
+            shape="(shafts,)",
+            over="section_modulus",
+        ),
+    ]
+    concentration: Annotated[
+        Floats, Shown("stress concentration of each shaft", "K", "", shape="(shafts,)", over="concentration")
+    ]
+    mean: Annotated[Floats, Shown("mean stress of each shaft", "", "Pa", shape="(shafts, speeds)")]
+    vibratory: Annotated[
+        Floats,
+        Shown(
+            "vibratory stress of each shaft",
+            "τ",
+            "Pa",
+            "Of half the range of the torque.",
+            shape="(shafts, speeds)",
+        ),
+    ]
+    greatest: Annotated[
+        Floats,
+        Shown("greatest stress of each shaft", "", "Pa", "Of the largest torque.", shape="(shafts, speeds)"),
+    ]
+    continuous: Annotated[
+        Floats,
+        Shown(
+            "stress permitted in continuous operation",
+            "τ_C",
+            "Pa",
+            "Vibratory; NaN where nothing is said.",
+            shape="(shafts, speeds)",
+        ),
+    ]
+    transient: Annotated[
+        Floats,
+        Shown(
+            "stress permitted in transient passage",
+            "τ_T",
+            "Pa",
+            "Vibratory; NaN where nothing is said.",
+            shape="(shafts, speeds)",
+        ),
+    ]
 
     @property
-    def utilisation(self) -> Floats:
+    def utilisation(
+        self,
+    ) -> Annotated[Floats, Shown("vibratory over permitted stress", "", "", shape="(shafts, speeds)")]:
         """Vibratory stress over that permitted in continuous operation, shape (shafts, speeds)."""
         return self.vibratory / self.continuous
 

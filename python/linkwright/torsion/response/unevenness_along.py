@@ -20,11 +20,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.torsion.response.excited import Excited
 from linkwright.torsion.response.forced import ForcedVibration
@@ -42,47 +44,62 @@ _EQUAL = 1e-9
 
 @dataclass(frozen=True)
 class UnevennessAlong(Result):
-    """Unevenness over the cylinders at each disc, at one speed.
+    """Unevenness over the cylinders at each disc, at one speed."""
 
-    Attributes
-    ----------
-    speed : float
-        Of the first disc [rad/s].
-    discs : tuple of str
-        As in `ForcedVibration`.
-    cylinders : tuple of str
-        In the order in which they fire.
-    firing : ndarray, shape (cylinders,)
-        Angle of the first disc at which each fires, increasing within a cycle [rad].
-    share, share_rigid, share_torsional : ndarray, shape (discs, cylinders)
-        N_i from each firing to the next: in all, of the train as a whole, of the rest.
-    """
-
-    speed: float
-    discs: tuple[str, ...]
-    cylinders: tuple[str, ...]
-    firing: Floats
-    share: Floats
-    share_rigid: Floats
-    share_torsional: Floats
+    speed: Annotated[float, Shown("speed of the first disc", "ω", "rad/s")]
+    discs: Annotated[tuple[str, ...], About("As in `ForcedVibration`.")]
+    cylinders: Annotated[tuple[str, ...], About("Cylinders in the order in which they fire.")]
+    firing: Annotated[
+        Floats,
+        Shown(
+            "angle of the first disc at which each cylinder fires",
+            "",
+            "rad",
+            "Increasing within a cycle.",
+            shape="(cylinders,)",
+        ),
+    ]
+    share: Annotated[
+        Floats,
+        Shown("unevenness from each firing to the next", "N_i", "", "In all.", shape="(discs, cylinders)"),
+    ]
+    share_rigid: Annotated[
+        Floats,
+        Shown(
+            "unevenness from each firing to the next, of the train as a whole",
+            "",
+            "",
+            shape="(discs, cylinders)",
+        ),
+    ]
+    share_torsional: Annotated[
+        Floats,
+        Shown("unevenness from each firing to the next, of the rest", "", "", shape="(discs, cylinders)"),
+    ]
 
     @property
-    def unevenness(self) -> Floats:
+    def unevenness(
+        self,
+    ) -> Annotated[Floats, Shown("unevenness over the cylinders", "N", "", shape="(discs,)")]:
         """N, shape (discs,)."""
         return _mean(self.share)
 
     @property
-    def unevenness_rigid(self) -> Floats:
+    def unevenness_rigid(
+        self,
+    ) -> Annotated[Floats, Shown("unevenness of the train as a whole", "", "", shape="(discs,)")]:
         """N of the train turning as a whole, shape (discs,)."""
         return _mean(self.share_rigid)
 
     @property
-    def unevenness_torsional(self) -> Floats:
+    def unevenness_torsional(
+        self,
+    ) -> Annotated[Floats, Shown("unevenness of the rest", "", "", shape="(discs,)")]:
         """N of the rest, shape (discs,)."""
         return _mean(self.share_torsional)
 
     @property
-    def spread(self) -> Floats:
+    def spread(self) -> Annotated[Floats, Shown("spread of the unevenness", "s", "", shape="(discs,)")]:
         """s, largest less least N_i, shape (discs,)."""
         found: Floats = np.ptp(self.share, axis=1)
         return found

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.page.quantities import number
+from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table, with_unit
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.limits.verdict import Verdict

@@ -1,0 +1,67 @@
+"""What quantities there are: of a result, and of a whole study."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import shown
+from linkwright.kernel.quantities import DeclaredQuantity, quantities_of
+from linkwright.kernel.result import Result
+
+
+@public
+def quantities(of: Any) -> tuple[DeclaredQuantity, ...]:
+    """The quantities of a result or of a study: words, symbols, units, and whether they are curves.
+
+    Parameters
+    ----------
+    of : Result, type, Study or TorsionStudy
+        A result, its class, or a study, which has several.
+
+    Returns
+    -------
+    tuple of DeclaredQuantity
+        In the order of the declarations. Names are those of the attributes and of the keys of ``--json``; in
+        a study the analysis stands before them: ``"steady_state.unevenness"``.
+
+    Raises
+    ------
+    InputError
+        It is none of these.
+
+    Notes
+    -----
+    Of a class, a unit that depends on the machine is told as such: the lift of a cam has ``"m or rad"``.
+
+    Examples
+    --------
+    >>> import linkwright as lw
+    >>> steady = lw.steady_state(lw.read("machines/roller_two_carts.toml"))
+    >>> {each.name: each.unit for each in lw.quantities(steady)}["torque_motor_rms"]
+    'N m'
+    """
+    if isinstance(of, type) and issubclass(of, Result):
+        return tuple(quantities_of(of))
+    if isinstance(of, Result):
+        return tuple(each._replace(unit=of.unit_of(each.name)) for each in quantities_of(type(of)))
+    return tuple(
+        each._replace(name=f"{name}.{each.name}", over=each.over and f"{name}.{each.over}")
+        for name, result in _parts(of).items()
+        for each in quantities(result)
+    )
+
+
+def _parts(study: Any) -> Mapping[str, Result]:
+    """The results of a study by their names."""
+    from linkwright.app.study import Study
+
+    if isinstance(study, Study):
+        return study.results()
+    if isinstance(study, type) or not is_dataclass(study):
+        raise InputError(f"of: found {shown(study)}, expected a result, its class, or a study")
+    parts = {each.name: getattr(study, each.name) for each in fields(study)}
+    return {name: part for name, part in parts.items() if isinstance(part, Result)}

@@ -1,0 +1,209 @@
+"""A quantity of a result is declared once, at its attribute: its words, its symbol, its unit.
+
+    speed_min: Annotated[float, Shown("least speed", "ω_min", "rad/s", "Exact, not that of the curve.")]
+
+From this follow the docs of the class, the rows of tables, the heads of columns, the table in
+`docs/notation.md`, and what `linkwright.quantities` lists. Whether it is a scalar or a curve is said by its
+type; a curve runs over the first array of its result unless it says otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from types import NoneType, UnionType
+from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+
+class Shown(NamedTuple):
+    """Mark of an attribute that is a quantity.
+
+    Attributes
+    ----------
+    word : str
+        What it is called.
+    symbol : str
+        As the field writes it, an index after ``_``; empty if it has none.
+    unit : str
+        SI unit as it is printed; empty for a number without one.
+    about : str
+        What else is to be known, in sentences. A property says it in its docstring.
+    shape : str
+        Of an array that is no list of numbers over another one, such as ``"(n, 2)"``.
+    over : str
+        Attribute that a curve runs over, if that is not the first array of its result; its own name for an
+        array that runs over no quantity, such as over variants.
+    table : str
+        Name of the table that has a row for it; empty for none.
+    before : str
+        Attribute of that table that it stands before; without it, rows have the order of the declarations.
+    """
+
+    word: str
+    symbol: str
+    unit: str
+    about: str = ""
+    shape: str = ""
+    over: str = ""
+    table: str = ""
+    before: str = ""
+
+
+class About(NamedTuple):
+    """Mark of an attribute that is no quantity: a text, a table, another result."""
+
+    about: str
+
+
+class DeclaredQuantity(NamedTuple):
+    """A quantity of a result, as it is declared.
+
+    Attributes
+    ----------
+    name : str
+        Of the attribute; of a study, with the analysis before it: ``"steady_state.speed_min"``.
+    kind : str
+        ``"scalar"`` or ``"curve"``.
+    word, symbol, unit : str
+        What it is called, its symbol, its SI unit; the last two may be empty.
+    about : str
+        What else is to be known, in sentences.
+    over : str
+        Of a curve, name of the attribute that it runs over; empty for that one itself and for scalars.
+    """
+
+    name: str
+    kind: str
+    word: str
+    symbol: str
+    unit: str
+    about: str
+    over: str
+
+
+def quantities_of(owner: type) -> Iterator[DeclaredQuantity]:
+    """The quantities that a class declares, fields before properties."""
+    for name, (_, mark) in declared(owner).items():
+        if isinstance(mark, Shown):
+            kind = "curve" if is_array(owner, name) else "scalar"
+            yield DeclaredQuantity(
+                name, kind, mark.word, mark.symbol, mark.unit, _about(owner, name), over(owner, name)
+            )
+
+
+def shown(owner: type, name: str) -> Shown:
+    """How an attribute of a result is shown.
+
+    Raises
+    ------
+    KeyError
+        It is not declared as a quantity.
+    """
+    mark = declared(owner)[name][1]
+    if not isinstance(mark, Shown):
+        raise KeyError(name)
+    return mark
+
+
+def in_table(owner: type, table: str) -> list[str]:
+    """Names of the attributes that have a row in a table, in the order of its rows."""
+    names: list[str] = []
+    for name, (_, mark) in declared(owner).items():
+        if isinstance(mark, Shown) and mark.table == table:
+            names.insert(names.index(mark.before) if mark.before else len(names), name)
+    return names
+
+
+def over(owner: type, name: str) -> str:
+    """The attribute that a curve runs over; empty for that one itself, and for what is no curve."""
+    mark = shown(owner, name)
+    if not is_array(owner, name):
+        return ""
+    first = next(each for each in declared(owner) if is_array(owner, each))
+    found = mark.over or first
+    return "" if found == name else found
+
+
+def is_array(owner: type, name: str) -> bool:
+    """Whether an attribute is an array, where it is not None."""
+    return any(get_origin(kind) is np.ndarray for kind in _alternatives(declared(owner)[name][0]))
+
+
+def declared(owner: type) -> dict[str, tuple[Any, Shown | About]]:
+    """Type and mark of the declared attributes of a class by name, fields before properties."""
+    return _declared(owner)
+
+
+@cache
+def _declared(owner: type) -> dict[str, tuple[Any, Shown | About]]:
+    hints = get_type_hints(owner, include_extras=True)
+    for kind in reversed(owner.__mro__):
+        for name, member in vars(kind).items():
+            if isinstance(member, property) and member.fget is not None:
+                hints[name] = get_type_hints(member.fget, include_extras=True).get("return")
+    found = {}
+    for name, hint in hints.items():
+        if get_origin(hint) is Annotated:
+            mark = next((each for each in hint.__metadata__ if isinstance(each, Shown | About)), None)
+            if mark is not None:
+                found[name] = (hint.__origin__, mark)
+    return found
+
+
+def _about(owner: type, name: str) -> str:
+    """What a declaration says beside the words, or the docstring of a property."""
+    member = getattr(owner, name, None)
+    if isinstance(member, property):
+        return " ".join((member.__doc__ or "").split("\n\n")[0].split())
+    return declared(owner)[name][1].about
+
+
+def attributes_section(owner: type) -> str:
+    """The docstring's section on the declared attributes, without its head; empty if there are none."""
+    return "\n".join(_entry(owner, name) for name in declared(owner))
+
+
+def _entry(owner: type, name: str) -> str:
+    """Name, type and text of one attribute."""
+    hint, mark = declared(owner)[name]
+    text = _about(owner, name)
+    if isinstance(mark, Shown):
+        words = ", ".join(part for part in (mark.word[0].upper() + mark.word[1:], mark.symbol) if part)
+        text = f"{words} [{mark.unit or '–'}]. {text}".rstrip()
+    return f"{name} : {_type_words(hint)}{_shape(owner, name)}\n    {text}"
+
+
+def _shape(owner: type, name: str) -> str:
+    """How a docstring says the shape of an array."""
+    mark = declared(owner)[name][1]
+    if not isinstance(mark, Shown) or not is_array(owner, name):
+        return ""
+    along = over(owner, name)
+    if mark.shape or not along:
+        return f", shape {mark.shape or '(n,)'}"
+    return f", shape as {along}"
+
+
+def _type_words(hint: Any) -> str:
+    """A type as docstrings write it: ``float or None``, ``tuple of str``, ``dict of str to PairForce``."""
+    kinds = _alternatives(hint)
+    if len(kinds) > 1 or NoneType in get_args(hint):
+        optional = " or None" if NoneType in get_args(hint) else ""
+        return " or ".join(_type_words(kind) for kind in kinds) + optional
+    origin, parts = get_origin(hint), [each for each in get_args(hint) if each is not Ellipsis]
+    if origin is np.ndarray:
+        return "ndarray"
+    if origin is dict:
+        return f"dict of {_type_words(parts[0])} to {_type_words(parts[1])}"
+    if origin in (tuple, list):
+        return f"{origin.__name__} of {' and '.join(dict.fromkeys(_type_words(part) for part in parts))}"
+    return str(getattr(hint, "__name__", hint))
+
+
+def _alternatives(hint: Any) -> tuple[Any, ...]:
+    """The types of a union but for None, or the type itself."""
+    if get_origin(hint) in (Union, UnionType):
+        return tuple(kind for kind in get_args(hint) if kind is not NoneType)
+    return (hint,)
