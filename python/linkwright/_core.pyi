@@ -1,17 +1,50 @@
-"""The compiled kernels, for files named `core` and `machine.program` alone; all is SI and contiguous."""
+"""The compiled kernels, for files named `core` and `machine.program` alone; all is SI and contiguous.
+
+Fields of elements, loads and the drive that are integers are indices of points, links, slides and dyads, or
+slots: places of numbers in the list of parameters. A compiled module has one stub, however long.
+"""
 
 from collections.abc import Sequence
-from typing import final
+from typing import Final, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
     "FORMAT",
+    "Bar",
+    "Body",
     "Cam",
+    "CamShape",
+    "Carried",
+    "ChangePoint",
+    "Condition",
+    "Drive",
+    "Element",
+    "Fixed",
+    "Formula",
+    "GroupPath",
+    "InLine",
+    "Line",
+    "Load",
+    "MotionInTime",
+    "MotionLaw",
+    "Motor",
+    "NoSteadyMotion",
+    "OtherMotion",
+    "Piece",
     "Plan",
+    "Span",
+    "Status",
+    "SteadyMotion",
+    "SteadyRows",
+    "Sum",
+    "Table",
     "TopperKnife",
+    "TorsionModes",
+    "TorsionMotion",
     "TorsionSystem",
+    "WaveExtremes",
     "cam_crossings",
     "follow_group",
     "gaps",
@@ -36,41 +69,858 @@ _Ints = NDArray[np.int32]
 FORMAT: int
 
 @final
-class Plan:
-    """A machine's structure: integer tables described in `crates/linkwright-core/src/plan.rs`."""
+class Table:
+    """Straight lines between points; raises ValueError unless x increases and all is finite."""
+
+    def __new__(cls, x: Sequence[float], y: Sequence[float]) -> Table: ...
+
+@final
+class Formula:
+    """Instructions in postfix order, by the words of formulas.
+
+    ``number`` with a slot, ``zero``, ``name`` with that of a variable, ``power`` with a whole exponent;
+    operators and functions with none. ValueError for other words, or unless it leaves one number.
+    """
+
+    def __new__(cls, instructions: Sequence[tuple[str, int | str | None]]) -> Formula: ...
+
+@final
+class Piece:
+    """One piece of a motion law [rad]: Σ cᵢ uⁱ + Σ (a cos ku + b sin ku), u = (φ − start)/length."""
 
     def __new__(
         cls,
-        sizes: _Ints,
-        elements: _Ints,
-        bodies: _Ints,
-        loads: _Ints,
-        drive: _Ints,
-        table_starts: _Ints,
-        table_x: _Floats,
-        table_y: _Floats,
-        formulas: _Ints,
-        motion_laws: _Floats,
+        *,
+        start: float,
+        length: float,
+        polynomial: Sequence[float],
+        harmonics: Sequence[Sequence[float]],
+    ) -> Piece: ...
+    start: Final[float]
+    length: Final[float]
+    polynomial: Final[list[float]]
+    harmonics: Final[list[list[float]]]
+
+@final
+class MotionLaw:
+    """Pieces that follow one another over a whole turn; ValueError if they do not."""
+
+    def __new__(cls, pieces: Sequence[Piece]) -> MotionLaw: ...
+
+@final
+class Line:
+    """A guide on a link or the frame: `offset` to the left of a point, turned by cos and sin."""
+
+    def __new__(cls, *, through: int, link: int | None, cos: int, sin: int, offset: int) -> Line: ...
+    through: Final[int]
+    link: Final[int | None]
+    cos: Final[int]
+    sin: Final[int]
+    offset: Final[int]
+
+@final
+class Sum:
+    """A constant and terms: slides, or the crank angle where there is none, with their factors."""
+
+    def __new__(cls, *, start: int, terms: Sequence[tuple[int | None, int]]) -> Sum: ...
+    start: Final[int]
+    terms: Final[Sequence[tuple[int | None, int]]]
+
+@final
+class Bar:
+    """A link between two points."""
+
+    def __new__(cls, *, link: int, start: int, end: int, inverse_length: int) -> Bar: ...
+    link: Final[int]
+    start: Final[int]
+    end: Final[int]
+    inverse_length: Final[int]
+
+@final
+class Carried:
+    """A point fixed to a bar of a group, `along` and `across` in lengths of the bar."""
+
+    def __new__(cls, *, point: int, start: int, end: int, along: int, across: int) -> Carried: ...
+    point: Final[int]
+    start: Final[int]
+    end: Final[int]
+    along: Final[int]
+    across: Final[int]
+
+class Condition:
+    """What holds the joints of a group."""
+
+    @final
+    class Distance(Condition):
+        """Two points at a distance."""
+
+        def __new__(cls, *, start: int, end: int, length: int) -> Condition.Distance: ...
+        start: Final[int]
+        end: Final[int]
+        length: Final[int]
+
+    @final
+    class OnLine(Condition):
+        """A point on a guide of a link that is placed before."""
+
+        def __new__(cls, *, point: int, line: Line, slide: int) -> Condition.OnLine: ...
+        point: Final[int]
+        line: Final[Line]
+        slide: Final[int]
+
+    @final
+    class OnBar(Condition):
+        """A point on a guide fixed to a bar of the group."""
+
+        def __new__(cls, *, point: int, line: Line, slide: int, bar: Bar) -> Condition.OnBar: ...
+        point: Final[int]
+        line: Final[Line]
+        slide: Final[int]
+        bar: Final[Bar]
+
+@final
+class ChangePoint:
+    """A change point, whose numbers stand in a row from slot `first` on."""
+
+    def __new__(cls, *, first: int, has_arms: bool) -> ChangePoint: ...
+    first: Final[int]
+    has_arms: Final[bool]
+    @property
+    def place(self) -> tuple[int, int, int]:
+        """Slots of cos φ, sin φ, and of the reach [rad], negative where a machine does not have it."""
+
+@final
+class Fixed:
+    """A point of the ground."""
+
+    def __new__(cls, *, point: int, x: int, y: int) -> Fixed: ...
+    point: Final[int]
+    x: Final[int]
+    y: Final[int]
+
+class Element:
+    """One element: points, links, slides and dyads by their index, numbers by their slot.
+
+    What it makes has the next indices; what it hangs on was made before.
+    """
+
+    @final
+    class Crank(Element):
+        """A crank that turns with φ + phase about a point of the ground; cos and sin of the phase."""
+
+        def __new__(
+            cls, *, pin: int, link: int, pivot: int, radius: int, cos: int, sin: int
+        ) -> Element.Crank: ...
+        pin: Final[int]
+        link: Final[int]
+        pivot: Final[int]
+        radius: Final[int]
+        cos: Final[int]
+        sin: Final[int]
+
+    @final
+    class SliderRod(Element):
+        """A rod from a pin to a slider on a fixed guide with direction `cos`, `sin`: the dyad RRP."""
+
+        def __new__(
+            cls,
+            *,
+            point: int,
+            link: int,
+            slide: int,
+            dyad: int,
+            pin: int,
+            through: int,
+            rod: int,
+            inverse_rod: int,
+            offset: int,
+            cos: int,
+            sin: int,
+            sign: int,
+        ) -> Element.SliderRod: ...
+        point: Final[int]
+        link: Final[int]
+        slide: Final[int]
+        dyad: Final[int]
+        pin: Final[int]
+        through: Final[int]
+        rod: Final[int]
+        inverse_rod: Final[int]
+        offset: Final[int]
+        cos: Final[int]
+        sin: Final[int]
+        sign: Final[int]
+
+    @final
+    class Rocker(Element):
+        """A coupler from a pin and a rocker from a pivot, joined: the dyad RRR, and its change points."""
+
+        def __new__(
+            cls,
+            *,
+            joint: int,
+            coupler_link: int,
+            rocker_link: int,
+            dyad: int,
+            pin: int,
+            pivot: int,
+            coupler: int,
+            rocker: int,
+            inverse_coupler: int,
+            inverse_rocker: int,
+            sign: int,
+            change_points: Sequence[ChangePoint],
+        ) -> Element.Rocker: ...
+        joint: Final[int]
+        coupler_link: Final[int]
+        rocker_link: Final[int]
+        dyad: Final[int]
+        pin: Final[int]
+        pivot: Final[int]
+        coupler: Final[int]
+        rocker: Final[int]
+        inverse_coupler: Final[int]
+        inverse_rocker: Final[int]
+        sign: Final[int]
+        change_points: Final[Sequence[ChangePoint]]
+
+    @final
+    class RigidPoint(Element):
+        """A point fixed on a link, `along` it from its start and `across` to the left."""
+
+        def __new__(
+            cls, *, point: int, link: int, origin: int, along: int, across: int
+        ) -> Element.RigidPoint: ...
+        point: Final[int]
+        link: Final[int]
+        origin: Final[int]
+        along: Final[int]
+        across: Final[int]
+
+    @final
+    class GuidedRod(Element):
+        """A rod from a pin to a slider on any guide: the dyad RRP, and its change points."""
+
+        def __new__(
+            cls,
+            *,
+            point: int,
+            link: int,
+            slide: int,
+            dyad: int,
+            pin: int,
+            line: Line,
+            rod: int,
+            inverse_rod: int,
+            sign: int,
+            change_points: Sequence[ChangePoint],
+        ) -> Element.GuidedRod: ...
+        point: Final[int]
+        link: Final[int]
+        slide: Final[int]
+        dyad: Final[int]
+        pin: Final[int]
+        line: Final[Line]
+        rod: Final[int]
+        inverse_rod: Final[int]
+        sign: Final[int]
+        change_points: Final[Sequence[ChangePoint]]
+
+    @final
+    class SlottedLever(Element):
+        """A lever about a pivot whose slot, `offset` to the left, is moved by a pin: the dyad RPR."""
+
+        def __new__(
+            cls, *, link: int, slide: int, dyad: int, pin: int, pivot: int, offset: int, sign: int
+        ) -> Element.SlottedLever: ...
+        link: Final[int]
+        slide: Final[int]
+        dyad: Final[int]
+        pin: Final[int]
+        pivot: Final[int]
+        offset: Final[int]
+        sign: Final[int]
+
+    @final
+    class Crossing(Element):
+        """Where two guides cross: the dyads PRP and RPP."""
+
+        def __new__(
+            cls, *, point: int, slides: Sequence[int], dyad: int, lines: Sequence[Line]
+        ) -> Element.Crossing: ...
+        point: Final[int]
+        slides: Final[Sequence[int]]
+        dyad: Final[int]
+        lines: Final[Sequence[Line]]
+
+    @final
+    class Turn(Element):
+        """A link whose angle, kept as a slide, is a sum of other coordinates."""
+
+        def __new__(cls, *, link: int, slide: int, angle: Sum) -> Element.Turn: ...
+        link: Final[int]
+        slide: Final[int]
+        angle: Final[Sum]
+
+    @final
+    class Runner(Element):
+        """A point on a guide whose coordinate is a sum of others."""
+
+        def __new__(cls, *, point: int, slide: int, line: Line, place: Sum) -> Element.Runner: ...
+        point: Final[int]
+        slide: Final[int]
+        line: Final[Line]
+        place: Final[Sum]
+
+    @final
+    class AngleOf(Element):
+        """The continuous angle of a link, within half a turn of winding·φ + centre."""
+
+        def __new__(cls, *, link: int, slide: int, winding: int, centre: int) -> Element.AngleOf: ...
+        link: Final[int]
+        slide: Final[int]
+        winding: Final[int]
+        centre: Final[int]
+
+    @final
+    class Group(Element):
+        """Joints that are found together from starts, x and y of each over φ·inverse_turns."""
+
+        def __new__(
+            cls,
+            *,
+            dyad: int,
+            unknowns: Sequence[int],
+            carried: Sequence[Carried],
+            bars: Sequence[Bar],
+            conditions: Sequence[Condition],
+            starts: Sequence[Table],
+            inverse_turns: int,
+            repeats: bool,
+        ) -> Element.Group: ...
+        dyad: Final[int]
+        unknowns: Final[Sequence[int]]
+        carried: Final[Sequence[Carried]]
+        bars: Final[Sequence[Bar]]
+        conditions: Final[Sequence[Condition]]
+        starts: Final[Sequence[Table]]
+        inverse_turns: Final[int]
+        repeats: Final[bool]
+
+    @final
+    class Link(Element):
+        """A link between two points that are placed already."""
+
+        def __new__(cls, *, bar: Bar) -> Element.Link: ...
+        bar: Final[Bar]
+
+    @final
+    class Law(Element):
+        """A coordinate by a formula of the crank angle."""
+
+        def __new__(cls, *, slide: int, formula: Formula) -> Element.Law: ...
+        slide: Final[int]
+        formula: Final[Formula]
+
+    @final
+    class Programme(Element):
+        """A coordinate that follows a motion law from crank angle `phase` on."""
+
+        def __new__(cls, *, slide: int, phase: int, law: MotionLaw) -> Element.Programme: ...
+        slide: Final[int]
+        phase: Final[int]
+        law: Final[MotionLaw]
+
+class Body:
+    """A body: a mass at a point, or a link with its centre of mass."""
+
+    @final
+    class Point(Body):
+        """A mass [kg]."""
+
+        def __new__(cls, *, point: int, mass: int) -> Body.Point: ...
+        point: Final[int]
+        mass: Final[int]
+
+    @final
+    class Link(Body):
+        """A link: centre from its start, mass [kg], inertia about the centre [kg m²]."""
+
+        def __new__(
+            cls, *, link: int, origin: int, along: int, across: int, mass: int, inertia: int
+        ) -> Body.Link: ...
+        link: Final[int]
+        origin: Final[int]
+        along: Final[int]
+        across: Final[int]
+        mass: Final[int]
+        inertia: Final[int]
+
+class Load:
+    """A load, with its table or formula."""
+
+    @final
+    class DrySlide(Load):
+        """A constant force against the motion along a guide."""
+
+        def __new__(cls, *, slide: int, force: int) -> Load.DrySlide: ...
+        slide: Final[int]
+        force: Final[int]
+
+    @final
+    class DryPoint(Load):
+        """A constant force against the motion of a point."""
+
+        def __new__(cls, *, point: int, force: int) -> Load.DryPoint: ...
+        point: Final[int]
+        force: Final[int]
+
+    @final
+    class DryLink(Load):
+        """A constant torque against the turning of a link."""
+
+        def __new__(cls, *, link: int, torque: int) -> Load.DryLink: ...
+        link: Final[int]
+        torque: Final[int]
+
+    @final
+    class DryCrank(Load):
+        """A constant torque against the turning of the crankshaft."""
+
+        def __new__(cls, *, torque: int) -> Load.DryCrank: ...
+        torque: Final[int]
+
+    @final
+    class ViscousSlide(Load):
+        """A force in proportion to the speed along a guide."""
+
+        def __new__(cls, *, slide: int, damping: int) -> Load.ViscousSlide: ...
+        slide: Final[int]
+        damping: Final[int]
+
+    @final
+    class ViscousPoint(Load):
+        """A force in proportion to the speed of a point."""
+
+        def __new__(cls, *, point: int, damping: int) -> Load.ViscousPoint: ...
+        point: Final[int]
+        damping: Final[int]
+
+    @final
+    class ViscousLink(Load):
+        """A torque in proportion to the speed of a link."""
+
+        def __new__(cls, *, link: int, damping: int) -> Load.ViscousLink: ...
+        link: Final[int]
+        damping: Final[int]
+
+    @final
+    class Force(Load):
+        """A force that keeps its direction."""
+
+        def __new__(cls, *, point: int, x: int, y: int) -> Load.Force: ...
+        point: Final[int]
+        x: Final[int]
+        y: Final[int]
+
+    @final
+    class Torque(Load):
+        """A torque on a link, counter-clockwise."""
+
+        def __new__(cls, *, link: int, torque: int) -> Load.Torque: ...
+        link: Final[int]
+        torque: Final[int]
+
+    @final
+    class Gravity(Load):
+        """The weight of every body."""
+
+        def __new__(cls, *, x: int, y: int) -> Load.Gravity: ...
+        x: Final[int]
+        y: Final[int]
+
+    @final
+    class Spring(Load):
+        """A spring between two points; `preload` is its pull at the free length."""
+
+        def __new__(
+            cls, *, start: int, end: int, stiffness: int, free_length: int, preload: int
+        ) -> Load.Spring: ...
+        start: Final[int]
+        end: Final[int]
+        stiffness: Final[int]
+        free_length: Final[int]
+        preload: Final[int]
+
+    @final
+    class ForcePosition(Load):
+        """A force over the position on a guide, against the motion to and fro."""
+
+        def __new__(cls, *, slide: int, forward: Table, back: Table) -> Load.ForcePosition: ...
+        slide: Final[int]
+        forward: Final[Table]
+        back: Final[Table]
+
+    @final
+    class TorqueAngle(Load):
+        """A torque over the crank angle, against positive turning."""
+
+        def __new__(cls, *, table: Table) -> Load.TorqueAngle: ...
+        table: Final[Table]
+
+    @final
+    class TorqueSpeed(Load):
+        """A torque over the speed of the crank, against it."""
+
+        def __new__(cls, *, table: Table) -> Load.TorqueSpeed: ...
+        table: Final[Table]
+
+    @final
+    class Follow(Load):
+        """A force that turns with a link."""
+
+        def __new__(cls, *, point: int, link: int, along: int, across: int) -> Load.Follow: ...
+        point: Final[int]
+        link: Final[int]
+        along: Final[int]
+        across: Final[int]
+
+    @final
+    class Damper(Load):
+        """A damper between two points."""
+
+        def __new__(cls, *, start: int, end: int, damping: int) -> Load.Damper: ...
+        start: Final[int]
+        end: Final[int]
+        damping: Final[int]
+
+    @final
+    class DamperTable(Load):
+        """A damper by a table over the speed at which two points part."""
+
+        def __new__(cls, *, start: int, end: int, table: Table) -> Load.DamperTable: ...
+        start: Final[int]
+        end: Final[int]
+        table: Final[Table]
+
+    @final
+    class SpringTable(Load):
+        """A spring by a table over its length."""
+
+        def __new__(cls, *, start: int, end: int, table: Table) -> Load.SpringTable: ...
+        start: Final[int]
+        end: Final[int]
+        table: Final[Table]
+
+    @final
+    class TorsionSpring(Load):
+        """A spring between a link and another, or the frame; cos and sin of its free angle."""
+
+        def __new__(
+            cls, *, link: int, other: int | None, stiffness: int, cos: int, sin: int
+        ) -> Load.TorsionSpring: ...
+        link: Final[int]
+        other: Final[int | None]
+        stiffness: Final[int]
+        cos: Final[int]
+        sin: Final[int]
+
+    @final
+    class TorsionDamper(Load):
+        """A damper between a link and another, or the frame."""
+
+        def __new__(cls, *, link: int, other: int | None, damping: int) -> Load.TorsionDamper: ...
+        link: Final[int]
+        other: Final[int | None]
+        damping: Final[int]
+
+    @final
+    class GasSpring(Load):
+        """A gas spring: push at its extended length, that length, length of its gas, exponent."""
+
+        def __new__(
+            cls, *, start: int, end: int, force: int, length: int, column: int, exponent: int
+        ) -> Load.GasSpring: ...
+        start: Final[int]
+        end: Final[int]
+        force: Final[int]
+        length: Final[int]
+        column: Final[int]
+        exponent: Final[int]
+
+    @final
+    class FormulaOnSlide(Load):
+        """A formula along a guide, of the point that slides."""
+
+        def __new__(cls, *, formula: Formula, slide: int, point: int) -> Load.FormulaOnSlide: ...
+        formula: Final[Formula]
+        slide: Final[int]
+        point: Final[int]
+
+    @final
+    class FormulaOnPoint(Load):
+        """A formula on a point in a fixed direction."""
+
+        def __new__(cls, *, formula: Formula, point: int, cos: int, sin: int) -> Load.FormulaOnPoint: ...
+        formula: Final[Formula]
+        point: Final[int]
+        cos: Final[int]
+        sin: Final[int]
+
+    @final
+    class FormulaAlong(Load):
+        """A formula on a point in a direction that turns with a link."""
+
+        def __new__(
+            cls, *, formula: Formula, point: int, link: int, cos: int, sin: int
+        ) -> Load.FormulaAlong: ...
+        formula: Final[Formula]
+        point: Final[int]
+        link: Final[int]
+        cos: Final[int]
+        sin: Final[int]
+
+    @final
+    class FormulaOnLink(Load):
+        """A formula on a link, counter-clockwise."""
+
+        def __new__(cls, *, formula: Formula, link: int) -> Load.FormulaOnLink: ...
+        formula: Final[Formula]
+        link: Final[int]
+
+@final
+class Span:
+    """A cubic of the motor's curve below breakdown, level at its right end, or at both."""
+
+    def __new__(cls, *, x0: int, y0: int, x1: int, y1: int, inverse_width: int, is_level: bool) -> Span: ...
+    x0: Final[int]
+    y0: Final[int]
+    x1: Final[int]
+    y1: Final[int]
+    inverse_width: Final[int]
+    is_level: Final[bool]
+
+class Motor:
+    """Torque over speed at the motor's shaft."""
+
+    @final
+    class Constant(Motor):
+        """The same at any speed."""
+
+        def __new__(cls, *, torque: int) -> Motor.Constant: ...
+        torque: Final[int]
+
+    @final
+    class Line(Motor):
+        """A straight line from standstill to the speed without load."""
+
+        def __new__(cls, *, torque: int, inverse_speed: int) -> Motor.Line: ...
+        torque: Final[int]
+        inverse_speed: Final[int]
+
+    @final
+    class Induction(Motor):
+        """An induction motor after Kloss, below breakdown by spans."""
+
+        def __new__(
+            cls, *, inverse_synchronous: int, torque: int, slip: int, resistance: int, spans: Sequence[Span]
+        ) -> Motor.Induction: ...
+        inverse_synchronous: Final[int]
+        torque: Final[int]
+        slip: Final[int]
+        resistance: Final[int]
+        spans: Final[Sequence[Span]]
+
+    @final
+    class Table(Motor):
+        """Straight lines between points."""
+
+        def __new__(cls, *, table: Table) -> Motor.Table: ...
+        table: Final[Table]
+
+@final
+class Drive:
+    """The drive line: motor, if it is on, ratio, factors of torque, inertia, speed where a search starts."""
+
+    def __new__(
+        cls, *, motor: Motor | None, ratio: int, forward: int, reverse: int, inertia: int, speed_start: int
+    ) -> Drive: ...
+    motor: Final[Motor | None]
+    ratio: Final[int]
+    forward: Final[int]
+    reverse: Final[int]
+    inertia: Final[int]
+    speed_start: Final[int]
+
+@final
+class Plan:
+    """A machine's structure, of which every part is checked.
+
+    Raises
+    ------
+    IndexError
+        What is used was not made before, or what is made is not the next of its kind.
+    ValueError
+        A list has the wrong length.
+    """
+
+    def __new__(
+        cls,
+        *,
+        parameters: int,
+        ground: Sequence[Fixed],
+        elements: Sequence[Element],
+        bodies: Sequence[Body],
+        loads: Sequence[Load],
+        drive: Drive,
     ) -> Plan: ...
     @property
     def has_laws(self) -> bool:
         """Whether loads depend on both angle and speed in their own way, or on time."""
 
-def steady_state(
-    plan: Plan, q: _Floats, accuracy: float, phi: _Floats
-) -> tuple[int, _Floats, _Floats | None]:
-    """Status, scalars, and 7 curves (time, ω, ε, motor, drive and load torque, J) at the angles `phi`.
+    def without_conservative(self) -> Plan:
+        """The same without loads that have a potential over the position of the mechanism."""
 
-    The scalars are 18 of the motion, and for each other motion that repeats its least and greatest speed, its
-    period and its multiplier.
-    Without an answer the scalars are the angle at which the machine comes to rest (or does not close), the
-    speed from which it slows down (or which it exceeds), and the accuracy reached; NaN where there is none.
+@final
+class Status:
+    """Why a machine has no answer; its number stands in `SteadyRows.status`."""
+
+    OK: Final[Status]
+    DOES_NOT_CLOSE: Final[Status]
+    NO_STEADY_MOTION: Final[Status]
+    INACCURATE: Final[Status]
+    TWO_TURNS: Final[Status]
+
+    def __int__(self) -> int: ...
+    @staticmethod
+    def sentences() -> list[tuple[int, str]]:
+        """Each number and what it means."""
+
+@final
+class OtherMotion:
+    """Another motion that repeats [rad/s, s]; its multiplier is what a turn leaves of a disturbance."""
+
+    speed_min: Final[float]
+    speed_max: Final[float]
+    period: Final[float]
+    multiplier: Final[float]
+
+@final
+class SteadyMotion:
+    """Steady motion of one machine.
+
+    Curves at the crank angles asked for: time [s], speed [rad/s], acceleration [rad/s²], torques [N m],
+    inertia [kg m²]. Of the turn: extremes [rad/s, rad/s²] and their crank angles [rad], period [s], work
+    [J], mean and root mean square of the motor's torque [N m]; the accuracy reached, and what it took.
     """
 
-def steady_rows(
-    plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float
-) -> tuple[NDArray[np.uint8], _Floats, int]:
-    """Status (n,), scalars (n, 13) and turns swept for n machines; `values` is (slots, n)."""
+    time: Final[_Floats]
+    speed: Final[_Floats]
+    acceleration: Final[_Floats]
+    torque_motor: Final[_Floats]
+    torque_drive: Final[_Floats]
+    torque_load: Final[_Floats]
+    inertia_reduced: Final[_Floats]
+    speed_min: Final[float]
+    speed_max: Final[float]
+    speed_min_angle: Final[float]
+    speed_max_angle: Final[float]
+    acceleration_min: Final[float]
+    acceleration_max: Final[float]
+    acceleration_min_angle: Final[float]
+    acceleration_max_angle: Final[float]
+    period: Final[float]
+    multiplier: Final[float]
+    energy_motor: Final[float]
+    energy_drive: Final[float]
+    energy_load: Final[float]
+    torque_motor_mean: Final[float]
+    torque_motor_rms: Final[float]
+    accuracy: Final[float]
+    sweeps: Final[int]
+    steps: Final[int]
+    others: Final[list[OtherMotion]]
+
+@final
+class NoSteadyMotion:
+    """Why there is no steady motion; NaN where there is no such number.
+
+    Crank angle at which the machine comes to rest or does not close [rad], speed from which it slows down
+    or which it exceeds [rad/s], accuracy reached.
+    """
+
+    status: Final[Status]
+    crank_angle: Final[float]
+    speed: Final[float]
+    accuracy: Final[float]
+
+@final
+class SteadyRows:
+    """Steady motion of n machines: statuses, turns swept, quantities of `SteadyMotion`; (n,) each."""
+
+    status: Final[NDArray[np.uint8]]
+    turns_swept: Final[int]
+    speed_min: Final[_Floats]
+    speed_max: Final[_Floats]
+    acceleration_min: Final[_Floats]
+    acceleration_max: Final[_Floats]
+    period: Final[_Floats]
+    multiplier: Final[_Floats]
+    energy_motor: Final[_Floats]
+    energy_drive: Final[_Floats]
+    energy_load: Final[_Floats]
+    torque_motor_mean: Final[_Floats]
+    torque_motor_rms: Final[_Floats]
+    speed_min_angle: Final[_Floats]
+    speed_max_angle: Final[_Floats]
+
+@final
+class MotionInTime:
+    """Motion in time at the ends of the steps [s, rad, rad/s, rad/s²].
+
+    How it ended by name, torques of drive and load there [N m], evaluations; of each step seven factors of
+    the angle and seven of the speed, (steps, 14) (`Stages::component` in `kernel/rk.rs`).
+    """
+
+    end: Final[str]
+    time: Final[_Floats]
+    crank_angle: Final[_Floats]
+    speed: Final[_Floats]
+    acceleration: Final[_Floats]
+    between: Final[_Floats]
+    torque_drive_end: Final[float]
+    torque_load_end: Final[float]
+    evaluations: Final[int]
+
+@final
+class InLine:
+    """Where the links of a dyad come into line.
+
+    Machine, crank angle [rad], length to spare [m], numbers of the change point (none where it is undecided)
+    and of its arms (none unless the pin passes near its pivot), and whether the arm with S > 0, S < 0 after
+    it has no digits left.
+    """
+
+    row: Final[int]
+    crank_angle: Final[float]
+    spare: Final[float]
+    series: Final[list[float]]
+    arms: Final[list[float]]
+    lost: Final[tuple[bool, bool]]
+
+@final
+class GroupPath:
+    """Motion of a group: crank angles [rad], x and y of each joint there [m], turns of a period."""
+
+    crank_angle: Final[_Floats]
+    places: Final[list[list[float]]]
+    turns: Final[int | None]
+
+def steady_state(plan: Plan, q: _Floats, accuracy: float, phi: _Floats) -> SteadyMotion | NoSteadyMotion:
+    """Steady motion, with curves at the angles `phi`."""
+
+def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:
+    """Steady motion of n machines; `values` is (slots, n)."""
 
 def motions(
     plan: Plan, q: _Floats, slots: _Ints, values: _Floats, phi: _Floats, what: _Ints, out: _Floats
@@ -80,20 +930,11 @@ def motions(
 def third(plan: Plan, q: _Floats, phi: _Floats, what: _Ints) -> _Floats:
     """Third transfer functions at the angles `phi`: two rows for a point, one for a link or slide."""
 
-def in_line(
-    plan: Plan, q: _Floats, slots: _Ints, values: _Floats, element: int
-) -> list[tuple[int, float, float, list[float], list[float], tuple[bool, bool]]]:
-    """Where the links of a dyad come into line over the turn, in each row.
+def in_line(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, element: int) -> list[InLine]:
+    """Where the links of a dyad come into line over the turn, in each machine."""
 
-    Row, crank angle, length to spare, numbers of the change point (none where it is undecided) and of its
-    arms (none unless the pin passes near its pivot), and whether the arm with S > 0, S < 0 after it has no
-    digits left.
-    """
-
-def follow_group(
-    plan: Plan, q: _Floats, element: int, phi: float, near: _Floats
-) -> tuple[_Floats, list[_Floats], int | None] | None:
-    """Crank angles, x and y of each joint of a group there, turns of a period; None if it does not close."""
+def follow_group(plan: Plan, q: _Floats, element: int, phi: float, near: _Floats) -> GroupPath | None:
+    """Motion of a group from places near those given (x, y of each joint); None if it does not close."""
 
 def gaps(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
     """Radicand of each dyad at each angle (dyads, angles); negative where it does not close."""
@@ -115,22 +956,33 @@ def transient(
     duration: float,
     turns: float,
     accuracy: float,
-) -> tuple[int, tuple[float, float], int, list[_Floats]]:
-    """How it ended; drive and load torque there; evaluations; t, φ, ω, ε at the ends of the steps, and of
-    each step seven factors of the angle and seven of the speed (`Stages::component` in `kernel/rk.rs`)."""
+) -> MotionInTime:
+    """Motion in time from an angle and a speed until duration, turns or an event end it."""
 
 def kinks(plan: Plan, q: _Floats) -> _Floats:
     """Crank angles between which the reduced machine is smooth, from 0 to 2π."""
 
 @final
+class CamShape:
+    """A contact over a turn.
+
+    Angles (n,) [rad], pieces of the law, 12 rows, angle and value of the greatest and the least of each
+    quantity in turn, and for each level angles where its row passes it and the sign behind them (k, 2).
+    """
+
+    angle: Final[_Floats]
+    piece: Final[NDArray[np.uint32]]
+    rows: Final[_Floats]
+    extremes: Final[list[tuple[float, float]]]
+    passes: Final[list[_Floats]]
+
+@final
 class Cam:
     """A motion law over a turn and the kind of cam that follows it: `crates/linkwright-core/src/cam`."""
 
-    def __new__(cls, law: _Floats, kind: int, sense: float, side: float) -> Cam: ...
-    def shape(
-        self, size: _Floats, n: int, levels: Sequence[tuple[int, float]]
-    ) -> tuple[_Floats, NDArray[np.uint32], _Floats, _Floats, list[_Floats]]:
-        """Angles, pieces, 12 rows, extremes (angle, value), and where rows pass levels (angle, sign)."""
+    def __new__(cls, law: MotionLaw, kind: int, sense: float, side: float) -> Cam: ...
+    def shape(self, size: _Floats, n: int, levels: Sequence[tuple[int, float]]) -> CamShape:
+        """The contact at about n angles a turn."""
 
     def rows(self, size: _Floats, phi: _Floats, before: bool) -> _Floats:
         """The 12 rows at angles."""
@@ -146,12 +998,11 @@ def cam_crossings(x: _Floats, y: _Floats) -> _Floats:
 
 @final
 class TopperKnife:
-    """The knife of a topper: `crates/linkwright-core/src/topper`."""
+    """The knife of a topper, its law in pieces or as harmonics a, b, …: `topper` of the core."""
 
     def __new__(
         cls,
-        law: _Floats,
-        in_pieces: bool,
+        law: MotionLaw | _Floats,
         corners: Sequence[float],
         angle: float,
         forward: float,
@@ -175,15 +1026,51 @@ def torsion_forced(
     Tables k, c, ηk of the shaft above each disc and c of the disc itself, (discs, speeds) each, flat.
     """
 
-def torsion_waves(coefficients: _Floats, waves: int) -> _Floats:
-    """Greatest value, its place, least, its place (4, waves) of sums of harmonics (harmonics, waves)."""
+@final
+class WaveExtremes:
+    """Greatest and least values of waves and their places, 0 to 2π, (waves,) each."""
 
-def torsion_modes(inertia: _Floats, ends: _Ints, stiffness: _Floats) -> tuple[_Floats, _Floats] | None:
-    """Natural frequencies [rad/s], increasing, and mode shapes with Σ J q² = 1, one row a mode (n, n).
+    greatest: Final[_Floats]
+    greatest_at: Final[_Floats]
+    least: Final[_Floats]
+    least_at: Final[_Floats]
+
+def torsion_waves(coefficients: _Floats, waves: int) -> WaveExtremes:
+    """Extremes of sums of harmonics (harmonics, waves), real and imaginary part in turn."""
+
+@final
+class TorsionModes:
+    """Natural frequencies (n,) [rad/s], increasing, and shapes with Σ J q² = 1, one row a mode (n, n)."""
+
+    omega: Final[_Floats]
+    shapes: Final[_Floats]
+
+def torsion_modes(inertia: _Floats, ends: _Ints, stiffness: _Floats) -> TorsionModes | None:
+    """Modes of a train; None where its shafts close a loop.
 
     Shafts join the masses of their ends (shafts, 2), −1 being the ground; without stiffness they do not.
-    None where they close a loop.
     """
+
+@final
+class TorsionMotion:
+    """A train's motion in time.
+
+    How it ended and its method by name; steps, those rejected, evaluations; time reached [s], bound of the
+    fastest swing [rad/s]; kinetic and potential energy at the start, then at the end [J]; samples and
+    extremes as in `torsion/transient/course.rs`; work [J].
+    """
+
+    end: Final[str]
+    method: Final[str]
+    steps: Final[int]
+    rejected: Final[int]
+    evaluations: Final[int]
+    time: Final[float]
+    fastest: Final[float]
+    energies: Final[tuple[float, float, float, float]]
+    samples: Final[_Floats]
+    extremes: Final[_Floats]
+    work: Final[_Floats]
 
 @final
 class TorsionSystem:
@@ -214,10 +1101,10 @@ class TorsionSystem:
         start: float,
         duration: float,
         accuracy: float,
-        method: int,
+        method: str,
         steps_max: int,
-    ) -> tuple[int, int, list[int], list[float], _Floats, _Floats, _Floats]:
-        """End, method; steps, rejected, evaluations; time, fastest, energies; samples, extremes, work."""
+    ) -> TorsionMotion:
+        """The motion from angles and speeds of the masses, sampled at times."""
 
     def net_torques(self, t: float, angle: _Floats, speed: _Floats) -> tuple[_Floats, _Floats]:
         """Sum of torques on each mass and its inertia at rows of angles (rows, masses)."""

@@ -26,7 +26,7 @@ main()
 
 
 def test_sources_and_core_say_the_same() -> None:
-    source = (ROOT / "crates/linkwright-core/src/plan.rs").read_text(encoding="utf-8")
+    source = (ROOT / "crates/linkwright-core/src/plan/mod.rs").read_text(encoding="utf-8")
     found = re.search(r"pub const FORMAT: u32 = (\d+);", source)
     assert found is not None
     assert int(found[1]) == FORMAT == _core.FORMAT

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from linkwright.drive.steady_state import SteadyState
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.core import SteadyMotion
 
 Floats = NDArray[np.float64]
 
@@ -132,11 +133,12 @@ def _integral(machine: Machine, steady: SteadyState) -> float:
     while len(low):
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
         nodes = middle[:, None] + half[:, None] * _X
-        _, _, curves = compiled.steady(np.concatenate([nodes.ravel(), low, high]), max(steady.accuracy, 1e-9))
-        assert curves is not None
+        angles = np.concatenate([nodes.ravel(), low, high])
+        curves = compiled.steady(angles, max(steady.accuracy, 1e-9))
+        assert isinstance(curves, SteadyMotion)
         n, size = len(low), nodes.size
-        integral = (curves[2][:size].reshape(nodes.shape) @ _W) * half
-        gained = 0.5 * (curves[1][size + n :] ** 2 - curves[1][size : size + n] ** 2)
+        integral = (curves.acceleration[:size].reshape(nodes.shape) @ _W) * half
+        gained = 0.5 * (curves.speed[size + n :] ** 2 - curves.speed[size : size + n] ** 2)
         error = np.abs(integral - gained) / peak
         bad = ~(error <= 1e-8 * 2 * half + 1e-13 * steady.speed_max**2 / peak)
         is_short = half < 1e-6

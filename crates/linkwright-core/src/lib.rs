@@ -5,7 +5,7 @@
 //!
 //! | room | answers | stands on |
 //! | --- | --- | --- |
-//! | [`plan`] | a machine as it crosses the border, decoded and checked once | [`drive`], [`linkage`] |
+//! | [`plan`] | a machine's structure as it is put together, each part checked where it is added | [`drive`], [`linkage`] |
 //! | [`drive`] | reduction to the crank, steady motion, motion in time, many machines | [`linkage`] |
 //! | [`linkage`] | positions and transfer functions of points, links and slides | [`kernel`] |
 //! | [`cam`] | profiles of cams: contact, pressure angle, curvature, many cams | [`kernel`] |

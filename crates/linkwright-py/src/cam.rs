@@ -5,13 +5,12 @@ use linkwright_core::cam::search::{Cams, RESULTS, search};
 use linkwright_core::cam::shape::{Quantity, ROWS};
 use linkwright_core::cam::{Cam as CoreCam, Dimensions, Kind};
 use linkwright_core::kernel::motion_law::MotionLaw;
-use numpy::{PyArray1, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::errors::plan_error;
 use crate::guard::{filled, guarded, require_room, zeros};
-use crate::{Curve, Floats, Table};
+use crate::{Floats, Table};
 
 /// A law and the kind of cam that follows it.
 #[pyclass(frozen, module = "linkwright._core")]
@@ -22,8 +21,17 @@ pub(crate) struct Cam {
     side: f64,
 }
 
-/// Angles, pieces, rows, extremes, passes.
-type Shaped<'py> = (Curve<'py>, Bound<'py, PyArray1<u32>>, Table<'py>, Table<'py>, Vec<Table<'py>>);
+/// A contact over a turn.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct CamShape {
+    angle: Py<PyArray1<f64>>,
+    piece: Py<PyArray1<u32>>,
+    rows: Py<PyArray2<f64>>,
+    /// Angle and value of the greatest and the least of each quantity in turn.
+    extremes: Vec<(f64, f64)>,
+    /// Angle and sign, for each level asked for.
+    passes: Vec<Py<PyArray2<f64>>>,
+}
 
 fn table<'py>(py: Python<'py>, rows: &[Vec<f64>], width: usize) -> PyResult<Table<'py>> {
     let table = zeros(py, "cam", [rows.len(), width])?;
@@ -43,20 +51,23 @@ fn dimensions(list: &Floats<'_>) -> PyResult<Dimensions<f64>> {
 #[pymethods]
 impl Cam {
     #[new]
-    fn new(py: Python<'_>, law: Floats<'_>, kind: u8, sense: f64, side: f64) -> PyResult<Self> {
-        let mut list = law.as_slice()?;
-        let law = guarded(py, "law of a cam", || MotionLaw::decode(&mut list))?.map_err(plan_error)?;
+    fn new(
+        law: PyRef<'_, crate::builder::numbers::MotionLaw>,
+        kind: u8,
+        sense: f64,
+        side: f64,
+    ) -> PyResult<Self> {
         let kind = Kind::of(kind).ok_or_else(|| PyValueError::new_err("no such kind of cam"))?;
-        Ok(Cam { law, kind, sense, side })
+        Ok(Cam { law: law.0.clone(), kind, sense, side })
     }
 
-    fn shape<'py>(
+    fn shape(
         &self,
-        py: Python<'py>,
+        py: Python<'_>,
         size: Floats<'_>,
         n: usize,
         levels: Vec<(usize, f64)>,
-    ) -> PyResult<Shaped<'py>> {
+    ) -> PyResult<CamShape> {
         let cam = CoreCam::<f64>::new(self.kind, self.sense, self.side, dimensions(&size)?);
         if levels.iter().any(|&(row, _)| row >= ROWS) {
             return Err(PyValueError::new_err("no such row"));
@@ -68,7 +79,7 @@ impl Cam {
             for &what in Quantity::of_kind(self.kind) {
                 for sign in [1.0, -1.0] {
                     let found = cam.extreme(what, sign, &self.law, &shape);
-                    extremes.push(vec![found.phi, found.value]);
+                    extremes.push((found.phi, found.value));
                 }
             }
             let passes: Vec<Vec<Vec<f64>>> = levels
@@ -81,13 +92,14 @@ impl Cam {
             (shape, extremes, passes)
         })?;
         let width = shape.phi.len();
-        Ok((
-            PyArray1::from_vec(py, shape.phi),
-            PyArray1::from_vec(py, shape.piece),
-            table(py, &shape.rows, width)?,
-            table(py, &extremes, 2)?,
-            passes.iter().map(|rows| table(py, rows, 2)).collect::<PyResult<_>>()?,
-        ))
+        let passes = passes.iter().map(|rows| Ok(table(py, rows, 2)?.unbind())).collect::<PyResult<_>>()?;
+        Ok(CamShape {
+            angle: PyArray1::from_vec(py, shape.phi).unbind(),
+            piece: PyArray1::from_vec(py, shape.piece).unbind(),
+            rows: table(py, &shape.rows, width)?.unbind(),
+            extremes,
+            passes,
+        })
     }
 
     /// All rows at cam angles; at a joint from after it, or from before.

@@ -1,26 +1,30 @@
 //! Knives of toppers at the border.
 
-use linkwright_core::kernel::motion_law::MotionLaw;
 use linkwright_core::topper::heads::{Heads, RESULTS, cover};
 use linkwright_core::topper::knife::{Knife, Law};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::errors::plan_error;
-use crate::guard::{filled, guarded, require_room};
+use crate::builder::numbers::MotionLaw;
+use crate::guard::{filled, require_room};
 use crate::{Floats, Table};
 
 /// A knife: its law, as harmonics (a, b, a, b, …) or in pieces, and how it goes.
 #[pyclass(frozen, module = "linkwright._core")]
 pub(crate) struct TopperKnife(Knife);
 
+/// Pieces, or harmonics (a, b, a, b, …).
+#[derive(FromPyObject)]
+enum KnifeLaw<'py> {
+    Pieces(PyRef<'py, MotionLaw>),
+    Harmonics(Floats<'py>),
+}
+
 #[pymethods]
 impl TopperKnife {
     #[new]
     fn new(
-        py: Python<'_>,
-        law: Floats<'_>,
-        in_pieces: bool,
+        law: KnifeLaw<'_>,
         corners: Vec<f64>,
         angle: f64,
         forward: f64,
@@ -28,12 +32,11 @@ impl TopperKnife {
         drift: f64,
         bounds: [f64; 3],
     ) -> PyResult<Self> {
-        let mut list = law.as_slice()?;
-        let law = if in_pieces {
-            let law = guarded(py, "law of a knife", || MotionLaw::decode(&mut list))?;
-            Law::Pieces(law.map_err(plan_error)?)
-        } else {
-            Law::Harmonics(list.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect())
+        let law = match law {
+            KnifeLaw::Pieces(law) => Law::Pieces(law.0.clone()),
+            KnifeLaw::Harmonics(list) => {
+                Law::Harmonics(list.as_slice()?.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect())
+            }
         };
         let [reach, slowest, fastest] = bounds;
         Ok(TopperKnife(Knife {

@@ -6,17 +6,25 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadwriteArr
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::guard::{guarded, require_room, zeros};
-use crate::{Curve, Floats, Ints, Table};
+use crate::arrays::column;
+use crate::guard::{guarded, require_room};
+use crate::{Floats, Ints};
 
-/// Natural frequencies, and mode shapes row by row; `None` where shafts close a loop.
+/// Natural frequencies, and mode shapes row by row.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TorsionModes {
+    omega: Py<PyArray1<f64>>,
+    shapes: Py<PyArray2<f64>>,
+}
+
+/// Natural frequencies and mode shapes; `None` where shafts close a loop.
 #[pyfunction]
-pub(crate) fn torsion_modes<'py>(
-    py: Python<'py>,
+pub(crate) fn torsion_modes(
+    py: Python<'_>,
     inertia: Floats<'_>,
     ends: PyReadonlyArray2<'_, i32>,
     stiffness: Floats<'_>,
-) -> PyResult<Option<(Curve<'py>, Table<'py>)>> {
+) -> PyResult<Option<TorsionModes>> {
     let (inertia, stiffness) = (inertia.as_slice()?, stiffness.as_slice()?);
     let (ends, _) = ends.as_slice()?.as_chunks();
     let analysis = "natural frequencies";
@@ -33,7 +41,7 @@ pub(crate) fn torsion_modes<'py>(
     // The core has a row a disc.
     let shapes = PyArray2::<f64>::zeros(py, [inertia.len(); 2], true);
     shapes.readwrite().as_slice_mut()?.copy_from_slice(&found.shapes);
-    Ok(Some((omega, shapes)))
+    Ok(Some(TorsionModes { omega: omega.unbind(), shapes: shapes.unbind() }))
 }
 
 /// A train, its discs in an order in which each hangs on an earlier one.
@@ -73,14 +81,23 @@ pub(crate) fn torsion_forced(
     Err(PyValueError::new_err("tables and torques do not have a place for every disc and speed"))
 }
 
-/// Greatest value, its place, least value, its place of waves, a row each. Coefficients (harmonics, waves), real and
+/// Extremes of waves, an array over them each.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct WaveExtremes {
+    greatest: Py<PyArray1<f64>>,
+    greatest_at: Py<PyArray1<f64>>,
+    least: Py<PyArray1<f64>>,
+    least_at: Py<PyArray1<f64>>,
+}
+
+/// Extremes of waves and their places. Coefficients (harmonics, waves), real and
 /// imaginary part in turn.
 #[pyfunction]
-pub(crate) fn torsion_waves<'py>(
-    py: Python<'py>,
+pub(crate) fn torsion_waves(
+    py: Python<'_>,
     coefficients: Floats<'_>,
     waves: usize,
-) -> PyResult<Table<'py>> {
+) -> PyResult<WaveExtremes> {
     let (coefficients, _) = coefficients.as_slice()?.as_chunks();
     if waves > 0 && coefficients.len() % waves != 0 {
         return Err(PyValueError::new_err("coefficients do not have a place for every wave"));
@@ -90,13 +107,11 @@ pub(crate) fn torsion_waves<'py>(
     // Cosines and sines of each harmonic at the places where waves are sampled, some four for each harmonic.
     require_room(analysis, [harmonics, 4 * harmonics + 4])?;
     let found = guarded(py, analysis, || waves::extremes(coefficients, waves))?;
-    let table = zeros(py, analysis, [4, waves])?;
-    let mut rows = table.readwrite();
-    for (nth, to) in rows.as_slice_mut()?.chunks_exact_mut(waves.max(1)).enumerate() {
-        for (to, each) in to.iter_mut().zip(&found) {
-            *to = [each.max, each.at_max, each.min, each.at_min][nth];
-        }
-    }
-    drop(rows);
-    Ok(table)
+    let each = |of: fn(&waves::Extremes) -> f64| column(py, found.iter().map(of).collect()).unbind();
+    Ok(WaveExtremes {
+        greatest: each(|wave| wave.max),
+        greatest_at: each(|wave| wave.at_max),
+        least: each(|wave| wave.min),
+        least_at: each(|wave| wave.at_min),
+    })
 }

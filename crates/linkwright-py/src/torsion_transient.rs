@@ -1,20 +1,60 @@
 //! Trains in motion at the border.
 
-use linkwright_core::torsion::transient::course::{self, Method, Request};
+use linkwright_core::torsion::transient::course::{self, End, Method, Request};
 use linkwright_core::torsion::transient::rates::Rates;
 use linkwright_core::torsion::transient::system::{Encoded, System};
-use numpy::{PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::column;
 use crate::errors::plan_error;
 use crate::guard::{guarded, require_room, zeros};
-use crate::{Curve, Floats, Ints, Table};
+use crate::{Floats, Ints, Table};
 
-/// How it ended, by which method; steps, rejected, evaluations; time reached, bound of the fastest swing, energies at start
-/// and end; samples, extremes, work.
-type Moved<'py> = (u8, u8, [usize; 3], [f64; 6], Table<'py>, Table<'py>, Curve<'py>);
+/// The motion of a train in time.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TorsionMotion {
+    end: &'static str,
+    method: &'static str,
+    steps: usize,
+    rejected: usize,
+    evaluations: usize,
+    time: f64,
+    fastest: f64,
+    /// Kinetic and potential energy at the start, then at the end.
+    energies: (f64, f64, f64, f64),
+    samples: Py<PyArray2<f64>>,
+    extremes: Py<PyArray2<f64>>,
+    work: Py<PyArray1<f64>>,
+}
+
+fn method_of(name: &str) -> PyResult<Method> {
+    match name {
+        "auto" => Ok(Method::Auto),
+        "explicit" => Ok(Method::Explicit),
+        "implicit" => Ok(Method::Implicit),
+        other => Err(PyValueError::new_err(format!("there is no method {other}"))),
+    }
+}
+
+fn name_of(method: Method) -> &'static str {
+    match method {
+        Method::Auto => "auto",
+        Method::Explicit => "explicit",
+        Method::Implicit => "implicit",
+    }
+}
+
+fn word_for(end: End) -> &'static str {
+    match end {
+        End::Time => "time",
+        End::TooManySteps => "too many steps",
+        End::Inaccurate => "inaccurate",
+        End::NotFinite => "not finite",
+        End::Rounded => "rounded",
+    }
+}
 
 /// A train in motion, decoded and checked.
 #[pyclass(frozen, module = "linkwright._core")]
@@ -69,24 +109,19 @@ impl TorsionSystem {
             .map_err(plan_error)
     }
 
-    fn follow<'py>(
+    fn follow(
         &self,
-        py: Python<'py>,
+        py: Python<'_>,
         angle: Floats<'_>,
         speed: Floats<'_>,
         times: Floats<'_>,
         start: f64,
         duration: f64,
         accuracy: f64,
-        method: u8,
+        method: &str,
         steps_max: usize,
-    ) -> PyResult<Moved<'py>> {
-        let method = match method {
-            0 => Method::Auto,
-            1 => Method::Explicit,
-            2 => Method::Implicit,
-            other => return Err(PyValueError::new_err(format!("there is no method {other}"))),
-        };
+    ) -> PyResult<TorsionMotion> {
+        let method = method_of(method)?;
         let (angle, speed, times) = (angle.as_slice()?, speed.as_slice()?, times.as_slice()?);
         self.fits("angle", angle.len(), self.0.len())?;
         self.fits("speed", speed.len(), self.0.len())?;
@@ -99,16 +134,19 @@ impl TorsionSystem {
         samples.readwrite().as_slice_mut()?.copy_from_slice(&found.samples);
         let extremes = zeros(py, analysis, [found.extremes.len(), 4])?;
         extremes.readwrite().as_slice_mut()?.copy_from_slice(found.extremes.as_flattened());
-        let [t0, v0, t1, v1] = found.energies;
-        Ok((
-            found.end as u8,
-            found.method as u8,
-            [found.steps, found.rejected, found.evaluations],
-            [found.time, found.fastest, t0, v0, t1, v1],
-            samples,
-            extremes,
-            column(py, found.work),
-        ))
+        Ok(TorsionMotion {
+            end: word_for(found.end),
+            method: name_of(found.method),
+            steps: found.steps,
+            rejected: found.rejected,
+            evaluations: found.evaluations,
+            time: found.time,
+            fastest: found.fastest,
+            energies: found.energies.into(),
+            samples: samples.unbind(),
+            extremes: extremes.unbind(),
+            work: column(py, found.work).unbind(),
+        })
     }
 
     fn net_torques<'py>(

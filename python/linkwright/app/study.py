@@ -30,7 +30,7 @@ from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.cycle import Linkage, linkage
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import drive_inertia
+from linkwright.machine.program.drive_line import drive_inertia
 
 if TYPE_CHECKING:
     from linkwright.cam.dynamics.follower_vibration import FollowerVibration

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright import _core
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.model.follower import Sizes
-from linkwright.machine.program.numbers import encoded
+from linkwright.machine.program.numbers import core_law
 
 Floats = NDArray[np.float64]
 
@@ -79,8 +79,8 @@ class CamKernel:
 
     Attributes
     ----------
-    law : ndarray, shape (k, 2)
-        The law as the core reads it.
+    law : MotionLaw
+        Lift over the cam angle from 0 to 2π [m or rad].
     kind : int
         Of the follower, as the core counts them.
     signs : tuple of float
@@ -93,7 +93,7 @@ class CamKernel:
         Made of law, kind and signs.
     """
 
-    law: Floats
+    law: MotionLaw
     kind: int
     signs: tuple[float, float]
     size: Floats
@@ -102,7 +102,7 @@ class CamKernel:
 
     def __post_init__(self) -> None:
         """Make the core's cam."""
-        object.__setattr__(self, "core", _core.Cam(self.law, self.kind, *self.signs))
+        object.__setattr__(self, "core", _core.Cam(core_law(self.law), self.kind, *self.signs))
 
     def __reduce__(self) -> tuple[type[CamKernel], tuple[Any, ...]]:
         """Pickled and copied without the core's cam, which is made anew."""
@@ -115,14 +115,15 @@ class CamKernel:
     def shape(self, n: int, levels: Sequence[tuple[str, float]] = ()) -> Shape:
         """The contact at about n angles a turn; see `Shape`."""
         wanted = [(ROWS.index(row), level) for row, level in levels]
-        angle, piece, rows, extremes, passes = self.core.shape(self.size, n, wanted)
-        found = [Extreme(*row) for row in extremes.tolist()]
+        shape = self.core.shape(self.size, n, wanted)
+        found = [Extreme(*pair) for pair in shape.extremes]
         names = _EXTREMES[: len(found) // 2]
         greatest, least = (
             dict(zip(names, found[::2], strict=True)),
             dict(zip(names, found[1::2], strict=True)),
         )
-        return Shape(angle, piece, dict(zip(ROWS, rows, strict=True)), greatest, least, tuple(passes))
+        rows = dict(zip(ROWS, shape.rows, strict=True))
+        return Shape(shape.angle, shape.piece, rows, greatest, least, tuple(shape.passes))
 
     def rows(self, angle: ArrayLike, *, before: bool = False) -> dict[str, Floats]:
         """All rows at cam angles from the start of the programme; at a joint after it, or ``before``."""
@@ -171,7 +172,7 @@ def cam_kernel(
     """
     kind = 2 * oscillating + (not roller)
     signs = (-1.0 if opposite else 1.0, 1.0 if left else -1.0)
-    return CamKernel(np.array(encoded(law)), kind, signs, np.array(sizes, dtype=float), roller)
+    return CamKernel(law, kind, signs, np.array(sizes, dtype=float), roller)
 
 
 def crossings(points: Floats) -> Floats:

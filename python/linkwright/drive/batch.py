@@ -19,13 +19,14 @@ from linkwright.linkages.closure import require_one_turn
 from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.core import SENTENCES, Status
 
 if TYPE_CHECKING:
     import pandas as pd
 
 Floats = NDArray[np.float64]
 
-# The first columns of the core's table (`linkwright-core`, module `drive::batch`).
+# What is handed on of each machine's steady motion.
 _COLUMNS = (
     "speed_min",
     "speed_max",
@@ -40,17 +41,8 @@ _COLUMNS = (
     "torque_motor_rms",
 )
 
-# Status of a row that passes an odd number of change points, where the first machine passes an even number.
-TWO_TURNS = 4
-
-# Sentences for the statuses of the core, and that one.
-STATUS = {
-    0: "solved",
-    1: "the mechanism does not close all round, or its lengths do not tell how it passes a change point",
-    2: "no steady motion: the drive cannot keep the machine turning",
-    3: "the accuracy was not reached",
-    TWO_TURNS: "the motion repeats only after two turns of the crank",
-}
+# What each status means.
+STATUS = SENTENCES
 
 
 @dataclass(frozen=True)
@@ -179,13 +171,15 @@ def steady_states(
             "motor's characteristic, the mechanism, its bodies or its loads"
         )
     require_one_turn(compiled)
-    status, table, turns = compiled.steady_rows(accuracy)
+    found = compiled.steady_rows(accuracy)
+    status, columns = found.status, {name: getattr(found, name) for name in _COLUMNS}
     if not compiled.two_turns[0]:
         # The first machine was checked above.
         longer = np.broadcast_to(compiled.two_turns, status.shape)
-        status[longer], table[longer] = TWO_TURNS, np.nan
-    columns = dict(zip(_COLUMNS, np.ascontiguousarray(table.T), strict=False))
-    return SteadyStates(entries=arrays, status=status, turns_swept=turns, **columns)
+        status[longer] = int(Status.TWO_TURNS)
+        for column in columns.values():
+            column[longer] = np.nan
+    return SteadyStates(entries=arrays, status=status, turns_swept=found.turns_swept, **columns)
 
 
 def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:

@@ -14,7 +14,8 @@ from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionM
 from linkwright.drive.reduction import Reduction
 from linkwright.drive.steady_state import SteadyState
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import compile_machine, reverse_factor
+from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.drive_line import reverse_factor
 
 # Share of the design speed by which the steady speed may differ before it is mentioned.
 _SPEED_AGREES = 0.05

@@ -27,11 +27,9 @@ from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_full_turn, require_one_turn, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyMotion
 
 Floats = NDArray[np.float64]
-
-# Statuses of the core (`linkwright-core`, module `kernel::status`).
-_DOES_NOT_CLOSE, _NO_STEADY_MOTION = 1, 2
 
 # Speeds of a turn at which the motor's torque is looked at for its extremes, and how often between the
 # neighbours of the best: an interval is a 32nd of that before.
@@ -291,10 +289,10 @@ def steady_state(
     phi = turn_angles(n) if angles is None else angles
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
         return _at_constant_speed(machine, compiled, phi)
-    status, scalars, curves = compiled.steady(phi, accuracy)
-    if curves is None:
-        raise _failure(status, scalars, compiled, accuracy)
-    return _from_core(machine, scalars, curves, phi, compiled)
+    found = compiled.steady(phi, accuracy)
+    if isinstance(found, NoSteadyMotion):
+        raise _failure(found, compiled, accuracy)
+    return _from_core(machine, found, phi, compiled)
 
 
 def _motor_extremes(
@@ -338,47 +336,43 @@ def _peak(of: Callable[[Floats], Floats], ends: Floats) -> float:
     return best
 
 
-def _from_core(
-    machine: Machine, scalars: Floats, curves: Floats, phi: Floats, compiled: Compiled
-) -> SteadyState:
-    """The core's numbers by name; their order is that of `linkwright-core`, module `drive::batch`."""
-    time, speed, acceleration, torque_motor, torque_drive, torque_load, inertia = curves
-    low, high, drop, rise, period, multiplier, motor, drive, load, mean, rms, *places = scalars.tolist()
-    low_at, high_at, drop_at, rise_at, reached, sweeps, steps, *others = places
-    weakest, strongest, most = _motor_extremes(machine, compiled, low, high)
+def _from_core(machine: Machine, found: SteadyMotion, phi: Floats, compiled: Compiled) -> SteadyState:
+    """What the core found, with the extremes of the motor and its power."""
+    weakest, strongest, most = _motor_extremes(machine, compiled, found.speed_min, found.speed_max)
     ratio = compiled.gear_factors[0]
+    others = [(each.speed_min, each.speed_max, each.period, each.multiplier) for each in found.others]
     return SteadyState(
         crank_angle=phi,
-        time=time,
-        speed=speed,
-        acceleration=acceleration,
-        torque_motor=torque_motor,
-        torque_drive=torque_drive,
-        torque_load=torque_load,
-        power_motor=torque_motor * speed * ratio,
-        inertia_reduced=inertia,
-        speed_min=low,
-        speed_max=high,
-        acceleration_min=drop,
-        acceleration_max=rise,
-        speed_min_angle=low_at,
-        speed_max_angle=high_at,
-        acceleration_min_angle=drop_at,
-        acceleration_max_angle=rise_at,
-        period=period,
-        multiplier=multiplier,
-        energy_motor=motor,
-        energy_drive=drive,
-        energy_load=load,
-        torque_motor_mean=mean,
-        torque_motor_rms=rms,
+        time=found.time,
+        speed=found.speed,
+        acceleration=found.acceleration,
+        torque_motor=found.torque_motor,
+        torque_drive=found.torque_drive,
+        torque_load=found.torque_load,
+        power_motor=found.torque_motor * found.speed * ratio,
+        inertia_reduced=found.inertia_reduced,
+        speed_min=found.speed_min,
+        speed_max=found.speed_max,
+        acceleration_min=found.acceleration_min,
+        acceleration_max=found.acceleration_max,
+        speed_min_angle=found.speed_min_angle,
+        speed_max_angle=found.speed_max_angle,
+        acceleration_min_angle=found.acceleration_min_angle,
+        acceleration_max_angle=found.acceleration_max_angle,
+        period=found.period,
+        multiplier=found.multiplier,
+        energy_motor=found.energy_motor,
+        energy_drive=found.energy_drive,
+        energy_load=found.energy_load,
+        torque_motor_mean=found.torque_motor_mean,
+        torque_motor_rms=found.torque_motor_rms,
         torque_motor_min=weakest,
         torque_motor_max=strongest,
         power_motor_max=most,
-        accuracy=reached,
-        sweeps=int(sweeps),
-        steps=int(steps),
-        others=tuple(OtherMotion(*others[k : k + 4]) for k in range(0, len(others), 4)),
+        accuracy=found.accuracy,
+        sweeps=found.sweeps,
+        steps=found.steps,
+        others=tuple(OtherMotion(*each) for each in others),
     )
 
 
@@ -438,12 +432,12 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
     )
 
 
-def _failure(status: int, places: Floats, compiled: Compiled, accuracy: float) -> Exception:
-    """The error for a status of the core, with its numbers: angle, speed, accuracy reached."""
-    angle, speed, reached = places.tolist()
-    if status == _DOES_NOT_CLOSE:
+def _failure(found: NoSteadyMotion, compiled: Compiled, accuracy: float) -> Exception:
+    """The error for a machine without steady motion, with the numbers of the core."""
+    angle, speed, reached = found.crank_angle, found.speed, found.accuracy
+    if found.status == Status.DOES_NOT_CLOSE:
         return SteadyStateError(NO_INERTIA)
-    if status == _NO_STEADY_MOTION:
+    if found.status == Status.NO_STEADY_MOTION:
         if np.isnan(angle):
             return SteadyStateError(_runs_away(compiled, speed))
         return SteadyStateError(

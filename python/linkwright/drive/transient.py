@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 
 
 class End(IntEnum):
-    """How a motion ended; numbers of `linkwright-core`, module `drive::transient`."""
+    """How a motion ended; names of `linkwright-core`, module `drive::transient`."""
 
     TIME = 0
     TURNS = 1
@@ -192,29 +192,29 @@ def transient(
         raise InputError("a motor of constant speed has no run-up: it turns at its speed under any load")
     compiled = compile_machine(machine, motor=motor, brake=brake)
     require_half_turns(compiled, machine)
-    end, torques, evaluations, curves = compiled.transient((angle, speed), duration, turns, accuracy)
+    found = compiled.transient((angle, speed), duration, turns, accuracy)
+    end = End[found.end]
     if end == End.DOES_NOT_CLOSE:
         require_full_turn(compiled, machine)
         require_sound_loads(compiled, machine)
         raise SteadyStateError(NO_INERTIA)
-    if not np.isfinite(torques).all():
+    if not np.isfinite([found.torque_drive_end, found.torque_load_end]).all():
         require_sound_loads(compiled, machine)
     if end == End.INACCURATE:
         raise ConvergenceError(
-            f"the motion was given up at {curves[0][-1]:.6g} s: steps became too small or too many for an "
+            f"the motion was given up at {found.time[-1]:.6g} s: steps became too small or too many for an "
             f"accuracy of {accuracy:g}",
             method="DOP853",
-            iterations=len(curves[0]),
+            iterations=len(found.time),
         )
-    time, crank_angle, omega, epsilon, between = curves
     return Transient(
-        time=time,
-        crank_angle=crank_angle,
-        speed=omega,
-        acceleration=epsilon,
-        end=End(end),
-        torque_drive_end=torques[0],
-        torque_load_end=torques[1],
-        evaluations=evaluations,
-        between=StepPolynomials(between.reshape(-1, 2, 7)),
+        time=found.time,
+        crank_angle=found.crank_angle,
+        speed=found.speed,
+        acceleration=found.acceleration,
+        end=end,
+        torque_drive_end=found.torque_drive_end,
+        torque_load_end=found.torque_load_end,
+        evaluations=found.evaluations,
+        between=StepPolynomials(found.between.reshape(-1, 2, 7)),
     )

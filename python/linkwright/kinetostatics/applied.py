@@ -30,7 +30,7 @@ from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngl
 from linkwright.kinetostatics.places import Scene, dot, unit
 from linkwright.kinetostatics.wrench import Wrenches
 from linkwright.linkages.model.structure import FRAME
-from linkwright.machine.program.compiled import gas_column
+from linkwright.machine.program.loads import gas_column
 
 Floats = NDArray[np.float64]
 

@@ -33,7 +33,7 @@ from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.result import Forces
 from linkwright.kinetostatics.wrench import Wrenches
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import drive_inertia
+from linkwright.machine.program.drive_line import drive_inertia
 
 # Pressure angle of involute teeth by DIN 867 and ISO 53 [rad].
 PRESSURE_ANGLE = float(np.radians(20.0))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from linkwright.kinetostatics.places import Scene, left, unit
 from linkwright.kinetostatics.wrench import Wrenches
-from linkwright.machine.program.compiled import link_body
+from linkwright.machine.program.loads import link_body
 
 Floats = NDArray[np.float64]
 

@@ -20,15 +20,13 @@ from linkwright.linkages.closure import closure_of, limiter_at
 from linkwright.linkages.dyads import dyads_of
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.core import Element
 
 # Dyads with two assemblies of which all combinations are looked at.
 _DYADS_MAX = 8
 
-# Kinds of rows (`crates/linkwright-core/src/plan.rs`) → place of the sign's slot.
-_SIGNS = {2: 12, 3: 11, 5: 13, 6: 7}
-
-# Rows that were made for one assembly: continuous angles, change points, groups.
-_TIED = frozenset((10, 11, 12, 15))
+# Dyads whose sign tells which of two assemblies they have.
+_SIGNED = Element.SliderRod | Element.Rocker | Element.GuidedRod | Element.SlottedLever
 
 # Difference of crank angles at which two branches end that is rounding: limits are roots.
 _MEET = 1e-6
@@ -110,19 +108,26 @@ def _slots(compiled: Compiled, machine: Machine) -> dict[str, int]:
     InputError
         They cannot be exchanged, or are too many.
     """
-    if _TIED.intersection(row[0] for row in compiled.rows):
+    if any(_is_tied(each) for each in compiled.elements):
         raise InputError(
             f"{machine.name}: circuits are found for linkages of cranks and dyads; this one has "
             f"{_tied(compiled)}, followed in the given assembly alone; change a length by more than 1e-8 to "
             "leave a change point, or give another assembly and look at its closure"
         )
-    slots = {each.name: each.row[_SIGNS[each.row[0]]] for each in dyads_of(compiled) if each.row[0] in _SIGNS}
+    slots = {each.name: each.element.sign for each in dyads_of(compiled) if isinstance(each.element, _SIGNED)}
     if len(slots) > _DYADS_MAX:
         raise InputError(
             f"{machine.name} has {len(slots)} dyads with two assemblies each; circuits are found for up to "
             f"{_DYADS_MAX}"
         )
     return slots
+
+
+def _is_tied(element: Element) -> bool:
+    """Whether it was made for one assembly: continuous angles, change points, groups."""
+    if isinstance(element, Element.Rocker | Element.GuidedRod):
+        return bool(element.change_points)
+    return isinstance(element, Element.AngleOf | Element.Group)
 
 
 def _tied(compiled: Compiled) -> str:

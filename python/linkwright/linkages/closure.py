@@ -26,6 +26,7 @@ from linkwright.linkages.obstacle import change_point, describe
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.core import Element
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -55,9 +56,6 @@ _SAME = 1e-7
 
 # Doublings of the turns looked at in a motion that never repeats: some 8000 turns either way.
 _DOUBLINGS = 13
-
-# Kind of the rows of slotted levers (`crates/linkwright-core/src/plan.rs`).
-_LEVER = 6
 
 # Number of a link among what the core can give the motion of.
 _LINK = 1
@@ -374,7 +372,7 @@ def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None
 
 def has_levers(compiled: Compiled) -> bool:
     """Whether there is a dyad that is not carried on through a change point: levers turn about there."""
-    return any(row[0] == _LEVER for row in compiled.rows)
+    return any(isinstance(each, Element.SlottedLever) for each in compiled.elements)
 
 
 def _meets_change_point(found: Closure, angles: Floats) -> bool:

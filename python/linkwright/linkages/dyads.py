@@ -22,7 +22,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.machine.program.compiled import FOLDING, Compiled
+from linkwright.machine.program.compiled import Compiled
+from linkwright.machine.program.core import Element, Line
 
 Floats = NDArray[np.float64]
 Channel = tuple[int, int]
@@ -32,23 +33,23 @@ POINT, LINK, SLIDE = 0, 1, 2
 # Numbers that the core gives for a point, a link and a slide.
 _WIDTHS = (6, 4, 3)
 
-# Kinds of rows (`crates/linkwright-core/src/plan.rs`) that are dyads → name, and place of the dyad's index.
-_DYADS: dict[int, tuple[str, int]] = {
-    2: ("RRP", 4),
-    3: ("RRR", 4),
-    5: ("RRP", 4),
-    6: ("RPR", 3),
-    7: ("PRP", 4),
-    11: ("RRR", 4),
-    12: ("group", 1),
-    15: ("RRP", 4),
+# What closes, and the dyad that it is.
+Closing = (
+    Element.SliderRod
+    | Element.Rocker
+    | Element.GuidedRod
+    | Element.SlottedLever
+    | Element.Crossing
+    | Element.Group
+)
+_KINDS: dict[type[Element], Literal["RRR", "RRP", "RPR", "PRP", "group"]] = {
+    Element.SliderRod: "RRP",
+    Element.Rocker: "RRR",
+    Element.GuidedRod: "RRP",
+    Element.SlottedLever: "RPR",
+    Element.Crossing: "PRP",
+    Element.Group: "group",
 }
-_ROD = 2
-
-# Place of its reach among the numbers of a change point.
-_REACH = 4
-
-_GUIDED_RODS = (5, 15)
 
 
 @dataclass(frozen=True)
@@ -61,37 +62,36 @@ class Dyad:
         Of its element, or of its joint.
     kind : str
         ``"RRR"``, ``"RRP"``, ``"RPR"``, ``"PRP"`` (RPP too) or ``"group"``.
-    row : tuple of int
-        Kind and entries of its row in the core's program.
+    element : Element
+        What it is in the core's program.
     change_points : tuple of float
         Crank angles at which it passes a change point [rad].
     """
 
     name: str
     kind: Literal["RRR", "RRP", "RPR", "PRP", "group"]
-    row: tuple[int, ...]
+    element: Closing
     change_points: tuple[float, ...] = ()
 
 
 def dyads_of(compiled: Compiled) -> list[Dyad]:
     """The dyads and groups of a machine in build order."""
-    return [_dyad(compiled, row) for row in compiled.rows if row[0] in _DYADS]
+    return [_dyad(compiled, each) for each in compiled.elements if isinstance(each, Closing)]
 
 
-def _dyad(compiled: Compiled, row: tuple[int, ...]) -> Dyad:
-    kind, at = _DYADS[row[0]]
-    passed = _change_points(compiled, row, FOLDING[row[0]]) if row[0] in FOLDING else ()
-    return Dyad(compiled.dyads[row[at]], kind, row, passed)  # type: ignore[arg-type]
+def _dyad(compiled: Compiled, element: Closing) -> Dyad:
+    name, kind = compiled.dyads[element.dyad], _KINDS[type(element)]
+    return Dyad(name, kind, element, _change_points(compiled, element))
 
 
-def _change_points(compiled: Compiled, row: tuple[int, ...], at: int) -> tuple[float, ...]:
-    """Crank angles from the cosines and sines in a row with change points."""
-    number, slots = row[at], row[at + 1 :]
-    width = len(slots) // number
+def _change_points(compiled: Compiled, element: Closing) -> tuple[float, ...]:
+    """Crank angles of the change points that a dyad passes."""
+    if not isinstance(element, Element.Rocker | Element.GuidedRod):
+        return ()
     q = compiled.parameters
+    slots = [point.place for point in element.change_points]
     # One that only other machines of a batch have is out of reach.
-    present = [k * width for k in range(number) if q[slots[k * width + _REACH]] > 0]
-    angles = [np.arctan2(q[slots[k + 1]], q[slots[k]]) for k in present]
+    angles = [np.arctan2(q[sin], q[cos]) for cos, sin, reach in slots if q[reach] > 0]
     return tuple(sorted(float(angle) % (2 * np.pi) for angle in angles))
 
 
@@ -105,16 +105,18 @@ def evaluate(compiled: Compiled, channels: list[Channel], angles: Floats) -> lis
 
 def transmission_channels(compiled: Compiled, dyad: Dyad) -> list[Channel]:
     """What `transmission` asks of the core."""
-    row = dyad.row
-    if dyad.kind == "RRR":
-        return [(LINK, row[2]), (LINK, row[3])]
-    if dyad.kind == "RPR":
-        return [(SLIDE, row[2])]
-    if row[0] == _ROD:
-        return [(LINK, row[2])]
-    if row[0] in _GUIDED_RODS:
-        return [(LINK, row[2]), *_carrier(compiled, row[7])]
-    return [each for link in (row[6], row[11]) for each in _carrier(compiled, link)]
+    match dyad.element:
+        case Element.Rocker() as rocker:
+            return [(LINK, rocker.coupler_link), (LINK, rocker.rocker_link)]
+        case Element.SlottedLever(slide=slide):
+            return [(SLIDE, slide)]
+        case Element.SliderRod(link=link):
+            return [(LINK, link)]
+        case Element.GuidedRod(link=link, line=line):
+            return [(LINK, link), *_carrier(line)]
+        case Element.Crossing(lines=lines):
+            return [each for line in lines for each in _carrier(line)]
+    return []
 
 
 def transmission(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> tuple[Floats, Floats]:
@@ -136,8 +138,8 @@ def transmission(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> tuple[F
     slope : ndarray, shape (n,)
         ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of the crank.
     """
-    if dyad.kind == "RPR":
-        offset = compiled.parameters[dyad.row[6]]
+    if isinstance(dyad.element, Element.SlottedLever):
+        offset = compiled.parameters[dyad.element.offset]
         return np.arctan2(np.abs(found[0][0]), offset), found[0][1] * float(offset != 0)
     (e, e1), (f, f1) = _directions(compiled, dyad, list(found))
     cross, dot = e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]
@@ -149,28 +151,28 @@ def transmission(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> tuple[F
 
 def _directions(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> list[tuple[Floats, Floats]]:
     """The two directions between which μ lies, with the rates of their angles."""
-    row, q = dyad.row, compiled.parameters
-    if dyad.kind == "RRR":
-        return [(each[:2], each[2]) for each in found]
-    if row[0] == _ROD:
-        normal = np.array([[-q[row[11]]], [q[row[10]]]])
-        return [(found[0][:2], found[0][2]), (normal, np.zeros(1))]
-    if row[0] in _GUIDED_RODS:
-        rod = found.pop(0)
-        along, rate = _guide(compiled, row[7:10], found)
-        return [(rod[:2], rod[2]), (np.stack([-along[1], along[0]]), rate)]
-    return [_guide(compiled, row[k : k + 3], found) for k in (6, 11)]
+    q = compiled.parameters
+    match dyad.element:
+        case Element.SliderRod(cos=cos, sin=sin):
+            return [(found[0][:2], found[0][2]), (np.array([[-q[sin]], [q[cos]]]), np.zeros(1))]
+        case Element.GuidedRod(line=line):
+            rod = found.pop(0)
+            along, rate = _guide(compiled, line, found)
+            return [(rod[:2], rod[2]), (np.stack([-along[1], along[0]]), rate)]
+        case Element.Crossing(lines=lines):
+            return [_guide(compiled, line, found) for line in lines]
+    return [(each[:2], each[2]) for each in found]
 
 
-def _carrier(compiled: Compiled, link: int) -> list[Channel]:
-    """The link that carries a guide; the frame is the link after the last, and at rest."""
-    return [] if link == len(compiled.links) else [(LINK, link)]
+def _carrier(line: Line) -> list[Channel]:
+    """The link that carries a guide; the frame is at rest."""
+    return [] if line.link is None else [(LINK, line.link)]
 
 
-def _guide(compiled: Compiled, entries: tuple[int, ...], found: list[Floats]) -> tuple[Floats, Floats]:
+def _guide(compiled: Compiled, line: Line, found: list[Floats]) -> tuple[Floats, Floats]:
     """Direction of a guide and the rate of its angle; takes its link from what was found."""
-    link, cos, sin = entries[0], *(compiled.parameters[slot] for slot in entries[1:])
-    if link == len(compiled.links):
+    cos, sin = (compiled.parameters[slot] for slot in (line.cos, line.sin))
+    if line.link is None:
         return np.array([[cos], [sin]]), np.zeros(1)
     carrier = found.pop(0)
     x, y = carrier[:2]

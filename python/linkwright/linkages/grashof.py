@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.linkages.dyads import POINT, Dyad, dyads_of, evaluate
+from linkwright.linkages.dyads import POINT, dyads_of, evaluate
 from linkwright.machine.program.compiled import Compiled
+from linkwright.machine.program.core import Element
 
 Floats = NDArray[np.float64]
 
@@ -106,25 +107,25 @@ def four_bars(compiled: Compiled) -> list[FourBar]:
     list of FourBar
         In build order, from cranks and rockers as well as from joints and bars.
     """
-    grounds = {row[1]: _ground(compiled, row) for row in compiled.rows if row[0] == 0}
+    grounds = {fixed.point: compiled.parameters[[fixed.x, fixed.y]] for fixed in compiled.ground}
     arms = _arms(compiled, grounds)
     found = []
     for dyad in dyads_of(compiled):
-        if dyad.kind == "RRR":
-            found += _loops(compiled, dyad, grounds, arms)
+        if isinstance(dyad.element, Element.Rocker):
+            found += _loops(compiled, dyad.name, dyad.element, grounds, arms)
     return found
 
 
-def _ground(compiled: Compiled, row: tuple[int, ...]) -> Floats:
-    return compiled.parameters[list(row[2:4])]
-
-
 def _loops(
-    compiled: Compiled, dyad: Dyad, grounds: dict[int, Floats], arms: dict[int, tuple[int, float]]
+    compiled: Compiled,
+    name: str,
+    dyad: Element.Rocker,
+    grounds: dict[int, Floats],
+    arms: dict[int, tuple[int, float]],
 ) -> list[FourBar]:
     """Loops that a dyad closes: one, or none if neither of its ends is at rest."""
-    pin, pivot, a, b = dyad.row[5:9]
-    lengths = compiled.parameters[[a, b]]
+    pin, pivot = dyad.pin, dyad.pivot
+    lengths = compiled.parameters[[dyad.coupler, dyad.rocker]]
     found = []
     for moving, fixed, order in ((pin, pivot, (0, 1)), (pivot, pin, (1, 0))):
         if fixed in grounds and moving in arms:
@@ -132,46 +133,48 @@ def _loops(
             ground = float(np.hypot(*(grounds[fixed] - grounds[centre])))
             if ground > 0:
                 coupler, follower = (float(lengths[k]) for k in order)
-                found.append(FourBar(dyad.name, driver, coupler, follower, ground))
+                found.append(FourBar(name, driver, coupler, follower, ground))
     return found
 
 
 def _arms(compiled: Compiled, grounds: dict[int, Floats]) -> dict[int, tuple[int, float]]:
     """Point that turns about a fixed point → that point and its distance."""
-    centres = dict(_centred(compiled.rows, grounds))
+    centres = dict(_centred(compiled.elements, grounds))
     arms: dict[int, tuple[int, float]] = {}
-    for row in compiled.rows:
-        for point, centre in _carried(row, centres, grounds):
+    for element in compiled.elements:
+        for point, centre in _carried(element, centres, grounds):
             if point != centre:
                 arms.setdefault(point, (centre, _distance(compiled, point, grounds[centre])))
     return {point: arm for point, arm in arms.items() if arm[1] > 0}
 
 
-def _centred(rows: tuple[tuple[int, ...], ...], grounds: dict[int, Floats]) -> list[tuple[int, int]]:
+def _centred(elements: tuple[Element, ...], grounds: dict[int, Floats]) -> list[tuple[int, int]]:
     """Links that turn about a fixed point, with that point."""
     ends = []
-    for row in rows:
-        if row[0] == 1:
-            ends.append((row[2], row[3]))
-        elif row[0] in (3, 11):
-            ends += [(row[2], row[5]), (row[3], row[6])]
-        elif row[0] == 13:
-            ends += [(row[1], row[2]), (row[1], row[3])]
-        elif row[0] == 6:
-            ends.append((row[1], row[5]))
+    for each in elements:
+        match each:
+            case Element.Crank(link=link, pivot=pivot) | Element.SlottedLever(link=link, pivot=pivot):
+                ends.append((link, pivot))
+            case Element.Rocker():
+                ends += [(each.coupler_link, each.pin), (each.rocker_link, each.pivot)]
+            case Element.Link(bar=bar):
+                ends += [(bar.link, bar.start), (bar.link, bar.end)]
     return [(link, point) for link, point in ends if point in grounds]
 
 
-def _carried(
-    row: tuple[int, ...], centres: dict[int, int], grounds: dict[int, Floats]
-) -> list[tuple[int, int]]:
-    """Points of a row that a link on a fixed point carries."""
-    if row[0] == 1:
-        return [(row[1], row[3])]
-    if row[0] in (3, 11):
-        return [(row[1], end) for end in row[5:7] if end in grounds]
-    if row[0] == 4 and (row[3] in grounds or row[2] in centres):
-        return [(row[1], row[3] if row[3] in grounds else centres[row[2]])]
+def _carried(element: Element, centres: dict[int, int], grounds: dict[int, Floats]) -> list[tuple[int, int]]:
+    """Points of an element that a link on a fixed point carries."""
+    match element:
+        case Element.Crank(pin=pin, pivot=pivot):
+            return [(pin, pivot)]
+        case Element.Rocker(joint=joint, pin=pin, pivot=pivot):
+            return [(joint, end) for end in (pin, pivot) if end in grounds]
+        case Element.RigidPoint(point=point, origin=origin) if origin in grounds:
+            return [(point, origin)]
+        case Element.RigidPoint(point=point, link=link) if link in centres:
+            return [(point, centres[link])]
+        case Element.Group(carried=carried):
+            return [(each.point, each.start) for each in carried if each.start in grounds]
     return []
 
 

@@ -8,6 +8,7 @@ from typing import Literal, NamedTuple
 from linkwright.linkages.dyads import LINK, SLIDE
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.program.compiled import Compiled
+from linkwright.machine.program.core import Element
 
 
 class Output(NamedTuple):
@@ -48,7 +49,7 @@ def outputs_of(compiled: Compiled, mechanism: Mechanism) -> list[Output]:
         None of the drivers.
     """
     names = _Names(compiled, mechanism)
-    return [each for row in compiled.rows for each in names.of(row)]
+    return [each for element in compiled.elements for each in names.of(element)]
 
 
 class _Names:
@@ -58,26 +59,27 @@ class _Names:
         self.compiled, self.mechanism = compiled, mechanism
         self.links = {index: name for name, index in compiled.links.items()}
         self.slides = {index: name for name, index in compiled.slides.items()}
-        self.grounds = {row[1] for row in compiled.rows if row[0] == 0}
+        self.grounds = {fixed.point for fixed in compiled.ground}
 
-    def of(self, row: tuple[int, ...]) -> Iterator[Output]:
-        """The outputs of one row."""
-        kind, dyads = row[0], self.compiled.dyads
-        if kind in (2, 5, 15):
-            yield self._stroke(dyads[row[4]], row[3])
-        elif kind in (3, 11):
-            yield self._swing(dyads[row[4]], self._hung(row))
-        elif kind == 6:
-            yield self._swing(dyads[row[3]], row[1])
-            yield self._stroke(dyads[row[3]], row[2])
-        elif kind == 7:
-            yield from (self._stroke(dyads[row[4]], slide) for slide in row[2:4])
-        elif kind == 9 and self.slides[row[2]] not in self.mechanism.linear_drivers:
-            yield self._stroke(self.slides[row[2]], row[2])
-        elif kind == 8 and self.links[row[1]] in self.mechanism.gears:
-            yield self._swing(self.links[row[1]], row[1])
-        elif kind == 12:
-            yield from self._group(dyads[row[1]])
+    def of(self, element: Element) -> Iterator[Output]:
+        """What one element moves."""
+        dyads = self.compiled.dyads
+        match element:
+            case Element.SliderRod() | Element.GuidedRod():
+                yield self._stroke(dyads[element.dyad], element.slide)
+            case Element.Rocker():
+                yield self._swing(dyads[element.dyad], self._hung(element))
+            case Element.SlottedLever():
+                yield self._swing(dyads[element.dyad], element.link)
+                yield self._stroke(dyads[element.dyad], element.slide)
+            case Element.Crossing():
+                yield from (self._stroke(dyads[element.dyad], slide) for slide in element.slides)
+            case Element.Runner(slide=slide) if self.slides[slide] not in self.mechanism.linear_drivers:
+                yield self._stroke(self.slides[slide], slide)
+            case Element.Turn(link=link) if self.links[link] in self.mechanism.gears:
+                yield self._swing(self.links[link], link)
+            case Element.Group():
+                yield from self._group(dyads[element.dyad])
 
     def _stroke(self, element: str, slide: int) -> Output:
         return Output(element, self.slides[slide], "stroke", SLIDE, slide)
@@ -86,9 +88,10 @@ class _Names:
         name = self.links[link].removesuffix(" reversed")
         return Output(element, name, "swing", LINK, self.compiled.links[name])
 
-    def _hung(self, row: tuple[int, ...]) -> int:
+    def _hung(self, dyad: Element.Rocker) -> int:
         """The link of a dyad RRR that hangs on a fixed point, the second if both or none do."""
-        return row[2] if row[5] in self.grounds and row[6] not in self.grounds else row[3]
+        first = dyad.pin in self.grounds and dyad.pivot not in self.grounds
+        return dyad.coupler_link if first else dyad.rocker_link
 
     def _group(self, dyad: str) -> Iterator[Output]:
         """Bars of a group that hang on fixed points, and joints on guides."""

@@ -35,7 +35,8 @@ from linkwright.kernel.result import Result
 from linkwright.kernel.units import RATIO, Bound, Quantity
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine, drive_inertia
+from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.sizing.fit import with_flywheel
 
 Floats = NDArray[np.float64]

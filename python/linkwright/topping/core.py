@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.machine.program.numbers import encoded
+from linkwright.machine.program.numbers import core_law
 
 Floats = NDArray[np.float64]
 
@@ -57,11 +57,10 @@ class KnifeKernel:
     """
 
     def __init__(self, way: KnifeWay, edge_angle: float, forward_speed: float) -> None:
-        in_pieces = isinstance(way.law, MotionLaw)
-        numbers = encoded(way.law) if isinstance(way.law, MotionLaw) else way.law.ravel()
         self._core = _core.TopperKnife(
-            np.ascontiguousarray(numbers, dtype=float),
-            in_pieces,
+            core_law(way.law)
+            if isinstance(way.law, MotionLaw)
+            else np.ascontiguousarray(way.law.ravel(), dtype=float),
             list(way.corners),
             edge_angle,
             forward_speed,
@@ -101,3 +100,8 @@ class KnifeKernel:
         columns = [np.ascontiguousarray(np.atleast_1d(each), dtype=float) for each in (radius, offset, phase)]
         columns[2] = np.mod(columns[2], 2 * np.pi)
         return self._core.cover((columns[0], columns[1], columns[2]), max(map(len, columns)), length, fine)
+
+
+def _core_law(law: MotionLaw | Floats) -> _core.MotionLaw | Floats:
+    """Pieces, or harmonics one after another."""
+    return core_law(law) if isinstance(law, MotionLaw) else np.ascontiguousarray(law.ravel(), dtype=float)

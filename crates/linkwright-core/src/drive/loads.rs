@@ -79,6 +79,13 @@ pub enum Load {
     },
 }
 
+impl Load {
+    /// Whether it has a potential: constant force, gravity, springs.
+    pub fn is_conservative(&self) -> bool {
+        matches!(self, Load::Force { .. } | Load::Gravity { .. } | Load::Spring { .. })
+    }
+}
+
 /// A spring by a curve, a gas spring, a torsional spring, a damper, a force that turns with a link, or a formula that
 /// belongs to the reduction.
 #[derive(Clone, Copy, Debug)]
@@ -100,6 +107,18 @@ pub enum ForceElement {
     Formula(FormulaLoad),
     /// A formula in proportion to the speed.
     ViscousFormula(FormulaLoad),
+}
+
+impl ForceElement {
+    /// Whether it has a potential: springs.
+    pub fn is_conservative(&self) -> bool {
+        matches!(
+            self,
+            ForceElement::SpringTable { .. }
+                | ForceElement::TorsionSpring { .. }
+                | ForceElement::GasSpring { .. }
+        )
+    }
 }
 
 /// What a formula acts on.

@@ -23,3 +23,14 @@ pub struct Plan {
     /// How many parameters the plan refers to.
     pub n_parameters: usize,
 }
+
+impl Plan {
+    /// The same without loads that have a potential over the position of the mechanism, whose work over a closed cycle
+    /// is zero.
+    pub fn without_conservative(&self) -> Plan {
+        let mut plan = self.clone();
+        plan.loads.retain(|load| !load.is_conservative());
+        plan.force_elements.retain(|load| !load.is_conservative());
+        plan
+    }
+}

@@ -7,15 +7,19 @@ use std::fmt;
 pub enum PlanError {
     /// An index beyond its list.
     Index { what: &'static str, value: i32, bound: usize },
+    /// What is used and was not made before.
+    Missing { what: &'static str, value: usize, made: usize },
+    /// What is made and is not the next of its kind.
+    Order { what: &'static str, value: usize, next: usize },
+    /// An error in one element.
+    In { what: &'static str, number: usize, error: Box<PlanError> },
     /// A list of the wrong length.
     Length { what: &'static str, found: usize, expected: usize },
-    /// An unknown kind of element, body, load or motor.
+    /// An unknown kind of row in a list.
     Kind { what: &'static str, kind: i32 },
     /// A table whose knots do not increase or are not finite.
     Table { number: usize },
-    /// A formula that does not leave one number, or keeps too many at once.
-    Formula { number: usize },
-    /// A motion law whose list ends early, or whose pieces do not make a turn.
+    /// A motion law whose pieces do not make a turn.
     MotionLaw,
 }
 
@@ -25,15 +29,19 @@ impl fmt::Display for PlanError {
             PlanError::Index { what, value, bound } => {
                 write!(f, "{what} {value} does not exist: there are {bound}")
             }
+            PlanError::Missing { what, value, made } => {
+                write!(f, "{what} {value} does not exist: there are {made} so far")
+            }
+            PlanError::Order { what, value, next } => {
+                write!(f, "{what} {value} is made where {what} {next} is the next")
+            }
+            PlanError::In { what, number, error } => write!(f, "element {number}, a {what}: {error}"),
             PlanError::Length { what, found, expected } => {
                 write!(f, "{what} has {found} entries, {expected} are needed")
             }
             PlanError::Kind { what, kind } => write!(f, "there is no {what} of kind {kind}"),
             PlanError::Table { number } => {
                 write!(f, "table {number}: knots must be finite and increase, with one value each")
-            }
-            PlanError::Formula { number } => {
-                write!(f, "formula {number} does not leave one number, or keeps too many at once")
             }
             PlanError::MotionLaw => {
                 write!(f, "the pieces of a motion law must follow one another for a turn")

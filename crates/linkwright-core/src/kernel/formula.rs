@@ -164,25 +164,6 @@ pub struct Formula {
 pub const DEPTH: usize = 16;
 
 impl Variable {
-    const ALL: [Variable; 11] = [
-        Variable::Phi,
-        Variable::Omega,
-        Variable::Time,
-        Variable::X,
-        Variable::Y,
-        Variable::Vx,
-        Variable::Vy,
-        Variable::V,
-        Variable::S,
-        Variable::Psi,
-        Variable::PsiDot,
-    ];
-
-    /// The variable of a number that crossed the border.
-    pub fn of(code: i32) -> Option<Variable> {
-        usize::try_from(code).ok().and_then(|code| Self::ALL.get(code).copied())
-    }
-
     fn degree(self) -> Degree {
         match self {
             Variable::Time => Degree::Mixed,
@@ -248,6 +229,14 @@ impl Formula {
         }
         let &[degree] = stack.as_slice() else { return None };
         Some(Formula { ops, degree, switches })
+    }
+
+    /// The parameters that it asks for.
+    pub fn slots(&self) -> impl Iterator<Item = Slot> + '_ {
+        self.ops.iter().filter_map(|op| match op {
+            Op::Number(slot) => Some(*slot),
+            _ => None,
+        })
     }
 
     /// Whether it asks for a variable.

@@ -6,7 +6,7 @@
 //! | [`slot`] | where a number of a machine is found |
 //! | [`plane`] | vectors and motions in the plane |
 //! | [`table`], [`motion_law`] | straight lines between points; laws in pieces |
-//! | [`formula`] | what a user writes as text, as a program |
+//! | [`formula`], [`formula_words`] | what a user writes as text, as a program; its words |
 //! | [`gauss`], [`radau`], [`rk`] | quadrature of order 8; collocation of order 9; Runge–Kutta of order 8 |
 //! | [`call`] | threads of a call, and how it is stopped |
 //! | [`error`], [`status`] | what is wrong with what crosses the border; why a machine has no answer |
@@ -15,6 +15,7 @@ pub mod call;
 pub mod dual;
 pub mod error;
 pub mod formula;
+pub mod formula_words;
 pub mod gauss;
 pub mod jet;
 pub mod lanes;

@@ -4,7 +4,6 @@
 //! that every law of the textbooks has. Values come as Taylor coefficients of any order, so that the same
 //! law serves transfer functions, derivatives by parameters and series at change points.
 
-use crate::kernel::error::PlanError;
 use crate::kernel::real::Real;
 use std::f64::consts::TAU;
 
@@ -41,15 +40,6 @@ impl MotionLaw {
             end = piece.start + piece.length;
         }
         ((end - TAU).abs() < CLOSED).then_some(MotionLaw { pieces })
-    }
-
-    /// Reads a law from the front of a list: number of pieces, and of each start, length, number of
-    /// coefficients, these, number of harmonics, k a b of each.
-    ///
-    /// # Errors
-    /// [`PlanError::MotionLaw`] for a list that ends early or pieces that do not make a turn.
-    pub fn decode(list: &mut &[f64]) -> Result<Self, PlanError> {
-        read(list).and_then(MotionLaw::new).ok_or(PlanError::MotionLaw)
     }
 
     /// Its pieces.
@@ -93,31 +83,6 @@ fn derivatives<R: Real, const N: usize>(phi: R, series: &impl Fn(f64, &mut [f64]
         *x = *x * factorial;
     }
     found
-}
-
-fn take(list: &mut &[f64]) -> Option<f64> {
-    let (&first, rest) = list.split_first()?;
-    *list = rest;
-    Some(first)
-}
-
-/// A count; as a float it came, and no larger than the list is long.
-fn count(list: &mut &[f64]) -> Option<usize> {
-    let n = take(list)?;
-    (n >= 0.0 && n <= list.len() as f64 && n.fract() == 0.0).then_some(n as usize)
-}
-
-fn read(list: &mut &[f64]) -> Option<Vec<Piece>> {
-    (0..count(list)?)
-        .map(|_| {
-            let (start, length) = (take(list)?, take(list)?);
-            let polynomial = (0..count(list)?).map(|_| take(list)).collect::<Option<_>>()?;
-            let harmonics = (0..count(list)?)
-                .map(|_| Some([take(list)?, take(list)?, take(list)?]))
-                .collect::<Option<_>>()?;
-            Some(Piece { start, length, polynomial, harmonics })
-        })
-        .collect()
 }
 
 impl Piece {
@@ -214,9 +179,8 @@ mod tests {
     #[test]
     fn pieces_must_make_a_turn() {
         assert!(MotionLaw::new(vec![cycloidal(0.0, PI, 0.0, 0.3)]).is_none(), "half a turn");
-        let mut short: &[f64] = &[1.0, 0.0, TAU, 3.0, 1.0];
-        assert!(MotionLaw::decode(&mut short).is_err(), "ends early");
-        let mut whole: &[f64] = &[1.0, 0.0, TAU, 1.0, 5.0, 0.0];
-        assert_eq!(MotionLaw::decode(&mut whole).expect("a dwell").at::<f64, 2>(1.0), [5.0, 0.0], "a dwell");
+        let dwell = Piece { start: 0.0, length: TAU, polynomial: vec![5.0], harmonics: vec![] };
+        let whole = MotionLaw::new(vec![dwell]).expect("a dwell");
+        assert_eq!(whole.at::<f64, 2>(1.0), [5.0, 0.0], "a dwell");
     }
 }

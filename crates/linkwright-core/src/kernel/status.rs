@@ -1,6 +1,6 @@
 //! Why one machine has no answer, while the call itself made sense.
 
-/// Outcome for one machine; the numbers are what crosses the border.
+/// Outcome for one machine; its number stands in the results of many machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Status {
@@ -12,4 +12,25 @@ pub enum Status {
     NoSteadyMotion = 2,
     /// Solved, but not to the accuracy asked for.
     Inaccurate = 3,
+    /// A dyad passes an odd number of change points: told by who has found these, not by a solver.
+    TwoTurns = 4,
+}
+
+impl Status {
+    /// All of them, by number.
+    pub const ALL: [Status; 5] =
+        [Status::Ok, Status::DoesNotClose, Status::NoSteadyMotion, Status::Inaccurate, Status::TwoTurns];
+
+    /// What it means.
+    pub fn sentence(self) -> &'static str {
+        match self {
+            Status::Ok => "solved",
+            Status::DoesNotClose => {
+                "the mechanism does not close all round, or its lengths do not tell how it passes a change point"
+            }
+            Status::NoSteadyMotion => "no steady motion: the drive cannot keep the machine turning",
+            Status::Inaccurate => "the accuracy was not reached",
+            Status::TwoTurns => "the motion repeats only after two turns of the crank",
+        }
+    }
 }

@@ -56,6 +56,19 @@ pub struct Arm {
     pub y: Vec<Slot>,
 }
 
+impl Arm {
+    /// An arm whose numbers stand in a row, in the order of its fields.
+    pub(super) fn stored(first: Slot) -> Self {
+        let (x, y) = (first + 2, first + 2 + TERMS);
+        Arm {
+            inverse_width: first,
+            reach: first + 1,
+            x: (x..x + TERMS).collect(),
+            y: (y..y + TERMS).collect(),
+        }
+    }
+}
+
 /// The arms with S > 0 and with S < 0 after the change point.
 pub type Arms = [Arm; 2];
 

@@ -19,7 +19,7 @@
 //! them and nowhere else. Where the pin passes over its pivot U is zero too, and the joint comes from its own
 //! series ([`super::arm`]).
 
-use super::arm::{self, Arms};
+use super::arm::{self, Arm, Arms};
 use super::dyads::Rocker;
 use super::guided::{GuidedRod, Series, bar, place_rod, rod_radicand};
 use super::motion::Motion;
@@ -45,7 +45,25 @@ pub struct ChangePoint {
     pub arms: Vec<Arms>,
 }
 
+/// Numbers of a change point before those of its arms.
+pub const NUMBERS: usize = 5 + TERMS;
+
 impl ChangePoint {
+    /// A change point whose numbers stand in a row, in the order of its fields: its own, then those of its two arms if
+    /// it `has_arms`.
+    pub fn stored(first: Slot, has_arms: bool) -> Self {
+        let from = |n: Slot| first + NUMBERS + n * arm::NUMBERS;
+        ChangePoint {
+            cos: first,
+            sin: first + 1,
+            half_cos: first + 2,
+            half_sin: first + 3,
+            reach: first + 4,
+            series: (first + 5..first + NUMBERS).collect(),
+            arms: if has_arms { vec![[0, 1].map(|n| Arm::stored(from(n)))] } else { Vec::new() },
+        }
+    }
+
     /// Sine and cosine of the distance from it, and the size of the sine where the cosine is positive: the opposite
     /// side of the turn has the same sine, and is put out of reach.
     #[inline(always)]

@@ -68,7 +68,7 @@ pub struct InLine {
     pub phi: f64,
     /// What is left until they are in line \[m\]: negative where they do not meet.
     pub spare: f64,
-    /// Numbers of a change point in the order of its row; empty where it is undecided.
+    /// Numbers of a change point in the order of its fields; empty where it is undecided.
     pub series: Vec<f64>,
     /// Numbers of its two arms, where the pin passes near its pivot.
     pub arms: Vec<f64>,

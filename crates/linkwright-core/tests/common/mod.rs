@@ -6,15 +6,15 @@ use linkwright_core::drive::motor::{Drive, Motor, Span};
 use linkwright_core::drive::structure::Plan;
 use linkwright_core::kernel::formula::{Formula, Op, Variable};
 use linkwright_core::kernel::table::Table;
-use linkwright_core::linkage::arm::{self, Arm};
 use linkwright_core::linkage::coupled::{AngleOf, Law, Runner, Source, Sum, Turn};
 use linkwright_core::linkage::dyads::{Rocker, SliderRod};
 use linkwright_core::linkage::folding::{ChangePoint, Folding};
 use linkwright_core::linkage::group::{Bar, Carried, Condition, Group};
 use linkwright_core::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
 use linkwright_core::linkage::in_line::in_line;
-use linkwright_core::linkage::mechanism::{Element, Fixed, Mechanism};
+use linkwright_core::linkage::mechanism::{Element, Fixed};
 use linkwright_core::linkage::trace::{Path, follow};
+use linkwright_core::plan::builder as plan;
 
 /// A plan and the numbers that go with it.
 pub struct Built {
@@ -22,52 +22,52 @@ pub struct Built {
     pub q: Vec<f64>,
 }
 
-/// Collects elements and numbers.
+/// Collects numbers, and gives elements of the plan's builder their indices.
 pub struct Builder {
-    mechanism: Mechanism,
-    bodies: Vec<Body>,
-    loads: Vec<Load>,
-    tables: Vec<Table>,
+    plan: plan::Builder,
+    n_points: usize,
+    n_links: usize,
+    n_slides: usize,
+    n_gaps: usize,
     q: Vec<f64>,
 }
 
 impl Builder {
     /// Starts with the origin as point 0.
     pub fn new() -> Self {
-        let mut b = Builder {
-            mechanism: Mechanism::default(),
-            bodies: Vec::new(),
-            loads: Vec::new(),
-            tables: Vec::new(),
-            q: Vec::new(),
-        };
+        let plan = plan::Builder::new(0);
+        let mut b = Builder { plan, n_points: 0, n_links: 0, n_slides: 0, n_gaps: 0, q: Vec::new() };
         b.fixed(0.0, 0.0);
         b
     }
 
     pub fn number(&mut self, x: f64) -> usize {
         self.q.push(x);
-        self.q.len() - 1
+        self.plan.parameter()
+    }
+
+    fn add(&mut self, element: Element) -> usize {
+        self.plan.element(element).expect("a sound element")
     }
 
     fn point(&mut self) -> usize {
-        self.mechanism.n_points += 1;
-        self.mechanism.n_points - 1
+        self.n_points += 1;
+        self.n_points - 1
     }
 
     fn link(&mut self) -> usize {
-        self.mechanism.n_links += 1;
-        self.mechanism.n_links - 1
+        self.n_links += 1;
+        self.n_links - 1
     }
 
     fn gap(&mut self) -> usize {
-        self.mechanism.n_gaps += 1;
-        self.mechanism.n_gaps - 1
+        self.n_gaps += 1;
+        self.n_gaps - 1
     }
 
     pub fn fixed(&mut self, x: f64, y: f64) -> usize {
         let (point, x, y) = (self.point(), self.number(x), self.number(y));
-        self.mechanism.ground.push(Fixed { point, x, y });
+        self.plan.fixed(Fixed { point, x, y }).expect("a sound point");
         point
     }
 
@@ -75,15 +75,14 @@ impl Builder {
     pub fn crank(&mut self, radius: f64, phase: f64) -> (usize, usize) {
         let (pin, link) = (self.point(), self.link());
         let (radius, cos, sin) = (self.number(radius), self.number(phase.cos()), self.number(phase.sin()));
-        self.mechanism.elements.push(Element::Crank { pin, link, pivot: 0, radius, cos, sin });
+        self.add(Element::Crank { pin, link, pivot: 0, radius, cos, sin });
         (pin, link)
     }
 
     /// Point, link and slide of a slider.
     pub fn slider(&mut self, pin: usize, rod: f64, offset: f64, angle: f64, sign: f64) -> [usize; 3] {
         let (point, link, gap) = (self.point(), self.link(), self.gap());
-        let slide = self.mechanism.n_slides;
-        self.mechanism.n_slides += 1;
+        let slide = self.slide();
         let element = SliderRod {
             point,
             link,
@@ -98,7 +97,7 @@ impl Builder {
             sin: self.number(angle.sin()),
             sign: self.number(sign),
         };
-        self.mechanism.elements.push(Element::SliderRod(element));
+        self.add(Element::SliderRod(element));
         [point, link, slide]
     }
 
@@ -118,19 +117,19 @@ impl Builder {
             inverse_rocker: self.number(1.0 / rocker),
             sign: self.number(sign),
         };
-        self.mechanism.elements.push(Element::Rocker(element));
+        self.add(Element::Rocker(element));
         [joint, coupler_link, rocker_link]
     }
 
     pub fn rigid_point(&mut self, link: usize, origin: usize, along: f64, across: f64) -> usize {
         let (point, along, across) = (self.point(), self.number(along), self.number(across));
-        self.mechanism.elements.push(Element::RigidPoint { point, link, origin, along, across });
+        self.add(Element::RigidPoint { point, link, origin, along, across });
         point
     }
 
     fn slide(&mut self) -> usize {
-        self.mechanism.n_slides += 1;
-        self.mechanism.n_slides - 1
+        self.n_slides += 1;
+        self.n_slides - 1
     }
 
     /// A guide on a link.
@@ -151,24 +150,19 @@ impl Builder {
             inverse_rod: self.number(1.0 / rod),
             sign: self.number(sign),
         };
-        self.mechanism.elements.push(Element::GuidedRod(element));
+        self.add(Element::GuidedRod(element));
     }
 
     pub fn slotted_lever(&mut self, pin: usize, pivot: usize, offset: f64, sign: f64) {
         let (link, slide, gap) = (self.link(), self.slide(), self.gap());
         let (offset, sign) = (self.number(offset), self.number(sign));
         let element = SlottedLever { link, slide, gap, pin, pivot, offset, sign };
-        self.mechanism.elements.push(Element::SlottedLever(element));
+        self.add(Element::SlottedLever(element));
     }
 
     pub fn crossing(&mut self, first: Line, second: Line) {
         let (point, slides, gap) = (self.point(), [self.slide(), self.slide()], self.gap());
-        self.mechanism.elements.push(Element::Crossing(Crossing {
-            point,
-            slides,
-            gap,
-            lines: [first, second],
-        }));
+        self.add(Element::Crossing(Crossing { point, slides, gap, lines: [first, second] }));
     }
 
     fn sum(&mut self, start: f64, terms: &[(Option<usize>, f64)]) -> Sum {
@@ -183,18 +177,18 @@ impl Builder {
     /// A gear; terms are slides, or none for the crank angle, with their factors.
     pub fn turn(&mut self, start: f64, terms: &[(Option<usize>, f64)]) {
         let (link, slide, angle) = (self.link(), self.slide(), self.sum(start, terms));
-        self.mechanism.elements.push(Element::Turn(Turn { link, slide, angle }));
+        self.add(Element::Turn(Turn { link, slide, angle }));
     }
 
     pub fn runner(&mut self, line: Line, start: f64, terms: &[(Option<usize>, f64)]) {
         let (point, slide, place) = (self.point(), self.slide(), self.sum(start, terms));
-        self.mechanism.elements.push(Element::Runner(Runner { point, slide, line, place }));
+        self.add(Element::Runner(Runner { point, slide, line, place }));
     }
 
     /// The slide that holds a link's angle.
     pub fn angle_of(&mut self, link: usize, winding: f64, centre: f64) -> usize {
         let (slide, winding, centre) = (self.slide(), self.number(winding), self.number(centre));
-        self.mechanism.elements.push(Element::AngleOf(AngleOf { link, slide, winding, centre }));
+        self.add(Element::AngleOf(AngleOf { link, slide, winding, centre }));
         slide
     }
 
@@ -204,7 +198,7 @@ impl Builder {
         let size = self.number(0.3);
         let ops = vec![Op::Number(size), Op::Variable(Variable::Phi), Op::Sin, Op::Mul];
         let formula = Formula::new(ops).expect("a sound formula");
-        self.mechanism.elements.push(Element::Law(Law { slide, formula }));
+        self.add(Element::Law(Law { slide, formula }));
     }
 
     /// Joints P, Q and the third corner of the plate PQ; bars from the pin to P, of the plate, from Q and from
@@ -247,8 +241,7 @@ impl Builder {
             inverse_turns: self.number(1.0),
             repeats: true,
         };
-        self.mechanism.elements.push(Element::Group(group));
-        self.mechanism.elements.len() - 1
+        self.add(Element::Group(group))
     }
 
     /// A group of joints and the bars between points, followed from near the places of the joints at φ = 0; after
@@ -270,7 +263,7 @@ impl Builder {
                 inverse_length: self.number(1.0 / length),
             })
             .collect();
-        let group = Group {
+        let mut group = Group {
             unknowns: unknowns.to_vec(),
             carried: vec![],
             bars: links,
@@ -280,16 +273,20 @@ impl Builder {
             inverse_turns,
             repeats: true,
         };
-        self.mechanism.elements.push(Element::Group(group));
-        let element = self.mechanism.elements.len() - 1;
-        let path = follow(&self.mechanism, element, &self.q, 0.0, near)?;
+        // Followed as if it were there already, from the table of its places at the start.
+        let mut mechanism = self.plan.mechanism().clone();
+        let element = mechanism.elements.len();
+        mechanism.elements.push(Element::Group(group.clone()));
+        (mechanism.n_points, mechanism.n_links) = (self.n_points, self.n_links);
+        (mechanism.n_slides, mechanism.n_gaps) = (self.n_slides, self.n_gaps);
+        let path = follow(&mechanism, element, &self.q, 0.0, near)?;
         let turns = path.turns;
         let cycle = f64::from(turns.unwrap_or(1));
         self.q[inverse_turns] = 1.0 / cycle;
-        let Element::Group(group) = &mut self.mechanism.elements[element] else { unreachable!() };
         let phi: Vec<f64> = path.phi.iter().map(|phi| phi / cycle).collect();
         group.starts = path.places.iter().map(|x| Table::new(&phi, x).expect("a sound table")).collect();
         group.repeats = turns.is_some();
+        self.add(Element::Group(group));
         turns
     }
 
@@ -316,23 +313,10 @@ impl Builder {
         let found = in_line(&built.plan.mechanism, element, &built.q);
         let side = |phi: f64| found.iter().map(|at| ((phi - at.phi) / 2.0).sin()).product::<f64>().signum();
         built.q[rocker.sign] *= side(1e-7);
-        let first = built.q.len();
-        let mut slots = first..;
-        let mut slots = |n: usize| -> Vec<usize> { slots.by_ref().take(n).collect() };
         let mut change_points = Vec::new();
         for at in &found {
+            change_points.push(ChangePoint::stored(built.q.len(), !at.arms.is_empty()));
             built.q.extend(at.series.iter().chain(&at.arms));
-            let head = slots(5);
-            let series = slots(at.series.len() - 5);
-            let mut arm = || {
-                let (ends, x, y) = (slots(2), slots(arm::TERMS), slots(arm::TERMS));
-                Arm { inverse_width: ends[0], reach: ends[1], x, y }
-            };
-            let arms = if at.arms.is_empty() { Vec::new() } else { vec![[arm(), arm()]] };
-            let [cos, sin, half_cos, half_sin, reach] = head[..] else {
-                panic!("five numbers before the series");
-            };
-            change_points.push(ChangePoint { cos, sin, half_cos, half_sin, reach, series, arms });
         }
         built.plan.n_parameters = built.q.len();
         built.plan.mechanism.elements[element] = Element::Folding(Folding { rocker, change_points });
@@ -341,49 +325,39 @@ impl Builder {
 
     pub fn mass(&mut self, point: usize, mass: f64) {
         let mass = self.number(mass);
-        self.bodies.push(Body::Point { point, mass });
+        self.plan.body(Body::Point { point, mass }).expect("a sound body");
     }
 
     pub fn rod(&mut self, link: usize, origin: usize, length: f64, mass: f64) {
         let (along, across) = (self.number(length / 2.0), self.number(0.0));
         let (mass, inertia) = (self.number(mass), self.number(mass * length * length / 12.0));
-        self.bodies.push(Body::Link { link, origin, along, across, mass, inertia });
+        let body = Body::Link { link, origin, along, across, mass, inertia };
+        self.plan.body(body).expect("a sound body");
     }
 
     pub fn dry_slide(&mut self, slide: usize, force: f64) {
         let force = self.number(force);
-        self.loads.push(Load::DrySlide { slide, force });
+        self.load(Load::DrySlide { slide, force });
     }
 
     pub fn load(&mut self, load: Load) {
-        self.loads.push(load);
+        self.plan.load(load).expect("a sound load");
     }
 
     pub fn gravity(&mut self, g: f64) {
         let (x, y) = (self.number(0.0), self.number(-g));
-        self.loads.push(Load::Gravity { x, y });
+        self.load(Load::Gravity { x, y });
     }
 
     pub fn table(&mut self, x: &[f64], y: &[f64]) -> usize {
-        self.tables.push(Table::new(x, y).expect("a sound table"));
-        self.tables.len() - 1
+        self.plan.table(Table::new(x, y).expect("a sound table"))
     }
 
     /// `factors`: ratio, forward, reverse, inertia on the crank, starting speed.
     pub fn finish(mut self, motor: Motor, factors: [f64; 5]) -> Built {
         let [ratio, forward, reverse, inertia, speed_start] = factors.map(|x| self.number(x));
         let drive = Drive { motor, ratio, forward, reverse, inertia, speed_start, speed_loads: vec![] };
-        let plan = Plan {
-            mechanism: self.mechanism,
-            bodies: self.bodies,
-            loads: self.loads,
-            force_elements: vec![],
-            drive,
-            tables: self.tables,
-            formulas: vec![],
-            laws: vec![],
-            n_parameters: self.q.len(),
-        };
+        let plan = self.plan.into_plan(drive).expect("a sound drive");
         Built { plan, q: self.q }
     }
 

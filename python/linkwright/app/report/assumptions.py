@@ -21,7 +21,7 @@ from linkwright.kinetostatics.model.loads.formula import FormulaLoad
 from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
 from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import drive_inertia, reverse_factor
+from linkwright.machine.program.drive_line import drive_inertia, reverse_factor
 
 # Meshes that agree better than this agree to rounding.
 _FINEST = 1e-15

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from linkwright.kernel.errors import CoreError
 
-# As `FORMAT` in `crates/linkwright-core/src/plan.rs`: the two change together.
-FORMAT = 12
+# As `FORMAT` in `crates/linkwright-core/src/plan/mod.rs`: the two change together.
+FORMAT = 13
 
 
 def check_format(core: object) -> None:

@@ -21,9 +21,11 @@ from numpy.typing import NDArray
 
 from linkwright import _core
 from linkwright.kernel.errors import AssemblyError
-from linkwright.machine.program.change_points import InLine, encoded, folding_row, in_line, undecided
+from linkwright.machine.program.change_points import folding, in_line, stored, undecided, undecided_error
 from linkwright.machine.program.driver_law import require_smooth
-from linkwright.machine.program.elements import Continuous, Foldable, Pending, Rows, Side, Solved
+from linkwright.machine.program.mechanism import MechanismProgram
+from linkwright.machine.program.numbers import table
+from linkwright.machine.program.pending import Continuous, Foldable, Pending, Side, Solved
 
 Floats = NDArray[np.float64]
 
@@ -51,15 +53,15 @@ _FITS = 1e-9
 
 
 class Settled:
-    """Rows, tables and numbers of a mechanism with everything pending filled in."""
+    """Elements and numbers of a mechanism with everything pending filled in."""
 
-    def __init__(
-        self, rows: Rows, columns: Columns, plan: Callable[[], _core.Plan], assembled_at: float
-    ) -> None:
-        self.rows = rows
+    def __init__(self, program: MechanismProgram, columns: Columns, plan: Callable[[], _core.Plan]) -> None:
+        self.program = program
+        # Numbers beyond these are not described but found here.
+        self.n_described = len(program.parameters)
         self.parameters, self.slots, self.values = columns
         self.make_plan = plan
-        self.assembled_at = assembled_at
+        self.assembled_at = program.mechanism.assembled_at
         self.plan = plan()
         # Crank angle at which the side of a dyad is given, by the slot of its sign; others just after zero.
         self.given_at: dict[int, float] = {}
@@ -76,7 +78,7 @@ class Settled:
             or a redundant bar does not fit.
         """
         self._check_laws()
-        for each in self.rows.pending:
+        for each in self.program.pending:
             self._settle(each)
         self._check_redundant()
 
@@ -93,12 +95,12 @@ class Settled:
 
     def _check_laws(self) -> None:
         """A driver's law must have a value everywhere, and no jump."""
-        mechanism = self.rows.mechanism
+        mechanism = self.program.mechanism
         laws = {name: crank.law for name, crank in mechanism.cranks.items()}
         laws |= {name: driver.law for name, driver in mechanism.linear_drivers.items()}
         for name, law in laws.items():
             if law is not None:
-                require_smooth(name, law, partial(self._law, self.rows.slides[f"{name}.law"]))
+                require_smooth(name, law, partial(self._law, self.program.slides[f"{name}.law"]))
 
     def _law(self, slide: int, angles: Floats) -> Floats:
         """Value and slope of a law, (2, n)."""
@@ -122,7 +124,7 @@ class Settled:
     def _side(self, each: Side) -> None:
         """Left of the line from pin to pivot, or ahead along the guide."""
         at = np.array([self.assembled_at])
-        joint = self.rows.mechanism.joints[each.joint]
+        joint = self.program.mechanism.joints[each.joint]
         x, y = self._motion(0, each.pin, at)[:2, 0]
         to = np.array([_first(joint.x) - x, _first(joint.y) - y])
         if each.pivot is not None:
@@ -131,7 +133,7 @@ class Settled:
         else:
             assert each.guide is not None
             link, angle = each.guide
-            cos, sin = (1.0, 0.0) if link == self.rows.frame else self._motion(1, link, at)[:2, 0]
+            cos, sin = (1.0, 0.0) if link is None else self._motion(1, link, at)[:2, 0]
             direction = np.array(
                 [cos * np.cos(angle) - sin * np.sin(angle), sin * np.cos(angle) + cos * np.sin(angle)]
             )
@@ -176,16 +178,15 @@ class Settled:
     # -- change points -----------------------------------------------------------------------------------
 
     def _fold(self, each: Foldable) -> None:
-        """Finds the change points of a dyad in every machine, and gives its row their series."""
-        element = sum(row[0] != 0 for row in self.rows.rows[: each.row])
-        found = in_line(self.plan, self.parameters, *self._mechanisms(), element)
+        """Finds the change points of a dyad in every machine, and gives it their series."""
+        found = in_line(self.plan, self.parameters, *self._mechanisms(), each.element)
         if not any(found):
             return
         signs = np.array([self._sign(each, points) for points in found])
         for row, points in enumerate(found):
             at = undecided(points, signs[row])
             if at is not None and len(found) == 1:
-                raise at.error(each.name)
+                raise undecided_error(each.name, at)
             if at is not None:
                 # A machine of a batch that has no answer, and shows it.
                 found[row], signs[row] = [], np.nan
@@ -193,21 +194,23 @@ class Settled:
 
     def _mechanisms(self) -> tuple[NDArray[np.int32], Floats]:
         """What varies from one mechanism to the next: where masses and the like vary, nothing."""
-        if any(slot < self.rows.n_own or slot >= self.rows.n_described for slot in self.slots):
+        if any(slot < self.program.n_own or slot >= self.n_described for slot in self.slots):
             return self.slots, self.values
         return np.empty(0, dtype=np.int32), np.empty((0, 1))
 
-    def _sign(self, each: Foldable, points: list[InLine]) -> float:
+    def _sign(self, each: Foldable, points: list[_core.InLine]) -> float:
         """The side of a dyad where the product of half-angle sines is positive."""
         # A side that varies from row to row does not exist.
         wanted = self.parameters[each.sign]
         given_at = self.given_at.get(each.sign, _JUST_AFTER)
-        return float(wanted * np.sign(np.prod([np.sin((given_at - point.angle) / 2) for point in points])))
+        return float(
+            wanted * np.sign(np.prod([np.sin((given_at - point.crank_angle) / 2) for point in points]))
+        )
 
-    def _give_change_points(self, each: Foldable, found: list[list[InLine]], signs: Floats) -> None:
-        """Turns the row of a dyad into one with change points."""
-        entries, numbers = encoded(found, len(self.parameters))
-        self.rows.rows[each.row] = [*folding_row(self.rows.rows[each.row], self.rows.frame), *entries]
+    def _give_change_points(self, each: Foldable, found: list[list[_core.InLine]], signs: Floats) -> None:
+        """Turns a dyad into one with change points."""
+        change_points, numbers = stored(found, len(self.parameters))
+        self.program.elements[each.element] = folding(self.program.elements[each.element], change_points)
         self._add(numbers)
         self._change(each.sign, signs)
         self.odd = self.odd | np.array([len(points) % 2 == 1 for points in found])
@@ -216,7 +219,7 @@ class Settled:
     def _add(self, columns: Floats) -> None:
         """Appends parameters, a row of values over the machines for each."""
         slots = np.arange(len(self.parameters), len(self.parameters) + len(columns), dtype=np.int32)
-        self.rows.parameters += columns[:, 0].tolist()
+        self.program.parameters += columns[:, 0].tolist()
         self.parameters = np.concatenate([self.parameters, columns[:, 0]])
         if columns.shape[1] > 1:
             self.slots = np.concatenate([self.slots, slots])
@@ -233,10 +236,9 @@ class Settled:
 
     def _follow(self, each: Solved) -> None:
         """Follows a group over the turn from where it is assembled."""
-        element = sum(row[0] != 0 for row in self.rows.rows[: each.row])
-        joints = [self.rows.mechanism.joints[name] for name in each.names]
+        joints = [self.program.mechanism.joints[name] for name in each.names]
         near = np.array([_first(value) for joint in joints for value in (joint.x, joint.y)])
-        path = _core.follow_group(self.plan, self.parameters, element, self.assembled_at, near)
+        path = _core.follow_group(self.plan, self.parameters, each.element, self.assembled_at, near)
         if path is None:
             names = " and ".join(each.names)
             raise AssemblyError(
@@ -246,24 +248,34 @@ class Settled:
                 element=each.names[0],
                 crank_angle=self.assembled_at,
             )
-        phi, places, turns = path
+        phi, turns = path.crank_angle, path.turns
         span = float(phi[-1] - phi[0])
         cycle = float(turns or max(1, int(np.ceil(span / (2 * np.pi) + _WHOLE))))
         # The last angle of a motion that repeats is the first again.
-        for table, place in zip(each.tables, places, strict=True):
-            self.rows.tables[table] = (list(phi / cycle), list(place))
+        knots = (phi / cycle).tolist()
         self.parameters[each.inverse_turns] = 1.0 / cycle
-        self.rows.rows[each.row][3] = int(turns is not None)
+        group = self.program.elements[each.element]
+        assert isinstance(group, _core.Element.Group)
+        self.program.elements[each.element] = _core.Element.Group(
+            dyad=group.dyad,
+            unknowns=group.unknowns,
+            carried=group.carried,
+            bars=group.bars,
+            conditions=group.conditions,
+            starts=[table(knots, place) for place in path.places],
+            inverse_turns=group.inverse_turns,
+            repeats=turns is not None,
+        )
         self._changed(self.make_plan())
 
     # -- redundant bars ----------------------------------------------------------------------------------
 
     def _check_redundant(self) -> None:
         """A redundant bar must fit at every angle; of a batch, in the first machine."""
-        mechanism = self.rows.mechanism
+        mechanism = self.program.mechanism
         for name, bar in mechanism.bars.items():
             if bar.redundant:
-                ends = self.rows.points[bar.start], self.rows.points[bar.end]
+                ends = self.program.points[bar.start], self.program.points[bar.end]
                 self._check_fit(name, *ends, _first(bar.length))
 
     def _check_fit(self, name: str, start: int, end: int, length: float) -> None:

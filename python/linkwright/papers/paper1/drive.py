@@ -23,7 +23,7 @@ from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.step_method import StepMotion
 from linkwright.kernel.files.library import library_path
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import drive_inertia
+from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.machine.read import read
 from linkwright.papers.claim import Cell
 from linkwright.papers.paper import printed_values

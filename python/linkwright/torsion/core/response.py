@@ -250,4 +250,6 @@ def extremes(coefficients: Complexes) -> Floats:
     """
     flat = np.ascontiguousarray(coefficients, complex).reshape(-1)
     waves = coefficients[0].size
-    return _core.torsion_waves(flat.view(np.float64), waves).reshape(4, *coefficients.shape[1:])
+    found = _core.torsion_waves(flat.view(np.float64), waves)
+    rows = np.stack([found.greatest, found.greatest_at, found.least, found.least_at])
+    return rows.reshape(4, *coefficients.shape[1:])

@@ -118,7 +118,7 @@ class ReferredTrain:
     def modes(self) -> tuple[Floats, Floats]:
         """Natural frequencies [rad/s], increasing, and shapes of the masses, a row each, with Σ J q² = 1."""
         found = _core.torsion_modes(self.inertia, self.ends, self.stiffness)
-        return found if found is not None else self._whole()
+        return self._whole() if found is None else (found.omega, found.shapes)
 
     def _whole(self) -> tuple[Floats, Floats]:
         """Modes from the matrices, for trains with loops: each part by itself, then put in order."""

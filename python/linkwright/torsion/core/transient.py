@@ -40,8 +40,6 @@ Ints = NDArray[np.int32]
 # Share of the largest slope by which given slopes may differ from those of the samples.
 _SLOPES_AGREE = 1e-3
 
-_METHODS = ("auto", "explicit", "implicit")
-
 
 @dataclass(frozen=True)
 class VariableInertia:
@@ -113,8 +111,8 @@ class Moved:
 
     Attributes
     ----------
-    end : int
-        0 when the time is over; 1 too many steps, 2 too small steps, 3 numbers that are not finite.
+    end : str
+        "time" when it is over; "too many steps", "inaccurate" where no step keeps the accuracy, "not finite".
     method : str
         That was used.
     steps, rejected, evaluations : int
@@ -137,7 +135,7 @@ class Moved:
         Of torques, and lost in shafts and at masses [J].
     """
 
-    end: int
+    end: str
     method: str
     steps: int
     rejected: int
@@ -280,26 +278,26 @@ class MovingTrain:
         at, turning, sampled = (
             np.ascontiguousarray(each, dtype=np.float64) for each in (angle, speed, times)
         )
-        kind = _METHODS.index(method)
-        found = self.system.follow(at, turning, sampled, start, float(sampled[-1]), accuracy, kind, steps_max)
-        end, used, (steps, rejected, evaluations), scalars, samples, extremes, work = found
+        end = float(sampled[-1])
+        found = self.system.follow(at, turning, sampled, start, end, accuracy, method, steps_max)
+        samples = found.samples
         n, m = self.masses, len(self.shafts)
         return Moved(
-            end=end,
-            method=_METHODS[used],
-            steps=steps,
-            rejected=rejected,
-            evaluations=evaluations,
-            time=scalars[0],
-            fastest=scalars[1],
-            energies=(scalars[2], scalars[3], scalars[4], scalars[5]),
+            end=found.end,
+            method=found.method,
+            steps=found.steps,
+            rejected=found.rejected,
+            evaluations=found.evaluations,
+            time=found.time,
+            fastest=found.fastest,
+            energies=found.energies,
             angle=samples[:n],
             speed=samples[n : 2 * n],
             torque=samples[2 * n : 2 * n + m],
             kinetic=samples[-2],
             potential=samples[-1],
-            extremes=extremes,
-            work=work,
+            extremes=found.extremes,
+            work=found.work,
         )
 
 

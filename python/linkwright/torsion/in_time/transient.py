@@ -294,7 +294,7 @@ def follow_train(
     moved = train.follow(
         at, turning, times, accuracy=accuracy, start=0.0 - settle, method=method, steps_max=steps_max
     )
-    if moved.end:
+    if moved.end != "time":
         raise ConvergenceError(_given_up(train, moved, accuracy), method=moved.method, iterations=moved.steps)
     return _result(train, times, moved)
 
@@ -340,13 +340,9 @@ def _times(duration: float, sample_time: float | None) -> Floats:
     return np.linspace(0.0, duration, samples + 1)
 
 
-# The core's end of a motion in which a twist says too little of its shaft's torque.
-_ROUNDED = 4
-
-
 def _given_up(train: MovingTrain, moved: Moved, accuracy: float) -> str:
     """One sentence: when, why, and what to do."""
-    if moved.end == _ROUNDED:
+    if moved.end == "rounded":
         shaft = int(np.argmax(train.stiffness))
         return (
             f"the torque of shaft {train.shafts[shaft]}, {train.stiffness[shaft]:.4g} N m/rad, is not known "
@@ -354,7 +350,7 @@ def _given_up(train: MovingTrain, moved: Moved, accuracy: float) -> str:
             'take method "auto" or "implicit", or ask for less'
         )
     when = f"the motion was given up at {moved.time:.6g} s after {moved.steps} steps"
-    if moved.end == 3:
+    if moved.end == "not finite":
         return f"{when}: an acceleration is no finite number; look at the torques"
     frequency, disc = moved.fastest / (2 * np.pi), _fastest_disc(train)
     stiff = f"{disc} swings on its shafts at up to {frequency:.4g} Hz"
@@ -362,7 +358,8 @@ def _given_up(train: MovingTrain, moved: Moved, accuracy: float) -> str:
         remedy = 'take method "implicit", or take it together with its neighbour as one disc'
     else:
         remedy = "ask for less accuracy, or look for a torque that jumps to and fro"
-    why = "that many are allowed" if moved.end == 1 else f"no step keeps the accuracy {accuracy:g}"
+    many = moved.end == "too many steps"
+    why = "that many are allowed" if many else f"no step keeps the accuracy {accuracy:g}"
     return f"{when}: {why}, and {stiff}; {remedy}"
 
 

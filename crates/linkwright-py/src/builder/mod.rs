@@ -1,0 +1,82 @@
+//! A machine's structure from Python: values of named classes, of which the core's plan is built.
+//!
+//! | module | |
+//! | --- | --- |
+//! | `numbers` | tables, formulas, motion laws |
+//! | `parts` | guides, sums, bars, change points: what elements consist of |
+//! | `elements` | elements of the mechanism |
+//! | `loads` | bodies and loads |
+//! | `drive` | motor and drive line |
+
+pub(crate) mod drive;
+pub(crate) mod elements;
+pub(crate) mod loads;
+pub(crate) mod numbers;
+pub(crate) mod parts;
+
+use drive::Drive;
+use elements::{Element, Fixed};
+use linkwright_core::drive::structure::Plan as CorePlan;
+use linkwright_core::plan::builder::Builder;
+use loads::{Body, Load};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::Floats;
+use crate::errors::plan_error;
+
+/// A machine's structure, checked.
+#[pyclass(frozen, module = "linkwright._core")]
+pub(crate) struct Plan(pub(crate) CorePlan);
+
+#[pymethods]
+impl Plan {
+    #[new]
+    #[pyo3(signature = (*, parameters, ground, elements, bodies, loads, drive))]
+    fn new(
+        parameters: usize,
+        ground: Vec<PyRef<'_, Fixed>>,
+        elements: Vec<PyRef<'_, Element>>,
+        bodies: Vec<PyRef<'_, Body>>,
+        loads: Vec<PyRef<'_, Load>>,
+        drive: PyRef<'_, Drive>,
+    ) -> PyResult<Self> {
+        let mut builder = Builder::new(parameters);
+        for each in ground {
+            builder.fixed(each.core()).map_err(plan_error)?;
+        }
+        for each in elements {
+            builder.element(each.core()).map_err(plan_error)?;
+        }
+        for each in bodies {
+            builder.body(each.core()).map_err(plan_error)?;
+        }
+        for each in loads {
+            each.add_to(&mut builder).map_err(plan_error)?;
+        }
+        let drive = drive.core(&mut builder);
+        builder.into_plan(drive).map(Plan).map_err(plan_error)
+    }
+
+    /// Whether loads depend on both angle and speed in their own way, or on time.
+    #[getter]
+    fn has_laws(&self) -> bool {
+        !self.0.laws.is_empty()
+    }
+
+    fn without_conservative(&self) -> Plan {
+        Plan(self.0.without_conservative())
+    }
+}
+
+impl Plan {
+    pub(crate) fn parameters<'a>(&self, q: &'a Floats<'_>) -> PyResult<&'a [f64]> {
+        let q = q.as_slice()?;
+        let n = self.0.n_parameters;
+        if q.len() == n {
+            Ok(q)
+        } else {
+            Err(PyValueError::new_err(format!("{} parameters given, the plan has {n}", q.len())))
+        }
+    }
+}

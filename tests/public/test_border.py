@@ -1,0 +1,140 @@
+"""The border to the core: the stub says what is there, parts keep their names, nonsense is refused."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import linkwright as lw
+from linkwright import _core
+from linkwright.kernel.description import formula
+from linkwright.machine.program.compiled import compile_machine
+
+STUB = Path(lw.__file__).with_name("_core.pyi")
+
+
+def told(body: list[ast.stmt]) -> dict[str, dict[str, Any] | None]:
+    """Names of a stub; of a class its own."""
+    found: dict[str, dict[str, Any] | None] = {}
+    for node in body:
+        if isinstance(node, ast.ClassDef):
+            found[node.name] = told(node.body)
+        elif isinstance(node, ast.FunctionDef) or (
+            isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name)
+        ):
+            name = node.name if isinstance(node, ast.FunctionDef) else node.target.id  # type: ignore[union-attr]
+            if not name.startswith("_"):
+                found[name] = None
+    return found
+
+
+def there(where: Any) -> set[str]:
+    """Public names of a module, or those that a class has itself."""
+    names = where.__all__ if inspect.ismodule(where) else vars(where)
+    return {name for name in names if not name.startswith("_")}
+
+
+def disagreements(stub: dict[str, Any], where: Any, at: str) -> list[str]:
+    """Names that are only in the stub, or only in the module."""
+    wrong = [f"{at}.{name}" for name in stub.keys() ^ there(where)]
+    for name, inside in stub.items():
+        if inside is not None and hasattr(where, name):
+            wrong += disagreements(inside, getattr(where, name), f"{at}.{name}")
+    return wrong
+
+
+def test_the_stub_says_what_is_there() -> None:
+    stub = told(ast.parse(STUB.read_text(encoding="utf-8")).body)
+    assert disagreements(stub, _core, "_core") == []
+    assert disagreements(stub | {"Plan": {"has_law": None}}, _core, "_core")
+
+
+@pytest.mark.parametrize("kinds", [_core.Element, _core.Load, _core.Body, _core.Motor, _core.Condition])
+def test_arguments_are_the_fields(kinds: Any) -> None:
+    """What is built by name is read by the same names, in no order at all."""
+    for name in there(kinds):
+        kind = getattr(kinds, name)
+        fields = there(kind)
+        signature = inspect.signature(kind)
+        assert set(signature.parameters) == fields, name
+        assert {each.kind for each in signature.parameters.values()} == {inspect.Parameter.KEYWORD_ONLY}
+
+
+def test_parts_keep_their_values() -> None:
+    crank = _core.Element.Crank(sin=6, cos=5, radius=4, pivot=3, link=2, pin=1)
+    assert isinstance(crank, _core.Element)
+    assert [crank.pin, crank.link, crank.pivot, crank.radius, crank.cos, crank.sin] == [1, 2, 3, 4, 5, 6]
+    with pytest.raises(AttributeError):
+        crank.pin = 2  # type: ignore[misc]
+    with pytest.raises(TypeError):
+        _core.Element.Crank(1, 2, 3, 4, 5, 6)  # type: ignore[misc, call-arg]
+
+
+def plan(*elements: _core.Element, parameters: int = 6) -> _core.Plan:
+    """A fixed point 0 and some elements."""
+    drive = _core.Drive(motor=None, ratio=0, forward=0, reverse=0, inertia=0, speed_start=0)
+    ground = [_core.Fixed(point=0, x=0, y=0)]
+    return _core.Plan(
+        parameters=parameters, ground=ground, elements=list(elements), bodies=[], loads=[], drive=drive
+    )
+
+
+def test_an_element_that_makes_no_sense_is_named() -> None:
+    sound = _core.Element.Crank(pin=1, link=0, pivot=0, radius=0, cos=1, sin=2)
+    plan(sound)
+    twice = r"element 1, a crank: point 1 is made where point 2 is the next"
+    with pytest.raises(IndexError, match=twice):
+        plan(sound, sound)
+    with pytest.raises(
+        IndexError, match=r"element 0, a crank: parameter 2 does not exist: there are 2 so far"
+    ):
+        plan(sound, parameters=2)
+    with pytest.raises(OverflowError):
+        _core.Element.Crank(pin=-1, link=0, pivot=0, radius=0, cos=1, sin=2)
+
+
+def test_tables_and_laws_that_make_no_sense_are_refused() -> None:
+    with pytest.raises(ValueError, match="knots must be finite and increase"):
+        _core.Table([0.0, 0.0], [1.0, 2.0])
+    half = _core.Piece(start=0.0, length=3.0, polynomial=[1.0], harmonics=[])
+    with pytest.raises(ValueError, match="must follow one another for a turn"):
+        _core.MotionLaw([half])
+    with pytest.raises(ValueError, match="no such instruction"):
+        _core.Formula([("sine", None)])
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "sin(phi) + cos(phi) - tan(phi)*asin(x)/acos(y)",
+        "atan(vx) + atan2(x, y) + exp(vy) + log(x) + sqrt(s) + tanh(v)",
+        "abs(x) + sign(v) + step(s) + min(x, y) + max(x, y) + where(x < y, s, psi)",
+        "-psi_dot^2 + x^y + omega + t + pi",
+    ],
+)
+def test_the_core_knows_every_word_of_formulas(text: str) -> None:
+    words = [(op, 0 if op == "number" else operand) for op, operand in formula.program(formula.parse(text))]
+    known = [("number", 0) if operand == "pi" else (op, operand) for op, operand in words]
+    _core.Formula(known)
+
+
+def test_every_status_has_its_sentence() -> None:
+    sentences = dict(_core.Status.sentences())
+    names = there(_core.Status) - {"sentences"}
+    assert {int(getattr(_core.Status, name)) for name in names} == sentences.keys()
+    assert all(len(sentence) > 5 for sentence in sentences.values())
+    assert _core.Status.DOES_NOT_CLOSE != _core.Status.OK
+
+
+def test_loads_with_a_potential_do_not_resist_a_cycle() -> None:
+    """Without gravity and springs the mean resistance over the turn is the same."""
+    machine = lw.read("machines/roller_two_carts.toml")
+    compiled = compile_machine(machine)
+    angles = lw.steady_state(machine, n=4096).crank_angle[:-1]
+    whole = compiled.reductions(angles)
+    rest = compiled.without_conservative().reductions(angles)
+    assert abs((whole[2] - rest[2]).mean()) < 1e-9 * abs(whole[3]).max()
