@@ -49,7 +49,7 @@ STATUS = {
     1: "the mechanism does not close all round, or its lengths do not tell how it passes a change point",
     2: "no steady motion: the drive cannot keep the machine turning",
     3: "the accuracy was not reached",
-    TWO_TURNS: "the motion repeats only after two turns of the crank",
+    TWO_TURNS: "the motion repeats only after two revolutions of the crank",
 }
 
 
@@ -70,9 +70,9 @@ class SteadyStates:
     period : ndarray
         [s].
     multiplier : ndarray
-        What is left of a disturbance after a turn [–].
+        Floquet multiplier [–].
     energy_motor, energy_drive, energy_load : ndarray
-        Work in a turn [J].
+        Work per revolution [J].
     torque_motor_mean, torque_motor_rms : ndarray
         At the motor's shaft, over time [N m].
     turns_swept : int
@@ -160,7 +160,7 @@ def steady_states(
     InputError
         The machine has no motor, or one of constant speed.
     FindingError
-        The first machine does not repeat after one turn of the crank.
+        The first machine does not repeat after one revolution of the crank.
     SteadyStateError
         A load changes with time itself.
     """

@@ -36,7 +36,7 @@ impl fmt::Display for PlanError {
                 write!(f, "formula {number} does not leave one number, or keeps too many at once")
             }
             PlanError::MotionLaw => {
-                write!(f, "the pieces of a motion law must follow one another for a turn")
+                write!(f, "the pieces of a motion law must follow one another over one revolution")
             }
         }
     }

@@ -22,7 +22,8 @@ _SERIES = 17
 _NO_POINT = [1.0, 0.0, 1.0, 0.0, -1.0, *[0.0] * 12]
 _NO_ARM = [1.0, -1.0, *[0.0] * 40]
 
-# Lengths whose difference is this share of themselves are told apart (`UNDECIDED` in the core's `in_line`).
+# Lengths whose difference is this share of themselves are distinguished (`UNDECIDED` in the core's
+# `in_line`).
 _TOLD_APART = 1e-8
 
 
@@ -64,7 +65,7 @@ class InLine(NamedTuple):
 def in_line(
     plan: _core.Plan, parameters: Floats, slots: NDArray[np.int32], values: Floats, element: int
 ) -> list[list[InLine]]:
-    """Where the links of an element come into line over the turn, by crank angle, in each machine.
+    """Where the links of an element come into line over the revolution, by crank angle, in each machine.
 
     Parameters
     ----------
@@ -107,7 +108,8 @@ def undecided(points: list[InLine], sign: float) -> InLine | None:
     for k, point in enumerate(points):
         if not point.series:
             return point
-        # The sign of the root after the point; an odd number of points brings the other in the next turn.
+        # The sign of the root after the point; an odd number of points brings the other in the next
+        # revolution.
         after = sign * np.prod(np.sin((point.angle - np.delete(angles, k)) / 2))
         lost = any(point.lost) if len(points) % 2 else point.lost[0 if after > 0 else 1]
         if lost:

@@ -77,15 +77,16 @@ class Compiled:
     dyads : tuple of str
         Names of the elements that must close.
     two_turns : ndarray of bool, shape (1,) or (n,)
-        Machines in which a dyad passes an odd number of change points, so that it repeats after two turns.
+        Machines in which a dyad passes an odd number of change points, so that it repeats after two
+        revolutions.
     one_turn : bool
-        Whether all motions repeat after one turn of the crank by the kinds of the elements alone.
+        Whether all motions repeat after one revolution of the crank by the kinds of the elements alone.
     speed_guess : float
         Crank speed from which steady motion is sought [rad/s].
     gear_factors : tuple of float
         Ratio, and the factor on torque times ratio while the motor drives and while the load does.
     speed_tables : tuple
-        Tables of resisting torque over crank speed.
+        Tables of load torque over crank speed.
     rows : tuple of tuple of int
         The core's program: kind and entries of each element, in build order.
     has_laws : bool
@@ -160,7 +161,7 @@ class Compiled:
         return _core.reductions(self.plan, self.one, angles)
 
     def law_torques(self, angles: ArrayLike, speeds: ArrayLike) -> Floats:
-        """Resisting torque of the laws at crank angles and speeds, (speeds, angles) [N m]."""
+        """Load torque of the laws at crank angles and speeds, (speeds, angles) [N m]."""
         phi, omega = (np.atleast_1d(np.asarray(x, dtype=np.float64)) for x in (angles, speeds))
         return _core.law_torques(self.plan, self.one, np.ascontiguousarray(phi), omega)
 
@@ -170,7 +171,7 @@ class Compiled:
         return _core.motor_torques(self.plan, self.one, at)
 
     def speed_load(self, speeds: ArrayLike) -> Floats:
-        """Resisting torque of the loads over speed at crank speeds [N m]."""
+        """Load torque of the loads over speed at crank speeds [N m]."""
         at = np.asarray(speeds, dtype=np.float64)
         return sum((np.interp(at, x, y) for x, y in self.speed_tables), np.zeros_like(at))
 
@@ -287,7 +288,7 @@ def _not_usable(machine: Machine, reason: str) -> MachineError:
 
 
 # Kinds of rows: dyads with change points, and where the number of these stands; sums over the crank angle and
-# links, groups, and laws, whose motion may take several turns or never repeat.
+# links, groups, and laws, whose motion may take several revolutions or never repeat.
 FOLDING = {11: 12, 15: 14}
 _RUNNING = (8, 9, 12, 14)
 
@@ -604,7 +605,7 @@ def speed_guess(drive: Drive) -> Any:
 
 
 def _one_turn(angles: Sequence[float], torques: Sequence[float]) -> tuple[Sequence[float], Sequence[float]]:
-    """A table without the repetition of its first point at the end of the turn."""
+    """A table without the repetition of its first point at the end of the revolution."""
     closes = angles[-1] - angles[0] >= 2 * np.pi * (1 - 1e-9)
     return (angles[:-1], torques[:-1]) if closes else (angles, torques)
 

@@ -1,8 +1,9 @@
 """Rows of the core's program for the elements of a mechanism.
 
 The tables of rows are described at `Row` in `crates/linkwright-core/src/plan.rs`. What cannot be known before
-the mechanism has been placed once (the side of a joint that is given by its place, the turns of a link that a
-gear hangs on, where a group starts) is left open here and noted in `Rows.pending`; `settle` fills it in.
+the mechanism has been placed once (the side of a joint that is given by its place, the revolutions of a link
+that a gear hangs on, where a group starts) is left open here and noted in `Rows.pending`; `settle` fills it
+in.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ class Continuous(NamedTuple):
     link: int
     winding: int
     centre: int
-    # The turn is the one in which the angle at the start is nearest to this.
+    # The revolution is the one in which the angle at the start is nearest to this.
     near: Any = 0.0
 
 
@@ -329,7 +330,7 @@ class Rows(Numbers):
         return self.slides[name] if name in self.slides else self._angle_near(link, name, 0.0)
 
     def _angle_near(self, link: str, name: str, near: Any) -> int:
-        """A slide with the continuous angle of a link, in the turn in which it starts nearest to an angle."""
+        """A slide with the continuous angle of a link, in the revolution of its start nearest to an angle."""
         row = [10, self.links[link], self._slide(name), *self.slots(0.0, 0.0)]
         self.pending.append(Continuous(link, row[1], row[-2], row[-1], near))
         self.rows.append(row)

@@ -57,7 +57,7 @@ class Numbers:
         return len(self.tables) - 1
 
     def _motion_law(self, law: MotionLaw) -> int:
-        """Adds a motion law over a turn."""
+        """Adds a motion law over one revolution."""
         self.motion_laws += encoded(law)
         self.n_motion_laws += 1
         return self.n_motion_laws - 1
