@@ -9,7 +9,7 @@ from common import Row, faster, is_installed, seconds
 
 import linkwright as lw
 from linkwright.torsion.core.response import respond
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 
 DISCS, ORDERS = 50, 24
 
@@ -18,7 +18,7 @@ def rows(quick: bool) -> list[Row]:
     """Amplitudes of 50 discs in a chain at 24 orders and 1000 speeds."""
     speeds = np.linspace(10.0, 200.0, 100 if quick else 1000)
     machine = chain(DISCS)
-    at = excited(machine, speeds)
+    at = excited_train(machine, speeds)
     torques = at.referred_harmonics()
     found: dict[str, Any] = {}
 

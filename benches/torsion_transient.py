@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.core.periodic_table import waves
 from linkwright.torsion.core.torque import Power, TrainTorque
-from linkwright.torsion.core.transient import Moved, MovingTrain, VariableInertia
+from linkwright.torsion.core.transient import MovingTrain, TrainMotion, VariableInertia
 
 Floats = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ def train() -> MovingTrain:
 TRAIN = train()
 
 
-def followed(times: Floats) -> Moved:
+def followed(times: Floats) -> TrainMotion:
     """By the product."""
     n = len(J)
     return TRAIN.follow(

@@ -3,7 +3,8 @@
 In `docs/file_format.md` a table stands between ``<!-- keys: NAME -->`` and ``<!-- end -->``, where NAME is a
 description that a machine file may hold (`descriptions`); in `docs/units.md` the ranges of all quantities
 between ``<!-- ranges -->`` and ``<!-- end -->``; in `docs/limits.md` all limits, ``<!-- limits -->``; in
-`docs/notation.md` the quantities of results that have a symbol, ``<!-- quantities -->``. A test fails if a
+`docs/notation.md` the quantities of results that have a symbol, ``<!-- quantities -->``; in
+`docs/glossary.md` the terms. A test fails if a
 page is not what this file would write.
 """
 
@@ -13,6 +14,7 @@ import pkgutil
 import re
 from functools import cache
 from importlib import import_module
+from itertools import groupby
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -23,13 +25,15 @@ from pydantic_core import PydanticUndefined
 import linkwright
 from linkwright.kernel.description.schema_walk import mark_of, model_of, models_in, words_of
 from linkwright.kernel.limits import ALL, grouped
+from linkwright.kernel.page.glossary import Term, glossary
 from linkwright.kernel.quantities import quantities_of
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import COUNT, KINDS, Quantity, QuantityList, size_words
 from linkwright.machine.machine import Machine
 
 PAGES = tuple(
-    Path(__file__).with_name(name) for name in ("file_format.md", "units.md", "limits.md", "notation.md")
+    Path(__file__).with_name(name)
+    for name in ("file_format.md", "units.md", "limits.md", "notation.md", "glossary.md")
 )
 
 _RANGES = re.compile(r"(<!-- ranges -->\n).*?(<!-- end -->)", re.DOTALL)
@@ -37,9 +41,11 @@ _BLOCK = re.compile(r"(<!-- keys: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 _LIMITS = re.compile(r"(<!-- limits -->\n).*?(<!-- end -->)", re.DOTALL)
 
+_GLOSSARY = re.compile(r"(<!-- glossary -->\n).*?(<!-- end -->)", re.DOTALL)
+
 _QUANTITIES = re.compile(r"(<!-- quantities -->\n).*?(<!-- end -->)", re.DOTALL)
 
-_HEAD = "| key | is | unit | if left out | meaning |\n| --- | --- | --- | --- | --- |\n"
+_HEAD = "| key | is | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n"
 
 
 def written(text: str) -> str:
@@ -47,6 +53,7 @@ def written(text: str) -> str:
     text = _RANGES.sub(lambda block: block[1] + ranges() + block[2], text)
     text = _QUANTITIES.sub(lambda block: block[1] + quantities() + block[2], text)
     text = _LIMITS.sub(lambda block: block[1] + limits() + block[2], text)
+    text = _GLOSSARY.sub(lambda block: block[1] + terms() + block[2], text)
     return _BLOCK.sub(lambda block: block[1] + table(descriptions()[block[2]]) + block[3], text)
 
 
@@ -97,7 +104,7 @@ def quantities() -> str:
             if each.symbol:
                 cells = (each.symbol, each.word, each.unit or "–", f"`{each.name}`")
                 found.setdefault(cells, []).append(f"`{result.__name__}`")
-    head = "| symbol | meaning | unit | word | results |\n| --- | --- | --- | --- | --- |\n"
+    head = "| symbol | the term | unit | ours | results |\n| --- | --- | --- | --- | --- |\n"
     return head + "".join(f"| {' | '.join(cells)} | {', '.join(of)} |\n" for cells, of in found.items())
 
 
@@ -106,6 +113,23 @@ def ranges() -> str:
     head = "| quantity | unit | smallest | largest |\n| --- | --- | --- | --- |\n"
     rows = ((kind.noun, kind.unit or "–", *size_words(kind)) for kind in (*KINDS, COUNT))
     return head + "".join("| " + " | ".join(row) + " |\n" for row in rows)
+
+
+def terms() -> str:
+    """The terms of the field, subject by subject."""
+    heads = ("term", "symbol", "unit", "definition", "source", "in files and results")
+    head = f"| {' | '.join(heads)} |\n{'| --- ' * len(heads)}|\n"
+    text = ""
+    for subject, group in groupby(glossary(), key=lambda term: term.subject):
+        text += f"## {subject}\n\n{head}" + "".join(map(_term, group)) + "\n"
+    return text
+
+
+def _term(term: Term) -> str:
+    """A term as a row."""
+    names = ", ".join(f"`{name}`" for name in term.names)
+    cells = (term.term, term.symbol or "–", term.unit or "–", term.definition, term.source, names or "–")
+    return "| " + " | ".join(cells) + " |\n"
 
 
 def models(text: str) -> list[str]:

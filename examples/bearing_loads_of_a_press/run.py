@@ -16,7 +16,7 @@ FRICTION = {
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Peaks along the steady motion, and work of friction over work of the loads in a turn."""
+    """Peaks along the steady motion, and work of friction over work of the loads per revolution."""
     smooth, rough = lw.forces(machine, n=1440), lw.forces(machine, n=1440, friction=FRICTION)
     lost = np.trapezoid(rough.power_friction, rough.time)
     work = np.trapezoid(rough.power_load, rough.time)
@@ -30,7 +30,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 
 def figure(machine: lw.Machine):
-    """Hodographs of the reactions and of the force on the frame."""
+    """Hodographs of the reactions and of the shaking force."""
     from linkwright.kinetostatics.figures.forces import hodograph_figure
 
     return hodograph_figure(lw.forces(machine, n=1440, friction=FRICTION))

@@ -31,7 +31,7 @@ def figure(machine: lw.Machine):
     drawing = Figure(figsize=(7, 4), layout="constrained")
     axes = drawing.subplots()
     axes.plot(PHASES, unevenness(machine))
-    axes.set(xlabel="angle between the cranks [°]", ylabel="coefficient of unevenness δ [–]")
+    axes.set(xlabel="angle between the cranks [°]", ylabel="coefficient of speed fluctuation δ [–]")
     axes.grid(alpha=0.3)
     return drawing
 

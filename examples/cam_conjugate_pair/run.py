@@ -16,7 +16,7 @@ ANGLES = TURN[:-1:200]
 
 
 def gaps(machine: lw.Machine) -> np.ndarray:
-    """Least distance of each roller from its cam over crank angles (2, n)."""
+    """Minimum distance of each roller from its cam over crank angles (2, n)."""
     profile, motion = lw.cam_profile(machine), lw.kinematics(machine, ANGLES)
     found = np.empty((2, len(ANGLES)))
     for row, flank in enumerate(profile.flanks):

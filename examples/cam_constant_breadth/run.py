@@ -1,7 +1,7 @@
 """Does a cam with dwells fill a yoke of two flat faces at every angle?
 
-It does if the second half turn mirrors the first, s(φ + π) = h − s(φ): the support function r₀ + s is then
-one of constant breadth. By Barbier's theorem the perimeter of such a cam is π times its breadth.
+It does if the second half revolution mirrors the first, s(φ + π) = h − s(φ): the support function r₀ + s is
+then one of constant breadth. By Barbier's theorem the perimeter of such a cam is π times its breadth.
 
 Source: E. Barbier, Journal de mathématiques pures et appliquées 5 (1860) 273–286.
 """

@@ -16,7 +16,7 @@ SPEEDS = np.radians(6.0) * np.linspace(250.0, 3200.0, 240)
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Speeds that leave nothing, what is left at another, and the motion over a whole turn with damping."""
+    """Speeds that leave nothing, what is left at another, and the motion over a revolution with damping."""
     lift = machine.mechanism.cams["valve"].lift
     rise = lift.stretch(0.0, np.pi / 2)
     found = lw.residual_over_speed(rise, FOLLOWER, SPEEDS)

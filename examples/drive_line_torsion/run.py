@@ -1,7 +1,7 @@
-"""What does an elastic crankshaft do to the unevenness that the rigid drive line promises?
+"""What does an elastic crankshaft do to the speed fluctuation that the rigid driveline promises?
 
-The yoke is r cos φ from the shaft, so that all of its torque has two waves a turn, and the two discs that the
-crankshaft joins have the closed form of Den Hartog, Mechanical Vibrations, section 5.2.
+The yoke is r cos φ from the shaft, so that all of its torque has two cycles per revolution, and the two discs
+that the crankshaft joins have the closed form of Den Hartog, Mechanical Vibrations, section 5.2.
 """
 
 from pathlib import Path
@@ -13,7 +13,7 @@ from linkwright.torsion.response.forced import forced_vibration
 
 
 def unevenness(machine: lw.Machine, disc: str) -> float:
-    """δ of a disc at the design speed, by forced vibration of the drive line."""
+    """δ of a disc at the design speed, by forced vibration of the driveline."""
     motor_speed = machine.drive.gearbox.ratio * machine.drive.speed
     found = forced_vibration(machine, np.array([motor_speed]))
     return float(found.unevenness[found.discs.index(disc), 0])

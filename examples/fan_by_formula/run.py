@@ -8,7 +8,7 @@ import linkwright as lw
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Evenness; work of the turn over what the formulas say; mean speed without the fan."""
+    """Speed fluctuation; work of the revolution over what the formulas say; mean speed without the fan."""
     motion = lw.steady_state(machine)
     alone = lw.steady_state(lw.replace(machine, {"loads.fan.constants.c": 0.0}))
     fan = np.trapezoid(0.12 * motion.speed**2, motion.crank_angle)
@@ -21,7 +21,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 
 def figure(machine: lw.Machine):
-    """Torque and power over a turn."""
+    """Torque and power over one revolution."""
     from linkwright.drive.figures.steady import torque_figure
 
     return torque_figure(lw.steady_state(machine))

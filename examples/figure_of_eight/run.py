@@ -1,4 +1,4 @@
-"""Where does a coupler curve cross itself, and how hard is its point shaken in a turn from rest to rest?"""
+"""Where does a coupler curve cross itself, and how hard is its point shaken from rest to rest?"""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import numpy as np
 import linkwright as lw
 from linkwright.linkages.law import RampLaw
 
-# One turn in two seconds by the polynomial 3-4-5.
+# One revolution in two seconds by the polynomial 3-4-5.
 LAW = RampLaw(duration=2.0, angle=2 * np.pi)
 TIMES = np.linspace(0, 2, 401)
 

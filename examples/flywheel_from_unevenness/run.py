@@ -11,7 +11,7 @@ WANTED = 0.05
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """The flywheel, and the unevenness that the machine with it has."""
+    """The flywheel, and the speed fluctuation that the machine with it has."""
     choice = lw.choose_flywheel(machine, WANTED)
     data = machine.model_dump(by_alias=True, exclude_unset=True)
     data["drive"]["flywheel"] = {"inertia": choice.inertia}

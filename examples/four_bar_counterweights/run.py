@@ -1,4 +1,4 @@
-"""What do counterweights do to the force on the frame of a four-bar, and what do they cost?"""
+"""What do counterweights do to the shaking force of a four-bar, and what do they cost?"""
 
 from pathlib import Path
 
@@ -18,7 +18,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 
 def figure(machine: lw.Machine):
-    """Force on the frame without counterweights, and with one on the crank."""
+    """Shaking force without counterweights, and with one on the crank."""
     from linkwright.kinetostatics.figures.forces import cases_figure
 
     found = lw.balance(machine, ["A"], radius=0.08)

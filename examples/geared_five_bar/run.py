@@ -19,7 +19,7 @@ def curves(machine: lw.Machine) -> tuple[np.ndarray, np.ndarray]:
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Greatest distance of the two, and the extent of the curve."""
+    """Maximum distance of the two, and the extent of the curve."""
     four, five = curves(machine)
     return {"apart": float(np.abs(four - five).max()), "width": float(np.ptp(four[:, 0]))}
 

@@ -6,12 +6,12 @@ import numpy as np
 
 import linkwright as lw
 
-# The pulley turns half as fast as the crank, the planet 7/3 as fast: all is as before after six turns.
+# The pulley turns half as fast as the crank, the planet 7/3 as fast: all is as before after six revolutions.
 ANGLES = np.linspace(0, 12 * np.pi, 2161)
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Greatest departure from each law."""
+    """Maximum departure from each law."""
     motion = lw.kinematics(machine, ANGLES)
     line = np.stack([0.1 * np.cos(ANGLES), 0 * ANGLES], axis=-1)
     rocker = motion.links["C.rocker"]

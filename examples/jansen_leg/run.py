@@ -10,7 +10,7 @@ ANGLES = np.linspace(0, 2 * np.pi, 1441)
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Step and lift of the foot, the share of the turn it is near the ground, and closure of the bars."""
+    """Step and lift of the foot, share of the revolution near the ground, and closure of the bars."""
     motion = lw.kinematics(machine, ANGLES)
     x, y = motion.points["F"].position.T
     low = y < y.min() + 0.1 * np.ptp(y)

@@ -25,7 +25,7 @@ def error(machine: lw.Machine, x: np.ndarray) -> np.ndarray:
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """The greatest error of three points, and what five points with free start angles would give."""
+    """The maximum error of three points, and what five points with free start angles would give."""
     ranges = {"crank_range": np.radians(60), "rocker_range": np.radians(90)}
     five = lw.function_generator(FunctionTask(function="log10(x)", range=(1, 2), points=5, **ranges))
     return {

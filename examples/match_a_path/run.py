@@ -1,6 +1,6 @@
 """Can the linkage be found from the curve that it draws?
 
-Twelve points of a coupler curve, without their crank angles, are all that the search is told.
+Twelve points of a coupler curve, without their crank angles, are all that the search is given.
 """
 
 from pathlib import Path

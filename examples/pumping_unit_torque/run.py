@@ -23,7 +23,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 
 def figure(machine: lw.Machine):
-    """Torque of the gearbox over a turn for each hole, and its rating."""
+    """Torque of the gearbox over one revolution for each hole, and its rating."""
     from matplotlib.figure import Figure
 
     drawing = Figure(figsize=(7, 4), layout="constrained")

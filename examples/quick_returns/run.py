@@ -33,7 +33,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 
 def figure(machine: lw.Machine):
-    """Both rams over a turn."""
+    """Both rams over one revolution."""
     from matplotlib.figure import Figure
 
     motion = lw.kinematics(machine, ANGLES)

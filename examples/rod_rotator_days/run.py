@@ -15,7 +15,7 @@ def rotators(machine: lw.Machine) -> list:
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Turns in a day with the swing of the file, against the swing in turns; force in the link."""
+    """Turns in a day with the swing of the file, against the swing in revolutions; force in the link."""
     found = lw.rod_rotator(machine)
     strokes = machine.drive.speed / (2 * np.pi) * 86400
     by_swing = found.lever_swing / (2 * np.pi) / machine.rod_rotator.worm_ratio * strokes
@@ -28,14 +28,14 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 
 def figure(machine: lw.Machine):
-    """Force in the link, and turns of the string in a day, over the swing."""
+    """Force in the link, and revolutions of the string in a day, over the swing."""
     from matplotlib.figure import Figure
 
     found = rotators(machine)
     drawing = Figure(figsize=(7, 4.5), layout="constrained")
     turns, force = drawing.subplots(2, sharex=True)
     turns.plot(np.degrees(SWINGS), [each.string_turns_per_day for each in found], "o-")
-    turns.set(ylabel="turns of the string in a day")
+    turns.set(ylabel="revolutions of the string in a day")
     force.plot(np.degrees(SWINGS), [each.link_force_max for each in found], "o-")
     force.set(xlabel="swing of the lever [°]", ylabel="force in the link [N]", ylim=(0, None))
     return drawing

@@ -10,7 +10,7 @@ TURNS = np.linspace(0, 55, 221)
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Height and lift a turn over their closed forms, h = √(l² − x²); the travel of the nut."""
+    """Height and lift a revolution over their closed forms, h = √(l² − x²); the travel of the nut."""
     motion = lw.kinematics(machine, 2 * np.pi * TURNS)
     nut, table = motion.slides["nut"], motion.slides["post"]
     height = np.sqrt(0.6**2 - nut.position**2)
@@ -24,14 +24,14 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 
 def figure(machine: lw.Machine):
-    """Height over the turns of the screw."""
+    """Height over the revolutions of the screw."""
     from matplotlib.figure import Figure
 
     motion = lw.kinematics(machine, 2 * np.pi * TURNS)
     drawing = Figure(figsize=(6, 4), layout="constrained")
     axes = drawing.subplots()
     axes.plot(TURNS, 1e3 * motion.slides["post"].position)
-    axes.set(xlabel="turns of the screw", ylabel="height [mm]")
+    axes.set(xlabel="revolutions of the screw", ylabel="height [mm]")
     axes.grid(alpha=0.3)
     return drawing
 

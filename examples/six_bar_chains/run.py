@@ -12,7 +12,7 @@ CHAINS = {name: lw.read(Path(__file__).with_name(f"{name}.toml")) for name in OT
 
 
 def gap(machine: lw.Machine) -> float:
-    """Greatest error of a link's length all round [m]."""
+    """Maximum error of a link's length all round [m]."""
     motion = lw.kinematics(machine, ANGLES)
     place = {name: point.position for name, point in motion.points.items()}
     links = machine.mechanism.links().values()
@@ -20,7 +20,7 @@ def gap(machine: lw.Machine) -> float:
 
 
 def slip(machine: lw.Machine) -> float:
-    """Greatest difference of the rates of a point from those of its Fourier series [m]."""
+    """Maximum difference of the rates of a point from those of its Fourier series [m]."""
     points, n = lw.kinematics(machine, ANGLES[:-1]).points.values(), len(ANGLES) - 1
     order = 1j * np.arange(n // 2 + 1)[:, None]
     pairs = [pair for each in points for pair in ((each.position, each.d1), (each.d1, each.d2))]

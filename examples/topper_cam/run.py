@@ -1,7 +1,7 @@
 """What does a cam gain that moves the knife of a topper at constant speed in the middle of its stroke?
 
 A sine of the same stroke and frequency lingers at its ends, where an edge leaves most of a head, and is
-faster amid its stroke, where the edge slices most. The cam does less of both, for more acceleration.
+faster at mid-stroke, where the edge slices most. The cam does less of both, for more acceleration.
 """
 
 from pathlib import Path
@@ -38,7 +38,7 @@ def figure(machine: lw.Machine):
 
     figure, axes = plt.subplots(2, 1, figsize=(8, 5.5), layout="constrained", sharex=True)
     angle = np.linspace(0, 2 * np.pi, 721)
-    # The sine begins amid its stroke, a quarter turn after the lift of the cam.
+    # The sine begins amid its stroke, a quarter revolution after the lift of the cam.
     for each, lag in ((machine, 0.0), (by_a_sine(machine), np.pi / 2)):
         found = lw.topper(each)
         knife = edges_of(each, each.topper)[0].knife

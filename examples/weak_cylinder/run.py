@@ -17,7 +17,7 @@ NOISE = 0.02
 
 
 def measurement(found: ForcedVibration, samples: int = 720) -> MeasuredSpeed:
-    """Speed of the flywheel over the two turns of a cycle, with noise, as harmonics."""
+    """Speed of the flywheel over the two revolutions of a cycle, with noise, as harmonics."""
     waves = 1j * found.orders * SPEED * found.amplitudes[:, found.discs.index("flywheel"), 0]
     angle = 4 * np.pi * np.arange(samples) / samples
     speed = SPEED + (np.exp(1j * np.outer(angle, found.orders)) @ waves).real
@@ -26,7 +26,7 @@ def measurement(found: ForcedVibration, samples: int = 720) -> MeasuredSpeed:
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Unevenness at three discs, of the sound and of the weak engine, and what the diagnosis says."""
+    """Speed fluctuation at three discs, of the sound and of the weak engine, and what the diagnosis says."""
     sound = lw.replace(machine, {"train.engine.factors": {}})
     weak, well = (forced_vibration(each, np.array([SPEED])) for each in (machine, sound))
     told = engine_diagnosis(machine, measurement(weak), SPEED)
@@ -44,7 +44,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 
 def figure(machine: lw.Machine):
-    """Unevenness along the train."""
+    """Speed fluctuation along the train."""
     from linkwright.torsion.figures.forced import torsion_unevenness_figure
     from linkwright.torsion.figures.train_row import in_a_row
 

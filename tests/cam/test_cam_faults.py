@@ -76,7 +76,7 @@ def test_undercut_by_a_roller_is_where_it_cuts_into_its_own_profile() -> None:
         assert cut[inside].any()
     backwards = _runs_backwards(found)
     wanted = signed_spans(DENSE, backwards)
-    np.testing.assert_allclose(sorted(np.ravel(spans)), wanted, atol=0.06, err_msg="four digits are told")
+    np.testing.assert_allclose(sorted(np.ravel(spans)), wanted, atol=0.06, err_msg="four digits are reported")
 
 
 def _runs_backwards(flank) -> np.ndarray:
@@ -307,7 +307,7 @@ def test_second_follower_that_does_not_touch_is_told() -> None:
     lines = 'closure = "constant_diameter"\ncontact = "point"\nbase_radius = "30 mm"\n'
     text = told(lines, SHARP.replace('"200 deg"', '"190 deg"').replace('"40 deg"', '"50 deg"'))
     assert "not of constant diameter" in text
-    assert "first one mirrored" in text
+    assert "must mirror the first" in text
     found = profile(lines, SHARP)
     s = found.cam.lift
     both = s.at(DENSE) + s.at((DENSE + np.pi) % TURN)

@@ -306,7 +306,7 @@ def test_a_file_that_does_not_keep_the_tolerance_is_not_kept(
     ("arguments", "message"),
     [
         ({"formats": ["dwg"]}, 'format "dwg": expected dxf'),
-        ({"step": math.radians(0.7)}, r"step of 0.7°: expected a whole number .* such as 0.7\d+° or 0.69"),
+        ({"step": math.radians(0.7)}, r"step of 0.7°: expected a whole number .* as 0.7\d+° or 0.69"),
         ({"step": 0.0}, "step: found 0,"),
         ({"step": -1.0}, "step: found -1,"),
         ({"step": math.nan}, "step: found nan,"),

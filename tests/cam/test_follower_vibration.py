@@ -231,7 +231,7 @@ def test_contact_is_lost_where_the_preload_does_not_hold() -> None:
 
 def test_resonance_without_damping_is_told() -> None:
     model = OneMass(1.0, 100.0)
-    with pytest.raises(FindingError, match="5 free vibrations in a turn"):
+    with pytest.raises(FindingError, match="5 free vibrations in one revolution"):
         follower_vibration(LIFT, model, 2.0)
 
 
@@ -282,7 +282,7 @@ def test_a_dip_below_the_base_is_told() -> None:
 
 
 def test_lifts_that_make_no_sense_are_told() -> None:
-    with pytest.raises(InputError, match="one turn"):
+    with pytest.raises(InputError, match="one revolution"):
         follower_vibration(CYCLOIDAL, FULL, 10.0)
     jump = turn(CYCLOIDAL, 0.01)
     with pytest.raises(InputError, match=r"jump by -?0\.01 m"):

@@ -15,13 +15,13 @@ from pydantic_core import InitErrorDetails
 from linkwright.cam.laws.programme import Programme
 from linkwright.cam.model.motion_section import Family, MotionSection, programme
 from linkwright.cam.model.section_faults import section_faults
-from linkwright.kernel.description.base import Checked, Description
+from linkwright.kernel.description.base import CheckedDescription, Description
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.errors import MachineError, MachineFileError, Problem
 from linkwright.machine.read import loads_as, read_as
 
 
-class SomeCam(Checked):
+class SomeCam(CheckedDescription):
     """A cam with nothing but its programme."""
 
     sections: tuple[MotionSection, ...] = Field(description="Sections.")
@@ -171,9 +171,9 @@ def test_angles_that_do_not_add_to_a_turn() -> None:
     assert problem.key == "cams.K.sections"
     assert problem.line == 3
     assert problem.found == "angles that add to 370 deg"
-    assert problem.remedy == '10 deg too much: sections.1.angle = "60 deg" closes the turn'
+    assert problem.remedy == '10 deg too much: sections.1.angle = "60 deg" closes the revolution'
     (problem,) = told(RISE_AND_RETURN.replace('"60 deg" },\n{', '"50 deg" },\n{'))
-    assert problem.remedy == '10 deg missing: sections.3.angle = "70 deg" closes the turn'
+    assert problem.remedy == '10 deg missing: sections.3.angle = "70 deg" closes the revolution'
 
 
 @pytest.mark.parametrize("remedy", ["angle", "lift"])

@@ -99,7 +99,7 @@ _SHORT_ROD = " --set mechanism.sliders.cart1.rod=0.1"
 _NO_KEY = " --set drive.motor.nothing=1"
 _UNSUITED = " --set points=1"
 
-# Papers and motion laws have no machine that could fail.
+# Papers, terms and motion laws have no machine that could fail.
 NEVER = ""
 CASES = {
     "run": Case("{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts}" + _NO_KEY),
@@ -120,6 +120,7 @@ CASES = {
     "motors": Case("--poles 6", NEVER, "--poles 7"),
     "check": Case("{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts}" + _NO_KEY),
     "papers": Case("4", NEVER, "9"),
+    "glossary": Case("unevenness", NEVER, "xyzzy"),
     "synthesise dead-centre": Case(
         "--swing 60deg", "--swing 60deg --time-ratio 9", "--swing 60deg --stroke 1m"
     ),

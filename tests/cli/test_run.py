@@ -205,7 +205,7 @@ def test_a_machine_without_a_motor_is_no_failure() -> None:
         (["--set", "drive.speed=3 m"], ["drive.speed", '"m" is a unit of length']),
         (["--set", "drive.sped=3"], ["an unknown key", 'did you mean "speed"?']),
         (["--accuracy", "1"], ["accuracy 1", "1e-13 to 1e-2"]),
-        (["--method", "baranov", "--step", "7 deg"], ["does not divide the turn"]),
+        (["--method", "baranov", "--step", "7 deg"], ["does not divide the revolution"]),
         (["--method", "baranov", "--step", "7 kg"], ["an angle"]),
         (["--method", "euler"], ["euler"]),
     ],

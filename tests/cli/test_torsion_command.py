@@ -81,7 +81,7 @@ def test_set(file: str) -> None:
 def test_tables(file: str) -> None:
     result = run(file, "--holzer", "30")
     assert result.exit_code == 0
-    for words in ("Natural frequencies", "turns as a whole", "Mode shapes", "Holzer's table at 30 Hz"):
+    for words in ("Natural frequencies", "rigid-body rotation", "Mode shapes", "Holzer's table at 30 Hz"):
         assert words in result.stdout
 
 

@@ -51,7 +51,7 @@ def test_report_of_a_unit(tmp_path: Path) -> None:
     assert run("run", path, "--out", tmp_path / "out").exit_code == 0
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     for words in (
-        "Polished rod over a turn",
+        "Polished rod over one revolution",
         "Torque of the gearbox",
         "Positions of rods and torque factors",
     ):

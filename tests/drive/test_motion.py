@@ -140,7 +140,7 @@ def test_step_method_approaches_the_solution(two_carts: lw.Machine) -> None:
 
 
 def test_step_must_divide_the_turn(two_carts: lw.Machine) -> None:
-    with pytest.raises(InputError, match="does not divide the turn"):
+    with pytest.raises(InputError, match="does not divide the revolution"):
         lw.step_method(two_carts, step=np.radians(7))
 
 

@@ -36,7 +36,7 @@ def test_units_stand_in_the_head(tmp_path: Path) -> None:
     [
         ("angle [deg], rpm\n0, 600\n", 1, "no column speed"),
         ("angle [deg], speed [m/s]\n0, 600\n", 2, '"m/s" is a unit of velocity'),
-        ("angle [deg], speed [1/min]\n0, 600\n", 2, "turns or radians"),
+        ("angle [deg], speed [1/min]\n0, 600\n", 2, "revolutions or radians"),
         ("angle [deg], speed [rpm]\n0, 600\n1,\n", 3, "an empty cell"),
         ("angle [deg], speed [rpm]\n0, 600\n1, 2, 3\n", 3, "2 values, one for each column"),
         ("angle [deg], speed [rpm]\n", 1, "a row for each point"),

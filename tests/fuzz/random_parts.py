@@ -15,7 +15,7 @@ from scipy.linalg import eigh
 import linkwright as lw
 from linkwright.kernel.errors import FindingError, LinkwrightError
 from linkwright.kernel.units import LENGTH
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import ForcedVibration, responded
 
 Floats = NDArray[np.float64]
@@ -84,7 +84,7 @@ def _frequencies(found: Floats, description: Mapping[str, Any], inputs: Mapping[
 
 
 def _balance(machine: lw.Machine, description: Mapping[str, Any], inputs: Mapping[str, str]) -> None:
-    at = excited(machine)
+    at = excited_train(machine)
     found = responded(at)
     # Without any damping a speed on a resonance has no answer, which is said in words, not in numbers.
     if not any(part.get("damping") or part.get("loss_factor") for part in _parts(description)):
@@ -173,7 +173,8 @@ def cam(random: Generator) -> None:
         inside = (radius - distances.min()) / np.abs(centres).max()
         if not inside < 1e-12:
             raise PromiseError(
-                f"the profile lies inside the roller by {inside:.2g} of the cam, and no fault is told", inputs
+                f"the profile lies inside the roller by {inside:.2g} of the cam, and no fault is reported",
+                inputs,
             )
 
 

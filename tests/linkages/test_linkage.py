@@ -230,7 +230,7 @@ def test_grashof_against_full_assembly() -> None:
         ((1, 1, 1, 1), "change-point: parallelogram or antiparallelogram"),
         ((1, 1, 2, 2), "change-point: kite"),
         ((1, 2, 2, 1), "change-point: kite"),
-        ((1, 3, 2.5, 1.5), "change-point: links in line once a turn"),
+        ((1, 3, 2.5, 1.5), "change-point: links in line once per revolution"),
         ((2, 3, 1, 3.5), "rocker-crank"),
         ((3, 1, 2, 3.5), "double-rocker"),
     ],

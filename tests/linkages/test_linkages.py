@@ -331,7 +331,7 @@ def test_loads_that_do_not_repeat_with_the_crank_are_refused() -> None:
     drive = '\n[drive.flywheel]\ninertia = 1\non = "crank"\n'
     require_one_turn(compile_machine(loads(text + drive)))
     mass = '\n[bodies]\nQ = { mass = "1 kg" }\n[loads]\ngravity = { kind = "gravity" }\n'
-    with pytest.raises(AssemblyError, match="only after 6 turns"):
+    with pytest.raises(AssemblyError, match="only after 6 revolutions"):
         require_one_turn(compile_machine(loads(text + drive + mass)))
 
 

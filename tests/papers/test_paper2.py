@@ -145,7 +145,7 @@ PEAKS = {
     "free travel": (_V, 1.5 * 6 * _V, 6 * 36 * _V, 12 * 36 * _V),
     # Velocity 10u³ − 15u⁴ + 6u⁵ over a sixth.
     "continuous jerk": (_V, 15 / 8 * 6 * _V, 10 / np.sqrt(3) * 36 * _V, 0.0),
-    "free at the turn": (8 / 7, 1.5 * 6 * 8 / 7, 3 * 36 * 8 / 7, 3 * 36 * 8 / 7),
+    "free at the reversal": (8 / 7, 1.5 * 6 * 8 / 7, 3 * 36 * 8 / 7, 3 * 36 * 8 / 7),
     "polynomial 4-5-6-7": (35 / 16, 84 * np.sqrt(5) / 25, 52.5, 0.0),
     "cycloidal": (2.0, 2 * np.pi, 4 * np.pi**2, 8 * np.pi**2),
     "harmonic": (np.pi / 2, np.pi**2 / 2, np.pi**3 / 2, 0.0),
@@ -211,7 +211,7 @@ def test_same_drive_for_all(paper: Paper2) -> None:
 
 
 def test_what_is_said_of_the_alternatives(paper: Paper2) -> None:
-    printed, free, crank = (named(paper, name) for name in ("as printed", "free at the turn", "crank"))
+    printed, free, crank = (named(paper, name) for name in ("as printed", "free at the reversal", "crank"))
     for name in ("velocity_max", "acceleration_max", "jerk_max", "torque_max"):
         assert getattr(free, name) < getattr(printed, name)
     assert free.steady.unevenness < printed.steady.unevenness < crank.steady.unevenness

@@ -171,10 +171,10 @@ def test_change_of_a_frequency_follows_the_energy(paper: Paper3) -> None:
 
 def test_rigid_unevenness_by_the_torques(paper: Paper3) -> None:
     """δ if nothing twisted: all torques added up and integrated over the angle."""
-    from linkwright.torsion.response.excited import excited
+    from linkwright.torsion.response.excited_train import excited_train
 
     speed = paper.trial.service
-    at = excited(paper.trial.machine, np.array([speed]))
+    at = excited_train(paper.trial.machine, np.array([speed]))
     total = at.torques.harmonics[:, :, 0].sum(axis=1)
     J = at.referred.inertia.sum()
     phi = np.linspace(0, 4 * np.pi, 20001)

@@ -22,7 +22,7 @@ ONE_WAY = 'topper.motion={kind="constant"}'
 CASES: dict[str, tuple[str, tuple[str, ...]]] = {
     "sine": ("topper", ("topper.edge_length=0.16 m",)),
     "crank": ("topper_crank", ()),
-    "to and fro": ("topper", ('topper.motion={kind="constant", stroke="50 mm"}',)),
+    "back and forth": ("topper", ('topper.motion={kind="constant", stroke="50 mm"}',)),
     "one way": ("topper", (ONE_WAY,)),
     "at rest": ("topper", ("topper.knife_speed=0",)),
     "retreats": ("topper", ("topper.edge_angle=-65 deg",)),

@@ -69,7 +69,7 @@ def test_nearness_of_breakdown_is_told() -> None:
 def test_generator_and_its_gearbox_are_told() -> None:
     found = two_carts()
     assert warned(found, "drives the motor during 14 % of the time", "synchronous speed of 104.7 rad/s")
-    assert warned(found, "gearbox factor 0.9", "22.61 J a turn")
+    assert warned(found, "gearbox factor 0.9", "22.61 J per revolution")
     assert not warned(two_carts("drive.gearbox.reverse=1.1"), "gearbox factor")
 
 
@@ -126,7 +126,7 @@ def test_what_is_missing_is_told(overrides: tuple[str, ...], words: str) -> None
 
 def test_motion_to_the_stall_is_kept() -> None:
     found = two_carts("drive.motor.torque_start=90 N m", "drive.motor.torque_breakdown=135 N m")
-    assert found.findings[0].startswith("Stalls after 0.01 turns")
+    assert found.findings[0].startswith("Stalls after 0.01 revolutions")
     assert found.attempt is not None
     assert found.attempt.came_to_rest
     assert f"{found.attempt.time[-1]:.2f} s" in found.findings[0]

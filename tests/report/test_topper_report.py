@@ -38,7 +38,7 @@ CASES: dict[str, tuple[str, tuple[str, ...]]] = {
     "phase given": ("topper", ("topper.motion.phase=90 deg", "topper.edge_length=0.18 m")),
     "stands": ("topper", (*ONE_WAY, "topper.edge_angle=45 deg", "topper.knife_speed=1.9")),
     "retreats": ("topper", ("topper.edge_angle=60 deg", "topper.edge_length=0.15 m")),
-    "hardly goes on": (
+    "barely advances": (
         "topper",
         ("topper.edge_angle=80 deg", "topper.knife_speed=5", "topper.motion.stroke=2 mm"),
     ),
@@ -46,7 +46,7 @@ CASES: dict[str, tuple[str, tuple[str, ...]]] = {
 }
 
 # Pages take a second each.
-PAGES = ("own", "short", "crank", "one way", "stands", "hardly goes on")
+PAGES = ("own", "short", "crank", "one way", "stands", "barely advances")
 
 
 @cache
@@ -107,7 +107,7 @@ def test_mechanism_adds_its_drive() -> None:
     listed = rows(shown("crank")["topper_drive"])
     # 2.6 kg on a crank of 30 mm at 275 rpm with λ = 0.2: greatest at the outer dead centre.
     force = 2.6 * 0.03 * (275 * np.pi / 30) ** 2 * 1.2
-    assert listed["greatest inertia force of the knife"][0] == f"{number(force)} N"
+    assert listed["maximum inertia force of the knife"][0] == f"{number(force)} N"
     assert "reduction" in shown("crank")
 
 
@@ -129,7 +129,7 @@ def test_page_is_about_the_topper(case: str) -> None:
     text = page(case)
     figures = set(re.findall(r'id="figure-(\w+)"', text))
     moves = case not in ("one way", "stands")
-    followed = case != "hardly goes on"
+    followed = case != "barely advances"
     assert {"topper_lengths", "topper_verdict"} <= figures
     assert ("topper_view" in figures) == followed
     assert ("topper_phase" in figures) == (moves and followed)
@@ -194,10 +194,10 @@ def test_curves_of_different_lengths_have_files_of_their_own() -> None:
 
 
 def test_an_edge_that_cannot_be_followed_keeps_what_is_known() -> None:
-    found = studied("hardly goes on")
+    found = studied("barely advances")
     assert found.topper is not None
     assert found.topper.obstacle in found.findings
-    listed = rows(shown("hardly goes on")["topper_lengths"])
+    listed = rows(shown("barely advances")["topper_lengths"])
     assert listed["exact"] == ("–", "–", "not computed: too many strokes over a head")
     assert listed["knife at rest"][0] == f"{number(1e3 * found.topper.length_at_rest, 4)} mm"
     assert curves_csv(found.topper).splitlines()[1] == "0.0,,"

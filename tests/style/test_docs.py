@@ -64,7 +64,7 @@ def test_docstring_of_the_package_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     assert doctest.testmod(lw).failed == 0
 
 
-@pytest.mark.parametrize("page", ["file_format.md", "units.md", "limits.md", "notation.md"])
+@pytest.mark.parametrize("page", ["file_format.md", "units.md", "limits.md", "notation.md", "glossary.md"])
 def test_tables_of_the_pages_are_those_of_the_code(page: str) -> None:
     text = (DOCS / page).read_text(encoding="utf-8")
     assert tables().written(text) == text, "run: python docs/tables.py"

@@ -23,15 +23,18 @@ SILENT = {
         "app/commands/check.py",
         "_whole",
     ): "the study and the check tell of lengths that no rotator has",
-    ("app/application.py", "_machine_name"): "the name of the machine belongs to a finding, which is told",
+    (
+        "app/application.py",
+        "_machine_name",
+    ): "the name of the machine belongs to a finding, which is reported",
     ("app/report/scene.py", "_closes"): "the same, and a mechanism that does not move is not drawn",
-    ("cam/scene.py", "_contacts"): "a cam without room for its second follower is told by the study",
+    ("cam/scene.py", "_contacts"): "a cam without room for its second follower is reported by the study",
     ("torsion/figures/captions.py", "_manoeuvre"): "a record too short for orders has no waterfall",
     ("sizing/flywheel.py", "_unevenness"): "no steady motion is an answer there: δ counts as infinite",
     (
         "kernel/units/spellings.py",
         "_from_pint",
-    ): "a text that pint does not know is told with the units that are known",
+    ): "a text that pint does not know is reported with the units that are known",
 }
 
 

@@ -17,12 +17,12 @@ _NAME = re.compile(r"`(\w+)`")
 
 
 def rows(page: str) -> Iterator[tuple[str, str, str]]:
-    """Meaning, words and symbols of each row of the table of terms."""
+    """Term, our words and symbols of each row of the table of terms."""
     table = page.split("## Terms", 1)[1].split("\n## ", 1)[0]
     for line in table.splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if line.startswith("| ") and len(cells) == 5 and cells[0] not in ("symbol", "---"):
-            yield cells[1], cells[3], cells[4]
+        if line.startswith("| ") and len(cells) == 6 and cells[0] not in ("symbol", "---"):
+            yield cells[1], cells[4], cells[5]
 
 
 @cache
@@ -66,5 +66,5 @@ def test_names_of_the_table_exist() -> None:
 
 
 def test_a_name_that_does_not_exist_is_found() -> None:
-    page = "## Terms\n\n| φ | angle | rad | `crank_angel` | `phii` |\n"
+    page = "## Terms\n\n| φ | angle | IFToMM | rad | `crank_angel` | `phii` |\n"
     assert missing(page) == ["angle: crank_angel", "angle: phii (core)"]

@@ -116,7 +116,7 @@ def test_one_declaration_puts_a_scalar_into_table_json_docs_and_list(monkeypatch
     monkeypatch.setitem(found.__dict__, "steady_state", heated)
     rows = {table.name: table.rows for table in drive_tables(found)}["drive"]
     words = [row[0] for row in rows]
-    assert words[words.index("what is lost") + 1] == "efficiency of the drive over a turn"
+    assert words[words.index("what is lost") + 1] == "efficiency of the drive per revolution"
     assert heated.to_dict()["loss"] == steady.energy_motor - steady.energy_load
     assert "loss : float\n    What is lost, V [J]. Work of the motor less that of the loads." in (
         Heated.__doc__ or ""

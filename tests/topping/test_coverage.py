@@ -137,7 +137,7 @@ class Case:
 
 ADVANCING = {
     "usual": Case(),
-    "to and fro": Case("triangular", phase=75.0),
+    "back and forth": Case("triangular", phase=75.0),
     "slider-crank": Case("slider-crank", angle=-30.0, offset=-15.0, phase=200.0),
     "dwells": Case("dwells", angle=35.0, phase=150.0),
     "straight": Case(angle=0.0, offset=0.0, phase=300.0),
@@ -394,7 +394,7 @@ def test_larger_machine_of_the_same_shape(name: str, k: float) -> None:
     assert large.shares(k * length) == pytest.approx(case.shares(length), abs=1e-9)
 
 
-@pytest.mark.parametrize("name", ["usual", "to and fro", "steep", "quick, dwells"])
+@pytest.mark.parametrize("name", ["usual", "back and forth", "steep", "quick, dwells"])
 def test_only_the_ratio_of_speeds_counts(name: str) -> None:
     case = CASES[name]
     quick = replace(case, knife_speed=case.knife_speed * 3, forward=case.forward * 3)
@@ -411,7 +411,7 @@ def test_longer_edges_leave_less(name: str) -> None:
     assert shares[-1] == 0.0
 
 
-@pytest.mark.parametrize("name", ["usual", "to and fro", "slider-crank", "steep", "quick, dwells"])
+@pytest.mark.parametrize("name", ["usual", "back and forth", "slider-crank", "steep", "quick, dwells"])
 def test_heads_together_are_the_heads_one_by_one(name: str) -> None:
     """37 heads fill lanes and leave some empty; the number of stations is that of the largest."""
     case, rng = CASES[name], np.random.default_rng(6)

@@ -191,7 +191,7 @@ def test_a_retreating_edge_by_brute_force(degrees: float) -> None:
 @pytest.mark.parametrize(
     ("change", "needed", "remedy"),
     [
-        ("topper.edge_angle=89.9 deg", np.nan, "less aslant"),
+        ("topper.edge_angle=89.9 deg", np.nan, "Reduce the edge angle"),
         # In all phases an edge that never retreats has its closed form.
         ("topper.motion.stroke=1 um", (1e-6 + DISC + 2 * DELTA) / np.cos(ALPHA), "longer stroke"),
         ('topper.motion={kind="harmonic", stroke="1 um", phase=0}', np.nan, "longer stroke"),
@@ -203,7 +203,7 @@ def test_a_knife_that_hardly_goes_on_keeps_what_is_known(change: str, needed: fl
     assert np.isfinite([found.topper.length_published, found.topper.length_exact_constant_speed]).all()
     assert found.topper.length_exact == pytest.approx(needed, rel=1e-12, nan_ok=True)
     assert np.isnan([found.topper.worst_phase, found.topper.uncut_share]).all()
-    assert "hardly goes on" in found.findings[0]
+    assert "barely advances" in found.findings[0]
     assert remedy in found.findings[0]
 
 
@@ -357,7 +357,7 @@ def test_any_member_that_comes_back(law: str, stroke: float, speed: float) -> No
 def test_a_member_that_does_not_come_back_is_refused(law: str) -> None:
     found = study(lw.loads(MEMBER.format(law=law)))
     assert found.topper is None
-    assert "in each turn" in found.findings[0]
+    assert "in each revolution" in found.findings[0]
 
 
 def test_use_of_the_edge_adds_up_to_the_head() -> None:

@@ -305,7 +305,7 @@ def test_limits_of_the_file_are_judged() -> None:
         ({"field__spacing": 0.3, "motion": {"kind": "constant"}}, "a stroke of the knife"),
         ({"field__rows": 30000}, "at most one for each of 20000 roots"),
         ({"field__root_diameter": -0.1}, "a length greater than 0"),
-        ({"field__root_diameter": {"kind": "normal", "mean": 0.1, "deviation": 0.01}}, "no least value"),
+        ({"field__root_diameter": {"kind": "normal", "mean": 0.1, "deviation": 0.01}}, "no minimum value"),
         ({"field__spacing": {"kind": "uniform", "least": -0.1, "greatest": 0.1}}, "values down to -0.1 m"),
     ],
 )

@@ -97,7 +97,7 @@ def test_an_edge_that_hardly_goes_on_is_left_out() -> None:
     swept = sweep_field(machine(small), {"edge_angle": np.radians([20.0, 88.0])})
     assert np.isfinite(swept.share_complete).tolist() == [True, False]
     for run in (lambda: sweep_field(machine(small), {"edge_angle": [1.536]}), far_aslant):
-        with pytest.raises(FindingError, match="hardly goes on"):
+        with pytest.raises(FindingError, match="barely advances"):
             run()
 
 

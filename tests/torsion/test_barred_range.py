@@ -13,7 +13,7 @@ import linkwright as lw
 from linkwright.torsion.limits.barred_range import BarredRange, barred_ranges, together
 from linkwright.torsion.limits.exceedance import exceedances
 from linkwright.torsion.modes.resonance import resonances
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 
 J_A, J_B, K, C, M, ORDER = 2.0, 3.0, 1e4, 4.0, 80.0, 2.0
 W = math.pi / 16 * 0.05**3
@@ -215,7 +215,7 @@ def test_resonances_of_three_discs() -> None:
     )
     machine = lw.loads(text)
     omega = 2 * math.pi * lw.free_vibration(machine).natural_frequencies[1:]
-    found = resonances(excited(machine))
+    found = resonances(excited_train(machine))
     wanted = sorted((w / order, order, n) for n, w in enumerate(omega) for order in (1.0, 2.5))
     inside = [each for each in wanted if 10 <= each[0] <= 200]
     assert len(inside) >= 3
@@ -247,7 +247,7 @@ speed_max = 100
 points = 400
 """
     machine = lw.loads(text)
-    found = resonances(excited(machine))
+    found = resonances(excited_train(machine))
     assert found
     coupling = machine.train.couplings["c"]
     for each in found:

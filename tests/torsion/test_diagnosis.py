@@ -14,7 +14,7 @@ from linkwright.torsion.diagnosis.cylinder_factors import Diagnosis
 from linkwright.torsion.diagnosis.cylinder_response import cylinder_response
 from linkwright.torsion.diagnosis.diagnosis import diagnosis
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed, measured_speed
-from linkwright.torsion.response.excited import Excited, excited
+from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.forced import forced_vibration
 
 Complexes = NDArray[np.complex128]
@@ -25,9 +25,9 @@ WEAK = [1.0, 0.97, 0.55, 1.02, 1.0, 0.93]
 NOISE = 2e-4
 
 
-def healthy(**entries: object) -> Excited:
+def healthy(**entries: object) -> ExcitedTrain:
     """The train at the speed of the measurement."""
-    return excited(firing.engine(**entries), np.array([SPEED]))  # type: ignore[arg-type]
+    return excited_train(firing.engine(**entries), np.array([SPEED]))  # type: ignore[arg-type]
 
 
 def speed_of(factors: list[float], disc: str, **entries: object) -> Complexes:
@@ -146,7 +146,7 @@ def test_cylinders_a_turn_apart_cannot_be_told_apart_by_whole_orders() -> None:
     assert np.isinf(found.deviation).all()
     np.testing.assert_array_equal(found.factor, 1)
     assert found.weak() == ()
-    assert "cannot be told apart" in found.warnings[0]
+    assert "cannot be distinguished" in found.warnings[0]
 
 
 def test_cylinders_that_act_alike_are_told() -> None:
@@ -203,7 +203,7 @@ def test_factors_over_their_mean_tell_the_load_apart() -> None:
     )
 
 
-def wrong(at: Excited, each: Complexes, measured: MeasuredSpeed, **entries: object) -> Diagnosis:
+def wrong(at: ExcitedTrain, each: Complexes, measured: MeasuredSpeed, **entries: object) -> Diagnosis:
     """A diagnosis that cannot be made."""
     return diagnosis(at, each, measured, **entries)  # type: ignore[arg-type]
 
@@ -215,7 +215,7 @@ def test_inputs_that_do_not_fit() -> None:
     with pytest.raises(ShapeError, match="2 names for 6"):
         wrong(at, each, measured, cylinders=["a", "b"])
     with pytest.raises(InputError, match="at one speed"):
-        wrong(excited(firing.engine(), np.array([90.0, 95.0])), each, measured)
+        wrong(excited_train(firing.engine(), np.array([90.0, 95.0])), each, measured)
     with pytest.raises(InputError, match=r'no disc "flywheal".*flywheel'):
         wrong(at, each, MeasuredSpeed("flywheal", measured.orders, measured.harmonics))
     with pytest.raises(InputError, match=r"order 7\.5"):
@@ -245,7 +245,7 @@ def test_noise_of_harmonics_is_that_of_white_samples() -> None:
 def test_samples_that_do_not_do() -> None:
     with pytest.raises(ShapeError, match="order 6 needs 25"):
         measured_speed("d", np.zeros(24), 2, [6.0])
-    with pytest.raises(InputError, match=r"order 0\.25 does not repeat in 2 turns"):
+    with pytest.raises(InputError, match=r"order 0\.25 does not repeat in 2 revolutions"):
         measured_speed("d", np.zeros(100), 2, [0.25])
     with pytest.raises(InputError, match="samples: found nan at index 1"):
         measured_speed("d", [1.0, np.nan, 1.0, 1.0], 1, [1.0])

@@ -14,7 +14,7 @@ from linkwright.machine.read import read
 from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis
 from linkwright.torsion.diagnosis.engine_speed import EngineSpeed
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import forced_vibration
 from linkwright.torsion.response.survey import _about, between, survey
 
@@ -80,7 +80,7 @@ def test_states_of_an_engine_are_those_of_its_file(v12: lw.Machine) -> None:
     x = np.zeros((12, 1))
     x[[7, 2], 0] = -1.0, 0.2
     at = EngineSpeed(v12, SPEED, "flywheel").states(x)
-    of_file = excited(with_factors(v12, {"8": 0.0, "3": 1.2}), np.array([SPEED]))
+    of_file = excited_train(with_factors(v12, {"8": 0.0, "3": 1.2}), np.array([SPEED]))
     np.testing.assert_allclose(at.torques.harmonics, of_file.torques.harmonics, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(at.mean_torques, of_file.mean_torques, rtol=1e-9)
     np.testing.assert_allclose(at.operating.disc_damping, of_file.operating.disc_damping, rtol=1e-9)
@@ -94,9 +94,9 @@ def test_machine_without_an_engine() -> None:
 
 
 def test_torques_between_speeds_are_close_to_those_of_the_engine(v12: lw.Machine) -> None:
-    at = excited(v12)
+    at = excited_train(v12)
     speeds = 0.5 * (at.torques.speeds[:-1] + at.torques.speeds[1:])[::20]
-    near, exact = between(v12, at, speeds), excited(v12, speeds)
+    near, exact = between(v12, at, speeds), excited_train(v12, speeds)
     size = np.abs(exact.torques.harmonics).max()
     # Cubics through speeds 0.6 rad/s apart; the gas itself is followed to some 10⁻⁶.
     np.testing.assert_allclose(near.torques.harmonics, exact.torques.harmonics, atol=1e-5 * size)
@@ -123,7 +123,7 @@ speed_min = 10
 speed_max = 50
 points = 6
 """
-    at = excited(lw.loads(text))
+    at = excited_train(lw.loads(text))
     speeds = np.array([10.0, 11.0, 26.0, 49.0, 50.0])
     places, weights = _about(at.torques.speeds, speeds)
     found = sum(w * at.torques.harmonics[0, 0, n] for n, w in zip(places, weights, strict=True))

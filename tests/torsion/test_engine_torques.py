@@ -12,7 +12,7 @@ from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, reduced_throw
 from linkwright.torsion.model.engine.firing import firing_angles
 from linkwright.torsion.response.engine_torques import cylinder_torques, engine_sources
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import forced_vibration
 from linkwright.torsion.response.survey import between
 from linkwright.torsion.study import torsion_study
@@ -93,7 +93,7 @@ def test_flat_eight_of_uneven_intervals() -> None:
         ([1, 12, 5, 8, 3, 10, 6, 7, 2, 11, 4, 4], "4"),
         ([1, 12, 5, 8, 3, 10, 6, 7, 2, 11, 4], "without 9"),
         ([1, 12, 5, 8, 3, 10, 6, 7, 2, 11, 4, 13], "13"),
-        ([1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12], "turns"),
+        ([1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12], "revolutions"),
     ],
 )
 def test_orders_that_are_none(order: list[int], found: str) -> None:
@@ -119,7 +119,7 @@ def test_two_strokes_on_one_throw_angle_fire_together() -> None:
 
 def test_order_is_not_made_to_fit_by_turning_back() -> None:
     # Backwards through the dead centres takes two turns; the twins at 0° cannot take one of them back.
-    with pytest.raises(MachineError, match=r"comes round after 2 turns"):
+    with pytest.raises(MachineError, match=r"repeats after 2 revolutions"):
         machine(
             engine={
                 **V12,
@@ -206,7 +206,7 @@ def test_loads_take_what_the_engine_gives() -> None:
 
 def test_engine_without_a_load_speeds_all_up_rings_too() -> None:
     ring = {"on": "flywheel", "ring_inertia": 0.8, "damping": 30.0}
-    at = excited(machine(loads={}, dampers={"ring": ring}), SPEEDS)
+    at = excited_train(machine(loads={}, dampers={"ring": ring}), SPEEDS)
     J = at.referred.inertia
     faster = at.torques.mean.sum(axis=0) / J.sum()
     of = dict(zip(at.referred.shafts, at.mean_torques, strict=True))
@@ -217,7 +217,7 @@ def test_engine_without_a_load_speeds_all_up_rings_too() -> None:
 
 def test_ring_of_a_balanced_train_takes_nothing() -> None:
     ring = {"on": "flywheel", "ring_inertia": 0.8, "damping": 30.0}
-    at = excited(machine(dampers={"ring": ring}), SPEEDS)
+    at = excited_train(machine(dampers={"ring": ring}), SPEEDS)
     assert not at.mean_torques[at.referred.shafts.index("ring")].any()
 
 
@@ -241,7 +241,7 @@ def test_loads_that_do_not_take_what_the_engine_gives_are_told(
 def test_survey_of_few_speeds_computes_those_between() -> None:
     few = machine(run={"speed_min": 50.0, "speed_max": 170.0, "points": 3})
     here = np.array([93.0])
-    found, exact = between(few, excited(few), here), excited(few, here)
+    found, exact = between(few, excited_train(few), here), excited_train(few, here)
     np.testing.assert_allclose(found.torques.harmonics, exact.torques.harmonics, rtol=1e-12)
 
 

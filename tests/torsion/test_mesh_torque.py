@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.torsion.response.carried import carried
-from linkwright.torsion.response.excited import excited, loaded
+from linkwright.torsion.response.excited_train import excited_train, loaded
 from linkwright.torsion.response.mesh_torque import MeshTorque, mesh_torques, meshed
+from linkwright.torsion.response.torsion_response import torsion_response
 
 TRAIN = """
 format = 1
@@ -142,10 +142,10 @@ harmonics = [{ order = 1, torque = 100 }]
 def test_a_train_that_speeds_up_passes_on_what_the_rest_needs() -> None:
     """100 N m on the motor that nothing takes off: the stage passes the share of what lies behind it."""
     machine = lw.loads(TRAIN.format(mesh="", load=900.0))
-    at = excited(machine)
+    at = excited_train(machine)
     mean = np.zeros_like(at.torques.mean)
     mean[0] = 100.0
     driven = loaded(machine, at.train, at.referred, replace(at.torques, mean=mean))
-    found = meshed(driven, carried(driven))
+    found = meshed(driven, torsion_response(driven))
     before, behind = 2 + 0.3, (4 + 30) / 3**2
     np.testing.assert_allclose(found.mean[0], 100 * behind / (before + behind), rtol=1e-9)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.torsion.response.excited import Excited, excited
+from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.forced import ForcedVibration, responded
 
 SPEEDS = np.array([17.0, 40.0, 63.0])
@@ -37,9 +37,9 @@ speed = 50
 """
 
 
-def vibration(k: float) -> tuple[ForcedVibration, Excited]:
+def vibration(k: float) -> tuple[ForcedVibration, ExcitedTrain]:
     """Its vibration, and what it is under."""
-    at = excited(lw.loads(TRAIN.format(k=k, third=k / 3)), SPEEDS)
+    at = excited_train(lw.loads(TRAIN.format(k=k, third=k / 3)), SPEEDS)
     return responded(at), at
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from test_torsion_transient import chain
 
 from linkwright.kernel.errors import ConvergenceError
-from linkwright.torsion.core.torque import Decaying, TrainTorque
+from linkwright.torsion.core.torque import DecayingTorque, TrainTorque
 from linkwright.torsion.in_time.transient import TorsionTransient, follow_train
 
 Floats = NDArray[np.float64]
@@ -22,7 +22,7 @@ K, C, DURATION, RATIO = 2e4, 5.0, 0.5, 2.5
 
 def raised_cosine() -> list[TrainTorque]:
     """M(1 − cos Ωt): nothing jumps, so that a rigid shaft is not struck."""
-    wave = Decaying(0.0, np.inf, 0.0, W, np.pi / 2)
+    wave = DecayingTorque(0.0, np.inf, 0.0, W, np.pi / 2)
     return [TrainTorque("mean", 0, M), TrainTorque("wave", 0, -M, wave)]
 
 

@@ -173,7 +173,7 @@ def test_waterfall_tells_what_it_cannot_do() -> None:
     for entries, words in (
         ({"highest": 0.2}, "0 < step ≤ highest"),
         ({"turns": 2}, "turns: found 2, expected at least 4"),
-        ({"turns": 30}, "a motion of 15.92 turns, expected 30"),
+        ({"turns": 30}, "a motion of 15.92 revolutions, expected 30"),
         ({"highest": 60.0}, "expected 31.4 at most .* sample_time"),
     ):
         with pytest.raises(InputError, match=words):

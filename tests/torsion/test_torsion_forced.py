@@ -9,7 +9,7 @@ from scipy.linalg import solve
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineError
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import angular_deflection, forced_vibration
 from linkwright.torsion.response.synthesis import coefficients, orders_together, span, waveform
 
@@ -88,7 +88,7 @@ def looped() -> lw.Machine:
 @pytest.mark.parametrize("train", [geared(), looped()])
 def test_against_matrices_of_the_discs(train: lw.Machine) -> None:
     # Lagrange multipliers hold rigid stages, in the discs' own coordinates, so that nothing is referred.
-    at = excited(train)
+    at = excited_train(train)
     found = forced_vibration(train)
     n = len(found.discs)
     place = {name: k for k, name in enumerate(found.discs)}

@@ -22,7 +22,7 @@ from linkwright.torsion.in_time.waterfall import waterfall
 from linkwright.torsion.limits.peak_judgement import PeakJudgement
 from linkwright.torsion.model.train_transient import TrainTransient
 from linkwright.torsion.page import torsion_html
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import responded
 
 V12 = Path(__file__).parents[2] / "machines" / "v_diesel.toml"
@@ -89,7 +89,7 @@ def test_engine_settles_to_its_forced_vibration() -> None:
     # The damping of the load is a hundredth as well; its mean follows the engine in any case.
     assert "1400 N m" in text
     same = lw.loads(text.replace("1400 N m", "14 N m"))
-    forced = responded(excited(same, np.array([speed])))
+    forced = responded(excited_train(same, np.array([speed])))
     orders = forced.orders[:24]
     waves = 100 * np.fft.rfft(moved.torque[:, :-1])[:, 1:25] / 2048 * np.exp(-1j * orders * moved.angle[0, 0])
     wanted = forced.shaft_torques[:24, :, 0].T
@@ -103,9 +103,9 @@ def test_true_inertia_of_the_throws_is_near_its_mean() -> None:
     moved = torsion_transient(machine, manoeuvre(duration=1.0, speed=157.0))
     assert abs(moved.energy_error) < 1e-9
     assert moved.speed.mean() == pytest.approx(157.0, rel=2e-3)
-    assert moved.balance.startswith("combustion counts 1.00")
+    assert moved.balance.startswith("combustion was scaled by 1.00")
     assert any("hysteresis" in note for note in moved.notes)
-    forced = responded(excited(machine, np.array([157.0])))
+    forced = responded(excited_train(machine, np.array([157.0])))
     crank = [n for n, name in enumerate(moved.shafts) if name.startswith("crank") or name == "tail"]
     assert moved.torque_max[crank] == pytest.approx(forced.shaft_torque_max[crank, 0], rel=0.05)
     # Loss in shafts, by viscous damping in place of hysteresis, is of the size that hysteresis has.
@@ -272,7 +272,7 @@ def test_combustion_follows_the_load() -> None:
     given = manoeuvre(duration=1.0, speed=157.0)
     train, speed, told = balanced_start(moving_train(machine.train, given), machine.train, given)
     assert speed == 157.0
-    assert told.startswith("combustion counts 0.")
+    assert told.startswith("combustion was scaled by 0.")
     load = {each.name: each.scale for each in train.torques}["generator"]
     assert load == -1000.0
     assert mean_torques(train, speed).sum() == pytest.approx(0.0, abs=1e-9 * 1000)
@@ -322,7 +322,7 @@ events = [{ kind = "speed_course", on = "engine", times = [0, 2], speed = [60, 1
 
     greatest, passing = moved("1e6", "1e6")
     W = np.pi / 16 * 0.05**3
-    assert (greatest.what, passing.what) == ("greatest stress", "vibratory stress in transient passage")
+    assert (greatest.what, passing.what) == ("maximum stress", "vibratory stress in transient passage")
     assert not greatest.is_kept
     assert not passing.is_kept
     assert passing.found < greatest.found

@@ -14,7 +14,7 @@ from scipy.special import ellipk
 from linkwright.kernel.core.curve import Curve, backlash, odd, smooth, straight
 from linkwright.kernel.core.periodic_table import waves
 from linkwright.kernel.errors import ConvergenceError, InputError, ShapeError
-from linkwright.torsion.core.torque import Decaying, Following, Power, TrainTorque, short_circuit
+from linkwright.torsion.core.torque import DecayingTorque, GovernorTorque, Power, TrainTorque, short_circuit
 from linkwright.torsion.core.transient import MovingTrain, VariableInertia, variable_inertia, viscous
 from linkwright.torsion.in_time.transient import TorsionTransient, follow_train
 
@@ -56,7 +56,7 @@ def chain(
 
 def sine(on: int, size: float, omega: float) -> TrainTorque:
     """A sine over time, from the start on."""
-    return TrainTorque("sine", on, size, Decaying(0.0, np.inf, 0.0, omega))
+    return TrainTorque("sine", on, size, DecayingTorque(0.0, np.inf, 0.0, omega))
 
 
 @pytest.mark.parametrize("method", ["explicit", "implicit"])
@@ -123,7 +123,7 @@ def test_resonance_passed_as_by_scipy() -> None:
     inertia = 0.5 + 0.06 * np.cos(2 * TURN)
     torques = [
         TrainTorque("order", 0, shape=waves([2.0], [M2], [0.4])),
-        TrainTorque("drive", 1, law=Following(gain, straight([0.0, 3.0], [80.0, 200.0]))),
+        TrainTorque("drive", 1, law=GovernorTorque(gain, straight([0.0, 3.0], [80.0, 200.0]))),
     ]
     train = chain([0.0, J2], [k], damping=c, inertias=[variable_inertia(0, inertia)], torques=torques)
     found = follow_train(train, duration=3.0, speed=80.0, accuracy=1e-11, sample_time=2e-3)
@@ -156,7 +156,7 @@ def test_load_step_doubles_the_static_twist() -> None:
     """Two discs, a torque that sets in: twice M J₂/(J₁ + J₂), first at half a period."""
     J1, J2, k, M = 0.7, 2.1, 4e4, 350.0
     omega = np.sqrt(k * (J1 + J2) / (J1 * J2))
-    torque = TrainTorque("step", 0, M, Decaying(0.01, np.inf, 0.0, 0.0, np.pi / 2))
+    torque = TrainTorque("step", 0, M, DecayingTorque(0.01, np.inf, 0.0, 0.0, np.pi / 2))
     found = follow_train(chain([J1, J2], [k], torques=[torque]), duration=0.01 + 6 / omega, accuracy=1e-10)
     assert found.torque_max[0] == pytest.approx(2 * M * J2 / (J1 + J2), rel=1e-8)
     assert found.torque_max_time[0] == pytest.approx(0.01 + np.pi / omega, abs=1e-6)
@@ -334,7 +334,7 @@ def test_wrong_numbers_are_told() -> None:
         follow_train(chain([1.0, 0.0], [1e4]), duration=1.0)
     with pytest.raises(InputError, match=r"finite numbers above zero"):
         variable_inertia(0, [1.0, -1.0])
-    with pytest.raises(InputError, match=r"differs by .* sample the turn more finely"):
+    with pytest.raises(InputError, match=r"differs by .* sample the revolution more finely"):
         variable_inertia(0, 1 + 0.1 * np.cos(TURN), np.cos(TURN))
     with pytest.raises(ShapeError, match=r"expected \(64,\)"):
         variable_inertia(0, 1 + 0.1 * np.cos(TURN), [0.0])

@@ -12,9 +12,9 @@ import linkwright as lw
 from linkwright.kernel.result import finite
 from linkwright.torsion.limits.criteria import Criterion, criteria
 from linkwright.torsion.limits.verdict import Judgement, Verdict, verdict
-from linkwright.torsion.response.carried import carried
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import forced_vibration
+from linkwright.torsion.response.torsion_response import torsion_response
 
 TRAIN = """
 format = 1
@@ -80,8 +80,8 @@ def machine(**changes: str) -> lw.Machine:
 
 def curves(subject: lw.Machine, speeds: np.ndarray | None = None) -> dict[tuple[str, str], Criterion]:
     """All that limits ask for, by part and what."""
-    at = excited(subject, speeds)
-    return {(each.part, each.what): each for each in criteria(subject, at, carried(at))}
+    at = excited_train(subject, speeds)
+    return {(each.part, each.what): each for each in criteria(subject, at, torsion_response(at))}
 
 
 def row(found: Verdict, part: str, what: str) -> Judgement:
@@ -96,20 +96,20 @@ def test_sound_train_keeps_all_its_limits() -> None:
     assert found.barred == ()
     assert {(each.part, each.what) for each in found.judgements} == {
         ("slow", "vibratory stress"),
-        ("slow", "greatest stress"),
+        ("slow", "maximum stress"),
         ("rubber", "torque"),
         ("rubber", "vibratory torque"),
         ("rubber", "heat"),
         ("ring", "heat"),
         ("stage", "drop of torque below its mean"),
     }
-    assert all(each.is_ok and each.words.endswith("kept") for each in found.judgements)
+    assert all(each.is_ok and each.words.endswith("within limit") for each in found.judgements)
 
 
 @pytest.mark.parametrize(
     ("key", "value", "part", "what"),
     [
-        ("GREATEST", "300 MPa", "slow", "greatest stress"),
+        ("GREATEST", "300 MPa", "slow", "maximum stress"),
         ("TORQUE", "2000", "rubber", "torque"),
         ("VIBRATORY", "300", "rubber", "vibratory torque"),
         ("HEAT", "60", "rubber", "heat"),

@@ -55,20 +55,22 @@ def test_a_sharp_peak_between_the_speeds_is_found() -> None:
 def test_loads_that_ask_for_something_else_are_told() -> None:
     bore, stroke = 0.1, 0.1
     mean = 6e5 * 3.141592653589793 / 4 * bore**2 * stroke / (4 * 3.141592653589793)
-    assert not [text for text in lw.torsion_study(engine(mean)).warnings if "loads count" in text]
-    (told,) = [text for text in lw.torsion_study(engine(10 * mean)).warnings if "loads count" in text]
-    assert "0.1 times" in told
+    assert not [text for text in lw.torsion_study(engine(mean)).warnings if "loads were scaled" in text]
+    (told,) = [text for text in lw.torsion_study(engine(10 * mean)).warnings if "loads were scaled" in text]
+    assert "scaled by 0.1 " in told
 
 
 def test_loads_damp_as_much_as_they_take() -> None:
-    from linkwright.torsion.response.excited import excited
+    from linkwright.torsion.response.excited_train import excited_train
 
     made = engine(100.0)
     assert made.train is not None
     brake = made.train.loads["brake"].model_copy(update={"exponent": 1.0})
     ten = brake.model_copy(update={"torque": 1000.0})
     one, other = (
-        excited(made.model_copy(update={"train": made.train.model_copy(update={"loads": {"brake": load}})}))
+        excited_train(
+            made.model_copy(update={"train": made.train.model_copy(update={"loads": {"brake": load}})})
+        )
         for load in (brake, ten)
     )
     # Both are scaled to what the engine gives, and so is their slope.

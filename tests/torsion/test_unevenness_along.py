@@ -10,7 +10,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import responded
 from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
 
@@ -20,7 +20,7 @@ STIFF = {"stiffness": 1e12, "coupling": 1e12}
 
 def along(machine: lw.Machine, angles: dict[str, float], speed: float, turns: int = 2) -> UnevennessAlong:
     """N at a speed."""
-    at = excited(machine, np.array([speed]))
+    at = excited_train(machine, np.array([speed]))
     return unevenness_along(at, responded(at), angles, turns, speed)
 
 
@@ -46,7 +46,7 @@ def test_one_order_rises_and_falls_by_twice_its_amplitude() -> None:
 
 def test_one_cylinder_makes_n_the_coefficient_of_unevenness() -> None:
     machine = firing.engine(order=(1,))
-    at = excited(machine, np.array([70.0]))
+    at = excited_train(machine, np.array([70.0]))
     forced = responded(at)
     found = unevenness_along(at, forced, {"1": 0.3}, 2, 70.0)
     # Extremes of δ are exact, of N refined by Newton to rounding.
@@ -57,7 +57,7 @@ def test_one_cylinder_makes_n_the_coefficient_of_unevenness() -> None:
 
 def test_shares_are_those_of_a_densely_sampled_speed() -> None:
     machine = firing.engine([1, 1, 0.4, 1, 0.9, 1])
-    at = excited(machine, np.array([80.0]))
+    at = excited_train(machine, np.array([80.0]))
     forced = responded(at)
     angles = firing.firing_angles()
     found = unevenness_along(at, forced, angles, 2, 80.0)

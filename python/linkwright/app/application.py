@@ -27,6 +27,7 @@ COMMANDS = {
     "papers": "app.commands.papers:papers",
     "new": "app.commands.new:new",
     "schema": "app.commands.schema:schema",
+    "glossary": "app.commands.glossary:glossary",
 }
 
 

@@ -35,7 +35,7 @@ def quantities(of: Any) -> tuple[DeclaredQuantity, ...]:
 
     Notes
     -----
-    Of a class, a unit that depends on the machine is told as such: the lift of a cam has ``"m or rad"``.
+    Of a class, a unit that depends on the machine is given as such: the lift of a cam has ``"m or rad"``.
 
     Examples
     --------

@@ -9,7 +9,7 @@
 | cams | undercut, crossed, locked, hollow, no room for a second follower | `cam_profile`, `cam_faults` |
 | turning-moment diagram | driver and load balance over a cycle | `turning_moment` |
 | knife of a topper | advances, over its field too; long enough for all | `topper`, `require_advance` |
-| train, drive line that twists | has natural frequencies | `free_vibration` |
+| train, torsionally flexible driveline | has natural frequencies | `free_vibration` |
 
 Each is the function that the study itself calls, so what is a finding here is one there, and the other way
 round. What takes solving, such as steady motion, forces and vibration under torques, is left to the study.

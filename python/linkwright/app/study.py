@@ -44,8 +44,8 @@ if TYPE_CHECKING:
     from linkwright.topping.topper import TopperStudy
     from linkwright.turning.diagram import TurningMomentDiagram
 
-# Intervals of the turn for forces, a degree: no line shows more, and four times as many take as much time as
-# all the rest.
+# Intervals of the revolution for forces, a degree: no line shows more, and four times as many take as much
+# time as all the rest.
 _INTERVALS_OF_FORCES = 360
 
 

@@ -27,12 +27,12 @@ ROWS = (
     *("pressure_angle", "bend", "soundness", "along"),
 )
 
-# What extremes are given of, greatest and least of each; the last only under a flat face.
+# What extremes are given of, maximum and minimum of each; the last only under a flat face.
 _EXTREMES = ("pressure_angle", "bend", "along")
 
 
 class Extreme(NamedTuple):
-    """A greatest or least value.
+    """A maximum or minimum value.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class Extreme(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A contact over a turn.
+    """A contact over one revolution.
 
     Attributes
     ----------
@@ -113,7 +113,7 @@ class CamKernel:
         return replace(self, size=np.array(sizes, dtype=float))
 
     def shape(self, n: int, levels: Sequence[tuple[str, float]] = ()) -> Shape:
-        """The contact at about n angles a turn; see `Shape`."""
+        """The contact at about n angles per revolution; see `Shape`."""
         wanted = [(ROWS.index(row), level) for row, level in levels]
         shape = self.core.shape(self.size, n, wanted)
         found = [Extreme(*pair) for pair in shape.extremes]
@@ -134,7 +134,7 @@ class CamKernel:
         return self.core.curve(self.size, _floats(angle), before, away).reshape(3, 2, -1)
 
     def search(self, columns: Sequence[ArrayLike], per_turn: int) -> Floats:
-        """Largest tan γ, least soundness, greatest and least bend of many cams, (n, 4).
+        """Largest tan γ, minimum soundness, maximum and minimum bend of many cams, (n, 4).
 
         ``columns`` are the six dimensions and the factor on the lift, each a number or one for every cam.
         """

@@ -10,7 +10,7 @@ brought to a lift and a length of one.
 
 All are exact: the pieces of a law are polynomials and harmonics, and so are their derivatives. Where the
 velocity jumps, at an end or inside, the acceleration is infinite there; where the acceleration jumps, the
-jerk is. Such a factor is None, and the greatest value between the jumps stands under a name of its own.
+jerk is. Such a factor is None, and the maximum value between the jumps stands under a name of its own.
 
 Source: VDI 2143 Blatt 1 (1980); Norton, *Cam Design and Manufacturing Handbook* (2002); C_M as in VDI 2143.
 """
@@ -30,7 +30,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 
-# A jump below this share of the derivative's greatest value is rounding.
+# A jump below this share of the derivative's maximum value is rounding.
 _ROUNDING = 1e-9
 
 _NAMES = ("velocity", "acceleration")
@@ -40,14 +40,16 @@ _NAMES = ("velocity", "acceleration")
 class LawFactors(Result):
     """Factors of a motion law; all are numbers."""
 
-    C_v: Annotated[float, Shown("greatest velocity", "C_v", "")]
+    C_v: Annotated[float, Shown("maximum velocity", "C_v", "")]
     C_a: Annotated[
-        float | None, Shown("greatest size of acceleration", "C_a", "", "None where it is infinite.")
+        float | None, Shown("peak absolute value of acceleration", "C_a", "", "None where it is infinite.")
     ]
-    C_j: Annotated[float | None, Shown("greatest size of jerk", "C_j", "", "None where it is infinite.")]
+    C_j: Annotated[
+        float | None, Shown("peak absolute value of jerk", "C_j", "", "None where it is infinite.")
+    ]
     C_M: Annotated[
         float | None,
-        Shown("greatest size of velocity times acceleration", "C_M", "", "None where it is infinite."),
+        Shown("peak absolute value of velocity times acceleration", "C_M", "", "None where it is infinite."),
     ]
     acceleration_squared: Annotated[
         float | None, Shown("integral of the square of acceleration", "∫a²", "", "None where it is infinite.")
@@ -55,15 +57,15 @@ class LawFactors(Result):
     jerk_squared: Annotated[
         float | None, Shown("integral of the square of jerk", "∫j²", "", "None where it is infinite.")
     ]
-    C_a_inside: Annotated[float, Shown("greatest size of acceleration between the jumps", "", "")]
-    C_j_inside: Annotated[float, Shown("greatest size of jerk between the jumps", "", "")]
+    C_a_inside: Annotated[float, Shown("peak absolute value of acceleration between the jumps", "", "")]
+    C_j_inside: Annotated[float, Shown("peak absolute value of jerk between the jumps", "", "")]
     C_M_inside: Annotated[
-        float, Shown("greatest size of velocity times acceleration between the jumps", "", "")
+        float, Shown("peak absolute value of velocity times acceleration between the jumps", "", "")
     ]
-    acceleration_max: Annotated[float, Shown("greatest acceleration between the jumps", "", "")]
-    acceleration_min: Annotated[float, Shown("least acceleration between the jumps", "", "")]
-    jerk_max: Annotated[float, Shown("greatest jerk between the jumps", "", "")]
-    jerk_min: Annotated[float, Shown("least jerk between the jumps", "", "")]
+    acceleration_max: Annotated[float, Shown("maximum acceleration between the jumps", "", "")]
+    acceleration_min: Annotated[float, Shown("minimum acceleration between the jumps", "", "")]
+    jerk_max: Annotated[float, Shown("maximum jerk between the jumps", "", "")]
+    jerk_min: Annotated[float, Shown("minimum jerk between the jumps", "", "")]
     remarks: Annotated[tuple[str, ...], About("What jumps, and where.")]
 
 
@@ -137,7 +139,7 @@ def _jumps(law: MotionLaw, order: int) -> list[str]:
 
 
 def _peak_of_product(law: MotionLaw) -> float:
-    """Greatest size of f′ f″: at an end of a piece, or where f″² + f′ f‴ = 0."""
+    """Peak absolute value of f′ f″: at an end of a piece, or where f″² + f′ f‴ = 0."""
     derivatives = (law.derivative(order).pieces for order in (1, 2, 3))
     return max(_peak_in_piece(v, a, j) for v, a, j in zip(*derivatives, strict=True))
 

@@ -34,8 +34,9 @@ ENTRIES = ("base_radius", "roller_radius", "offset", "distance", "arm_length", "
 
 _POSITIVE = ("base_radius", "roller_radius", "distance", "arm_length")
 
-# Angles a turn at which cams are looked at. An extreme between them is missed by up to (step)²/8 of its
-# second derivative: some 1e-4 of pressure angles, up to 1e-3 of the size of the cam in radii of curvature.
+# Angles per revolution at which cams are looked at. An extreme between them is missed by up to (step)²/8 of
+# its second derivative: some 1e-4 of pressure angles, up to 1e-3 of the size of the cam in radii of
+# curvature.
 PER_TURN = 360
 
 
@@ -54,10 +55,10 @@ class Cams(Result):
     pressure_angle_max : ndarray
         Largest in size [rad].
     curvature_radius_min : ndarray
-        Least radius of curvature of the convex parts of the profile, negative where undercut [m].
+        Minimum radius of curvature of the convex parts of the profile, negative where undercut [m].
     concave_radius_min : ndarray
-        Least of the concave parts [m], infinite without such parts; under a flat face the profile cannot have
-        any.
+        Minimum of the concave parts [m], infinite without such parts; under a flat face the profile cannot
+        have any.
     is_sound : ndarray of bool
         Whether it is neither undercut nor locked.
     """
@@ -78,7 +79,7 @@ class Cams(Result):
         pressure_angle : float
             Largest pressure angle allowed [rad].
         curvature_radius : float
-            Least convex radius of curvature allowed [m].
+            Minimum convex radius of curvature allowed [m].
 
         Returns
         -------
@@ -90,7 +91,7 @@ class Cams(Result):
         return found
 
     def smallest(self, keeps: NDArray[np.bool_], count: int = 1) -> NDArray[np.intp]:
-        """The cams of least base radius among some, then of least pressure angle.
+        """The cams of minimum base radius among some, then of minimum pressure angle.
 
         Parameters
         ----------
@@ -137,7 +138,7 @@ def search_cams(
     law : array_like of int, shape (n,), optional
         Number of the law of each cam; without it each variant is looked at with every law, law after law.
     per_turn : int
-        Cam angles a turn, at least 16.
+        Cam angles per revolution, at least 16.
 
     Returns
     -------

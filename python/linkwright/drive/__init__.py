@@ -1,4 +1,4 @@
-"""Drives: the machine reduced to its crank, steady motion and its evenness, run-up, run-down.
+"""Drives: the machine reduced to its crank, steady motion and its speed fluctuation, run-up, run-down.
 
 | module | |
 | --- | --- |
@@ -13,7 +13,7 @@
 | `reduction` | What inertia and what load does the crank feel? |
 | `run_down` | How long until it stands? |
 | `run_up` | Does it start, and how long does that take? |
-| `sound_loads` | Whether the loads of a machine can be computed all round, and repeat every turn |
+| `sound_loads` | Whether the loads of a machine can be computed all round, and repeat every revolution |
 | `steady_state` | How does it turn in the long run? |
 | `step_method` | What does the published step method give instead? |
 | `study` | What is known of a drive: reduction to the crank, steady motion, run-up, run-down |

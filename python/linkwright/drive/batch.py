@@ -62,9 +62,9 @@ class SteadyStates:
     period : ndarray
         [s].
     multiplier : ndarray
-        What is left of a disturbance after a turn [–].
+        Floquet multiplier [–].
     energy_motor, energy_drive, energy_load : ndarray
-        Work in a turn [J].
+        Work per revolution [J].
     torque_motor_mean, torque_motor_rms : ndarray
         At the motor's shaft, over time [N m].
     turns_swept : int
@@ -152,7 +152,7 @@ def steady_states(
     InputError
         The machine has no motor, or one of constant speed.
     FindingError
-        The first machine does not repeat after one turn of the crank.
+        The first machine does not repeat after one revolution of the crank.
     SteadyStateError
         A load changes with time itself.
     """

@@ -23,14 +23,14 @@ _SPEED_AGREES = 0.05
 # Mains voltage may be 10 % low (EN 50160), and the torque of an induction motor falls with its square.
 _LOW_VOLTAGE = 0.81
 
-# Torques against the motion, and energies, that are a smaller share of the greatest are not worth a sentence.
+# Torques against the motion, and energies, that are a smaller share of the maximum are not worth a sentence.
 _SMALL = 0.01
 
 # Relative accuracy of the steady motion above which it is worth a sentence: results are shown with six
 # digits.
 _ACCURATE = 1e-6
 
-# Inertia that is a smaller share of the greatest is zero but for rounding.
+# Inertia that is a smaller share of the maximum is zero but for rounding.
 _ROUNDING = 1e-12
 
 
@@ -115,7 +115,7 @@ def _cycle(steady: SteadyState) -> Iterator[str]:
     if not steady.is_stable:
         yield (
             f"The steady motion is unstable: a small disturbance of the speed grows {steady.multiplier:.4g} "
-            "times in each turn, so the machine will not stay there."
+            "times in each revolution, so the machine will not stay there."
         )
     yield from _others(steady)
     if steady.accuracy > _ACCURATE:
@@ -192,19 +192,20 @@ def _breakdown(drive: Drive, steady: SteadyState) -> Iterator[str]:
     share = steady.torque_motor_max / motor.torque_breakdown
     if slowest < motor.speed_breakdown:
         yield (
-            f"The motor falls to {slowest:.4g} rad/s in each turn, below its breakdown speed of "
-            f"{motor.speed_breakdown:.4g} rad/s: only the inertia carries the machine over."
+            f"The motor slows to {slowest:.4g} rad/s in each revolution, below its breakdown speed of "
+            f"{motor.speed_breakdown:.4g} rad/s: the machine passes this point on "
+            "stored kinetic energy alone."
         )
     elif share > _LOW_VOLTAGE:
         yield (
-            f"The greatest motor torque, {steady.torque_motor_max:.4g} N m, is {100 * share:.0f} % of the "
-            f"breakdown torque of {motor.torque_breakdown:.4g} N m: 10 % less mains voltage leaves "
-            f"{_LOW_VOLTAGE * motor.torque_breakdown:.4g} N m."
+            f"The maximum motor torque, {steady.torque_motor_max:.4g} N m, is {100 * share:.0f} % of the "
+            f"breakdown torque of {motor.torque_breakdown:.4g} N m; a 10 % voltage drop reduces "
+            f"the breakdown torque to {_LOW_VOLTAGE * motor.torque_breakdown:.4g} N m."
         )
 
 
 def _generator(drive: Drive, steady: SteadyState) -> Iterator[str]:
-    """The part of the turn in which the load drives the motor."""
+    """The part of the revolution in which the load drives the motor."""
     least, most = steady.torque_motor_min, steady.torque_motor_max
     if least >= -_SMALL * max(abs(most), abs(least)):
         return
@@ -237,6 +238,6 @@ def _gear_gain(drive: Drive, steady: SteadyState) -> Iterator[str]:
     if gained > 0.1 * _SMALL * abs(steady.energy_drive):
         yield (
             f"While the load drives the motor, the gearbox factor {factor:.4g} (drive.gearbox.reverse) gives "
-            f"the motor {gained:.4g} J a turn more than the crank returns; a gearbox with losses has a "
-            "factor above 1."
+            f"the motor {gained:.4g} J per revolution more than the crank returns; a gearbox with losses has "
+            "a factor above 1."
         )

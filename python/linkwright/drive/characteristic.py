@@ -34,14 +34,14 @@ class Characteristic(Result):
     torque: Annotated[Floats, Shown("torque of the motor", "M", "N m")]
     torque_load: Annotated[
         Floats,
-        Shown("mean resisting torque", "M_r,mean", "N m", "Over a turn, referred to the motor's shaft."),
+        Shown("mean load torque", "M_r,mean", "N m", "Over one revolution, referred to the motor's shaft."),
     ]
     ratio: Annotated[float, Shown("motor speed over crank speed", "i", "")]
     speed_no_load: Annotated[float | None, Shown("synchronous speed, or speed without load", "ω₀", "rad/s")]
     speed_rated: Annotated[float | None, Shown("rated speed", "ω_N", "rad/s")]
     torque_rated: Annotated[float | None, Shown("rated torque", "M_N", "N m")]
-    speed_breakdown: Annotated[float | None, Shown("speed of greatest torque", "ω_k", "rad/s")]
-    torque_breakdown: Annotated[float | None, Shown("greatest torque", "M_k", "N m")]
+    speed_breakdown: Annotated[float | None, Shown("speed of maximum torque", "ω_k", "rad/s")]
+    torque_breakdown: Annotated[float | None, Shown("breakdown torque", "M_k", "N m")]
 
 
 def characteristic(

@@ -27,20 +27,20 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ConstantEnergy(Result):
-    """Evenness of motion at constant kinetic energy."""
+    """Speed fluctuation at constant kinetic energy."""
 
-    unevenness: Annotated[float, Shown("coefficient of unevenness", "δ", "")]
-    dynamism: Annotated[float, Shown("coefficient of dynamism", "H", "")]
+    unevenness: Annotated[float, Shown("coefficient of speed fluctuation", "δ", "")]
+    dynamism: Annotated[float, Shown("dynamic factor", "H", "")]
 
     @property
-    def motion_coefficient(self) -> Annotated[float, Shown("generalised coefficient of motion", "k_p", "")]:
+    def motion_coefficient(self) -> Annotated[float, Shown("combined non-uniformity index", "k_p", "")]:
         """k_p = δ² + H, paper 1 (15)."""
         return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
 
 @public
 def constant_energy(machine: Machine) -> ConstantEnergy:
-    """Measures of evenness at constant kinetic energy.
+    """Measures of speed fluctuation at constant kinetic energy.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-r"""The machine reduced to the crank: reduced inertia and resisting torque over a turn.
+r"""The machine reduced to the crank: reduced inertia and load torque over one revolution.
 
 .. math::
 
@@ -41,27 +41,27 @@ _LOADS = "Of all loads that do not depend on the size of the speed, crank turnin
 
 @dataclass(frozen=True)
 class Reduction(Result):
-    """Reduced inertia and torque over a turn."""
+    """Reduced inertia and torque over one revolution."""
 
     crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "0 to 2π.", shape="(n + 1,)")]
     inertia_reduced: Annotated[Floats, Shown("reduced inertia", "J", "kg m²", "Motor and gearbox included.")]
     inertia_reduced_d1: Annotated[Floats, Shown("derivative of the reduced inertia", "J′", "kg m²/rad")]
-    torque_load: Annotated[Floats, Shown("resisting torque at the crank", "M_r", "N m", _LOADS)]
+    torque_load: Annotated[Floats, Shown("load torque referred to the crank", "M_r", "N m", _LOADS)]
     torque_dry: Annotated[
         Floats,
         Shown("share of dry friction", "M_dry", "N m", "What of it always opposes the motion."),
     ]
     viscous: Annotated[
-        Floats, Shown("viscous coefficient at the crank", "c", "N m s/rad", "Resisting torque per speed.")
+        Floats, Shown("viscous coefficient at the crank", "c", "N m s/rad", "Load torque per speed.")
     ]
-    inertia_min: Annotated[float, Shown("least reduced inertia", "J_min", "kg m²", table="reduction")]
-    inertia_max: Annotated[float, Shown("greatest reduced inertia", "J_max", "kg m²", table="reduction")]
-    inertia_min_angle: Annotated[float, Shown("crank angle of the least inertia", "φ(J_min)", "rad")]
-    inertia_max_angle: Annotated[float, Shown("crank angle of the greatest inertia", "φ(J_max)", "rad")]
+    inertia_min: Annotated[float, Shown("minimum reduced inertia", "J_min", "kg m²", table="reduction")]
+    inertia_max: Annotated[float, Shown("maximum reduced inertia", "J_max", "kg m²", table="reduction")]
+    inertia_min_angle: Annotated[float, Shown("crank angle of the minimum inertia", "φ(J_min)", "rad")]
+    inertia_max_angle: Annotated[float, Shown("crank angle of the maximum inertia", "φ(J_max)", "rad")]
     torque_load_mean: Annotated[
-        float, Shown("mean resisting torque", "M_r,mean", "N m", "Over the angle.", table="reduction")
+        float, Shown("mean load torque", "M_r,mean", "N m", "Over the angle.", table="reduction")
     ]
-    torque_load_max: Annotated[float, Shown("greatest resisting torque", "M_r,max", "N m", table="reduction")]
+    torque_load_max: Annotated[float, Shown("maximum load torque", "M_r,max", "N m", table="reduction")]
     viscous_mean: Annotated[
         float,
         Shown(
@@ -83,12 +83,12 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     machine : Machine
         The machine.
     n : int
-        Intervals of the turn for the curves.
+        Intervals of the revolution for the curves.
 
     Returns
     -------
     Reduction
-        Curves over the turn, extremes and means; these do not depend on ``n``.
+        Curves over the revolution, extremes and means; these do not depend on ``n``.
 
     Raises
     ------
@@ -98,7 +98,7 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
 
     Notes
     -----
-    The derivative of J is exact. The resisting torque is positive where it opposes forward rotation.
+    The derivative of J is exact. The load torque is positive where it opposes forward rotation.
 
     References
     ----------
@@ -134,7 +134,7 @@ def reduction_of(compiled: Compiled, n: int = 360) -> Reduction:
 
 
 def mean_over_turn(compiled: Compiled) -> tuple[float, float]:
-    """Means of the resisting torque and of the viscous coefficient over the crank angle.
+    """Means of the load torque and of the viscous coefficient over the crank angle.
 
     Loads that have a potential do no work over a closed cycle, whatever their size: they are left out of the
     integral where the mechanism is after one revolution where it was.
@@ -164,13 +164,13 @@ def law_harmonics(compiled: Compiled, speeds: ArrayLike, orders: Floats) -> NDAr
 
 
 def _inertia_and_load(compiled: Compiled, phi: Floats) -> Floats:
-    """Reduced inertia and resisting torque, (2, n)."""
+    """Reduced inertia and load torque, (2, n)."""
     J, _, load, dry, _ = compiled.reductions(phi)
     return np.stack([J, load + dry])
 
 
 def _resistance(compiled: Compiled, phi: Floats) -> Floats:
-    """Resisting torque and viscous coefficient, (2, n)."""
+    """Load torque and viscous coefficient, (2, n)."""
     _, _, load, dry, viscous = compiled.reductions(phi)
     return np.stack([load + dry, viscous])
 

@@ -23,7 +23,7 @@ _TURNS_MAX = 1000.0
 class RunDown(Result):
     """The run-down from the steady speed at φ = 0."""
 
-    turns: Annotated[float, Shown("turns of the crank", "n", "", "Until rest.", table="run_down")]
+    turns: Annotated[float, Shown("revolutions of the crank", "n", "", "Until rest.", table="run_down")]
     time: Annotated[float, Shown("time", "t", "s", "Until rest.", table="run_down")]
     angle_end: Annotated[float, Shown("crank angle at rest", "φ_end", "rad", table="run_down")]
     motion: Annotated[Transient, About("The whole motion.")]
@@ -48,12 +48,14 @@ def run_down(machine: Machine, *, steady: SteadyState | None = None) -> RunDown:
     Raises
     ------
     SteadyStateError
-        It does not come to rest within 1000 turns: nothing brakes it.
+        It does not come to rest within 1000 revolutions: nothing brakes it.
     """
     steady = steady or steady_state(machine, n=8)
     speed = float(steady.speed[0])
     motion = transient(machine, speed=speed, turns=_TURNS_MAX, motor=False, brake=True)
     if not motion.came_to_rest:
-        raise SteadyStateError(f"does not come to rest within {_TURNS_MAX:.0f} turns: add [drive.brake]")
+        raise SteadyStateError(
+            f"does not come to rest within {_TURNS_MAX:.0f} revolutions: add [drive.brake]"
+        )
     end = float(motion.crank_angle[-1] % (2 * np.pi))
     return RunDown(turns=motion.turns, time=float(motion.time[-1]), angle_end=end, motion=motion)

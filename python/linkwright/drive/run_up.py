@@ -40,11 +40,11 @@ class RunUp(Result):
     crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
     speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
     acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
-    turns: Annotated[float, Shown("turns of the crank", "n", "", _UNTIL, table="run_up")]
+    turns: Annotated[float, Shown("revolutions of the crank", "n", "", _UNTIL, table="run_up")]
     time: Annotated[float, Shown("time", "t", "s", _UNTIL, table="run_up")]
     settled: Annotated[float, Shown("share of the mean speed that counts as settled", "", "")]
     speed_peak: Annotated[
-        float, Shown("greatest speed on the way", "ω_peak", "rad/s", "Until then.", table="run_up")
+        float, Shown("maximum speed during the run-up", "ω_peak", "rad/s", "Until then.", table="run_up")
     ]
     motion: Annotated[Transient, About("The whole motion.")]
 
@@ -156,7 +156,7 @@ def _why_not(motion: Transient) -> str:
         return f"does not start: {balance}; {remedy}"
     if motion.end == End.STARTS_BACKWARDS:
         return f"does not start: the load drives the crank backwards; {balance}; {remedy}"
-    after = f"after {motion.turns:.2f} turns and {motion.time[-1]:.2f} s"
+    after = f"after {motion.turns:.2f} revolutions and {motion.time[-1]:.2f} s"
     if motion.end == End.REVERSAL:
         return f"runs backwards {after}: {balance}, and the load turns the crank back; {remedy}"
     return f"stalls {after}: {balance}; {remedy}"
@@ -168,14 +168,14 @@ def _too_slow(motion: Transient, steady: SteadyState, band: float) -> str:
         if other.is_stable and (1 - band) * other.speed_min <= end <= (1 + band) * other.speed_max:
             return (
                 f"does not come up to the steady motion of {steady.speed_mean_time:.4g} rad/s: after "
-                f"{motion.turns:.0f} turns it turns at {end:.4g} rad/s, within another steady motion from "
+                f"{motion.turns:.0f} revolutions it runs at {end:.4g} rad/s, within another steady motion, "
                 f"{other.speed_min:.4g} to {other.speed_max:.4g} rad/s; choose a motor with more torque at "
                 "low speed, or start at a higher run_up.speed_start"
             )
     off = abs(motion.speed[-1] / _steady_speed(steady, motion.crank_angle[-1:])[0] - 1)
     return (
-        f"has not settled after {motion.turns:.0f} turns ({motion.time[-1]:.1f} s): the speed still differs "
-        f"from steady motion by {100 * off:.2g} %, more than {100 * band:.2g} %; raise run_up.turns_max"
+        f"has not settled after {motion.turns:.0f} revolutions ({motion.time[-1]:.1f} s): its speed still "
+        f"differs from it by {100 * off:.2g} %, more than {100 * band:.2g} %; raise run_up.turns_max"
     )
 
 
@@ -217,7 +217,7 @@ def _settled(motion: Transient, steady: SteadyState, band: float) -> tuple[float
 
 
 def _peak(motion: Transient, until: float) -> float:
-    """Greatest speed up to a time: that of the motion between the solver's steps, to rounding."""
+    """Maximum speed up to a time: that of the motion between the solver's steps, to rounding."""
     looks = _looks(motion, until)
     speed = motion.at(looks)[1]
     inner = np.flatnonzero((speed[1:-1] >= speed[:-2]) & (speed[1:-1] >= speed[2:])) + 1
@@ -229,7 +229,7 @@ def _peak(motion: Transient, until: float) -> float:
 
 
 def _looks(motion: Transient, until: float = np.inf) -> Floats:
-    """Eight looks a step of the solver, which itself takes some twenty a turn, up to a time."""
+    """Eight looks a step of the solver, which itself takes some twenty a revolution, up to a time."""
     even = [np.linspace(a, b, 8, endpoint=False) for a, b in pairwise(motion.time)]
     every = np.concatenate([*even, motion.time[-1:]])
     return np.append(every[every < until], min(until, float(every[-1])))

@@ -1,4 +1,4 @@
-"""Whether the loads of a machine can be computed all round, and repeat every turn."""
+"""Whether the loads of a machine can be computed all round, and repeat every revolution."""
 
 from __future__ import annotations
 
@@ -47,13 +47,13 @@ def require_same_turns(machine: Machine) -> None:
     for name, load in machine.loads.items():
         if isinstance(load, FormulaLoad) and load.knows_time:
             raise SteadyStateError(
-                f'no steady motion: the formula of {name}, "{load.text}", depends on time t, so that no turn '
+                f'no steady motion: the formula of {name}, "{load.text}", depends on time t: no revolution '
                 "repeats another; write it with the crank angle phi, or follow the motion in time (transient)"
             )
 
 
 def require_sound_loads(compiled: Compiled, machine: Machine) -> None:
-    """Raise if a load has no value at some angle, or a torsional spring is turned beyond half a turn.
+    """Raise if a load has no value at some angle, or a torsional spring is turned beyond half a revolution.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def require_sound_loads(compiled: Compiled, machine: Machine) -> None:
 
 
 def require_half_turns(compiled: Compiled, machine: Machine) -> None:
-    """Raise if a torsional spring is turned beyond half a turn from its free angle.
+    """Raise if a torsional spring is turned beyond half a revolution from its free angle.
 
     Raises
     ------
@@ -110,7 +110,7 @@ def _no_value(name: str, load: Load, phi: float) -> str:
 
 
 def _require_half_turns(name: str, load: TorsionalSpring, compiled: Compiled, phi: Floats) -> None:
-    """Raise if the links of a torsional spring turn by more than half a turn from its free angle."""
+    """Raise if the links of a torsional spring turn by more than half a revolution from its free angle."""
     turned = _angle(compiled, load.on, phi) - load.free_angle
     if load.against is not None:
         turned = turned - _angle(compiled, load.against, phi)

@@ -2,8 +2,8 @@ r"""Steady motion: the periodic solution of the machine's equation of motion, an
 
 .. math:: J \frac{du}{d\varphi} = M_d(\omega) - M_r(\varphi,\omega) - J' u, \qquad u = \tfrac12 \omega^2
 
-The solution is found by Newton on the turn-to-turn map, not by waiting for transients; the core says how
-(`linkwright-core`, module `drive::cycle`).
+The solution is found by Newton on the map from one revolution to the next, not by waiting for transients; the
+core says how (`linkwright-core`, module `drive::cycle`).
 """
 
 from __future__ import annotations
@@ -47,10 +47,10 @@ class OtherMotion(NamedTuple):
     speed_min, speed_max : float
         Of the crank [rad/s].
     period : float
-        Duration of a turn [s].
+        Duration of a revolution [s].
     multiplier : float
-        What is left of a small disturbance of the speed after one turn, as a share. From 1 up the machine
-        departs from the motion: what starts slower slows down, what starts faster speeds up.
+        What is left of a small disturbance of the speed after one revolution, as a share. From 1 up the
+        machine departs from the motion: what starts slower slows down, what starts faster speeds up.
     """
 
     speed_min: float
@@ -70,8 +70,8 @@ class OtherMotion(NamedTuple):
 
 
 _MULTIPLIER = (
-    "What is left of a small disturbance of the speed after one turn, as a share; the motion is stable if it "
-    "is below 1 in size."
+    "Share of a small disturbance of the speed left after one revolution; the motion is stable if it is "
+    "below 1 in size."
 )
 _ACCURACY = (
     "Relative error as measured: of speeds, of accelerations against their peak (or against 1e-4 ω², if the "
@@ -84,39 +84,37 @@ _OTHERS = (
 
 @dataclass(frozen=True)
 class SteadyState(Result):
-    """One turn of steady motion; extremes are exact, not those of the curves."""
+    """One revolution of steady motion; extremes are exact, not those of the curves."""
 
     crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "0 to 2π.", shape="(n + 1,)")]
-    time: Annotated[Floats, Shown("time", "t", "s", "From the start of the turn.")]
+    time: Annotated[Floats, Shown("time", "t", "s", "From the start of the revolution.")]
     speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
     acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
     torque_motor: Annotated[Floats, Shown("torque of the motor", "M", "N m", "At its shaft.")]
     torque_drive: Annotated[Floats, Shown("driving torque at the crank", "M_d", "N m")]
-    torque_load: Annotated[Floats, Shown("resisting torque at the crank", "M_r", "N m")]
+    torque_load: Annotated[Floats, Shown("load torque referred to the crank", "M_r", "N m")]
     power_motor: Annotated[Floats, Shown("power of the motor", "P", "W", "At its shaft.")]
     inertia_reduced: Annotated[Floats, Shown("reduced inertia", "J", "kg m²")]
-    speed_min: Annotated[float, Shown("least speed", "ω_min", "rad/s", table="steady_state")]
-    speed_max: Annotated[float, Shown("greatest speed", "ω_max", "rad/s", table="steady_state")]
-    acceleration_min: Annotated[float, Shown("least acceleration", "ε_min", "rad/s²", table="steady_state")]
-    acceleration_max: Annotated[
-        float, Shown("greatest acceleration", "ε_max", "rad/s²", table="steady_state")
-    ]
-    speed_min_angle: Annotated[float, Shown("crank angle of the least speed", "φ(ω_min)", "rad")]
-    speed_max_angle: Annotated[float, Shown("crank angle of the greatest speed", "φ(ω_max)", "rad")]
+    speed_min: Annotated[float, Shown("minimum speed", "ω_min", "rad/s", table="steady_state")]
+    speed_max: Annotated[float, Shown("maximum speed", "ω_max", "rad/s", table="steady_state")]
+    acceleration_min: Annotated[float, Shown("minimum acceleration", "ε_min", "rad/s²", table="steady_state")]
+    acceleration_max: Annotated[float, Shown("maximum acceleration", "ε_max", "rad/s²", table="steady_state")]
+    speed_min_angle: Annotated[float, Shown("crank angle of the minimum speed", "φ(ω_min)", "rad")]
+    speed_max_angle: Annotated[float, Shown("crank angle of the maximum speed", "φ(ω_max)", "rad")]
     acceleration_min_angle: Annotated[
-        float, Shown("crank angle of the least acceleration", "φ(ε_min)", "rad")
+        float, Shown("crank angle of the minimum acceleration", "φ(ε_min)", "rad")
     ]
     acceleration_max_angle: Annotated[
-        float, Shown("crank angle of the greatest acceleration", "φ(ε_max)", "rad")
+        float, Shown("crank angle of the maximum acceleration", "φ(ε_max)", "rad")
     ]
-    period: Annotated[float, Shown("period of a turn", "T", "s", table="steady_state")]
+    period: Annotated[float, Shown("period", "T", "s", table="steady_state")]
     multiplier: Annotated[
         float,
-        Shown("rest of a disturbance after a turn", "μ", "", _MULTIPLIER, table="steady_state"),
+        Shown("Floquet multiplier", "G", "", _MULTIPLIER, table="steady_state"),
     ]
-    energy_motor: Annotated[float, Shown("work of the motor in a turn", "A_m", "J", table="drive")]
-    energy_drive: Annotated[float, Shown("work at the crank in a turn", "A_d", "J", table="drive")]
-    energy_load: Annotated[float, Shown("work taken by the loads in a turn", "A_r", "J", table="drive")]
+    energy_motor: Annotated[float, Shown("work of the motor per revolution", "A_m", "J", table="drive")]
+    energy_drive: Annotated[float, Shown("work at the crank per revolution", "A_d", "J", table="drive")]
+    energy_load: Annotated[float, Shown("work of the loads per revolution", "A_r", "J", table="drive")]
     torque_motor_mean: Annotated[
         float, Shown("mean torque of the motor", "M_mean", "N m", "Over time.", table="drive")
     ]
@@ -125,15 +123,15 @@ class SteadyState(Result):
     ]
     torque_motor_min: Annotated[
         float,
-        Shown("least torque of the motor", "M_min", "N m", "Negative: the load drives it.", table="drive"),
+        Shown("minimum torque of the motor", "M_min", "N m", "Negative: the load drives it.", table="drive"),
     ]
-    torque_motor_max: Annotated[float, Shown("greatest torque of the motor", "M_max", "N m", table="drive")]
+    torque_motor_max: Annotated[float, Shown("maximum torque of the motor", "M_max", "N m", table="drive")]
     power_motor_max: Annotated[
         float,
-        Shown("greatest power of the motor", "P_max", "W", table="drive", before="torque_motor_mean"),
+        Shown("maximum power of the motor", "P_max", "W", table="drive", before="torque_motor_mean"),
     ]
     accuracy: Annotated[float, Shown("accuracy reached", "", "", _ACCURACY, table="steady_state")]
-    sweeps: Annotated[int, Shown("Newton sweeps", "", "", "Over the turn, in all.")]
+    sweeps: Annotated[int, Shown("Newton sweeps", "", "", "Over the revolution, in all.")]
     steps: Annotated[int, Shown("steps of the finest mesh", "", "", table="steady_state")]
     method: Annotated[str, About('``"collocation"`` or ``"constant speed"``.')] = "collocation"
     others: Annotated[tuple[OtherMotion, ...], About(_OTHERS)] = ()
@@ -164,34 +162,34 @@ class SteadyState(Result):
         return 2 * np.pi / self.period
 
     @property
-    def unevenness(self) -> Annotated[float, Shown("coefficient of unevenness", "δ", "")]:
+    def unevenness(self) -> Annotated[float, Shown("coefficient of speed fluctuation", "δ", "")]:
         """δ = (ω_max − ω_min)/ω_m with the mean of the extremes, paper 1 (13)."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
 
     @property
-    def dynamism(self) -> Annotated[float, Shown("coefficient of dynamism", "H", "")]:
+    def dynamism(self) -> Annotated[float, Shown("dynamic factor", "H", "")]:
         """H = |ε|_max/ω_m² with the mean of the extremes, paper 1 (14)."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
 
     @property
-    def motion_coefficient(self) -> Annotated[float, Shown("generalised coefficient of motion", "k_p", "")]:
+    def motion_coefficient(self) -> Annotated[float, Shown("combined non-uniformity index", "k_p", "")]:
         """k_p = δ² + H with the mean of the extremes, paper 1 (15)."""
         return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
     @property
-    def unevenness_time(self) -> Annotated[float, Shown("coefficient of unevenness", "δ", "")]:
+    def unevenness_time(self) -> Annotated[float, Shown("coefficient of speed fluctuation", "δ", "")]:
         """δ with the mean over time."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_time)
 
     @property
-    def dynamism_time(self) -> Annotated[float, Shown("coefficient of dynamism", "H", "")]:
+    def dynamism_time(self) -> Annotated[float, Shown("dynamic factor", "H", "")]:
         """H with the mean over time."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_time)
 
     @property
     def motion_coefficient_time(
         self,
-    ) -> Annotated[float, Shown("generalised coefficient of motion", "k_p", "")]:
+    ) -> Annotated[float, Shown("combined non-uniformity index", "k_p", "")]:
         """k_p with the mean over time."""
         return evenness.motion_coefficient(self.unevenness_time, self.dynamism_time)
 
@@ -206,7 +204,7 @@ class SteadyState(Result):
     ) -> Annotated[
         float, Shown("mean power of the motor", "P_mean", "W", table="drive", before="power_motor_max")
     ]:
-        """Work of the motor in a turn over its period."""
+        """Work of the motor per revolution over its period."""
         return self.energy_motor / self.period
 
     @property
@@ -226,7 +224,7 @@ class SteadyState(Result):
         self,
     ) -> Annotated[
         float | None,
-        Shown("efficiency of the drive over a turn", "η", "", table="drive", before="power_motor_mean"),
+        Shown("efficiency of the drive per revolution", "η", "", table="drive", before="power_motor_mean"),
     ]:
         """Work taken by the loads over work of the motor; None without any work of the motor."""
         return self.energy_load / self.energy_motor if self.energy_motor > 0 else None
@@ -247,21 +245,21 @@ def steady_state(
         peak, integrals. Rounding may forbid it where the motor is very steep; `SteadyState.accuracy` says
         what was reached.
     n : int
-        Intervals of the turn for the curves; extremes and integrals do not depend on it.
+        Intervals of the revolution for the curves; extremes and integrals do not depend on it.
     angles : ndarray, shape (m,), optional
         Crank angles of the curves instead, from 0 to 2π and increasing [rad].
 
     Returns
     -------
     SteadyState
-        One turn from φ = 0.
+        One revolution from φ = 0.
 
     Raises
     ------
     AssemblyError
         The mechanism does not close all round.
     FindingError
-        It does not repeat after one turn of the crank.
+        It does not repeat after one revolution of the crank.
     SteadyStateError
         There is no periodic motion; says what the drive lacks.
     ConvergenceError
@@ -300,7 +298,8 @@ def _motor_extremes(
 ) -> tuple[float, float, float]:
     """Minimum and maximum torque and maximum power of the motor for speeds of the crank between two.
 
-    In a turn the speed takes every value between its extremes, and the torque depends on the speed alone.
+    In one revolution the speed takes every value between its extremes, and the torque depends on the speed
+    alone.
     """
     assert machine.drive is not None
     assert machine.drive.motor is not None
@@ -377,7 +376,7 @@ def _from_core(machine: Machine, found: SteadyMotion, phi: Floats, compiled: Com
 
 
 def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> SteadyState:
-    """The turn of a machine whose motor keeps its speed: its torque is what the motion needs."""
+    """The revolution of a machine whose motor keeps its speed: its torque is what the motion needs."""
     drive = machine.drive
     assert drive is not None
     assert isinstance(drive.motor, ConstantSpeedMotor)
@@ -385,7 +384,7 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
     omega = drive.motor.speed / ratio
 
     def needs(angles: Floats) -> Floats:
-        """J, resisting torque, driving torque that the motion needs, and the motor's, (4, n)."""
+        """J, load torque, driving torque that the motion needs, and the motor's, (4, n)."""
         J, J_d1, load, dry, viscous = compiled.reductions(angles)
         resisting = load + dry + viscous * omega + compiled.speed_load(omega)
         if compiled.has_laws:
@@ -479,6 +478,6 @@ def _what_lacks(compiled: Compiled) -> str:
             f"at the crank and the mean load needs {resisting[best]:.4g} N m; choose a larger motor or ratio"
         )
     return (
-        "no steady motion: the drive balances the mean load, but not the turn's peaks: the machine comes to "
-        "rest within the turn; add a flywheel or choose a larger motor"
+        "no steady motion: the drive balances the mean load, but not the peaks of a revolution: the machine "
+        "comes to rest within the revolution; add a flywheel or choose a larger motor"
     )

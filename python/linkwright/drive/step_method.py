@@ -1,6 +1,6 @@
 r"""The step method of Baranov, kept beside the exact solution so that its error can be seen.
 
-From angle step to angle step, with I the reduced inertia, M_p the driving and M_0 the resisting torque:
+From angle step to angle step, with I the reduced inertia, M_p the driving and M_0 the load torque:
 
 .. math::
 
@@ -37,7 +37,7 @@ from linkwright.machine.program.compiled import compile_machine
 
 Floats = NDArray[np.float64]
 
-# Relative change of the speed from turn to turn below which the motion counts as steady.
+# Relative change of the speed from revolution to revolution below which the motion counts as steady.
 _STEADY = 1e-6
 
 # Turns after which the method is given up.
@@ -46,22 +46,24 @@ _TURNS_MAX = 2000
 
 @dataclass(frozen=True)
 class StepMotion(Result):
-    """Motion by the step method: all turns from rest, and the measures of the last."""
+    """Motion by the step method: all revolutions from rest, and the measures of the last."""
 
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "Counted on over the turns.")]
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "Counted on over the revolutions.")]
     time: Annotated[Floats, Shown("time", "t", "s")]
     speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
     acceleration: Annotated[
         Floats,
         Shown("acceleration of the crank", "ε", "rad/s²", "Of the interval that begins at the angle."),
     ]
-    turns: Annotated[int, Shown("whole turns until the speed repeats to 0.1 % at every step", "n", "")]
+    turns: Annotated[int, Shown("whole revolutions until the speed repeats to 0.1 % at every step", "n", "")]
     step: Annotated[float, Shown("step of the crank angle", "Δφ", "rad")]
-    speed_min: Annotated[float, Shown("least speed", "ω_min", "rad/s", "Over the last turn.")]
-    speed_max: Annotated[float, Shown("greatest speed", "ω_max", "rad/s", "Over the last turn.")]
-    acceleration_min: Annotated[float, Shown("least acceleration", "ε_min", "rad/s²", "Over the last turn.")]
+    speed_min: Annotated[float, Shown("minimum speed", "ω_min", "rad/s", "Over the last revolution.")]
+    speed_max: Annotated[float, Shown("maximum speed", "ω_max", "rad/s", "Over the last revolution.")]
+    acceleration_min: Annotated[
+        float, Shown("minimum acceleration", "ε_min", "rad/s²", "Over the last revolution.")
+    ]
     acceleration_max: Annotated[
-        float, Shown("greatest acceleration", "ε_max", "rad/s²", "Over the last turn.")
+        float, Shown("maximum acceleration", "ε_max", "rad/s²", "Over the last revolution.")
     ]
 
     @property
@@ -70,17 +72,17 @@ class StepMotion(Result):
         return evenness.mean_of_extremes(self.speed_min, self.speed_max)
 
     @property
-    def unevenness(self) -> Annotated[float, Shown("coefficient of unevenness", "δ", "")]:
+    def unevenness(self) -> Annotated[float, Shown("coefficient of speed fluctuation", "δ", "")]:
         """δ = (ω_max − ω_min)/ω_m, paper 1 (13)."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
 
     @property
-    def dynamism(self) -> Annotated[float, Shown("coefficient of dynamism", "H", "")]:
+    def dynamism(self) -> Annotated[float, Shown("dynamic factor", "H", "")]:
         """H = |ε|_max/ω_m², paper 1 (14)."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
 
     @property
-    def motion_coefficient(self) -> Annotated[float, Shown("generalised coefficient of motion", "k_p", "")]:
+    def motion_coefficient(self) -> Annotated[float, Shown("combined non-uniformity index", "k_p", "")]:
         """k_p = δ² + H, paper 1 (15)."""
         return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
@@ -94,21 +96,21 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
     machine : Machine
         The machine, with a motor.
     step : float
-        Step of the crank angle [rad]; must divide the turn.
+        Step of the crank angle [rad]; must divide the revolution.
 
     Returns
     -------
     StepMotion
-        All turns, and the measures of the last.
+        All revolutions, and the measures of the last.
 
     Raises
     ------
     InputError
-        The step does not divide the turn.
+        The step does not divide the revolution.
     StartError
         The machine does not start, or comes to rest.
     SteadyStateError
-        Steady motion is not reached within 2000 turns.
+        Steady motion is not reached within 2000 revolutions.
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
@@ -128,19 +130,19 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
 
 
 def whole_steps(step: float) -> int:
-    """Steps in a turn.
+    """Steps in one revolution.
 
     Raises
     ------
     InputError
-        The step does not divide the turn.
+        The step does not divide the revolution.
     """
     in_range(step=(step, positive(ANGLE)))
     n = 2 * np.pi / step if step < np.pi else 0
     require_within(STEPS, n, f"step of {np.degrees(step):.3g}°", "take a longer step; 1° is usual")
     n = round(n)
     if n == 0 or abs(n * step - 2 * np.pi) > 1e-6:
-        raise InputError(f"a step of {np.degrees(step):g}° does not divide the turn; 1° is usual")
+        raise InputError(f"a step of {np.degrees(step):g}° does not divide the revolution; 1° is usual")
     return n
 
 
@@ -150,9 +152,9 @@ def by_steps(J: Floats, torque: Callable[[int, float], float], *, step: float) -
     Parameters
     ----------
     J : ndarray, shape (n,)
-        Reduced inertia at the steps of one turn [kg m²].
+        Reduced inertia at the steps of one revolution [kg m²].
     torque : callable
-        Net torque at the crank [N m] at step k of the turn and speed ω [rad/s].
+        Net torque at the crank [N m] at step k of the revolution and speed ω [rad/s].
     step : float
         2π/n [rad].
 
@@ -174,7 +176,7 @@ def by_steps(J: Floats, torque: Callable[[int, float], float], *, step: float) -
         share = (3 * J[here] - J[ahead]) / (2 * J[here])
         omega.append(float(torque(here, w) * step / (J[here] * w) + share * w))
         if not omega[-1] > 0:
-            raise StartError(f"stalls at {np.degrees((k + 1) * step) % 360:.1f}° in turn {k // n + 1}")
+            raise StartError(f"stalls at {np.degrees((k + 1) * step) % 360:.1f}° of revolution {k // n + 1}")
         if ahead == 0:
             steady_after = _repeats(omega, n)
     return _measured(np.array(omega), J, step, steady_after)
@@ -184,7 +186,7 @@ def _repeats(omega: list[float], n: int) -> int:
     """Turns until the speed repeats to 0.1 %, once it repeats to 1e-6; 0 before that."""
     turns = (len(omega) - 1) // n
     if turns > _TURNS_MAX:
-        raise SteadyStateError(f"no steady motion within {_TURNS_MAX} turns by the step method")
+        raise SteadyStateError(f"no steady motion within {_TURNS_MAX} revolutions by the step method")
     if turns < 3:
         return 0
     last, before = np.array(omega[-n:]), np.array(omega[-2 * n : -n])
@@ -197,7 +199,7 @@ def _repeats(omega: list[float], n: int) -> int:
 
 
 def _measured(omega: Floats, J: Floats, step: float, turns: int) -> StepMotion:
-    """Times by (11), accelerations by (12), measures of the last turn."""
+    """Times by (11), accelerations by (12), measures of the last revolution."""
     n = len(J)
     intervals = 2 * step / (omega[1:] + omega[:-1])
     epsilon = np.diff(omega) / intervals

@@ -27,8 +27,8 @@ from linkwright.kernel.findings import Findings
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
-# Intervals of the turn for all curves, a quarter of a degree: what the constant-energy limit and the run-up
-# ask of the curves that they are given.
+# Intervals of the revolution for all curves, a quarter of a degree: what the constant-energy limit and the
+# run-up ask of the curves that they are given.
 INTERVALS = 1440
 
 # A run-up that failed is followed again for its curve alone: no line shows more than this.

@@ -14,7 +14,7 @@ from linkwright.kernel.result import Result
 
 
 def drive_tables(study: DriveStudy) -> Iterator[Table]:
-    """What there is of reduction, steady motion, its evenness, the drive, run-up, run-down, step method."""
+    """What there is of reduction, steady motion, speed fluctuation, drive, run-up, run-down, step method."""
     parts = (_reduction, _steady, _measures, _drive, _run_up, _run_down, _step_method)
     yield from (table for part in parts if (table := part(study)) is not None)
 
@@ -27,7 +27,7 @@ def _rows(result: Result, table: str, *, without: Collection[str] = ()) -> list[
 
 
 def _on_turn(angle: float) -> str:
-    """A crank angle from 0° on; a full turn is 0°."""
+    """A crank angle from 0° on; a full revolution is 0°."""
     text = degrees(angle)
     return "0°" if text == "360°" else text
 
@@ -60,7 +60,7 @@ def _measures(study: DriveStudy) -> Table | None:
     rows: list[Row] = [speeds] if study.steady_state is not None else []
     for n, (word, symbol) in enumerate(words, start=1):
         rows.append((word, symbol, *(number(values[n]) for _, values in columns)))
-    return Table("measures", "Evenness of motion", ("measure", "", *(head for head, _ in columns)), rows)
+    return Table("measures", "Speed fluctuation", ("measure", "", *(head for head, _ in columns)), rows)
 
 
 _MEASURES = ("unevenness", "dynamism", "motion_coefficient")
@@ -95,7 +95,7 @@ def _drive(study: DriveStudy) -> Table | None:
         "torque_motor_max": _beside("breakdown", breakdown),
     }
     rows = rows_in(steady, "drive", beside)
-    return Table("drive", "Drive in a turn of steady motion", ("quantity", "", "value", "motor"), rows)
+    return Table("drive", "Drive in steady motion", ("quantity", "", "value", "motor"), rows)
 
 
 def _beside(word: str, value: str) -> str:
@@ -126,7 +126,7 @@ def _step_method(study: DriveStudy) -> Table | None:
         return None
     names = ("speed_min", "speed_max", "acceleration_min", "acceleration_max", *_MEASURES)
     rows = [_compared(stepped, steady, name) for name in names]
-    rows.append(("turns until the speed repeats to 0.1 %", "n", str(stepped.turns), "", ""))
+    rows.append(("revolutions until the speed repeats to 0.1 %", "n", str(stepped.turns), "", ""))
     title = f"Step method of Baranov with steps of {degrees(stepped.step)}"
     return Table("step_method", title, ("quantity", "", "step method", "exact", "difference"), rows)
 

@@ -79,7 +79,7 @@ class Transient(Result):
     """A motion in time, at the ends of the solver's steps."""
 
     time: Annotated[Floats, Shown("time", "t", "s")]
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "Counted on over the turns.")]
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "Counted on over the revolutions.")]
     speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
     acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
     end: Annotated[End, About("How it ended.")]
@@ -89,14 +89,16 @@ class Transient(Result):
     ]
     torque_load_end: Annotated[
         float,
-        Shown("resisting torque at the crank at the last angle", "", "N m", "What the loads need at rest."),
+        Shown(
+            "load torque referred to the crank at the last angle", "", "N m", "What the loads need at rest."
+        ),
     ]
     evaluations: Annotated[int, Shown("evaluations of the machine", "", "")]
     between: Annotated[StepPolynomials, About("What `at` reads between the ends of the steps.")]
 
     @property
-    def turns(self) -> Annotated[float, Shown("turns of the crank", "n", "")]:
-        """Turns of the crank from start to end."""
+    def turns(self) -> Annotated[float, Shown("revolutions of the crank", "n", "")]:
+        """Revolutions of the crank from start to end."""
         return float(self.crank_angle[-1] - self.crank_angle[0]) / (2 * np.pi)
 
     @property
@@ -154,7 +156,7 @@ def transient(
     duration : float
         Longest time [s].
     turns : float
-        Most turns of the crank; one of the two must be finite.
+        Most revolutions of the crank; one of the two must be finite.
     accuracy : float
         Relative accuracy of a step, at its end and on the way there.
     motor, brake : bool

@@ -289,7 +289,7 @@ class ExchangeError(FindingError):
 # A value is shown on one line of a terminal, together with a few words.
 _SHOWN = 80
 
-# Longer whole numbers are told by their length.
+# Longer whole numbers are reported by their length.
 _WHOLE_BITS = 256
 
 

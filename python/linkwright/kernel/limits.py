@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """The greatest number of something.
+    """The maximum number of something.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ THROWS = Limit(100, "throws of a crankshaft", "large engines have a dozen")
 HARMONICS = Limit(500, "harmonics of a torque", "gas and inertia torques are known to order 48")
 ORDER = Limit(
     1_000,
-    "periods a revolution in an order of excitation, or revolutions a period",
+    "cycles per revolution in an excitation order, or revolutions per cycle",
     "teeth of gears have some hundred, and a hunting tooth meets another after as many revolutions",
 )
 RESPONSE = Limit(
@@ -71,8 +71,8 @@ RESPONSE = Limit(
     "they take 3 GB",
 )
 LAW_POINTS = Limit(3_000, "points of a motion law", "their equations are solved as one dense system")
-VIBRATIONS = Limit(25_000, "vibrations of a follower in a revolution", "each is looked at by itself")
-STEPS = Limit(36_000, "steps in a revolution, for the step method", "a step of 0.01°")
+VIBRATIONS = Limit(25_000, "vibrations of a follower per revolution", "each is looked at by itself")
+STEPS = Limit(36_000, "steps per revolution, for the step method", "a step of 0.01°")
 ROWS_OUT = Limit(100_000, "rows in a table that is written", "more than any machine tool reads")
 ROOTS = Limit(20_000_000, "heads, or roots and phases multiplied, in a field", "an hour on one core")
 FIELD_VARIANTS = Limit(100_000, "variants of a knife over a field", "each is a pass over all roots")

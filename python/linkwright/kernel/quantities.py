@@ -1,6 +1,6 @@
 """A quantity of a result is declared once, at its attribute: its words, its symbol, its unit.
 
-    speed_min: Annotated[float, Shown("least speed", "ω_min", "rad/s", "Exact, not that of the curve.")]
+    speed_min: Annotated[float, Shown("minimum speed", "ω_min", "rad/s", "Exact, not that of the curve.")]
 
 From this follow the docs of the class, the rows of tables, the heads of columns, the table in
 `docs/notation.md`, and what `linkwright.quantities` lists. Whether it is a scalar or a curve is said by its

@@ -1,9 +1,9 @@
-"""Forces: what pairs bear, what the drive must give, what the frame feels.
+"""Forces: joint reactions, driving torque, shaking force and moment.
 
 | module | |
 | --- | --- |
 | `applied` | What each load does |
-| `balancing` | Which counterweights make the force on the frame small? |
+| `balancing` | Which counterweights make the shaking force small? |
 | `cam_contact` | The force with which a cam drives its follower |
 | `collect` | From the unknowns to the result |
 | `commands/` | ``linkwright forces`` and ``linkwright balance`` |
@@ -11,7 +11,7 @@
 | `envelope` | How large does each force become, and under which loads? |
 | `equilibrium` | The linear system, its solution, and the iteration over friction |
 | `figures/` | Figures of forces |
-| `forces` | What do its pairs bear, what must the drive give, what does the frame feel? |
+| `forces` | Which are its joint reactions, its driving torque, its shaking force? |
 | `formula_load` | What a load by a formula does |
 | `friction` | Friction in pins, guides and slots, as given by the user |
 | `harmonics` | Of which harmonics does a force consist? |

@@ -1,6 +1,6 @@
 r"""Counterweights against the forces that a mechanism does to its frame.
 
-A counterweight on a link that turns about a fixed point adds to the force on the frame
+A counterweight on a link that turns about a fixed point adds to the shaking force
 
 .. math:: -\frac{d^2}{dt^2}\left(\mathbf R(\psi)\,\mathbf u\right), \qquad \mathbf u = m\,(x, y)
 
@@ -95,7 +95,7 @@ _MEASURES = ("shaking_force", "shaking_moment", "torque_drive")
 
 
 def _rms(result: Forces, name: str) -> float:
-    """Root mean square over time, of forces on the frame the share of inertia."""
+    """Root mean square over time, of shaking forces the share of inertia."""
     values = getattr(result if name == "torque_drive" else result.contributions["inertia"], name)
     squares = values**2 if values.ndim == 1 else (values**2).sum(axis=1)
     return float(np.sqrt(result.motion.mean(squares)))
@@ -110,7 +110,7 @@ def balance(
     radius: float | Mapping[str, float] | None = None,
     n: int = 360,
 ) -> Balance:
-    """Counterweights on given links that make the rms of the force of inertia on the frame least.
+    """Counterweights on given links that minimise the rms of the shaking force of inertia.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def balance(
         Distance of the counterweights from their pivots, of all or by link [m]. Without it, the link's
         length.
     n : int
-        Intervals of the turn.
+        Intervals of the revolution.
 
     Returns
     -------
@@ -170,7 +170,7 @@ def _check_links(scene: Scene, links: Sequence[str]) -> None:
 
 
 def _unit_forces(scene: Scene, link: str) -> list[Floats]:
-    """Force on the frame from a counterweight of 1 kg m along a link, and from one to its left."""
+    """Shaking force from a counterweight of 1 kg m along a link, and from one to its left."""
     e, motion = unit(scene.angle(link)), scene.motion
     rate = (scene.angle(link, 1) * motion.speed)[:, None]
     gain = (scene.angle(link, 2) * motion.speed**2 + scene.angle(link, 1) * motion.acceleration)[:, None]

@@ -17,7 +17,7 @@ from linkwright.linkages.model.structure import FRAME
 
 Floats = NDArray[np.float64]
 
-# Share of the greatest tension that a cable may push by rounding.
+# Share of the maximum tension that a cable may push by rounding.
 _SLACK = 1e-9
 
 # Kinds of models that are no pairs.
@@ -179,7 +179,7 @@ def _where(solution: Solution, phi: Floats) -> list[str]:
     if solution.locked.any():
         found.append(
             f"Friction locks the mechanism at crank angle {_angles(phi[solution.locked])}: no driving torque "
-            "moves it there; less friction or a better angle of transmission is needed."
+            "moves it there; less friction or a better transmission angle is needed."
         )
     return found
 

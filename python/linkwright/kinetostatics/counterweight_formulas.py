@@ -30,7 +30,7 @@ def partial_balance(
     radius: float | None = None,
     n: int = 360,
 ) -> Balance:
-    """A counterweight on a crank against what turns and a share of what a slider moves to and fro.
+    """A counterweight on a crank against what turns and a share of what a slider moves back and forth.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def partial_balance(
     radius : float, optional
         Distance of the counterweight from the pivot [m]; without it the crank's radius.
     n : int
-        Intervals of the turn.
+        Intervals of the revolution.
 
     Returns
     -------

@@ -31,7 +31,7 @@ class Extent:
     unit : str
         ``"N"`` or ``"N m"``.
     peak : float
-        Value of the greatest size among the angles, with its sign where it has one.
+        Value peak absolute among the angles, with its sign where it has one.
     peak_angle : float
         Crank angle there [rad].
     rms, mean : float
@@ -58,15 +58,14 @@ def envelope(result: Forces) -> list[Extent]:
     Returns
     -------
     list of Extent
-        Driving torque, force and moment on the frame, each crank's torque where there are several, then the
+        Driving torque, shaking force and moment, each crank's torque where there are several, then the
         pairs. Angles that a finding names are left out.
 
     Notes
     -----
-    All are those of the angles of the result. With the 360 intervals that `forces` has unless it is told
-    otherwise, peaks are within 1 % of those of 14 400 on the machines that are shipped, where dry friction
-    jumps beside a peak; within 0.01 % where nothing jumps. Root mean squares are within 0.02 %, means within
-    1e-5 of these.
+    All are those of the angles of the result. With the 360 intervals of `forces`, its default, peaks are
+    within 1 % of those of 14 400 on the machines that are shipped, where dry friction jumps beside a peak;
+    within 0.01 % where nothing jumps. Root mean squares are within 0.02 %, means within 1e-5 of these.
     """
     return [_extent(result, *each) for each in _quantities(result)]
 

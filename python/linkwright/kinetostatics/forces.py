@@ -59,7 +59,7 @@ def forces(
     friction: Mapping[str, Friction] | None = None,
     pressure_angle: float = PRESSURE_ANGLE,
 ) -> Forces:
-    """Forces in all pairs, driving torque, and forces on the frame.
+    """Forces in all pairs, driving torque, and shaking forces.
 
     Parameters
     ----------
@@ -72,9 +72,9 @@ def forces(
         machine at rest. Without motion and speed: the steady motion of the motor, or the drive's design
         speed.
     angles : array_like, shape (n,), optional
-        Crank angles for a speed [rad]; without them a turn.
+        Crank angles for a speed [rad]; without them a revolution.
     n : int
-        Intervals of the turn.
+        Intervals of the revolution.
     friction : mapping of str to Friction, optional
         Friction of pins, guides and slots by name of the pair.
     pressure_angle : float

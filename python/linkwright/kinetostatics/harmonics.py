@@ -1,4 +1,4 @@
-r"""Harmonics of a force over the turn: amplitudes of Fourier's series.
+r"""Harmonics of a force over the revolution: amplitudes of Fourier's series.
 
 .. math:: F(\varphi) = a_0 + \sum_k a_k \cos k\varphi + b_k \sin k\varphi
 """
@@ -41,12 +41,12 @@ class Harmonics:
 
 @public
 def harmonics(crank_angle: Floats, values: ArrayLike, order: int = 8) -> Harmonics:
-    """Fourier's series of a quantity over one turn.
+    """Fourier's series of a quantity over one revolution.
 
     Parameters
     ----------
     crank_angle : ndarray, shape (n,)
-        Angles of one turn in even steps, its end included [rad].
+        Angles of one revolution in even steps, its end included [rad].
     values : ndarray, shape (n,) or (n, components)
         The quantity.
     order : int
@@ -60,7 +60,7 @@ def harmonics(crank_angle: Floats, values: ArrayLike, order: int = 8) -> Harmoni
     Raises
     ------
     ShapeError
-        The angles are not one turn in even steps, a value is missing, or the order is too high.
+        The angles are not one revolution in even steps, a value is missing, or the order is too high.
     """
     phi = np.asarray(crank_angle, dtype=np.float64)
     table = np.atleast_1d(np.asarray(values, dtype=np.float64))
@@ -70,13 +70,13 @@ def harmonics(crank_angle: Floats, values: ArrayLike, order: int = 8) -> Harmoni
     steps = len(table)
     even = steps > 1 and np.allclose(np.diff(phi), 2 * np.pi / steps, rtol=0, atol=_EVEN * 2 * np.pi / steps)
     if not even:
-        raise ShapeError("harmonics need one turn of the crank in even steps; give forces n, not angles")
+        raise ShapeError("harmonics need a revolution of the crank in even steps; give forces n, not angles")
     if not np.isfinite(table).all() or not 0 <= order < steps / 2:
         raise ShapeError(
             f"harmonics of order {order} need finite values at more than {2 * order} steps, found {steps}"
         )
     c = np.fft.rfft(table, axis=0)[: order + 1] / steps
     c[1:] *= 2
-    # A turn that does not begin at zero has its phase in the coefficients.
+    # A revolution that does not begin at zero has its phase in the coefficients.
     c = c * np.exp(-1j * np.arange(order + 1) * phi[0])[:, None]
     return Harmonics(c.real.copy(), -c.imag)

@@ -74,9 +74,9 @@ def motion_at(
     speed, acceleration : float
         Of the crank at every angle [rad/s, rad/s²].
     angles : array_like, shape (n,), optional
-        Crank angles for a speed [rad]; without them a turn.
+        Crank angles for a speed [rad]; without them a revolution.
     n : int
-        Intervals of the turn.
+        Intervals of the revolution.
 
     Returns
     -------

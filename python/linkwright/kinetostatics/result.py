@@ -63,9 +63,9 @@ class Contribution:
     torque_drive : ndarray, shape (n,)
         In the driving torque [N m].
     shaking_force : ndarray, shape (n, 2)
-        In the force on the frame [N].
+        In the shaking force [N].
     shaking_moment : ndarray, shape (n,)
-        In the moment on the frame about the origin [N m].
+        In the shaking moment about the origin [N m].
     """
 
     reactions: dict[str, Floats]
@@ -98,13 +98,13 @@ class Forces(Result):
     shaking_moment: Annotated[
         Floats,
         Shown(
-            "moment on the frame about the origin",
+            "shaking moment about the origin",
             "M_g",
             "N m",
             "By pairs, springs and the torque of the drive.",
         ),
     ]
-    shaking_force: Annotated[Floats, Shown("force on the frame", "F_g", "N", shape="(n, 2)")]
+    shaking_force: Annotated[Floats, Shown("shaking force", "F_g", "N", shape="(n, 2)")]
     pairs: Annotated[dict[str, PairForce], About("Forces of pins, guides, slots, teeth and cables by name.")]
     drives: Annotated[
         dict[str, Floats],
@@ -117,7 +117,7 @@ class Forces(Result):
     ] = field(default=())
 
     @property
-    def power_residual(self) -> Annotated[Floats, Shown("rest of the balance of powers", "", "W")]:
+    def power_residual(self) -> Annotated[Floats, Shown("power-balance residual", "", "W")]:
         """Driving, load and friction power less the change of kinetic energy: rounding."""
         found: Floats = self.power_drive + self.power_load + self.power_friction - self.power_kinetic
         return found
@@ -129,19 +129,19 @@ class Forces(Result):
 
     @property
     def reaction_max(self) -> dict[str, float]:
-        """Greatest force of each pair [N]."""
+        """Maximum force of each pair [N]."""
         return {name: float(np.nanmax(pair.size)) for name, pair in self.pairs.items()}
 
     @property
     def torque_drive_max(
         self,
-    ) -> Annotated[float, Shown("driving torque of the greatest size", "M_d,max", "N m")]:
+    ) -> Annotated[float, Shown("peak driving torque", "M_d,max", "N m")]:
         """With its sign."""
         return float(self.torque_drive[np.nanargmax(np.abs(self.torque_drive))])
 
     @property
-    def shaking_force_max(self) -> Annotated[float, Shown("greatest force on the frame", "F_g,max", "N")]:
-        """Greatest size among the angles."""
+    def shaking_force_max(self) -> Annotated[float, Shown("maximum shaking force", "F_g,max", "N")]:
+        """Peak absolute value among the angles."""
         return float(np.nanmax(np.hypot(self.shaking_force[:, 0], self.shaking_force[:, 1])))
 
     def columns(self) -> dict[str, Floats]:
@@ -154,7 +154,7 @@ class Forces(Result):
         return found | {f"{name}_drive [N m or N]": values for name, values in self.drives.items()}
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Scalars and greatest forces by name, with ``curves`` also all forces as lists.
+        """Scalars and maximum forces by name, with ``curves`` also all forces as lists.
 
         Parameters
         ----------

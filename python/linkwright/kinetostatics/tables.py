@@ -80,7 +80,7 @@ def cases_table(cases: Mapping[str, Forces]) -> Table:
 
 
 def contribution_table(forces: Forces) -> Table:
-    """Share of each source in the peaks of torque and of the force on the frame.
+    """Share of each source in the peaks of torque and of the shaking force.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def contribution_table(forces: Forces) -> Table:
     for name, share in forces.contributions.items():
         along = float(share.shaking_force[at[1]] @ total) / size
         rows.append((name, "", with_unit(float(share.torque_drive[at[0]]), "N m"), with_unit(along, "N")))
-    heads = ("source", "", "of the peak of M_d", "of the peak force on the frame")
+    heads = ("source", "", "of the peak of M_d", "of the peak shaking force")
     return Table("contributions", "What the forces come from", heads, rows)
 
 

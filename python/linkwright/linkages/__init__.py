@@ -2,9 +2,9 @@
 
 | module | |
 | --- | --- |
-| `circuits` | In which assemblies can it be put together, and which hang together? |
+| `circuits` | In which assembly modes does it close, and which form one circuit? |
 | `closure` | At which crank angles does the mechanism close? |
-| `commands` | `linkwright motion FILE`: where everything is, at one crank angle, over a turn or over time |
+| `commands` | `linkwright motion FILE`: poses at one crank angle, over one revolution or over time |
 | `coupler_curve` | What path does a point draw? |
 | `cycle` | What are its extreme positions, transmission angles, dead points, its Grashof class? |
 | `dead_points` | Where a linkage stops, turns back, or could go two ways |
@@ -18,8 +18,8 @@
 | `model/` | Elements of a mechanism, how they refer to each other, and in which order they are built |
 | `motion` | Where is everything under a law of time? |
 | `obstacle` | Why an element does not close, in words, and what to change |
-| `outputs` | What a mechanism moves to and fro: links on fixed points, sliders, levers, racks, by element |
-| `period` | After how many turns of the crank a mechanism is again where it was |
+| `outputs` | The output members of a mechanism: links on fixed points, sliders, levers, racks, by element |
+| `period` | After how many revolutions of the crank a mechanism is again where it was |
 | `pose` | Where is everything at one crank angle? |
 | `scene/` | What the moving sketch draws |
 | `straight_portion` | The longest portion of a path that is straight: that hardly leaves its chord |

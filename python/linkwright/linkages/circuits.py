@@ -1,4 +1,4 @@
-"""Circuits and branches: in which assemblies a linkage can be put together, and which of them hang together.
+"""Circuits and branches: the assembly modes in which a linkage closes, and which of them it passes between.
 
 Each dyad has two assemblies. A *branch* is one choice for every dyad and one range of the crank; at an end of
 its range the dyad that limits it is stretched or folded, and the linkage goes on in the other assembly of
@@ -41,7 +41,7 @@ class Branch:
     assembly : dict of str to str
         ``"given"`` or ``"other"`` by dyad: as in the machine's description, or mirrored.
     low, high : float
-        Range of the crank [rad]; a full turn if it turns fully.
+        Range of the crank [rad]; a full revolution if it turns fully.
     turns_fully : bool
         Whether the crank turns all round.
     """
@@ -54,7 +54,7 @@ class Branch:
 
 @dataclass(frozen=True)
 class Circuit:
-    """Branches that hang together; the linkage passes from one to the next at the limits of the crank.
+    """Branches of one circuit; the linkage passes from one to the next at the limits of crank rotation.
 
     Attributes
     ----------

@@ -31,13 +31,13 @@ from linkwright.machine.program.core import Element
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# A radicand whose parabola through three angles dips below this share of its greatest is looked into.
+# A radicand whose parabola through three angles dips below this share of its maximum is looked into.
 _CLOSE = 1e-3
 
 # A radicand below this share counts as zero: links in line to a hundred-thousandth of their length.
 _ZERO = 1e-10
 
-# Angles of a first look, and the share of its greatest above which every radicand has room to spare: one that
+# Angles of a first look, and the share of its maximum above which every radicand has room to spare: one that
 # falls to zero between two of these angles is a few ten-thousandths at the nearer one.
 _FEW = 180
 _AMPLE = 0.02
@@ -51,10 +51,10 @@ _ANGLES = 1440
 _BESIDE = 1e-5
 _JUMP = 1e-3
 
-# Difference in what the crank feels from one turn to the next, over its size, that counts as rounding.
+# Difference in what the crank feels from one revolution to the next, over its size, that counts as rounding.
 _SAME = 1e-7
 
-# Doublings of the turns looked at in a motion that never repeats: some 8000 turns either way.
+# Doublings of the revolutions looked at in a motion that never repeats: some 8000 turns either way.
 _DOUBLINGS = 13
 
 # Number of a link among what the core can give the motion of.
@@ -68,15 +68,15 @@ class Closure:
     Attributes
     ----------
     ranges : tuple of (float, float)
-        Ranges of crank angle in which every element closes [rad]; one range of a full turn, or of all the
-        turns of a longer motion, if it turns fully, none if it never closes. A range may pass 2π.
+        Ranges of crank angle in which every element closes [rad]; one range of a full revolution, or of all
+        the revolutions of a longer motion, if it turns fully, none if it never closes. A range may pass 2π.
     element : str
         Name of the first element that does not close; empty if all do.
     change_point : float or None
         Crank angle at which that element closes with nothing to spare [rad] and its motion does not go on
         by itself: its speeds are not determined there.
     turns : int or None
-        Turns of the crank after which the motion repeats; None if it never does, as with a screw.
+        Revolutions of the crank after which the motion repeats; None if it never does, as with a screw.
     """
 
     ranges: tuple[tuple[float, float], ...]
@@ -162,11 +162,11 @@ class _Search:
         return least
 
     def spare(self, angles: Floats) -> Floats:
-        """Least radicand of all dyads as a share of its greatest, at crank angles."""
+        """Minimum radicand of all dyads as a share of its maximum, at crank angles."""
         return self._least(self.compiled.gaps(angles))
 
     def limiter(self, angle: float) -> str:
-        """Name of the dyad with the least radicand at an angle."""
+        """Name of the dyad with the minimum radicand at an angle."""
         gaps = self.compiled.gaps(np.array([angle])) / self.sizes
         return self.compiled.dyads[int(np.nanargmin(gaps[:, 0]))]
 
@@ -316,27 +316,27 @@ def require_full_turn(compiled: Compiled, machine: Machine) -> None:
 
 
 def require_one_turn(compiled: Compiled) -> None:
-    """Raise if the crank does not feel the same masses and loads again after one turn.
+    """Raise if the crank does not feel the same masses and loads again after one revolution.
 
     Raises
     ------
     AssemblyError
-        Says after how many turns it does, and what to change.
+        Says after how many revolutions it does, and what to change.
     """
     if compiled.one_turn:
         return
     turns = turns_to_repeat(compiled)
     if turns != 1 and not _feels_one_turn(compiled):
-        after = f"only after {turns} turns" if turns else "never"
+        after = f"only after {turns} revolutions" if turns else "never"
         raise AssemblyError(
-            f"masses and loads are {after} again where they were, so one turn of the crank does not tell the "
+            f"masses and loads are {after} again where they were, so one revolution of the crank is not the "
             "motion; let the crank be the part that turns slowest, or give masses and loads to parts that "
             "repeat with it"
         )
 
 
 def _feels_one_turn(compiled: Compiled) -> bool:
-    """Whether the crank feels the same inertia and load in the next turn."""
+    """Whether the crank feels the same inertia and load in the next revolution."""
     first, next_ = (compiled.first().reductions(turn_angles(16) + turn) for turn in (0.0, 2 * np.pi))
     sizes = np.abs(first).max(axis=1, keepdims=True)
     return bool((np.abs(next_ - first) <= _SAME * sizes).all())
@@ -413,7 +413,7 @@ def _sentence(found: Closure, machine: Machine) -> str:
 
 
 def _range(low: float, high: float, turns: int | None) -> str:
-    """A range in degrees; one that passes a full turn is given about 0°."""
+    """A range in degrees; one that passes a full revolution is given about 0°."""
     turn = 2 * np.pi * (turns or 1)
     back = turn if turns and high > turn * (1 + 1e-9) else 0.0
     return f"{_deg(low - back)}° to {_deg(high - back)}°"
@@ -434,7 +434,7 @@ def turn_angles(n: int) -> NDArray[np.float64]:
         ``n`` is less than 1.
     """
     if n < 1:
-        raise InputError(f"n = {n}: expected at least 1 interval of the turn")
+        raise InputError(f"n = {n}: expected at least 1 interval of the revolution")
     angles = np.linspace(0.0, 2 * np.pi, n + 1)
     angles.flags.writeable = False
     return angles

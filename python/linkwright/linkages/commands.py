@@ -1,4 +1,4 @@
-"""``linkwright motion FILE``: where everything is, at one crank angle, over a turn or over time."""
+"""``linkwright motion FILE``: where everything is, at one crank angle, over one revolution or over time."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ Speed = Annotated[
     typer.Option(
         "--speed",
         metavar="SPEED",
-        help='Speed of the crank, such as "90 rpm", for --at and a turn without --law. Without it, the '
-        "design speed of the file, or 1 rad/s where it has none.",
+        help='Speed of the crank, such as "90 rpm", for --at and for a revolution without --law. Without it, '
+        "the design speed of the file, or 1 rad/s where it has none.",
         show_default=False,
     ),
 ]
@@ -53,7 +53,9 @@ Duration = Annotated[
         show_default=False,
     ),
 ]
-Steps = Annotated[int, typer.Option("--steps", metavar="N", help="Intervals of the turn or of the time.")]
+Steps = Annotated[
+    int, typer.Option("--steps", metavar="N", help="Intervals of the revolution or of the time.")
+]
 Csv = Annotated[bool, typer.Option("--csv", help="CSV with all columns, in SI.")]
 File = Annotated[Path, typer.Argument(metavar="FILE", help="The machine file.", show_default=False)]
 
@@ -72,9 +74,9 @@ def motion(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Where everything is and how fast it moves.
+    """Positions, velocities and accelerations of points and links.
 
-    One pose with --at, under a law of time with --law, else a turn of the crank at constant speed.
+    One pose with --at, under a law of time with --law, else a revolution of the crank at constant speed.
     """
     from linkwright.machine.read import read
 
@@ -147,7 +149,7 @@ def _turn(machine: Machine, speed: CrankSpeed, steps: int, *, json: bool, csv: b
     from linkwright.linkages.law import constant_speed
 
     if speed.value < SPEED.least:
-        expected = f"a speed above zero for a turn, {SPEED.least:g} rad/s or more"
+        expected = f"a speed above zero for a revolution, {SPEED.least:g} rad/s or more"
         raise InputError(f"--speed: found {speed.value:g} rad/s, expected {expected}")
     times = (0.0, 2 * pi / speed.value)
     told = {"crank_speed": speed.value, "speed_source": speed.source}

@@ -28,10 +28,10 @@ from linkwright.machine.program.compiled import Compiled, compile_machine
 
 Floats = NDArray[np.float64]
 
-# Greatest distance from the chord, over its length, of what counts as straight.
+# Maximum distance from the chord, over its length, of what counts as straight.
 _STRAIGHT = 1e-3
 
-# Speed of the point, over its greatest, at which its path has a cusp: its square is known to rounding.
+# Speed of the point, over its maximum, at which its path has a cusp: its square is known to rounding.
 _STANDS = 1e-7
 
 # Extent of a path, over the size of the machine, that is rounding.
@@ -77,10 +77,10 @@ class CouplerCurve(Result):
     point: Annotated[str, About("Name of the point.")]
     is_closed: Annotated[bool, About("Whether the path comes back to its start.")]
     length: Annotated[float, Shown("length of the path", "", "m")]
-    x_min: Annotated[float, Shown("least x of the path", "x_min", "m", "Located exactly.")]
-    x_max: Annotated[float, Shown("greatest x of the path", "x_max", "m", "Located exactly.")]
-    y_min: Annotated[float, Shown("least y of the path", "y_min", "m", "Located exactly.")]
-    y_max: Annotated[float, Shown("greatest y of the path", "y_max", "m", "Located exactly.")]
+    x_min: Annotated[float, Shown("minimum x of the path", "x_min", "m", "Located exactly.")]
+    x_max: Annotated[float, Shown("maximum x of the path", "x_max", "m", "Located exactly.")]
+    y_min: Annotated[float, Shown("minimum y of the path", "y_min", "m", "Located exactly.")]
+    y_max: Annotated[float, Shown("maximum y of the path", "y_max", "m", "Located exactly.")]
     straight_length: Annotated[
         float,
         Shown(
@@ -96,7 +96,7 @@ class CouplerCurve(Result):
         Shown("crank angle at the end of the straight portion", "", "rad", "Greater than that at its start."),
     ]
     straight_error: Annotated[
-        float, Shown("greatest distance from the chord of the straight portion", "", "m")
+        float, Shown("maximum distance from the chord of the straight portion", "", "m")
     ]
     double_points: Annotated[tuple[DoublePoint, ...], About("Where the path crosses itself.")]
     cusps: Annotated[tuple[Cusp, ...], About("Where the point stands still.")]
@@ -113,7 +113,7 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
     point : str
         Name of a point that moves.
     straight : float
-        Greatest distance from the chord of what counts as straight, over the chord's length.
+        Maximum distance from the chord of what counts as straight, over the chord's length.
 
     Returns
     -------
@@ -223,7 +223,7 @@ class _Path:
         return float((speed @ weights @ (0.5 * (high - low)[:, 0])).item())
 
     def _extent(self, axis: int) -> tuple[float, float]:
-        """Least and greatest x or y."""
+        """Minimum and maximum x or y."""
         _, column = brackets(self.table[2 + axis][None])
         angles = self.cycle.angles
         at = angles[[0, -1]]

@@ -25,7 +25,7 @@ from linkwright.linkages.dead_points import DeadPoint, dead_points
 from linkwright.linkages.grashof import FourBar, four_bars
 from linkwright.linkages.outputs import Output
 from linkwright.linkages.period import turns_to_repeat
-from linkwright.linkages.turning import Cycle, Swept, sweep
+from linkwright.linkages.turning import Cycle, LinkageSweep, sweep
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
@@ -50,7 +50,7 @@ class ElementMotion:
     stroke : float or None
         Between the extreme positions of the slide [m]; None if there is none.
     turns : float or None
-        Turns of the link in a period where it turns on.
+        Revolutions of the link in a period where it turns on.
     low, high : float
         Extreme positions [rad or m].
     low_angle, high_angle : float
@@ -60,7 +60,7 @@ class ElementMotion:
     velocity_ratio_min, velocity_ratio_max : float or None
         Extremes of the output's speed over the crank's [– or m/rad]; None where they grow without limit.
     mechanical_advantage_min : float or None
-        Least torque or force out for the torque in, without losses [– or 1/m].
+        Minimum torque or force out for the torque in, without losses [– or 1/m].
     transmission_angle_min, transmission_angle_max : float or None
         Extremes of μ [rad]; None for what is no dyad.
     transmission_angle_min_angle, transmission_angle_max_angle : float or None
@@ -90,7 +90,7 @@ class ElementMotion:
 
     @property
     def transmission_angle_worst(self) -> float | None:
-        """Acute angle between the two links where it is least [rad]: μ or π − μ."""
+        """Acute angle between the two links where it is minimum [rad]: μ or π − μ."""
         low, high = self.transmission_angle_min, self.transmission_angle_max
         return None if low is None or high is None else min(low, math.pi - high)
 
@@ -132,7 +132,7 @@ class Linkage(Result):
     closure: Annotated[Closure, About("Where it closes.")]
     period_turns: Annotated[
         int | None,
-        Shown("turns of the crank in a period", "", "", "None if it has none or does not turn fully."),
+        Shown("revolutions of the crank in a period", "", "", "None if it has none or does not turn fully."),
     ]
     dead_points: Annotated[
         tuple[DeadPoint, ...], About("Limits, change points and reversals, by crank angle.")
@@ -247,7 +247,7 @@ def _parallel(loop: FourBar | None, rate: Floats) -> FourBar | None:
     return None if loop is None else replace(loop, is_parallel=bool(np.abs(rate - 1).max() < _PARALLEL))
 
 
-def _element(swept: Swept, k: int, output: Output, loop: FourBar | None) -> ElementMotion:
+def _element(swept: LinkageSweep, k: int, output: Output, loop: FourBar | None) -> ElementMotion:
     """The entry of one output."""
     travel = swept.travel(k)
     slow, fast = swept.ratios(k)

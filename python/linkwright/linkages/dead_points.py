@@ -1,4 +1,4 @@
-"""Where a linkage stops, turns back, or could go two ways: limits of the crank, change points, reversals.
+"""Where a linkage stops, turns back or can branch: limits of crank rotation, change points, dead centres.
 
 At a limit a radicand passes zero and the crank can go no farther. At a change point a radicand touches zero,
 a double root: both assemblies meet, and the motion goes on. At a reversal an output stands still; driven by
@@ -16,12 +16,12 @@ from linkwright.linkages.closure import Closure, limiter_at
 from linkwright.machine.program.compiled import Compiled
 
 if TYPE_CHECKING:
-    from linkwright.linkages.turning import Swept
+    from linkwright.linkages.turning import LinkageSweep
 
-LIMIT = "limit of the crank"
+LIMIT = "limit of crank rotation"
 PASSED = "change point passed"
 NOT_PASSED = "change point not passed"
-REVERSAL = "output reversal"
+REVERSAL = "dead centre of the output"
 
 
 class DeadPoint(NamedTuple):
@@ -30,7 +30,7 @@ class DeadPoint(NamedTuple):
     Attributes
     ----------
     angle : float
-        Crank angle, within one turn, or within the longer period or range [rad].
+        Crank angle, within one revolution, or within the longer period or range [rad].
     element : str
         Name of the dyad, or of the link or slide that turns back.
     kind : str
@@ -46,14 +46,14 @@ class DeadPoint(NamedTuple):
     multiplicity: int
 
 
-def dead_points(compiled: Compiled, swept: Swept, where: Closure) -> list[DeadPoint]:
+def dead_points(compiled: Compiled, swept: LinkageSweep, where: Closure) -> list[DeadPoint]:
     """The dead points of a linkage.
 
     Parameters
     ----------
     compiled : Compiled
         The machine.
-    swept : Swept
+    swept : LinkageSweep
         Its sweep.
     where : Closure
         Where it closes.
@@ -77,13 +77,13 @@ def _of_closure(compiled: Compiled, where: Closure) -> Iterator[DeadPoint]:
             yield DeadPoint(at, limiter_at(compiled, end), LIMIT, 1)
 
 
-def _passed(swept: Swept) -> Iterator[DeadPoint]:
+def _passed(swept: LinkageSweep) -> Iterator[DeadPoint]:
     for dyad in swept.dyads:
         for angle in dyad.change_points:
             yield DeadPoint(angle, dyad.name, PASSED, 2)
 
 
-def _reversals(swept: Swept) -> Iterator[DeadPoint]:
+def _reversals(swept: LinkageSweep) -> Iterator[DeadPoint]:
     for k, output in enumerate(swept.outputs):
         for angle in swept.reversals(k):
             yield DeadPoint(swept.cycle.named(angle), output.name, REVERSAL, 1)

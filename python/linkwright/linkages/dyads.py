@@ -1,8 +1,8 @@
 r"""Dyads as the core has them, and the angle at which each passes on its force.
 
-The transmission angle μ of a dyad is the angle between what pushes and what can give way (Volmer,
-*Getriebetechnik*; Norton, *Design of Machinery*, section on transmission angle): 90° is best, at 0° and 180°
-nothing is passed on.
+The transmission angle μ of a dyad is the angle between the driving force and the direction without motion
+(Volmer, *Getriebetechnik*; Norton, *Design of Machinery*, section on transmission angle): 90° is best, at 0°
+and 180° nothing is passed on.
 
 | dyad | μ is the angle between |
 | --- | --- |
@@ -136,14 +136,14 @@ def transmission(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> tuple[F
     mu : ndarray, shape (n,)
         0 to π [rad].
     slope : ndarray, shape (n,)
-        ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of the crank.
+        ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of crank rotation.
     """
     if isinstance(dyad.element, Element.SlottedLever):
         offset = compiled.parameters[dyad.element.offset]
         return np.arctan2(np.abs(found[0][0]), offset), found[0][1] * float(offset != 0)
     (e, e1), (f, f1) = _directions(compiled, dyad, list(found))
     cross, dot = e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]
-    # At a limit of the crank both rates are infinite, and their difference is no number.
+    # At a limit of crank rotation both rates are infinite, and their difference is no number.
     with np.errstate(invalid="ignore"):
         slope = np.broadcast_to(f1 - e1, cross.shape)
     return np.arctan2(np.abs(cross), dot), slope

@@ -87,7 +87,7 @@ class FourBar:
             return words[self.is_parallel]
         beside_driver = _same(self.driver, self.coupler) and _same(self.follower, self.ground)
         beside_follower = _same(self.coupler, self.follower) and _same(self.driver, self.ground)
-        return "kite" if beside_driver or beside_follower else "links in line once a turn"
+        return "kite" if beside_driver or beside_follower else "links in line once per revolution"
 
 
 def _same(a: float, b: float) -> bool:

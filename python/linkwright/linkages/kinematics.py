@@ -112,7 +112,7 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool
     machine : Machine
         The machine. Entries may be arrays over many machines; results then have a row for each.
     angles : array_like, shape (n,), optional
-        Crank angles [rad]; without them a turn by single degrees.
+        Crank angles [rad]; without them a revolution by single degrees.
     third : bool
         Whether third derivatives are wanted too; of one machine only.
 

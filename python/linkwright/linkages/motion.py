@@ -196,7 +196,7 @@ def _require_within(compiled: Compiled, machine: Machine, law: Law, times: Float
 
 
 def _range_around(start: float, ranges: tuple[tuple[float, float], ...]) -> tuple[float, float]:
-    """The range that holds an angle, on the turn of that angle."""
+    """The range that holds an angle, on the revolution of that angle."""
     for low, high in ranges:
         turn = 2 * np.pi * np.floor((start - low) / (2 * np.pi))
         if low + turn <= start <= high + turn:

@@ -1,4 +1,4 @@
-"""What a mechanism moves to and fro: links on fixed points, sliders, levers, racks, by element."""
+"""What a mechanism moves back and forth: links on fixed points, sliders, levers, racks, by element."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""After how many turns of the crank a mechanism is again where it was.
+"""After how many revolutions of the crank a mechanism is again where it was.
 
-Cranks and dyads repeat after one turn. Gears and belts of other ratios take several, a screw or a rack on the
-crank never comes back, and a group may close only after its branch has been run through twice.
+Cranks and dyads repeat after one revolution. Gears and belts of other ratios take several, a screw or a rack
+on the crank never comes back, and a group may close only after its branch has been run through twice.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ Floats = NDArray[np.float64]
 # Turns after which a motion counts as one that does not repeat: trains of gears with up to so many teeth.
 _TURNS_MAX = 240
 
-# Crank angles that are compared, spread unevenly over the turn so that no symmetry hides a difference [rad].
+# Crank angles that are compared, spread unevenly over the revolution so that no symmetry hides a difference
+# [rad].
 _ANGLES = np.array([0.317, 1.291, 2.053, 3.371, 4.423, 5.687])
 
 # Difference over the size of the mechanism that counts as rounding: that of an angle of a thousand radians is
@@ -28,7 +29,7 @@ _ROUNDING = 1e-9
 
 @public
 def period_turns(machine: Machine) -> int | None:
-    """Turns of the crank after which every point and link is again where it was.
+    """Revolutions of the crank after which every point and link is again where it was.
 
     Parameters
     ----------
@@ -38,13 +39,13 @@ def period_turns(machine: Machine) -> int | None:
     Returns
     -------
     int or None
-        The least number up to 240; None if there is none, as with a rack on a gear that turns on and on.
+        The minimum number up to 240; None if there is none, as with a rack on a gear that turns on and on.
     """
     return turns_to_repeat(compile_machine(machine))
 
 
 def turns_to_repeat(compiled: Compiled) -> int | None:
-    """Turns of the crank after which all points and links are where they were.
+    """Revolutions of the crank after which all points and links are where they were.
 
     Parameters
     ----------
@@ -54,7 +55,7 @@ def turns_to_repeat(compiled: Compiled) -> int | None:
     Returns
     -------
     int or None
-        None if they do not come back within 240 turns.
+        None if they do not come back within 240 revolutions.
     """
     if compiled.one_turn:
         return 1

@@ -33,16 +33,16 @@ def straightest(at: Places, cycle: Cycle, straight: float) -> tuple[float, float
     cycle : Cycle
         The crank angles that are looked at.
     straight : float
-        Greatest distance from the chord over its length.
+        Maximum distance from the chord over its length.
 
     Returns
     -------
     low, high, chord, error : float
-        Crank angles at its ends [rad], its chord and the greatest distance from that [m].
+        Crank angles at its ends [rad], its chord and the maximum distance from that [m].
     """
     n = len(cycle.angles) - 1
     stride = max(1, n // _PORTIONS)
-    # Two turns of a closed path, so that a portion may pass the first sample.
+    # Two revolutions of a closed path, so that a portion may pass the first sample.
     place = at(cycle.angles)[:2].T
     path = np.concatenate([place[:-1], place]) if cycle.repeats else place
     chord, start, end = max(_longest(path, n, stride, straight), _longest(path, 2 * stride, 1, straight))
@@ -101,7 +101,7 @@ def _chord(part: Floats) -> tuple[float, float]:
 
 
 def _off_chords(parts: Floats) -> tuple[Floats, Floats]:
-    """Chords of portions (k, samples, 2), and the greatest distance from each, or beyond its ends."""
+    """Chords of portions (k, samples, 2), and the maximum distance from each, or beyond its ends."""
     along = parts[:, -1] - parts[:, 0]
     chords = np.hypot(*along.T)
     unit = along / np.maximum(chords, 1e-300)[:, None]

@@ -25,7 +25,7 @@ def _travel(found: Linkage) -> Table:
 def _travel_row(each: ElementMotion) -> Row:
     """Swing, stroke or turns, where the extremes are, and the ratios."""
     if each.turns is not None:
-        travel, ends = f"{number(each.turns)} turns", ("–", "–")
+        travel, ends = f"{number(each.turns)} revolutions", ("–", "–")
     elif each.swing is not None:
         travel, ends = degrees(each.swing), (degrees(each.low_angle), degrees(each.high_angle))
     else:
@@ -39,7 +39,7 @@ def _travel_row(each: ElementMotion) -> Row:
 
 
 def _transmission(found: Linkage) -> Table:
-    heads = ("dyad", "", "least", "at φ", "greatest", "at φ")
+    heads = ("dyad", "", "minimum", "at φ", "maximum", "at φ")
     rows: dict[str, Row] = {}
     for each in found.elements:
         low, high = each.transmission_angle_min, each.transmission_angle_max

@@ -16,7 +16,7 @@ from linkwright.machine.program.compiled import Compiled
 
 Floats = NDArray[np.float64]
 
-# Intervals of a turn between which at most one extreme of a kind is expected: a degree.
+# Intervals of a revolution between which at most one extreme of a kind is expected: a degree.
 _INTERVALS = 360
 
 # Where the sweep begins, off the angles at which symmetric linkages have their extremes.
@@ -29,7 +29,7 @@ _MARGIN = 1e-7
 # Share of the travel by which extreme positions of different turns may differ and be the same.
 _EQUAL = 1e-9
 
-# A derivative below this share of the greatest of its kind is rounding of zero.
+# A derivative below this share of the maximum of its kind is rounding of zero.
 _FLAT = 1e-11
 
 
@@ -53,7 +53,7 @@ class Cycle:
 
     @classmethod
     def of(cls, where: Closure, period: int | None) -> Cycle:
-        """A period, a turn where there is no period, or the first range in which the mechanism closes."""
+        """A period, a revolution where there is none, or the first range in which the mechanism closes."""
         if where.turns_fully:
             turns = period or 1
             angles = np.linspace(_OFFSET, _OFFSET + 2 * np.pi * turns, _INTERVALS * turns + 1)
@@ -69,7 +69,7 @@ class Cycle:
         return float(self.angles[-1] - self.angles[0])
 
     def named(self, angle: float) -> float:
-        """An angle as a reader counts it: within one turn, but as it is in a longer cycle or range [rad]."""
+        """An angle as readers count it: within one revolution, as it is in a longer cycle or range [rad]."""
         return float(angle % (2 * np.pi) if self.span < 2 * np.pi * 1.01 else angle)
 
 
@@ -85,7 +85,7 @@ class Travel:
     time_ratio: float | None
 
 
-class Swept:
+class LinkageSweep:
     """Curves and located zeros of a sweep.
 
     Attributes
@@ -167,7 +167,7 @@ class Swept:
         return Travel(float(values[low]), float(values[high]), *angles, None, ratio)
 
     def _positions(self, k: int, at: Floats) -> Floats:
-        """Positions of an output at angles; of a link on the turn that the sweep has there."""
+        """Positions of an output at angles; of a link on the revolution that the sweep has there."""
         values = self._at(at)[1][k]
         if self.outputs[k].part == LINK:
             near = np.interp(at, self.cycle.angles, self.position[k])
@@ -188,7 +188,7 @@ class Swept:
         return self.cycle.span > 2 * np.pi * (1 - 1e-9)
 
     def transmission(self, element: str) -> tuple[float, float, float, float] | None:
-        """Least and greatest μ of a dyad, and their crank angles."""
+        """Minimum and maximum μ of a dyad, and their crank angles."""
         k = next((k for k, each in enumerate(self.dyads) if each.name == element), None)
         if k is None:
             return None
@@ -204,8 +204,8 @@ class Swept:
 def _time_ratio(at: Floats, values: Floats, span: float) -> float | None:
     """Crank angle of the slower way between the extreme positions over that of the quicker one.
 
-    Over several turns an output may come to its extremes several times: the ways are those from one lowest
-    position to the next highest, and on to the next lowest.
+    Over several revolutions an output may come to its extremes several times: the ways are those from one
+    lowest position to the next highest, and on to the next lowest.
     """
     same = _EQUAL * np.ptp(values)
     lows = at[values <= values.min() + same]
@@ -217,7 +217,7 @@ def _time_ratio(at: Floats, values: Floats, span: float) -> float | None:
     return max(up, down) / min(up, down) if 0 < up < span and down > 0 else None
 
 
-def sweep(compiled: Compiled, mechanism: Mechanism, cycle: Cycle) -> Swept:
+def sweep(compiled: Compiled, mechanism: Mechanism, cycle: Cycle) -> LinkageSweep:
     """Sweep a mechanism over a cycle.
 
     Parameters
@@ -231,7 +231,7 @@ def sweep(compiled: Compiled, mechanism: Mechanism, cycle: Cycle) -> Swept:
 
     Returns
     -------
-    Swept
+    LinkageSweep
         Curves and located extremes.
     """
-    return Swept(compiled, mechanism, cycle)
+    return LinkageSweep(compiled, mechanism, cycle)

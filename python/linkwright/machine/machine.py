@@ -10,7 +10,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.drive.model.drive import Drive
 from linkwright.kernel.description.base import Description, Name, Title, fault, faults_of, raise_faults
-from linkwright.kernel.description.elsewhere import elsewhere
+from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.description.plain import look
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.errors import MachineError
@@ -28,11 +28,11 @@ if TYPE_CHECKING:
     from linkwright.torsion.model.train import Train
     from linkwright.turning.model.turning_moment import TurningMoment
 else:
-    PumpingUnit = elsewhere("pumping.model.unit", "PumpingUnit")
-    RodRotator = elsewhere("pumping.model.rod_rotator", "RodRotator")
-    Topper = elsewhere("topping.model.topper", "Topper")
-    Train = elsewhere("torsion.model.train", "Train")
-    TurningMoment = elsewhere("turning.model.turning_moment", "TurningMoment")
+    PumpingUnit = deferred_model("pumping.model.unit", "PumpingUnit")
+    RodRotator = deferred_model("pumping.model.rod_rotator", "RodRotator")
+    Topper = deferred_model("topping.model.topper", "Topper")
+    Train = deferred_model("torsion.model.train", "Train")
+    TurningMoment = deferred_model("turning.model.turning_moment", "TurningMoment")
 
 # The format that this version reads and writes.
 FORMAT = 1
@@ -49,7 +49,7 @@ class RunUp(Description):
         0.01, description="Difference from the steady speed at which the run-up is done, over that speed."
     )
     turns_max: Annotated[float, positive(RATIO)] = Field(
-        200.0, description="Turns of the crankshaft after which the attempt ends."
+        200.0, description="Revolutions of the crankshaft after which the attempt ends."
     )
 
 

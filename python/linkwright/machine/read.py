@@ -54,7 +54,7 @@ def read(path: str | os.PathLike[str], overrides: Overrides = (), *, allow_outsi
     Returns
     -------
     Machine
-        Checked, in SI.
+        CheckedDescription, in SI.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def read_as(
     Returns
     -------
     Model
-        Checked, in SI.
+        CheckedDescription, in SI.
 
     Raises
     ------
@@ -125,7 +125,7 @@ def loads(text: str, overrides: Overrides = (), *, path: str = "", allow_outside
     Returns
     -------
     Machine
-        Checked, in SI.
+        CheckedDescription, in SI.
 
     Raises
     ------
@@ -163,7 +163,7 @@ def loads_as(
     Returns
     -------
     Model
-        Checked, in SI.
+        CheckedDescription, in SI.
 
     Raises
     ------

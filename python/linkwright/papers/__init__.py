@@ -8,7 +8,7 @@ package.
 | --- | --- |
 | `claim` | One printed claim beside what comes out, judged within a tolerance that has its reason |
 | `paper` | What all five have in common; the papers that there are |
-| `paper1/` | Paper 1: evenness of motion of crank drives with one to four carts |
+| `paper1/` | Paper 1: speed fluctuation of crank drives with one to four carts |
 | `paper2/` | Paper 2: a cart moved by a cam with a combined motion law |
 | `paper3/` | Paper 3: torsional vibration of V-type engines |
 | `paper4/` | Paper 4: the lever mechanism of a sucker-rod rotator |

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PAPERS = {
-    1: "Unevenness of motion of the drives of roller-forming machines, one to four carts",
+    1: "Speed fluctuation of the drives of roller-forming machines, one to four carts",
     2: "Cam drive of a roller-forming machine with a combined mode of motion",
-    3: "Torsional vibration of V-type engines, and the unevenness of their rotation",
+    3: "Torsional vibration of V-type engines, and the speed fluctuation of their rotation",
     4: "Lever mechanism of a worm-type rotator of a sucker-rod string",
     5: "Movement of a topper knife over the head of a root, and the length of its edge",
 }
@@ -160,7 +160,7 @@ def printed_values(number: int) -> dict[str, Any]:
 
 
 def paper(number: int) -> Paper:
-    """Compute a paper anew.
+    """Recompute a paper.
 
     Raises
     ------

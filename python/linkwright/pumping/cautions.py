@@ -12,7 +12,7 @@ from linkwright.pumping.unit import PumpingUnitMotion
 # Strokes of catalogues are up to a few percent off those of the mechanism.
 _STROKE_AGREES = 0.05
 
-# A negative torque that is a smaller share of the greatest is not worth a sentence.
+# A negative torque that is a smaller share of the maximum is not worth a sentence.
 _SMALL = 0.01
 
 # Jumps of the beam are avoided by keeping the rods' acceleration well below that of free fall.
@@ -92,7 +92,7 @@ def _lever(machine: Machine, rotator: RodRotatorMotion) -> Iterator[str]:
         )
     if rotator.change_points and rotator.worm_torque:
         yield (
-            "Link and lever of the rotator are in line twice in each turn: there the link has no arm, and "
+            "Link and lever of the rotator are in line twice per revolution: there the link has no arm, and "
             f"the worm's torque of {rotator.worm_torque:.4g} N m must be overcome by the momentum of the "
             "lever."
         )

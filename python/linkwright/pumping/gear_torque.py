@@ -4,7 +4,7 @@ r"""Torque of the gearbox of a pumping unit: polished-rod load and counterbalanc
 
     T(\theta) = \mathrm{TF}\,(W - B)\,\eta^{\mp 1} - M\sin(\theta + \tau)
 
-with W the load of the polished rod, B the structural unbalance and M the greatest moment of cranks and
+with W the load of the polished rod, B the structural unbalance and M the maximum moment of cranks and
 counterweights. An air cylinder of effect E at the polished rod takes the place of the moment:
 :math:`T = \mathrm{TF}\,(W - B - E)\,\eta^{\mp 1}`. The efficiency η of the structure divides a torque that
 resists and multiplies one that drives.
@@ -36,7 +36,7 @@ from linkwright.pumping.model.unit import PumpingUnit
 
 Floats = NDArray[np.float64]
 
-# Angles of the turn at which the counterbalance of equal peaks is bracketed.
+# Angles of the revolution at which the counterbalance of equal peaks is bracketed.
 _ANGLES = 720
 
 # Counterbalance beyond which none is looked for [N m or N].
@@ -48,7 +48,7 @@ _HALVINGS = 40
 
 @dataclass(frozen=True)
 class GearTorque(Result):
-    """Torque of the gearbox over a turn."""
+    """Torque of the gearbox over one revolution."""
 
     crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "0 to 2π by API.")]
     rod_load: Annotated[Floats, Shown("load of the polished rod", "W", "N")]
@@ -60,7 +60,7 @@ class GearTorque(Result):
     counterbalance: Annotated[
         float | None,
         Shown(
-            "greatest moment of the counterweights",
+            "maximum moment of the counterweights",
             "M",
             "N m",
             "With that of the cranks.",
@@ -72,15 +72,15 @@ class GearTorque(Result):
         Shown("counterbalance effect of the cylinder", "E", "N", "Of an air cylinder.", table="gear_torque"),
     ]
     torque_net_up: Annotated[
-        float, Shown("greatest torque of the gearbox, upstroke", "M_G,up", "N m", table="gear_torque")
+        float, Shown("maximum torque of the gearbox, upstroke", "M_G,up", "N m", table="gear_torque")
     ]
     torque_net_down: Annotated[
-        float, Shown("greatest torque of the gearbox, downstroke", "M_G,down", "N m", table="gear_torque")
+        float, Shown("maximum torque of the gearbox, downstroke", "M_G,down", "N m", table="gear_torque")
     ]
     torque_net_min: Annotated[
         float,
         Shown(
-            "least torque of the gearbox",
+            "minimum torque of the gearbox",
             "M_G,min",
             "N m",
             "Below zero, the gears change flanks.",
@@ -112,13 +112,13 @@ class GearTorque(Result):
         ),
     ]
     torque_rated: Annotated[float | None, Shown("rating of the gearbox by the designation", "", "N m")]
-    load_max: Annotated[float, Shown("greatest load of the polished rod", "W_max", "N", table="gear_torque")]
+    load_max: Annotated[float, Shown("maximum load of the polished rod", "W_max", "N", table="gear_torque")]
     load_rated: Annotated[float | None, Shown("rating of the structure by the designation", "", "N")]
     work: Annotated[float, Shown("work of the polished rod in a stroke", "A", "J", table="gear_torque")]
 
     @property
-    def gear_load(self) -> Annotated[float | None, Shown("greatest torque over the rating", "", "")]:
-        """Greatest net torque over the rating of the gearbox."""
+    def gear_load(self) -> Annotated[float | None, Shown("maximum torque over the rating", "", "")]:
+        """Maximum net torque over the rating of the gearbox."""
         peak = max(self.torque_net_up, self.torque_net_down)
         return None if self.torque_rated is None else peak / self.torque_rated
 

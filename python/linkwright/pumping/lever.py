@@ -43,7 +43,7 @@ class LeverMotion:
     diagonal : ndarray
         l_d [m].
     residual : float
-        Greatest gap in the loop over the longest link [–].
+        Maximum gap in the loop over the longest link [–].
     """
 
     angles: Floats
@@ -122,7 +122,7 @@ class Lever:
 
 
 def turns_of(fine: LeverMotion) -> float:
-    """Whole turns of the lever in a turn of the crank, counter-clockwise positive."""
+    """Whole revolutions of the lever per revolution of the crank, counter-clockwise positive."""
     return float(np.round((fine.lever[-1] - fine.lever[0]) / (2 * np.pi)))
 
 
@@ -152,7 +152,7 @@ def takes_along(rotator: RodRotator, rod: PolishedRod, lever: Lever) -> Callable
 
 
 def worm_turns_of(rotator: RodRotator, fine: LeverMotion, swing: float) -> float:
-    """Turns of the worm in a turn of the crank."""
+    """Revolutions of the worm per revolution of the crank."""
     if rotator.regime == "continuous":
         return abs(turns_of(fine))
     # What goes forward comes back; a lever that rocks once goes forward by its swing, which is known exactly.

@@ -40,7 +40,7 @@ Floats = NDArray[np.float64]
 # Seconds of a day.
 _DAY = 86400.0
 
-# Angles of the turn at which conditions are looked at, a quarter of a degree.
+# Angles of the revolution at which conditions are looked at, a quarter of a degree.
 _ANGLES = 1440
 
 # Diagonals, and lengths, that differ by less than this share are the same: a hundred times rounding.
@@ -62,7 +62,7 @@ _FINDINGS = "What the regime asks for and the lever does not do: turn all round,
 
 @dataclass(frozen=True)
 class RodRotatorMotion(Result):
-    """Motion of a rotator over a turn of the crank."""
+    """Motion of a rotator over one revolution of the crank."""
 
     crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "As in `PumpingUnitMotion`.")]
     link_angle: Annotated[
@@ -83,38 +83,42 @@ class RodRotatorMotion(Result):
     lever_turns_per_cycle: Annotated[
         float,
         Shown(
-            "turns of the lever in a turn of the crank",
+            "revolutions of the lever per revolution of the crank",
             "",
             "",
-            "Whole turns, in either sense.",
+            "Whole revolutions, in either sense.",
             table="rotator",
         ),
     ]
     lever_swing: Annotated[
         float,
         Shown(
-            "range of the lever's angle", "", "rad", "A full turn where it turns all round.", table="rotator"
+            "range of the lever's angle",
+            "",
+            "rad",
+            "A full revolution where it turns all round.",
+            table="rotator",
         ),
     ]
     transfer_min: Annotated[
-        float, Shown("least transfer function of the lever", "min φ_5′", "", table="rotator")
+        float, Shown("minimum transfer function of the lever", "min φ_5′", "", table="rotator")
     ]
     transfer_max: Annotated[
-        float, Shown("greatest transfer function of the lever", "max φ_5′", "", table="rotator")
+        float, Shown("maximum transfer function of the lever", "max φ_5′", "", table="rotator")
     ]
-    diagonal_min: Annotated[float, Shown("least distance from pin to hanger", "min l_d", "m")]
-    diagonal_max: Annotated[float, Shown("greatest distance from pin to hanger", "max l_d", "m")]
+    diagonal_min: Annotated[float, Shown("minimum distance from pin to hanger", "min l_d", "m")]
+    diagonal_max: Annotated[float, Shown("maximum distance from pin to hanger", "max l_d", "m")]
     extremes_coincide: Annotated[bool, About(_EXTREMES_COINCIDE)]
     change_points: Annotated[tuple[float, ...], About("Crank angles where link and lever are in line [rad].")]
     loop_residual: Annotated[
-        float, Shown("greatest gap in the loop over the longest link", "", "", "Of equation (8).")
+        float, Shown("maximum gap in the loop over the longest link", "", "", "Of equation (8).")
     ]
     verdict: Annotated[str, About("Why the lever turns, rocks, or does not close.")]
     findings: Annotated[tuple[str, ...], About(_FINDINGS)]
     worm_turns_per_cycle: Annotated[
         float,
         Shown(
-            "turns of the worm in a turn of the crank",
+            "revolutions of the worm per revolution of the crank",
             "",
             "",
             "That the lever gives it; through the clutch, in one sense only.",
@@ -134,9 +138,9 @@ class RodRotatorMotion(Result):
         Shown("acceleration of the rod string", "ε_s", "rad/s²", "Zero while the clutch slips."),
     ]
     string_turn_days: Annotated[
-        float | None, Shown("days for a turn of the rod string", "", "", table="rotator")
+        float | None, Shown("days per revolution of the rod string", "", "", table="rotator")
     ]
-    string_turns_per_day: Annotated[float | None, Shown("turns of the rod string in a day", "", "")]
+    string_turns_per_day: Annotated[float | None, Shown("revolutions of the rod string in a day", "", "")]
     worm_torque: Annotated[
         float | None,
         Shown("torque at the worm", "M_w", "N m", "That turns the string, quasi-static.", table="rotator"),
@@ -148,7 +152,7 @@ class RodRotatorMotion(Result):
     link_force_max: Annotated[
         float | None,
         Shown(
-            "greatest force in the link",
+            "maximum force in the link",
             "F_4,max",
             "N",
             "None where there are change points.",
@@ -166,19 +170,19 @@ def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
     machine : Machine
         A machine with a pumping unit and a rotator.
     n : int
-        Intervals of the turn for the curves; the other numbers do not depend on it.
+        Intervals of the revolution for the curves; the other numbers do not depend on it.
 
     Returns
     -------
     RodRotatorMotion
-        Curves over the turn, extremes, time for a turn of the string.
+        Curves over the revolution, extremes, time for a revolution of the string.
 
     Raises
     ------
     InputError
         The machine has no rotator.
     AssemblyError
-        The crank cannot turn all round, link and lever cannot meet, or no lever has the wanted swing.
+        The crank cannot turn all round, link and lever cannot meet, or no lever has the required swing.
 
     Notes
     -----
@@ -248,7 +252,7 @@ def _missed(rotator: RodRotator, known: Lengths, turns: float, swing: float) -> 
     wanted = np.pi / 2 if rotator.swing is None else rotator.swing
     if rotator.link_length is None and abs(swing - wanted) > _SAME_SWING:
         yield (
-            f"the lever does not have the wanted swing of {np.degrees(wanted):.6g}°: {of} swings through "
+            f"the lever does not have the required swing of {np.degrees(wanted):.6g}°: {of} swings through "
             f"{np.degrees(swing):.6g}°; give link_length and lever_length"
         )
 
@@ -297,7 +301,7 @@ def verdict(known: Lengths, least: float, greatest: float) -> str:
 
 
 def _days(rotator: RodRotator, speed: float | None, worm_turns: float) -> float | None:
-    """Days for a full turn of the string; None without speed or ratio."""
+    """Days for a full revolution of the string; None without speed or ratio."""
     if speed is None or rotator.worm_ratio is None or not worm_turns:
         return None
     return rotator.worm_ratio / worm_turns * (2 * np.pi / speed) / _DAY
@@ -344,7 +348,7 @@ def _forces(
 
 
 def _greatest(lever: Lever, force: Callable[[LeverMotion], Floats]) -> float | None:
-    """Greatest size of the link's force over the revolution [N]; None where the link loses its arm."""
+    """Peak absolute value of the link's force over the revolution [N]; None where the link loses its arm."""
 
     def arm(angles: Floats) -> Floats:
         motion = lever.motion(angles)

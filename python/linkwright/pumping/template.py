@@ -65,7 +65,7 @@ structural_unbalance = "{found.structural_unbalance / POUND_FORCE:.6g} lbf"
 position = [0, 0.1, 1]                   # 0 at the bottom of the stroke, 1 at the top
 up = {_loads(found, 0.45, 0.7, 0.65)}
 down = {_loads(found, 0.45, 0.35, 0.3)}
-counterbalance = "optimal"               # or the greatest moment of cranks and counterweights: "20 kN m"
+counterbalance = "optimal"               # or the maximum moment of cranks and counterweights: "20 kN m"
 """
 
 

@@ -39,7 +39,7 @@ _CRANK_ANGLE = "0 to 2π, by API: from 12 o'clock (class III: 6 o'clock) in the 
 
 @dataclass(frozen=True)
 class PumpingUnitMotion(Result):
-    """Motion of the polished rod over a turn of the crank."""
+    """Motion of the polished rod over one revolution of the crank."""
 
     crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", _CRANK_ANGLE)]
     rod_position: Annotated[
@@ -55,13 +55,13 @@ class PumpingUnitMotion(Result):
         float | None, Shown("stroke by the designation", "S_n", "m", table="pumping_unit")
     ]
     torque_factor_max: Annotated[
-        float, Shown("greatest torque factor, upstroke", "max TF", "m", table="pumping_unit")
+        float, Shown("maximum torque factor, upstroke", "max TF", "m", table="pumping_unit")
     ]
     torque_factor_min: Annotated[
-        float, Shown("least torque factor, downstroke", "min TF", "m", table="pumping_unit")
+        float, Shown("minimum torque factor, downstroke", "min TF", "m", table="pumping_unit")
     ]
-    torque_factor_max_angle: Annotated[float, Shown("crank angle of the greatest torque factor", "", "rad")]
-    torque_factor_min_angle: Annotated[float, Shown("crank angle of the least torque factor", "", "rad")]
+    torque_factor_max_angle: Annotated[float, Shown("crank angle of the maximum torque factor", "", "rad")]
+    torque_factor_min_angle: Annotated[float, Shown("crank angle of the minimum torque factor", "", "rad")]
     bottom_angle: Annotated[
         float,
         Shown(
@@ -105,16 +105,16 @@ class PumpingUnitMotion(Result):
         Floats | None, Shown("acceleration of the polished rod", "a", "m/s²", "Upward, at that speed.")
     ]
     rod_velocity_max: Annotated[
-        float | None, Shown("greatest velocity, upward", "v_max", "m/s", table="pumping_unit")
+        float | None, Shown("maximum velocity, upward", "v_max", "m/s", table="pumping_unit")
     ]
     rod_velocity_min: Annotated[
-        float | None, Shown("greatest velocity, downward", "v_min", "m/s", table="pumping_unit")
+        float | None, Shown("maximum velocity, downward", "v_min", "m/s", table="pumping_unit")
     ]
     rod_acceleration_max: Annotated[
-        float | None, Shown("greatest acceleration, upward", "a_max", "m/s²", table="pumping_unit")
+        float | None, Shown("maximum acceleration, upward", "a_max", "m/s²", table="pumping_unit")
     ]
     rod_acceleration_min: Annotated[
-        float | None, Shown("greatest acceleration, downward", "a_min", "m/s²", table="pumping_unit")
+        float | None, Shown("maximum acceleration, downward", "a_min", "m/s²", table="pumping_unit")
     ]
     gear: Annotated[GearTorque | None, About("Torque of the gearbox, where a load is given.")]
 
@@ -128,12 +128,12 @@ def pumping_unit(machine: Machine, *, n: int = 360) -> PumpingUnitMotion:
     machine : Machine
         A machine with a pumping unit.
     n : int
-        Intervals of the turn for the curves; the other numbers do not depend on it.
+        Intervals of the revolution for the curves; the other numbers do not depend on it.
 
     Returns
     -------
     PumpingUnitMotion
-        Curves over the turn, tables at every 15°, extremes.
+        Curves over the revolution, tables at every 15°, extremes.
 
     Raises
     ------
@@ -193,7 +193,7 @@ def pumping_unit(machine: Machine, *, n: int = 360) -> PumpingUnitMotion:
 
 
 def _acceleration(rod: PolishedRod, speed: float | None, sign: int) -> float | None:
-    """Greatest or least acceleration at a speed."""
+    """Maximum or minimum acceleration at a speed."""
     if speed is None:
         return None
     return turn_extreme(lambda at: rod.motion(at)[2], sign)[0] * speed**2
@@ -272,7 +272,7 @@ def _end_angle(unit: PumpingUnit, psi: float, sign: int) -> float:
 
 
 def turn_extreme(of: Callable[[Floats], Floats], sign: int) -> tuple[float, float]:
-    """Greatest (+1) or least (−1) value of a smooth quantity over the turn, and its crank angle.
+    """Maximum (+1) or minimum (−1) value of a smooth quantity over the revolution, and its crank angle.
 
     Parameters
     ----------

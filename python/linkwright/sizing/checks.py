@@ -40,8 +40,8 @@ SPEED_BAND = 0.12
 # left. Handbooks of electric drives give 0.8 to 0.85.
 PEAK_SHARE = 0.9**2
 
-# Intervals of the turn over which greatest torques are looked for: the largest of 1440 samples of a smooth
-# curve misses its peak by some 1e-5.
+# Intervals of the revolution over which maximum torques are looked for: the largest of 1440 samples of a
+# smooth curve misses its peak by some 1e-5.
 _ANGLES = 1440
 
 # Speed of the crank that counts as standing still [rad/s]: loads by formulas then say which way they hold.
@@ -72,11 +72,11 @@ class Check:
     unit : str
         Unit of both.
     passed : bool or None
-        None if it cannot be told.
+        None if it is not determined.
     at_most : bool
         Whether the value must be at most the limit, not at least.
     note : str
-        Why it cannot be told, what it rests on, or how it failed.
+        Why it is not determined, what it rests on, or how it failed.
     """
 
     name: str
@@ -114,15 +114,15 @@ class Check:
         return f"{title}{self._factor().lstrip(':')}" if self._factor() else f"{title} fails"
 
     def _factor(self) -> str:
-        """By what factor a check fails."""
+        """By how much a check fails."""
         share = self.utilisation
         if self.passed is not False or share is None:
             return ""
-        word = "large" if self.at_most else "small"
-        # Below twice the limit a percentage says more than a factor.
-        if share < 2:
-            return f": {100 * (share - 1 if self.at_most else 1 - 1 / share):.2g} % too {word}"
-        return f": {share:.2f} times too {word}"
+        return (
+            f": {100 * share:.3g} % of the limit"
+            if self.at_most
+            else f": {100 / share:.3g} % of the requirement"
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Its entries, ready for JSON."""
@@ -138,7 +138,7 @@ def _shown(value: float, unit: str) -> str:
 
 
 @dataclass(frozen=True)
-class Checked:
+class MotorChecks:
     """All checks of a machine with its motor, and the analyses that they rest on.
 
     Attributes
@@ -194,7 +194,7 @@ def _speed_check(speed: float, wanted: float, suits: bool, note: str) -> Check:
     return Check("speed", speed, limit, "rad/s", suits, at_most=fast, note=note)
 
 
-def motion_checks(machine: Machine) -> Checked:
+def motion_checks(machine: Machine) -> MotorChecks:
     """Check what only the machine's motion tells: start, run-up, heat and overload.
 
     Parameters
@@ -204,7 +204,7 @@ def motion_checks(machine: Machine) -> Checked:
 
     Returns
     -------
-    Checked
+    MotorChecks
         The checks, with steady motion and run-up.
 
     Notes
@@ -225,9 +225,9 @@ def motion_checks(machine: Machine) -> Checked:
         steady = steady_state(machine, n=_ANGLES)
     except FindingError as error:
         lost = tuple(Check(name, None, None, "", False, note=str(error)) for name in DECISIVE["all"][3:])
-        return Checked((starts[0], lost[0], starts[1], *lost[2:]))
+        return MotorChecks((starts[0], lost[0], starts[1], *lost[2:]))
     up, check = _run_up_check(machine, steady, by_kloss)
-    return Checked((starts[0], check, starts[1], *torque_checks(motor, steady)), steady, up)
+    return MotorChecks((starts[0], check, starts[1], *torque_checks(motor, steady)), steady, up)
 
 
 def torque_checks(motor: InductionMotor, steady: SteadyState) -> tuple[Check, Check]:
@@ -253,7 +253,7 @@ def torque_checks(motor: InductionMotor, steady: SteadyState) -> tuple[Check, Ch
 
 def _at_most(name: str, value: float, limit: float | None, lacking: str) -> Check:
     if limit is None:
-        return Check(name, value, None, "N m", None, note=f"cannot be told: {lacking}")
+        return Check(name, value, None, "N m", None, note=f"not determined: {lacking}")
     return Check(name, value, limit, "N m", value <= limit, at_most=True)
 
 
@@ -294,5 +294,5 @@ def _run_up_check(machine: Machine, steady: SteadyState, by_kloss: bool) -> tupl
     except FindingError as error:
         passed, note = _unsure(False, by_kloss)
         return None, Check("run_up", None, None, "s", passed, note=note or str(error))
-    note = f"{up.time:.3g} s, {up.turns:.3g} turns"
+    note = f"{up.time:.3g} s, {up.turns:.3g} revolutions"
     return up, Check("run_up", up.time, None, "s", True, note=note)

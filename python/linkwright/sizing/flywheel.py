@@ -1,4 +1,4 @@
-r"""The flywheel that keeps the speed within a wanted unevenness.
+r"""The flywheel that keeps the speed within a wanted speed fluctuation.
 
 The classical estimate (Mertsalov) keeps the driving torque at its mean and the speed in the inertia's terms
 at its mean,
@@ -41,7 +41,7 @@ from linkwright.sizing.fit import with_flywheel
 
 Floats = NDArray[np.float64]
 
-# Relative accuracy of the flywheel's unevenness; four digits better than anything it is compared with.
+# Relative accuracy of the flywheel's speed fluctuation; four digits better than anything it is compared with.
 _CLOSE = 1e-9
 
 # Doublings of the bracket before the search is given up: beyond 2^40 of the estimate nothing is a flywheel.
@@ -69,15 +69,17 @@ class FlywheelChoice(Result):
     inertia: Annotated[
         float, Shown("moment of inertia of the flywheel", "J_f", "kg m²", "Zero if none is needed.")
     ]
-    unevenness_wanted: Annotated[float, Shown("coefficient of unevenness asked for", "", "")]
+    unevenness_wanted: Annotated[float, Shown("coefficient of speed fluctuation asked for", "", "")]
     unevenness: Annotated[
         float,
-        Shown("coefficient of unevenness", "δ", "", "Of the machine with the flywheel, analysed again."),
+        Shown(
+            "coefficient of speed fluctuation", "δ", "", "Of the machine with the flywheel, analysed again."
+        ),
     ]
     unevenness_without: Annotated[
         float | None,
         Shown(
-            "coefficient of unevenness without any flywheel",
+            "coefficient of speed fluctuation without any flywheel",
             "",
             "",
             "None if there is no steady motion then.",
@@ -86,7 +88,7 @@ class FlywheelChoice(Result):
     inertia_estimate: Annotated[
         float, Shown("moment of inertia by the classical estimate", "", "kg m²", "Not below zero.")
     ]
-    excess_work: Annotated[float, Shown("largest excess of work in a turn", "", "J", "Of the estimate.")]
+    excess_work: Annotated[float, Shown("largest excess of work per revolution", "", "J", "Of the estimate.")]
     run_up_time: Annotated[
         float | None, Shown("time of the run-up", "", "s", "None if the machine does not run up.")
     ]
@@ -103,7 +105,7 @@ class FlywheelChoice(Result):
 
 @public
 def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
-    """Find the flywheel on the crankshaft that gives a wanted unevenness.
+    """Find the flywheel on the crankshaft that gives a wanted speed fluctuation.
 
     Parameters
     ----------
@@ -120,7 +122,7 @@ def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
     Raises
     ------
     InputError
-        The unevenness is not between 0 and 2, or the machine has no motor.
+        The speed fluctuation is not between 0 and 2, or the machine has no motor.
     AssemblyError
         The mechanism does not close all round.
     SteadyStateError
@@ -231,7 +233,7 @@ def constant_inertia(machine: Machine) -> float:
 
 
 def _load_and_inertia(compiled: Compiled, phi: Floats, omega: float) -> Floats:
-    """Resisting torque at a speed, and reduced inertia, (2, n)."""
+    """Load torque at a speed, and reduced inertia, (2, n)."""
     J, _, load, dry, viscous = compiled.reductions(phi)
     M_r = load + dry + viscous * omega + compiled.law_torques(phi, omega)[0]
     return np.stack([M_r, J])
@@ -257,7 +259,7 @@ def _searched(bare: Machine, wanted: float, guess: float) -> tuple[float, int]:
         nonlocal count
         count += 1
         found = _unevenness(with_flywheel(bare, inertia))
-        # Without steady motion the unevenness counts as infinite.
+        # Without steady motion the speed fluctuation counts as infinite.
         return (1 / found if found else 0.0) - 1 / wanted
 
     assert bare.drive is not None
@@ -269,7 +271,7 @@ def _searched(bare: Machine, wanted: float, guess: float) -> tuple[float, int]:
         high *= 2
     # With whatever flywheel: either there is no steady motion, and the error says why, or δ does not fall.
     _steady(with_flywheel(bare, high))
-    raise ConvergenceError(f"no flywheel up to {high:.3g} kg m² brings the unevenness to {wanted:g}")
+    raise ConvergenceError(f"no flywheel up to {high:.3g} kg m² brings the speed fluctuation to {wanted:g}")
 
 
 def _root(f: Callable[[float], float], low: float, high: float, close: float) -> float:
@@ -306,7 +308,7 @@ def _verified(
     iterations: int,
 ) -> FlywheelChoice:
     """The result, with the machine analysed anew."""
-    note = f"Flywheel for an unevenness of {wanted:g} by linkwright size." if inertia > 0 else ""
+    note = f"Flywheel for a speed fluctuation of {wanted:g} by linkwright size." if inertia > 0 else ""
     machine = with_flywheel(bare, inertia, note=note)
     steady = _steady(machine)
     up, why_not = _run_up(machine, steady)

@@ -16,7 +16,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import INERTIA, RATIO, not_negative, positive
 from linkwright.machine.machine import Machine
-from linkwright.sizing.checks import DECISIVE, Check, Checked, motion_checks, rating_checks
+from linkwright.sizing.checks import DECISIVE, Check, MotorChecks, motion_checks, rating_checks
 from linkwright.sizing.fit import with_flywheel, with_motor
 from linkwright.sizing.flywheel import UNEVENNESS, flywheel_inertia
 from linkwright.sizing.inertia import KNOWN, rotor_inertia
@@ -89,7 +89,7 @@ class Candidate:
 
     @property
     def worst(self) -> float:
-        """Greatest utilisation among the decisive checks; infinite where one has no number [–]."""
+        """Maximum utilisation among the decisive checks; infinite where one has no number [–]."""
         shares = [check.utilisation for check in self.failed]
         return max((float("inf") if share is None else share for share in shares), default=0.0)
 
@@ -155,7 +155,7 @@ class MotorChoice:
         return f"{self.chosen.type}, {power:.4g} kW, is the smallest motor of the catalogue that {rule}"
 
     def _shortfall(self) -> str:
-        """What the least bad candidate lacks."""
+        """What the minimum bad candidate lacks."""
         need = self.required.power * self.reserve
         suited = [each for each in self.candidates if each.checks[0].passed]
         if not suited:
@@ -338,7 +338,7 @@ class _Judge:
         inertia = self.inertias.get(known.type, estimate)
         estimated = estimated and known.type not in self.inertias
         lacking = _lacking(known)
-        fitted, flywheel, done = None, None, Checked((lacking,) if lacking else ())
+        fitted, flywheel, done = None, None, MotorChecks((lacking,) if lacking else ())
         if lacking is None and all(check.passed for check in rating):
             fitted, flywheel, done = self._analysed(known, inertia, ratio, estimated)
         return Candidate(
@@ -357,7 +357,7 @@ class _Judge:
 
     def _analysed(
         self, known: CatalogueMotor, inertia: float, ratio: float, estimated: bool
-    ) -> tuple[Machine, float | None, Checked]:
+    ) -> tuple[Machine, float | None, MotorChecks]:
         """The machine with the motor, the flywheel sized for it, and the checks."""
         note = f"Motor {known.type} by linkwright size"
         note += f"; the inertia of its rotor is {ESTIMATE}." if estimated else "."
@@ -367,7 +367,7 @@ class _Judge:
         try:
             flywheel, _ = flywheel_inertia(with_flywheel(fitted, 0.0), self.unevenness)
         except FindingError as error:
-            return fitted, None, Checked((Check("run_up", None, None, "s", False, note=str(error)),))
+            return fitted, None, MotorChecks((Check("run_up", None, None, "s", False, note=str(error)),))
         fitted = with_flywheel(fitted, flywheel)
         return fitted, flywheel, motion_checks(fitted)
 

@@ -38,7 +38,7 @@ class RequiredPower(Result):
     torque_load_mean: Annotated[
         float,
         Shown(
-            "mean resisting torque",
+            "mean load torque",
             "M_r,mean",
             "N m",
             "Over the crank angle at that speed, viscous and speed loads included.",

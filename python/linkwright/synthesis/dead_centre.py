@@ -1,4 +1,4 @@
-"""Dead-centre design: a crank-rocker for a wanted swing and time ratio; the slider-crank is in `stroke`.
+"""Dead-centre design: a crank-rocker for a required swing and time ratio; the slider-crank is in `stroke`.
 
 In the outer dead centre the joint is at p = c + r from the crank's pivot A₀, in the inner one at q = c − r,
 and A₀ sees the two places under the angle δ = φ₀ − π, where φ₀ is the crank angle from the outer to the inner
@@ -29,7 +29,7 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
-from linkwright.synthesis.transmission import Transmits
+from linkwright.synthesis.transmission import TransmissionResult
 from linkwright.synthesis.verify import element_of, require_met, require_transmission
 
 Floats = NDArray[np.float64]
@@ -43,7 +43,7 @@ SOURCE = "Synthesised by linkwright from its dead centres"
 
 
 @dataclass(frozen=True)
-class CrankRocker(Transmits):
+class CrankRocker(TransmissionResult):
     """A crank-rocker for given dead centres.
 
     Attributes
@@ -53,11 +53,11 @@ class CrankRocker(Transmits):
     crank_angle_forward : float
         Crank angle φ₀ from the outer dead centre to the inner one [rad].
     time_ratio : float
-        φ₀ over the rest of the turn [–].
+        φ₀ over the rest of the revolution [–].
     frame, crank, coupler, rocker : float
         Lengths [m].
     transmission_angle_min : float
-        Least transmission angle in the turn [rad].
+        Minimum transmission angle in the revolution [rad].
     turns_alike : bool
         Whether the rocker turns like the crank on its way from the outer dead centre to the inner one.
     crank_angle_outer, crank_angle_inner : float
@@ -100,7 +100,7 @@ def crank_rocker(
     swing : float
         Angle ψ₀ of the rocker between its dead centres [rad].
     time_ratio : float
-        Crank angle from the outer dead centre to the inner one over the rest of the turn [–].
+        Crank angle from the outer dead centre to the inner one over the rest of the revolution [–].
     frame : float
         Distance of the fixed pivots [m].
     coupler_max : float
@@ -196,7 +196,7 @@ class _Family:
         return crank, coupler, outer, inner, pivot
 
     def transmission(self, t: Floats) -> Floats:
-        """Least transmission angle in the turn; NaN where this is no crank-rocker with these dead centres."""
+        """Minimum transmission angle; NaN where this is no crank-rocker with these dead centres."""
         crank, coupler, outer, inner, pivot = self.places(t)
         rocker, frame = np.full_like(t, 1 / np.sin(self.swing / 2)), np.abs(pivot)
         one_circuit = cross(pivot, outer) * cross(pivot, inner) > 0

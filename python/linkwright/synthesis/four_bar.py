@@ -174,7 +174,7 @@ def type_of(frame: float, crank: float, coupler: float, rocker: float) -> str:
 
 
 def turn_spare(frame: Floats, crank: Floats, coupler: Floats, rocker: Floats) -> Floats:
-    """How far a linkage is from losing the full turn of its crank, (n,) [m]; negative if it does not turn.
+    """How far a crank is from losing its full revolution, (n,) [m]; negative if it does not turn fully.
 
     The crank turns if the coupler and the rocker meet at both ends of the range of d, g − r and g + r.
     """
@@ -184,9 +184,9 @@ def turn_spare(frame: Floats, crank: Floats, coupler: Floats, rocker: Floats) ->
 
 
 def worst_transmission(frame: Floats, crank: Floats, coupler: Floats, rocker: Floats) -> Floats:
-    """Least transmission angle in a full turn of the crank, (n,) [rad]; NaN where it does not turn.
+    """Minimum transmission angle in a full revolution of the crank, (n,) [rad]; NaN where it does not turn.
 
-    It is least where the crank is in line with the frame: d = g − r or d = g + r.
+    It is minimum where the crank is in line with the frame: d = g − r or d = g + r.
     """
     product = 2 * coupler * rocker
     cosines = [(coupler**2 + rocker**2 - (frame + sign * crank) ** 2) / product for sign in (-1, 1)]

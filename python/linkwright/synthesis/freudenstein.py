@@ -121,7 +121,7 @@ def residual(crank: Floats, rocker: Floats, K: Floats, starts: Floats) -> Floats
 def begins(
     crank: Floats, rocker: Floats, crank_start: float | None, rocker_start: float | None
 ) -> tuple[Floats, Floats]:
-    """Where a search for something else than the least residual begins: all over, and at what has it.
+    """Where a search for something else than the minimum residual begins: all over, and at what has it.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 """The linkages that come nearest to more points of a function than a four-bar can meet.
 
 Linkages of all proportions and those of Freudenstein's equation are refined until the sum of squares of the
-structural error at the points is least, within the limits of the task (`function_refine`); from the least
-minima the largest error over the range is made least. Minima of the equation's residual are not those of the
+structural error at the points is minimum, within the limits of the task (`function_refine`); from the minimum
+minima the largest error over the range is minimised. Minima of the equation's residual are not those of the
 error: they may lie in a valley of ever longer links.
 """
 
@@ -29,7 +29,7 @@ _BROKEN = 0.05
 # Linkages of Freudenstein's equation that are refined at most.
 _MOST = 60
 
-# Minima of least squares whose largest error is made least, and intervals of the analysis over the range to
+# Minima of least squares whose largest error is minimised, and intervals of the analysis over the range to
 # one of the points where it is looked at.
 _LEVELLED = 12
 _EVERY = 12
@@ -54,7 +54,7 @@ def nearest(task: FunctionTask, scale: Scale) -> tuple[list[Fit], int]:
     Returns
     -------
     tuple
-        The fits, the least of the largest errors first, each with the number of starts that ended at this
+        The fits, the minimum of the largest errors first, each with the number of starts that ended at this
         error; and how many starts were refined.
     """
     free = np.array([True, True, True, task.crank_start is None, task.rocker_start is None])
@@ -81,7 +81,7 @@ def nearest(task: FunctionTask, scale: Scale) -> tuple[list[Fit], int]:
 
 
 def _minima(rms: Floats, kept: NDArray[np.intp]) -> tuple[NDArray[np.intp], list[int]]:
-    """One linkage of each of the least minima, and how many ended there; ``kept`` in the order of ``rms``."""
+    """One linkage of each of the lowest minima, and how many ended there; ``kept`` in order of ``rms``."""
     found: list[int] = []
     counts: list[int] = []
     while len(kept) and len(found) < _LEVELLED:

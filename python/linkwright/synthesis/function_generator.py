@@ -25,19 +25,19 @@ from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, solve
 from linkwright.synthesis.function_fit import nearest
 from linkwright.synthesis.function_scale import Scale
 from linkwright.synthesis.task import FunctionTask
-from linkwright.synthesis.transmission import Transmits
+from linkwright.synthesis.transmission import TransmissionResult
 from linkwright.synthesis.verify import require_met
 
 Floats = NDArray[np.float64]
 
-# Starts that end at the least error before it counts as the least there is.
+# Starts that end at the minimum error before it counts as the global minimum.
 _SURE = 3
 
 SOURCE = "Synthesised by linkwright as a function generator"
 
 
 @dataclass(frozen=True)
-class FunctionGenerator(Transmits):
+class FunctionGenerator(TransmissionResult):
     """A four-bar linkage that generates a function.
 
     Attributes
@@ -55,13 +55,13 @@ class FunctionGenerator(Transmits):
     angle_error_max, angle_error_rms : float
         Structural error of the rocker angle over the range [rad].
     function_error_max : float
-        The greatest one in the unit of y.
+        The maximum one in the unit of y.
     angle_error_points : float
         Error of the rocker angle at the worst of the points [rad].
     transmission_angle_min : float
-        Least transmission angle over the range [rad].
+        Minimum transmission angle over the range [rad].
     solutions : int
-        Linkages that were found; this is the one with the least structural error.
+        Linkages that were found; this is the one with the minimum structural error.
     starts, found_by : int
         Starts of the search, and how many of them ended at this linkage.
     points : ndarray, shape (n,)
@@ -120,9 +120,9 @@ def function_generator(task: FunctionTask) -> FunctionGenerator:
     Returns
     -------
     FunctionGenerator
-        Of all linkages that meet the points and can be driven through the range, the one with the least
+        Of all linkages that meet the points and can be driven through the range, the one with the minimum
         structural error. More points than unknowns say where the search begins, by least squares of the
-        structural error there; then its largest value over the range is made least.
+        structural error there; then its largest value over the range is minimised.
 
     Raises
     ------

@@ -11,7 +11,7 @@ is extreme at the ends of the range and where crank and frame are in line, so it
 kept there. A constraint that is broken by g is the residual w (g + λ); λ grows by what is left of g, until
 nothing is.
 
-Source: as for `damped_step` and `path_refine`; extremes of the transmission angle: VDI 2127; least largest
+Source: as for `damped_step` and `path_refine`; extremes of the transmission angle: VDI 2127; minimum largest
 errors: C. L. Lawson, Contributions to the theory of linear least maximum approximation, UCLA 1961.
 """
 
@@ -47,7 +47,7 @@ _MARGIN = 1e-8
 # Damping at the beginning, what it is multiplied by after a failure and divided by after a success.
 _DAMPING, _HARDER, _EASIER = 1e-2, 3.0, 5.0
 
-# Sine of β and cosine of μ at the least: beyond, the linkage is not assembled, and rates have no limit.
+# Sine of β and cosine of μ at the minimum: beyond, the linkage is not assembled, and rates have no limit.
 _FLAT = 1e-9
 
 # Rounds of Lawson's method, which converges linearly, and steps of a round; what a weight keeps at least, so
@@ -97,7 +97,7 @@ class FunctionModel:
     ratio_max : float
         Longest over shortest link, at most.
     transmission_min : float
-        Least transmission angle over the range [rad].
+        Minimum transmission angle over the range [rad].
     """
 
     crank: Floats

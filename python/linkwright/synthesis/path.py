@@ -2,9 +2,9 @@
 
 Some ten thousand shapes, each in its best pose, are judged (`path_starts`); the best of each group begins a
 refinement by least squares (`path_refine`), all at once: coarse at first, to the end for those that lead.
-Several starts that end at the same error are the evidence that it is the least; how many did is told. With
-given crank angles the point is compared at those angles, else with the nearest place of the curve, and the
-places must follow one another in the order of the points.
+Several starts that end at the same error are the evidence that it is the minimum; how many did is reported.
+With given crank angles the point is compared at those angles, else with the nearest place of the curve, and
+the places must follow one another in the order of the points.
 
 Source: D. Nolle, K. H. Hunt, Optimum synthesis of planar linkages to generate coupler curves, Journal of
 Mechanisms 6 (1971) 267–287 for the statement as least squares.
@@ -28,7 +28,7 @@ from linkwright.synthesis.path_model import Linkages, PathModel
 from linkwright.synthesis.path_refine import refine
 from linkwright.synthesis.path_starts import TRIALS, starts
 from linkwright.synthesis.task import PathTask
-from linkwright.synthesis.transmission import Transmits
+from linkwright.synthesis.transmission import TransmissionResult
 from linkwright.synthesis.turning_shape import shape
 
 Floats = NDArray[np.float64]
@@ -38,14 +38,15 @@ Floats = NDArray[np.float64]
 # along their constraints, as distances of a thousandth of the path then count as much.
 _STAGES = ((1.0, 0.1, 1.0), (0.1, 0.35, 1.0), (0.1, 1.0, 0.2))
 
-# Errors within this share of the least are the same minimum; within the next, the transmission angle decides.
+# Errors within this share of the minimum are the same minimum; within the next, the transmission angle
+# decides.
 _SAME = 0.01
 _ALIKE = 1e-3
 
 # Errors over the size of the path that are rounding.
 _ROUNDING = 1e-12
 
-# Starts that end at the least error before it counts as the least there is.
+# Starts that end at the minimum error before it counts as the global minimum.
 _SURE = 3
 
 SOURCE = "Synthesised by linkwright for given points of a path"
@@ -55,7 +56,7 @@ Track = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
-class PathGenerator(Transmits):
+class PathGenerator(TransmissionResult):
     """A four-bar linkage whose coupler point follows given points.
 
     Attributes
@@ -73,7 +74,7 @@ class PathGenerator(Transmits):
     error_relative : float
         ``error_rms`` over the size of the path [–].
     transmission_angle_min : float
-        Least transmission angle in the turn [rad].
+        Minimum transmission angle in the revolution [rad].
     starts, found_by : int
         Starts that were refined, and how many of them ended at this error, within 1 %.
     evaluated : int
@@ -148,7 +149,7 @@ def path_generator(task: PathTask, *, track: Track | None = None) -> PathGenerat
     Returns
     -------
     PathGenerator
-        The linkage of the least error; where several have it, the one with the greatest least transmission
+        The linkage of the minimum error; where several have it, the one with the largest minimum transmission
         angle. The same for the same task.
 
     Raises
@@ -229,7 +230,7 @@ class _Effort:
 
 
 def _transmission(model: PathModel, rows: Linkages) -> Floats:
-    """Least transmission angles, (m,) [rad]."""
+    """Minimum transmission angles, (m,) [rad]."""
     lengths, _ = shape(rows.p[:, :3], rows.is_double)
     return worst_transmission(np.ones(len(lengths)), *lengths.T)
 

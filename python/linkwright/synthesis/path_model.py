@@ -199,7 +199,7 @@ class PathModel:
 
 
 def disorder(at: Floats, turn: float) -> Floats:
-    """How many turns too many the curve must be run through to meet its points in order, (m,).
+    """How many revolutions too many the curve must be run through to meet its points in order, (m,).
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ def disorder(at: Floats, turn: float) -> Floats:
     Returns
     -------
     ndarray, shape (m,)
-        0 where one turn, in either direction, meets them all.
+        0 where one revolution, in either direction, meets them all.
     """
     steps = np.diff(at, axis=1, append=at[:, :1])
     turns = [np.round(np.mod(sign * steps, turn).sum(axis=1) / turn) for sign in (1, -1)]

@@ -27,7 +27,7 @@ from linkwright.synthesis.path_model import MARGIN, Linkages, PathModel
 
 Floats = NDArray[np.float64]
 
-# Greatest step of a crank angle [rad]: beyond it the tangent says nothing.
+# Maximum step of a crank angle [rad]: beyond it the tangent says nothing.
 _ANGLE = 0.3
 
 # Steps of Newton to the foot of a point on the curve: the first is that of the linear problem.

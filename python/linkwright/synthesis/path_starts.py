@@ -26,12 +26,12 @@ Floats = NDArray[np.float64]
 # Shapes and timings that are judged for each start that is refined.
 TRIALS = 160
 
-# Crank over frame: least, and its inverse for a double crank; share of D; S beyond its least.
+# Crank over frame: minimum, and its inverse for a double crank; share of D; S beyond its minimum.
 _CRANK = 0.04
 _BENT = 0.98
 _REST = (0.02, 8.0)
 
-# Least part of a revolution over which points are met; how unevenly, as a share of what keeps their order.
+# Minimum part of a revolution over which points are met; how unevenly, as a share of what keeps their order.
 _SPAN = 0.1
 _UNEVEN = 0.8
 

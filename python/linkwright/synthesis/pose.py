@@ -24,7 +24,7 @@ from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
 from linkwright.synthesis.slider_pose import guide_slider
 from linkwright.synthesis.task import MovingPoint, PoseTask
-from linkwright.synthesis.transmission import Transmits, least_transmission
+from linkwright.synthesis.transmission import TransmissionResult, least_transmission
 from linkwright.synthesis.travel import listed, travel, way
 from linkwright.synthesis.verify import require_met
 
@@ -41,7 +41,7 @@ SOURCE = "Synthesised by linkwright for given poses"
 
 
 @dataclass(frozen=True)
-class PoseGuide(Transmits):
+class PoseGuide(TransmissionResult):
     """A linkage whose coupler passes through given poses.
 
     Attributes
@@ -59,11 +59,11 @@ class PoseGuide(Transmits):
     direction : str
         In which the crank turns through the poses.
     transmission_angle_min : float
-        Least transmission angle from the first pose to the last [rad].
+        Minimum transmission angle from the first pose to the last [rad].
     pose_error : float
-        Greatest distance of the body's origin from its place, in the machine analysed again [m].
+        Maximum distance of the body's origin from its place, in the machine analysed again [m].
     angle_error : float
-        Greatest deviation of its turning from pose to pose [rad].
+        Maximum deviation of its turning from pose to pose [rad].
     crank_angles : ndarray, shape (n,)
         Crank angles of the poses [rad].
     machine : Machine
@@ -132,7 +132,7 @@ def centre(places: Complexes, point: MovingPoint, key: str) -> complex:
     places : ndarray, shape (n,)
         Two or three places [m].
     point : MovingPoint
-        The point; its turn chooses the centre of two places.
+        The point; its revolution chooses the centre of two places.
     key : str
         Its key, for messages.
 

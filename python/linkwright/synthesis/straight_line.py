@@ -1,6 +1,6 @@
 """Straight lines from a catalogue: a linkage scaled to a wanted length of line, and how straight that is.
 
-The deviation is the greatest distance of the point from the best straight line, which is the middle of the
+The deviation is the maximum distance of the point from the best straight line, which is the middle of the
 narrowest strip that holds the whole curve; one side of that strip is a side of the curve's convex hull.
 
 Source: ISO 1101 (straightness as the width of the narrowest strip); the kinds: see `line_kinds`.
@@ -51,7 +51,7 @@ class StraightLine(Result):
     length : float
         Of the line [m].
     deviation : float
-        Greatest distance from the best straight line [m].
+        Maximum distance from the best straight line [m].
     straightness : float
         Width of the narrowest strip that holds the line, twice the deviation, over its length [–].
     direction : float
@@ -59,7 +59,7 @@ class StraightLine(Result):
     crank_angle_start, crank_angle_end : float
         Range of the crank [rad].
     speed_ratio : float
-        Greatest over least speed of ``P`` in the range at constant crank speed [–].
+        Maximum over minimum speed of ``P`` in the range at constant crank speed [–].
     size : float
         Longest distance between two points of the linkage in one link [m].
     turns_fully : bool

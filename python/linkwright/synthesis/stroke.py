@@ -1,7 +1,7 @@
 """Dead-centre design of a slider-crank: a wanted stroke and time ratio, by the triangle of `dead_centre`.
 
 The chord h is the stroke, and the guide passes the crank's pivot at the height of the triangle, e = p q |sin
-δ|/h. The transmission angle between the rod and the normal of the guide is least where the pin is farthest
+δ|/h. The transmission angle between the rod and the normal of the guide is minimum where the pin is farthest
 from the guide, cos μ = (r + e)/c.
 
 Source: VDI 2130; Volmer, Getriebetechnik: Koppelgetriebe.
@@ -23,14 +23,14 @@ from linkwright.kernel.units import LENGTH, RATIO, positive
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints, slow_over_quick
 from linkwright.synthesis.four_bar import cross, machine_of
-from linkwright.synthesis.transmission import Transmits
+from linkwright.synthesis.transmission import TransmissionResult
 from linkwright.synthesis.verify import element_of, require_met, require_transmission
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class StrokeCrank(Transmits):
+class StrokeCrank(TransmissionResult):
     """A slider-crank for a given stroke and time ratio."""
 
     remedy: ClassVar[str] = "give a longer rod, or a time ratio nearer to 1"
@@ -40,13 +40,13 @@ class StrokeCrank(Transmits):
         float,
         Shown("crank angle of the forward stroke", "φ₀", "rad", "From the outer dead centre to the inner."),
     ]
-    time_ratio: Annotated[float, Shown("time ratio", "", "", "φ₀ over the rest of the turn.")]
+    time_ratio: Annotated[float, Shown("time ratio", "", "", "φ₀ over the rest of the revolution.")]
     crank: Annotated[float, Shown("radius of the crank", "r", "m")]
     rod: Annotated[float, Shown("length of the rod", "l", "m")]
     offset: Annotated[float, Shown("offset of the guide", "e", "m")]
     transmission_angle_min: Annotated[
         float,
-        Shown("least transmission angle", "μ_min", "rad", "Between the rod and the normal of the guide."),
+        Shown("minimum transmission angle", "μ_min", "rad", "Between the rod and the normal of the guide."),
     ]
     crank_angle_outer: Annotated[
         float, Shown("crank angle of the outer dead centre", "", "rad", "In the machine.")
@@ -66,7 +66,7 @@ def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = 
     stroke : float
         Way of the slider between its dead centres [m].
     time_ratio : float
-        Crank angle from the outer dead centre to the inner one over the rest of the turn [–].
+        Crank angle from the outer dead centre to the inner one over the rest of the revolution [–].
     rod : float, optional
         Its rod [m]. Without it, the rod of the best transmission angle; at a time ratio of 1 there is none.
 
@@ -116,7 +116,7 @@ def _verified(made: StrokeCrank) -> StrokeCrank:
 
 
 def _slide_transmission(t: Floats, delta: float) -> Floats:
-    """Least transmission angle of a slider-crank in its turn; NaN where its crank does not turn."""
+    """Minimum transmission angle of a slider-crank in its revolution; NaN where its crank does not turn."""
     crank, coupler, outer, inner = joints(t, delta)
     offset = np.abs(cross(outer, inner)) / np.abs(outer - inner)
     ahead = np.real(np.conj(outer - inner) * inner) > 0

@@ -35,7 +35,7 @@ Ratios = Annotated[tuple[float, ...], QuantityList(RATIO)]
 
 
 class Task(Description):
-    """What all tasks share: a task is checked as a whole, and all its problems are told."""
+    """What all tasks share: a task is checked as a whole, and all its problems are reported."""
 
     name: str = Field("", description="What the linkage is for; the name of the machine.")
 
@@ -108,14 +108,16 @@ class PoseTask(Task):
             yield from self._turn_faults(key, needed=n == 2 and key in turning)
 
     def _turn_faults(self, key: str, *, needed: bool) -> Iterator[InitErrorDetails]:
-        """An angle of turn that is missing, or has no meaning."""
+        """An angle of revolution that is missing, or has no meaning."""
         point: MovingPoint | None = getattr(self, key)
         if point is None:
             return
         if needed and point.turn is None:
             yield fault(key, "turn", expected='an angle such as "60 deg"; two poses leave it free')
         if needed and point.turn is not None and not 0 < abs(point.turn) < 6.28:
-            yield fault(key, "turn", found=point.turn, expected="an angle other than zero, less than a turn")
+            yield fault(
+                key, "turn", found=point.turn, expected="an angle other than 0, less than a revolution"
+            )
         if not needed and point.turn is not None:
             yield fault(key, "turn", found=point.turn, expected="nothing; it follows from the poses")
 
@@ -142,7 +144,7 @@ class FunctionTask(Task):
     )
     frame: PositiveLength = Field(1.0, description="Distance of the fixed pivots.")
     transmission_angle_min: Annotated[float, not_negative(ANGLE)] = Field(
-        0.0, description="Least transmission angle over the range."
+        0.0, description="Minimum transmission angle over the range."
     )
     length_ratio_max: Annotated[float, positive(RATIO)] = Field(
         20.0, description="Longest over shortest link, at most."
@@ -166,7 +168,7 @@ class FunctionTask(Task):
         for key in ("crank_range", "rocker_range"):
             if not 0 < abs(getattr(self, key)) < 6.28:
                 yield fault(
-                    key, found=getattr(self, key), expected="an angle other than zero, less than a turn"
+                    key, found=getattr(self, key), expected="an angle other than zero, less than a revolution"
                 )
         yield from self._count_faults()
 
@@ -210,7 +212,7 @@ class PathTask(Task):
         "crank-rocker", description="What the linkage must be; in any case its crank turns round."
     )
     transmission_angle_min: Annotated[float, not_negative(ANGLE)] = Field(
-        0.0, description="Least transmission angle in the turn."
+        0.0, description="Minimum transmission angle in the revolution."
     )
     length_ratio_max: Annotated[float, positive(RATIO)] = Field(
         20.0, description="Longest over shortest link, at most."
@@ -228,7 +230,7 @@ class PathTask(Task):
     accuracy: Ratio = Field(
         1e-9,
         description="Error over size of the path below which linkages count as exact; of such the one with "
-        "the greatest transmission angle is given.",
+        "the maximum transmission angle is given.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

@@ -17,8 +17,8 @@ from linkwright.kernel.result import Result
 
 Floats = NDArray[np.float64]
 
-# Least transmission angles [rad]: of a linkage that runs fast or under load; of one that does not; and where
-# it is near its dead centre, as friction of the joints alone asks for some ten degrees.
+# Minimum transmission angles [rad]: of a linkage that runs fast or under load; of one that does not; and
+# where it is near its dead centre, as friction of the joints alone asks for some ten degrees.
 _GOOD = np.radians(40.0)
 _FAIR = np.radians(30.0)
 _NEAR_LOCK = np.radians(15.0)
@@ -28,12 +28,12 @@ _SAME = 1e-6
 
 
 def transmission_caution(angle: float, remedy: str = "") -> tuple[str, ...]:
-    """What to know of a least transmission angle; nothing where it is good.
+    """What to know of a minimum transmission angle; nothing where it is good.
 
     Parameters
     ----------
     angle : float
-        Least transmission angle in the motion that is used [rad].
+        Minimum transmission angle in the motion that is used [rad].
     remedy : str
         What raises it.
 
@@ -46,9 +46,7 @@ def transmission_caution(angle: float, remedy: str = "") -> tuple[str, ...]:
         return ()
     found = f"the transmission angle falls to {np.degrees(angle):.3g}°"
     if angle < _NEAR_LOCK:
-        meaning = (
-            "the linkage nearly locks there: friction may stop it, and play of the joints moves its output"
-        )
+        meaning = "the linkage nearly locks there: friction may stop it, and joint clearance moves its output"
     elif angle < _FAIR:
         meaning = "handbooks ask for 40° at least, 30° at low speed and load; joint forces and wear are high"
     else:
@@ -57,7 +55,7 @@ def transmission_caution(angle: float, remedy: str = "") -> tuple[str, ...]:
 
 
 def least_transmission(of: Callable[[Floats], Floats], start: float, end: float) -> float:
-    """Least transmission angle while the crank turns from one angle to another, exactly [rad].
+    """Minimum transmission angle while the crank turns from one angle to another, exactly [rad].
 
     Parameters
     ----------
@@ -75,8 +73,8 @@ def least_transmission(of: Callable[[Floats], Floats], start: float, end: float)
     return turn.extreme(-1)[0]
 
 
-class Transmits(Result):
-    """A result with a least transmission angle, and a caution where that is small."""
+class TransmissionResult(Result):
+    """A result with a minimum transmission angle, and a caution where that is small."""
 
     transmission_angle_min: float
     # What raises the transmission angle.

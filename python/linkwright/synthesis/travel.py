@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 # by the analysis that meets it.
 _STEPS = 1441
 
-# A radicand above this share of its greatest, and negative, is rounding at a position with the links in line.
+# A radicand above this share of its maximum, and negative, is rounding at a position with the links in line.
 _ZERO = 1e-10
 
 
@@ -33,14 +33,14 @@ def travel(
     gap : callable
         Radicand of the closure at crank angles [rad]; negative where the linkage does not close.
     angles : sequence of float
-        Crank angles of the positions in their order [rad], each up to whole turns.
+        Crank angles of the positions in their order [rad], each up to whole revolutions.
     turn : float, optional
         An angle with the sign of the direction that is wanted; without it the shorter way is tried first.
 
     Returns
     -------
     ndarray of shape (n,) or None
-        Increasing or decreasing within one turn [rad]; None if neither direction passes all positions.
+        Increasing or decreasing within one revolution [rad]; None if neither direction passes all positions.
     """
     ways = [_unrolled(np.asarray(angles, dtype=float), sign) for sign in (1.0, -1.0)]
     if turn is not None:
@@ -55,7 +55,7 @@ def travel(
 
 
 def _unrolled(angles: Floats, sign: float) -> Floats:
-    """The angles counted on in one direction, each step less than a turn."""
+    """The angles counted on in one direction, each step less than a revolution."""
     steps = np.mod(sign * np.diff(angles), 2 * np.pi)
     return np.asarray(angles[0] + sign * np.concatenate([[0.0], np.cumsum(steps)]))
 

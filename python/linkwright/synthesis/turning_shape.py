@@ -9,7 +9,7 @@ distance that they span, 1 − r and 1 + r; so with c = (S + D)/2, b = (S − D)
 
 and r between e and 1 − 2e by a logistic function of q₁ for a crank-rocker, above 1 + 2e for a double crank.
 The spare e keeps the linkage away from its change point. Every shape of a kind is met once, so that a search
-needs no bounds for the full turn.
+needs no bounds for the full revolution.
 
 Source: Grashof's condition, e.g. Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
 """
@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Bools = NDArray[np.bool_]
 
-# Least spare of the full turn, over the frame: nearer to a change point the motion is not determined.
+# Minimum spare of the full revolution, over the frame: nearer to a change point the motion is not determined.
 SPARE = 1e-3
 
 # Numbers beyond this are shapes that differ from their limits by a millionth.
@@ -64,7 +64,7 @@ def shape(q: Floats, is_double: Bools) -> tuple[Floats, Floats]:
 
 
 def free_numbers(crank: Floats, bent: Floats, rest: Floats, is_double: Bools) -> Floats:
-    """The free numbers of a crank over the frame, a share of D from −1 to 1, S beyond its least, (m, 3)."""
+    """The free numbers of a crank over the frame, a share of D from −1 to 1, S beyond its minimum, (m, 3)."""
     inside = (crank - SPARE) / (1 - 3 * SPARE)
     with np.errstate(invalid="ignore", divide="ignore"):
         q1 = np.where(is_double, np.log(crank - 1 - 2 * SPARE), np.log(inside) - np.log(1 - inside))

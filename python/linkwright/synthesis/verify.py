@@ -25,7 +25,7 @@ def require_met(
     wanted, found : float
         What was asked for, and what the analysis of the machine finds; None if it has no such thing.
     unit : str
-        Unit of both, for the message; angles in ``"rad"`` are told in degrees.
+        Unit of both, for the message; angles in ``"rad"`` are reported in degrees.
     size : float, optional
         What the difference is compared with, instead of the wanted value.
 
@@ -59,7 +59,7 @@ def element_of(machine: Machine, output: str) -> ElementMotion:
 
 
 def require_transmission(wanted: float, found: ElementMotion) -> None:
-    """Raise unless the least transmission angle over a revolution is the one that is returned.
+    """Raise unless the minimum transmission angle over a revolution is the one that is returned.
 
     Parameters
     ----------
@@ -70,4 +70,4 @@ def require_transmission(wanted: float, found: ElementMotion) -> None:
     """
     low, high = found.transmission_angle_min, found.transmission_angle_max
     least = None if low is None or high is None else min(low, np.pi - high)
-    require_met("a least transmission angle", wanted, least, "rad", size=1.0)
+    require_met("a minimum transmission angle", wanted, least, "rad", size=1.0)

@@ -71,5 +71,5 @@ def topper_cautions(described: Topper, found: TopperStudy) -> Iterator[str]:
         speed = -found.least_advance
         yield (
             f"The edge runs backwards at times, by up to {speed:.4g} m/s along its normal: there its back "
-            "meets the head; set it less aslant, or move the knife more slowly."
+            "meets the head; reduce the edge angle or the knife speed."
         )

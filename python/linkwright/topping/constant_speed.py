@@ -38,12 +38,12 @@ def constant_speed_lengths(
     forward_speed: ArrayLike,
     knife_speed: ArrayLike,
 ) -> Floats:
-    """Least length for each direction of the knife.
+    """Minimum length for each direction of the knife.
 
     Parameters
     ----------
     diameter, offset : array_like, shape (...)
-        d of the head and greatest offset Δ [m].
+        d of the head and maximum offset Δ [m].
     edge_angle : array_like, shape (...)
         α [rad].
     forward_speed, knife_speed : array_like, shape (...)

@@ -29,7 +29,7 @@ class KnifeWay(NamedTuple):
     drift : float
         A constant speed across the row [m/s].
     reach : float
-        Greatest size of the law [m].
+        Peak absolute value of the law [m].
     slowest, fastest : float
         Extremes of the speed across the row [m/s].
     """
@@ -89,7 +89,7 @@ class KnifeKernel:
         length : float, optional
             Of the edge [m]; without it, areas are zero.
         fine : int
-            Stations a turn of the law, and as many more.
+            Stations per revolution of the law, and as many more.
 
         Returns
         -------

@@ -26,15 +26,15 @@ from linkwright.topping.edge import Edge
 
 Floats = NDArray[np.float64]
 
-# Stations a turn of the law for one machine: tops between them are then told apart to 1e-9.
+# Stations per revolution of the law for one machine: tops between them are then told apart to 1e-9.
 FINE = 128
 
-# Stations a turn of the law for many heads: two tops that differ by less than 1e-6 of the head may be
+# Stations per revolution of the law for many heads: two tops that differ by less than 1e-6 of the head may be
 # confused.
 COARSE = 16
 
-# Far aslant, the point that is reached last lies within cot α of the end of the pass: so many stations see
-# it, times tan α; no more than the second for an edge that hardly goes on.
+# At a large angle, the point that is reached last lies within cot α of the end of the pass: so many stations
+# see it, times tan α; no more than the second for an edge that hardly goes on.
 _ASLANT, _MOST = 4, 100_000
 
 
@@ -45,7 +45,7 @@ class Coverage(Result):
     Attributes
     ----------
     length_needed : ndarray
-        Least length of the edge that cuts all of the head [m]; zero for a head without a disc.
+        Minimum length of the edge that cuts all of the head [m]; zero for a head without a disc.
     last_x, last_y : ndarray
         The point that is reached last, from the centre of the head [m].
     uncut_right, uncut_left, uncut_between : ndarray
@@ -87,7 +87,7 @@ def coverage(
     length : float, optional
         Of the edge [m]; without it, only what is needed is looked at.
     fine : int
-        Stations a turn of the law; an edge far aslant takes more.
+        Stations per revolution of the law; an edge at a large angle takes more.
 
     Returns
     -------
@@ -120,7 +120,7 @@ def coverage(
 
 
 def _stations(edge: Edge, fine: int, diameter: float, offset: float) -> int:
-    """Stations a turn: more far aslant; fewer if each stretch between corners has them all."""
+    """Stations per revolution: more at a large angle; fewer if each stretch between corners has them all."""
     leans = [edge.angle] if edge.retreats else [edge.angle, *edge.leans]
     aslant = int(min(_MOST, _ASLANT * np.abs(np.tan(leans)).max()))
     if edge.knife.corners and not edge.retreats:

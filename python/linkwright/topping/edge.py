@@ -33,8 +33,8 @@ from linkwright.topping.model.topper import Topper
 
 Floats = NDArray[np.float64]
 
-# Turns of the law over a head that are followed: for an edge that retreats the work grows with their square,
-# for any other the core runs out of stations.
+# Revolutions of the law over a head that are followed: for an edge that retreats the work grows with their
+# square, for any other the core runs out of stations.
 _TURNS, _TURNS_RETREATING = 60, 8
 
 
@@ -106,7 +106,7 @@ class Edge:
 
     @property
     def least_advance(self) -> float:
-        """Least speed of the edge along its normal [m/s]; zero or less where it retreats."""
+        """Minimum speed of the edge along its normal [m/s]; zero or less where it retreats."""
         worst = max(speed * np.sin(self.angle) for speed in self.knife.speeds)
         return float(self.forward_speed * np.cos(self.angle) - worst)
 
@@ -117,13 +117,13 @@ class Edge:
 
     @property
     def stands(self) -> bool:
-        """Whether it moves along itself for ever, and cuts nothing."""
+        """Whether it moves along itself indefinitely, and cuts nothing."""
         speed = np.hypot(self.forward_speed, self.knife.drift)
         return bool(abs(self.mean_advance) <= ALONG_ITSELF * speed)
 
     @property
     def leans(self) -> tuple[float, float]:
-        """Angle α + β of the way to the edge's normal, at the least and greatest speed of the knife [rad]."""
+        """Angle α + β of the path to the edge's normal, at minimum and maximum speed of the knife [rad]."""
         low, high = (self.angle + float(np.arctan2(w, self.forward_speed)) for w in self.knife.speeds)
         return low, high
 
@@ -133,7 +133,7 @@ class Edge:
         return float((0.5 * diameter + swing) / abs(self.mean_advance))
 
     def turns(self, diameter: float, offset: float) -> float:
-        """Turns of the law while the edge may be over a head up to the offset from the row."""
+        """Revolutions of the law while the edge may be over a head up to the offset from the row."""
         return 2 * self.knife.frequency * self.half_pass(diameter, offset) if self.knife.rate else 0.0
 
 
@@ -180,14 +180,14 @@ def edges_of(machine: Machine, described: Topper) -> list[Edge]:
     AssemblyError
         The mechanism of the knife does not close all round.
     FindingError
-        The member that is the knife does not come back with each turn.
+        The member that is the knife does not come back with each revolution.
     """
     ways = knives(machine, described)
     return [Edge(way, described.edge_angle, described.forward_speed) for way in ways]
 
 
 def hardly_goes_on(edge: Edge, diameter: float, offset: float) -> str | None:
-    """Why an edge cannot be followed: its knife goes to and fro over a head again and again.
+    """Why an edge cannot be followed: its knife goes back and forth over a head again and again.
 
     Parameters
     ----------
@@ -204,8 +204,8 @@ def hardly_goes_on(edge: Edge, diameter: float, offset: float) -> str | None:
     turns, most = edge.turns(diameter, offset), _TURNS_RETREATING if edge.retreats else _TURNS
     if turns <= most:
         return None
-    way = "Set it less aslant" if edge.retreats else "Give it a longer stroke"
+    way = "Reduce the edge angle" if edge.retreats else "Use a longer stroke"
     return (
-        f"The edge hardly goes on: the knife goes {turns:.3g} times to and fro while it is over one head, "
-        f"and is followed for {most}; what it cuts is not computed. {way}, or move the knife more slowly."
+        f"The blade barely advances: the knife makes {turns:.3g} double strokes while it is over one head, "
+        f"and is followed for {most}; what it cuts is not computed. {way}, or reduce the knife speed."
     )

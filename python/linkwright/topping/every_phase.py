@@ -1,4 +1,4 @@
-r"""The exact length of the edge for every phase of a knife that goes to and fro.
+r"""The exact length of the edge for every phase of a knife that goes back and forth.
 
 Heads meet the knife as they may. A point of a head lies within d/2 + Δ of the axis of the row, the middle of
 the edge within half of the stroke S; where the edge crosses the point, both differ by the way from the middle
@@ -25,12 +25,12 @@ Floats = NDArray[np.float64]
 def every_phase_length(
     diameter: ArrayLike, offset: ArrayLike, edge_angle: ArrayLike, stroke: ArrayLike
 ) -> Floats:
-    """Least length of an edge that never retreats.
+    """Minimum length of an edge that never retreats.
 
     Parameters
     ----------
     diameter, offset, edge_angle, stroke : array_like, shape (...)
-        d of the head and greatest offset Δ [m], α [rad], S [m]; they broadcast.
+        d of the head and maximum offset Δ [m], α [rad], S [m]; they broadcast.
 
     Returns
     -------

@@ -42,7 +42,7 @@ from linkwright.topping.slicing import slicing
 
 Floats = NDArray[np.float64]
 
-# Lengths of the curve, from zero to the greatest that a head needs.
+# Lengths of the curve, from zero to the maximum that a head needs.
 _LENGTHS = 201
 
 
@@ -64,7 +64,7 @@ class TopperField(Result):
     share_low: Annotated[
         Floats,
         Shown(
-            "least share of heads that a length cuts right through",
+            "minimum share of heads that a length cuts right through",
             "",
             "",
             "End of its interval, each length by itself.",
@@ -73,7 +73,7 @@ class TopperField(Result):
     share_high: Annotated[
         Floats,
         Shown(
-            "greatest share of heads that a length cuts right through",
+            "maximum share of heads that a length cuts right through",
             "",
             "",
             "End of its interval, each length by itself.",
@@ -104,31 +104,31 @@ class TopperField(Result):
     edge_length: Annotated[float, Shown("length of the edge", "L", "m", "That it has.")]
     share_complete: Annotated[float, Shown("share of heads that are cut right through", "", "")]
     share_complete_low: Annotated[
-        float, Shown("least share of heads that are cut right through", "", "", "End of its interval.")
+        float, Shown("minimum share of heads that are cut right through", "", "", "End of its interval.")
     ]
     share_complete_high: Annotated[
-        float, Shown("greatest share of heads that are cut right through", "", "", "End of its interval.")
+        float, Shown("maximum share of heads that are cut right through", "", "", "End of its interval.")
     ]
     haulm_mean: Annotated[float, Shown("mean share of the head that is left", "", "")]
     haulm_mean_low: Annotated[
-        float, Shown("least mean share of the head that is left", "", "", "End of its interval.")
+        float, Shown("minimum mean share of the head that is left", "", "", "End of its interval.")
     ]
     haulm_mean_high: Annotated[
-        float, Shown("greatest mean share of the head that is left", "", "", "End of its interval.")
+        float, Shown("maximum mean share of the head that is left", "", "", "End of its interval.")
     ]
     loss_mean: Annotated[float, Shown("mean volume of a root above the cut", "", "m³")]
     loss_mean_low: Annotated[
-        float, Shown("least mean volume of a root above the cut", "", "m³", "End of its interval.")
+        float, Shown("minimum mean volume of a root above the cut", "", "m³", "End of its interval.")
     ]
     loss_mean_high: Annotated[
-        float, Shown("greatest mean volume of a root above the cut", "", "m³", "End of its interval.")
+        float, Shown("maximum mean volume of a root above the cut", "", "m³", "End of its interval.")
     ]
     loss_share: Annotated[float, Shown("share of all roots that is above the cut", "", "")]
     loss_share_low: Annotated[
-        float, Shown("least share of all roots that is above the cut", "", "", "End of its interval.")
+        float, Shown("minimum share of all roots that is above the cut", "", "", "End of its interval.")
     ]
     loss_share_high: Annotated[
-        float, Shown("greatest share of all roots that is above the cut", "", "", "End of its interval.")
+        float, Shown("maximum share of all roots that is above the cut", "", "", "End of its interval.")
     ]
     loss_mass_mean: Annotated[
         float | None, Shown("mean mass of a root above the cut", "", "kg", "With a density.")
@@ -139,14 +139,14 @@ class TopperField(Result):
         tuple[float, ...], About("Length for each of them [m]; infinite where so many cannot be cut.")
     ]
     quantile_length_low: Annotated[
-        tuple[float, ...], About("Least length for each of them [m]: end of its interval.")
+        tuple[float, ...], About("Minimum length for each of them [m]: end of its interval.")
     ]
     quantile_length_high: Annotated[
-        tuple[float, ...], About("Greatest length for each of them [m]: end of its interval.")
+        tuple[float, ...], About("Maximum length for each of them [m]: end of its interval.")
     ]
 
     def length_at(self, share: float) -> float:
-        """Least length that cuts a share of the heads right through [m].
+        """Minimum length that cuts a share of the heads right through [m].
 
         Parameters
         ----------
@@ -202,7 +202,7 @@ def topper_field(
     level : float
         Probability that an interval holds the truth.
     fine : int
-        Stations a turn of the law.
+        Stations per revolution of the law.
     watch : callable, optional
         Told how much is done, from 0 to 1.
 

@@ -10,7 +10,7 @@ from linkwright.topping.model.field import RandomField
 from linkwright.topping.model.topper import Topper
 
 # Phases of a row that count as few, how far they may wander along it [turns], and roots that share each at
-# least.
+# minimum.
 _FEW, _WANDER, _SHARING = 4, 0.25, 4
 
 

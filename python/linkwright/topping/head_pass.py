@@ -57,7 +57,7 @@ class HeadPass(Result):
     normal: Annotated[
         Floats, Shown("middle of the edge normal to the edge", "p", "m", "From the head's centre.")
     ]
-    edge_angle: Annotated[float, Shown("angle of the edge", "α", "rad")]
+    edge_angle: Annotated[float, Shown("edge angle", "α", "rad")]
     length: Annotated[float, Shown("length of the edge", "L", "m")]
     diameter: Annotated[float, Shown("diameter of the head", "d", "m")]
     offset: Annotated[float, Shown("offset of the head", "δ", "m")]

@@ -1,7 +1,7 @@
-r"""The law y(t) by which the knife of a topper goes to and fro across the row.
+r"""The law y(t) by which the knife of a topper goes back and forth across the row.
 
-The mean speed v_h counts the way in both senses, :math:`v_h = 2 S f` for one stroke S to and fro a cycle; so
-a sine of stroke S has :math:`2\pi f = \pi v_h/S` and its greatest speed is :math:`\tfrac{\pi}{2} v_h`. The
+The mean speed v_h counts the way in both senses, :math:`v_h = 2 S f` for one stroke S back and forth a cycle;
+so a sine of stroke S has :math:`2\pi f = \pi v_h/S` and its maximum speed is :math:`\tfrac{\pi}{2} v_h`. The
 phase is zero in the middle of the stroke, the knife going to the left; that of a knife moved by a mechanism
 is the crank angle. A knife at rest stands in the middle of its stroke, or where a given phase puts it.
 
@@ -42,13 +42,13 @@ _ANGLES, _KNOTS = 1440, 360
 _ROUNDING = 1e-14
 _HARMONICS = 180
 
-# Share of the greatest speed by which the speed has to change at once to be a blow.
+# Share of the maximum speed by which the speed has to change at once to be a blow.
 _JUMP = 1e-6
 
 # Beside a corner of the motion derivatives are taken from either side of it [rad].
 _BESIDE = 1e-9
 
-# Crank angles at which two turns of a member are compared, and the share of its way that is rounding.
+# Crank angles at which two revolutions of a member are compared, and the share of its way that is rounding.
 _PLACES, _AGAIN = np.array([0.1, 1.0, 1.9, 2.9, 3.7, 4.6, 5.5]), 1e-6
 
 
@@ -84,13 +84,13 @@ class Knife:
 
     @cached_property
     def way_per_turn(self) -> float:
-        """Way to and fro in a turn of the phase [m]."""
+        """Way back and forth in one revolution of the phase [m]."""
         turns = [*self.law.breaks, *self.law.zeros(1)]
         return float(np.abs(np.diff(self.law.at(np.array(sorted(turns)), 0, "before"))).sum())
 
     @property
     def frequency(self) -> float:
-        """Turns of the phase in a second [1/s]."""
+        """Revolutions of the phase in a second [1/s]."""
         return self.rate / _TURN
 
     @cached_property
@@ -100,18 +100,18 @@ class Knife:
 
     @cached_property
     def speeds(self) -> tuple[float, float]:
-        """Least and greatest velocity across the row [m/s]."""
+        """Minimum and maximum velocity across the row [m/s]."""
         least, greatest = (each.value * self.rate + self.drift for each in self.law.extremes(1))
         return least, greatest
 
     @property
     def speed_max(self) -> float:
-        """Greatest speed across the row [m/s]."""
+        """Maximum speed across the row [m/s]."""
         return max(abs(speed) for speed in self.speeds)
 
     @cached_property
     def acceleration_max(self) -> float:
-        """Greatest acceleration across the row [m/s²]; infinite for a knife that turns back at once."""
+        """Maximum acceleration across the row [m/s²]; infinite for a knife that turns back at once."""
         if not self.rate:
             return 0.0
         jumps = np.append(self.law.jumps(1), self.law.at(0.0, 1) - self.law.at(self.law.end, 1, "before"))
@@ -169,7 +169,7 @@ def knives(machine: Machine, topper: Topper) -> tuple[Knife, ...]:
     AssemblyError
         The mechanism does not close all round.
     FindingError
-        The member does not come back with each turn.
+        The member does not come back with each revolution.
     """
     motion, speed = topper.motion, topper.knife_speed or 0.0
     if isinstance(motion, MemberKnife):
@@ -230,13 +230,13 @@ def _moved(machine: Machine, member: str) -> Knife:
 
 
 def _require_repeats(motion: Callable[[Floats], tuple[Floats, Floats, Floats]], member: str) -> None:
-    """Refuse a member that does not do the same in each turn of the crank."""
+    """Refuse a member that does not do the same in each revolution of the crank."""
     once, again = (motion(_PLACES + turn)[0] for turn in (0.0, _TURN))
     missed = float(np.abs(again - once).max())
     if missed > _AGAIN * max(1e-3, float(np.ptp(once))):
         raise FindingError(
-            f'the knife\'s member "{member}" does not do the same in each turn of the crank: it is up to '
-            f"{missed:.4g} m elsewhere a turn later; take a member that comes back with each turn"
+            f'the knife\'s member "{member}" does not repeat its motion in each revolution: it is up to '
+            f"{missed:.4g} m elsewhere a revolution later; take a member that comes back with each revolution"
         )
 
 
@@ -254,7 +254,7 @@ def _joints(machine: Machine) -> tuple[float, ...]:
 
 
 def _harmonics(samples: Floats) -> Floats | None:
-    """Cosines and sines of a motion sampled over a turn; None if it is not smooth."""
+    """Cosines and sines of a motion sampled over one revolution; None if it is not smooth."""
     spectrum = np.fft.rfft(samples) / len(samples)
     pairs = np.stack([2 * spectrum.real, -2 * spectrum.imag], axis=1)
     pairs[0] *= 0.5

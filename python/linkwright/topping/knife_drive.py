@@ -17,7 +17,7 @@ from linkwright.topping.model.motion import MemberKnife
 
 Floats = NDArray[np.float64]
 
-# Crank angles of the turn; then so often so many about an extreme, which leaves 1e-12 of it.
+# Crank angles of the revolution; then so often so many about an extreme, which leaves 1e-12 of it.
 _ANGLES, _LOOKS, _CLOSE = 720, 3, 40
 
 
@@ -30,7 +30,7 @@ class KnifeDrive:
     mass : float
         Of the bodies on the knife [kg].
     inertia_force_max : float
-        Greatest size of mass times acceleration of the knife [N].
+        Peak absolute value of mass times acceleration of the knife [N].
     torque_max, torque_min, torque_mean : float
         Extremes and mean of the driving torque at the crank [N m].
     power_mean : float
@@ -71,7 +71,7 @@ def knife_drive(machine: Machine, knife: Knife) -> KnifeDrive | None:
         return None
     mass = sum(body.mass or 0.0 for name, body in machine.bodies.items() if (body.on or name) == motion.of)
     found = forces(machine, speed=drive.speed, n=_ANGLES)
-    # The turn's end is its start.
+    # The revolution's end is its start.
     mean = float(np.mean(found.torque_drive[:-1]))
     return KnifeDrive(
         mass=float(mass),
@@ -84,7 +84,7 @@ def knife_drive(machine: Machine, knife: Knife) -> KnifeDrive | None:
 
 
 def _highest(machine: Machine, speed: float, angle: Floats, torque: Floats, sign: float) -> float:
-    """The greatest torque, times a sign: looked at more closely about the highest so far."""
+    """The maximum torque, times a sign: looked at more closely about the highest so far."""
     step = 2 * np.pi / _ANGLES
     for _ in range(_LOOKS):
         at = int(np.nanargmax(sign * torque))

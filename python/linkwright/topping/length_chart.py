@@ -40,7 +40,7 @@ _POINTS, _FEW = 81, 17
 
 @dataclass(frozen=True)
 class Lines(Result):
-    """Least lengths of the edge along one axis.
+    """Minimum lengths of the edge along one axis.
 
     Attributes
     ----------
@@ -127,7 +127,7 @@ def _lines(described: Topper, forward: Sequence[float], roots: Floats, speeds: F
 
 
 def _moved(described: Topper, edges: Sequence[Edge], diameter: float, pace: float = 1.0) -> float:
-    """Exact length for a knife that goes through its motion at another pace; NaN if the edge retreats."""
+    """Exact length for a knife that goes through its motion at another speed; NaN if the edge retreats."""
     paced = [replace(edge, knife=replace(edge.knife, rate=pace * edge.knife.rate)) for edge in edges]
     if any(edge.retreats for edge in paced):
         return float("nan")

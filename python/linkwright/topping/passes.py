@@ -29,7 +29,7 @@ class Pass:
     Attributes
     ----------
     length_needed : ndarray, shape (n,)
-        Least length that cuts the head right through [m]; infinite for a root that is missed, zero for one
+        Minimum length that cuts the head right through [m]; infinite for a root that is missed, zero for one
         that is lost.
     left : ndarray, shape (n,)
         Share of the head that is left [–]: all of one that is missed, nothing of one that is lost. Zero if
@@ -60,7 +60,7 @@ def pass_over(
     length : float, optional
         Of the edge [m]; without it, only what is needed is looked at.
     fine : int
-        Stations a turn of the law.
+        Stations per revolution of the law.
     watch : callable, optional
         Told how much is done, from 0 to 1.
 
@@ -107,7 +107,7 @@ def require_advance(edges: Sequence[Edge], roots: Roots) -> None:
     Raises
     ------
     FindingError
-        It goes to and fro over that head too often; says how often.
+        It goes back and forth over that head too often; says how often.
     """
     largest, farthest = float(roots.diameter.max()), float(np.abs(roots.offset).max())
     for edge in edges:

@@ -50,8 +50,8 @@ class PublishedLengths(Result):
         float, Shown("time of the travel across the row", "t_y", "s", "Infinite for a knife at rest.")
     ]
     holds: Annotated[bool, About("Whether t_y ≥ t_x, condition (1), for the length of the edge.")]
-    length_published: Annotated[float, Shown("least length by the paper's (10)", "", "m")]
-    length_consistent: Annotated[float, Shown("least length that follows from the paper's (4)", "", "m")]
+    length_published: Annotated[float, Shown("minimum length by the paper's (10)", "", "m")]
+    length_consistent: Annotated[float, Shown("minimum length that follows from the paper's (4)", "", "m")]
 
 
 def published_lengths(
@@ -96,7 +96,7 @@ def published_lengths(
 
 
 def length_published(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -> Floats:
-    """Least length as printed, (5), (9), (10).
+    """Minimum length as printed, (5), (9), (10).
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def length_published(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -
 
 
 def length_consistent(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -> Floats:
-    """Least length that follows from (4).
+    """Minimum length that follows from (4).
 
     Parameters
     ----------

@@ -42,9 +42,9 @@ class Roots(Result):
     root_diameter, cut_height, offset : ndarray, shape (n,)
         D, h_p, and the axis to the left of the row [m].
     distance : ndarray, shape (n,)
-        From the first root of the row [m]; zero where phases come as they may.
+        From the first root of the row [m]; zero where phases are independent and uniform.
     start : ndarray, shape (n,)
-        Share of a turn of the knife's phase at the first root of the row.
+        Share of a revolution of the knife's phase at the first root of the row.
     cluster : ndarray of int, shape (n,)
         Row of a random root, number of a measured one.
     n_clusters : int

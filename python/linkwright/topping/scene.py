@@ -27,10 +27,11 @@ from linkwright.topping.topper import TopperStudy
 Floats = NDArray[np.float64]
 Scene = dict[str, Any]
 
-# Places of the law in a turn of its phase: half a degree, so that ends of strokes at quarters are among them.
+# Places of the law in one revolution of its phase: half a degree, so that ends of strokes at quarters are
+# among them.
 _PLACES = 720
 
-# Least and greatest distance of two heads of a row, over their diameter.
+# Minimum and maximum distance of two heads of a row, over their diameter.
 _APART = 1.9, 2.6
 
 # Where phases are free, the distance keeps so far from whole half strokes, or all heads would be met alike.
@@ -67,10 +68,10 @@ def topper_scene(machine: Machine, described: Topper, found: TopperStudy) -> Sce
     Returns
     -------
     dict or None
-        ``law``, y over one turn of the phase in even steps [m]; ``rate`` [rad/s], ``drift`` [m/s] and
+        ``law``, y over one revolution of the phase in even steps [m]; ``rate`` [rad/s], ``drift`` [m/s] and
         ``phase`` at the time zero [rad]; ``angle``, ``length`` and ``speed`` of the edge [rad, m, m/s];
         ``diameter``, ``offset`` and ``heads``, x and y of centres [m]; ``span``, first and last time [s];
-        ``box``, least and greatest x and y [m]; ``seconds`` that the page takes. None
+        ``box``, minimum and maximum x and y [m]; ``seconds`` that the page takes. None
         where the edge cannot be followed.
     """
     if found.obstacle:
@@ -139,7 +140,7 @@ def _reach(edge: Edge, found: TopperStudy, described: Topper) -> float:
 def _box(
     edge: Edge, found: TopperStudy, described: Topper, ends: tuple[float, float], heads: list[float]
 ) -> list[float]:
-    """Least x, least y, greatest x, greatest y of the edge over its way, and of the heads."""
+    """Minimum x, minimum y, maximum x, maximum y of the edge over its way, and of the heads."""
     lean, across = (
         0.5 * described.edge_length * each
         for each in (abs(math.sin(described.edge_angle)), math.cos(described.edge_angle))

@@ -23,7 +23,7 @@ from linkwright.topping.intervals import Clusters, Interval
 
 Floats = NDArray[np.float64]
 
-# Shares of heads whose length is told.
+# Shares of heads whose length is reported.
 QUANTILES = (0.5, 0.9, 0.95, 0.99, 0.999)
 
 
@@ -67,7 +67,7 @@ class ShareCurve:
         return np.cumsum(table[:, :k], axis=1).astype(float)
 
     def quantiles(self, shares: Sequence[float]) -> Floats:
-        """Least lengths that are enough for shares of all heads.
+        """Minimum lengths that are enough for shares of all heads.
 
         Parameters
         ----------

@@ -40,7 +40,7 @@ class Slicing:
     Attributes
     ----------
     ratio_min, ratio_mean, ratio_max : float
-        Draw-cut ratio [–]; the greatest is infinite where the edge retreats.
+        Draw-cut ratio [–]; the maximum is infinite where the edge retreats.
     speed_min, speed_max : float
         Speed of the edge against the head [m/s].
     """
@@ -96,7 +96,7 @@ def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
 
 
 def _ratios(edge: Edge) -> tuple[float, float]:
-    """Least and greatest draw-cut ratio."""
+    """Minimum and maximum draw-cut ratio."""
     leans = edge.leans
     reaches = [abs(float(np.tan(lean))) for lean in leans]
     least = 0.0 if leans[0] * leans[1] <= 0 else min(reaches)
@@ -105,7 +105,7 @@ def _ratios(edge: Edge) -> tuple[float, float]:
 
 
 def _speeds(edge: Edge) -> tuple[float, float]:
-    """Least and greatest speed of the edge."""
+    """Minimum and maximum speed of the edge."""
     low, high = edge.knife.speeds
     slowest = 0.0 if low <= 0 <= high else min(abs(low), abs(high))
     speeds = (np.hypot(edge.forward_speed, speed) for speed in (slowest, max(abs(low), abs(high))))
@@ -126,8 +126,8 @@ def edge_use(edges: Sequence[Edge], diameter: float, offset: float) -> tuple[Flo
     Returns
     -------
     place, width : ndarray, shape (n,)
-        Place along the edge from its middle [m], and the way that it goes, normal to the edge, through a head
-        [m]: its integral over all places is the area of the head, but for an edge that retreats.
+        Position along the edge from its middle [m], and the way that it goes, normal to the edge, through a
+        head [m]: its integral over all places is the area of the head, but for an edge that retreats.
     """
     places, widths = zip(*(_use(edge, diameter, offset) for edge in edges), strict=True)
     reach = max(float(place[-1]) for place in places)

@@ -70,7 +70,7 @@ class FieldSweep(Result):
     share_complete_low: Annotated[
         Floats,
         Shown(
-            "least share of heads that are cut right through",
+            "minimum share of heads that are cut right through",
             "",
             "",
             "End of its interval.",
@@ -80,7 +80,7 @@ class FieldSweep(Result):
     share_complete_high: Annotated[
         Floats,
         Shown(
-            "greatest share of heads that are cut right through",
+            "maximum share of heads that are cut right through",
             "",
             "",
             "End of its interval.",
@@ -91,13 +91,17 @@ class FieldSweep(Result):
     haulm_mean_low: Annotated[
         Floats,
         Shown(
-            "least mean share of the head that is left", "", "", "End of its interval.", over="haulm_mean_low"
+            "minimum mean share of the head that is left",
+            "",
+            "",
+            "End of its interval.",
+            over="haulm_mean_low",
         ),
     ]
     haulm_mean_high: Annotated[
         Floats,
         Shown(
-            "greatest mean share of the head that is left",
+            "maximum mean share of the head that is left",
             "",
             "",
             "End of its interval.",
@@ -151,7 +155,7 @@ def sweep_field(
     level : float
         Probability that an interval holds the truth.
     fine : int
-        Stations a turn of the law.
+        Stations per revolution of the law.
     watch : callable, optional
         Told how much is done, from 0 to 1.
 

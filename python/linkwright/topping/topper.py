@@ -42,30 +42,28 @@ class TopperStudy(Result):
     phase: Annotated[
         Floats, Shown("phase of the knife", "φ", "rad", "When the middle of the edge is abreast of a head.")
     ]
-    length_by_phase: Annotated[
-        Floats, Shown("length that heads need in a phase", "L", "m", "At the worst offset.")
-    ]
+    length_by_phase: Annotated[Floats, Shown("required length in a phase", "L", "m", "At the worst offset.")]
     uncut_by_phase: Annotated[
-        Floats, Shown("share of the head that is left in a phase", "", "", "At the worst offset.")
+        Floats, Shown("uncut share of the head in a phase", "", "", "At the worst offset.")
     ]
     edge_place: Annotated[
-        Floats, Shown("place along the edge from its middle", "", "m", shape="(k,)", over="edge_place")
+        Floats, Shown("position along the edge from its middle", "", "m", shape="(k,)", over="edge_place")
     ]
     edge_use: Annotated[
-        Floats, Shown("mean way through a head", "", "m", "Of each place of the edge.", over="edge_place")
+        Floats, Shown("mean path through a head", "", "m", "Of each place of the edge.", over="edge_place")
     ]
     head_diameter: Annotated[float, Shown("diameter of the head", "d", "m", "Of the disc that is cut.")]
     cap_volume: Annotated[float, Shown("volume of the slice", "V", "m³", "Of the root above the cut.")]
     stroke: Annotated[
         float, Shown("stroke of the knife", "S", "m", "Zero if it does not turn back over a head.")
     ]
-    frequency: Annotated[float, Shown("strokes to and fro in a second", "f", "1/s")]
+    frequency: Annotated[float, Shown("knife frequency", "f", "1/s")]
     knife_speed: Annotated[float, Shown("mean speed across the row", "v_h", "m/s", "Over the time.")]
-    knife_speed_max: Annotated[float, Shown("greatest speed across the row", "ẏ_max", "m/s")]
+    knife_speed_max: Annotated[float, Shown("maximum speed across the row", "ẏ_max", "m/s")]
     knife_acceleration_max: Annotated[
         float,
         Shown(
-            "greatest acceleration of the knife", "ÿ_max", "m/s²", "Infinite at constant speed to and fro."
+            "maximum acceleration of the knife", "ÿ_max", "m/s²", "Infinite at constant speed back and forth."
         ),
     ]
     strokes_per_head: Annotated[
@@ -80,15 +78,15 @@ class TopperStudy(Result):
         float, Shown("time of the travel across the row", "t_y", "s", "Of the paper, with Δ.")
     ]
     condition_holds: Annotated[bool, About("Whether t_y ≥ t_x, the paper's (1).")]
-    length_published: Annotated[float, Shown("least length by the paper's (10)", "", "m")]
-    length_consistent: Annotated[float, Shown("least length that follows from the paper's (4)", "", "m")]
+    length_published: Annotated[float, Shown("minimum length by the paper's (10)", "", "m")]
+    length_consistent: Annotated[float, Shown("minimum length that follows from the paper's (4)", "", "m")]
     length_at_rest: Annotated[
-        float, Shown("least length of an edge that does not move across the row", "", "m")
+        float, Shown("minimum length of an edge that does not move across the row", "", "m")
     ]
     length_exact_constant_speed: Annotated[
         float,
         Shown(
-            "least length for a knife that keeps its mean speed over the head",
+            "minimum length for a knife that keeps its mean speed over the head",
             "",
             "m",
             "The worse of both directions.",
@@ -97,19 +95,19 @@ class TopperStudy(Result):
     length_exact: Annotated[
         float,
         Shown(
-            "least length for the motion of the knife",
+            "minimum length for the motion of the knife",
             "L",
             "m",
             "At the worst offset, in the worst phase or the given one.",
         ),
     ]
-    worst_phase: Annotated[float, Shown("phase of the head that needs the greatest length", "", "rad")]
-    worst_offset: Annotated[float, Shown("offset of the head that needs the greatest length", "", "m")]
+    worst_phase: Annotated[float, Shown("phase of the head that needs the maximum length", "", "rad")]
+    worst_offset: Annotated[float, Shown("offset of the head that needs the maximum length", "", "m")]
     last_x: Annotated[float, Shown("point of that head that is reached last, x", "", "m", "From its centre.")]
     last_y: Annotated[float, Shown("point of that head that is reached last, y", "", "m", "From its centre.")]
     length_best_phase: Annotated[float, Shown("length that heads in the best phase need", "", "m")]
-    best_phase: Annotated[float, Shown("phase in which heads need the least length", "", "rad")]
-    uncut_share: Annotated[float, Shown("greatest share of a head that the edge leaves", "", "")]
+    best_phase: Annotated[float, Shown("phase in which heads need the minimum length", "", "rad")]
+    uncut_share: Annotated[float, Shown("maximum share of a head that the edge leaves", "", "")]
     uncut_phase: Annotated[float, Shown("phase of the head of which most is left", "", "rad")]
     uncut_offset: Annotated[float, Shown("offset of the head of which most is left", "", "m")]
     uncut_right: Annotated[float, Shown("share that is left there on the right of the edge", "", "")]
@@ -120,17 +118,17 @@ class TopperStudy(Result):
         Shown("mean share of a head that the edge leaves", "", "", "Over phases and offsets, both even."),
     ]
     edge_retreats: Annotated[bool, About("Whether the edge runs backwards at times.")]
-    least_advance: Annotated[float, Shown("least advance normal to the edge", "u_n,min", "m/s")]
+    least_advance: Annotated[float, Shown("minimum advance normal to the edge", "u_n,min", "m/s")]
     slicing_ratio_min: Annotated[
-        float, Shown("least draw-cut ratio", "", "", "Speed along the edge over speed normal to it.")
+        float, Shown("minimum draw-cut ratio", "", "", "Speed along the edge over speed normal to it.")
     ]
     slicing_ratio_mean: Annotated[float, Shown("mean draw-cut ratio", "", "", "Over what is cut.")]
-    slicing_ratio_max: Annotated[float, Shown("greatest draw-cut ratio", "", "")]
+    slicing_ratio_max: Annotated[float, Shown("maximum draw-cut ratio", "", "")]
     cutting_speed_min: Annotated[
-        float, Shown("least cutting speed", "", "m/s", "Speed of the edge against the head.")
+        float, Shown("minimum cutting speed", "", "m/s", "Speed of the edge against the head.")
     ]
     cutting_speed_max: Annotated[
-        float, Shown("greatest cutting speed", "", "m/s", "Speed of the edge against the head.")
+        float, Shown("maximum cutting speed", "", "m/s", "Speed of the edge against the head.")
     ]
     knife_mass: Annotated[
         float | None,
@@ -143,12 +141,12 @@ class TopperStudy(Result):
         ),
     ]
     inertia_force_max: Annotated[
-        float | None, Shown("greatest inertia force of the knife", "m ÿ_max", "N", table="topper_drive")
+        float | None, Shown("maximum inertia force of the knife", "m ÿ_max", "N", table="topper_drive")
     ]
     drive_torque_max: Annotated[
         float | None,
         Shown(
-            "greatest driving torque",
+            "maximum driving torque",
             "M_max",
             "N m",
             "At the crank, at the design speed.",
@@ -158,7 +156,11 @@ class TopperStudy(Result):
     drive_torque_min: Annotated[
         float | None,
         Shown(
-            "least driving torque", "M_min", "N m", "At the crank, at the design speed.", table="topper_drive"
+            "minimum driving torque",
+            "M_min",
+            "N m",
+            "At the crank, at the design speed.",
+            table="topper_drive",
         ),
     ]
     drive_torque_mean: Annotated[
@@ -198,7 +200,7 @@ def topper(machine: Machine, *, charts: bool = True) -> TopperStudy:
     AssemblyError
         The mechanism of the knife does not close all round.
     FindingError
-        The member that is the knife does not come back with each turn.
+        The member that is the knife does not come back with each revolution.
 
     References
     ----------

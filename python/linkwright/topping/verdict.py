@@ -45,9 +45,9 @@ class Claim:
     Attributes
     ----------
     forward_speeds, knife_speeds : tuple of float
-        Least and greatest v and v_h [m/s].
+        Minimum and maximum v and v_h [m/s].
     lengths : tuple of float
-        Least and greatest L [m].
+        Minimum and maximum L [m].
     """
 
     forward_speeds: tuple[float, float]
@@ -56,7 +56,7 @@ class Claim:
 
     @property
     def ratios(self) -> tuple[float, float]:
-        """Least and greatest v_h/v [–]."""
+        """Minimum and maximum v_h/v [–]."""
         slow, fast = self.forward_speeds
         return self.knife_speeds[0] / fast, self.knife_speeds[1] / slow
 
@@ -74,7 +74,7 @@ class Stroke:
     length : float
         S [m].
     peak : float
-        Greatest over mean speed of the knife [–]: 1 for constant speed, π/2 for harmonic motion.
+        Maximum over mean speed of the knife [–]: 1 for constant speed, π/2 for harmonic motion.
     """
 
     length: float
@@ -92,12 +92,12 @@ class Demand(Result):
     length_least, length_greatest : float
         Over the speeds, for the heads given [m]; infinite where no edge does.
     band_low, band_high : float
-        Bands d + 2Δ, with the share of Δ of the heads given, whose greatest length lies at the ends of the
+        Bands d + 2Δ, with the share of Δ of the heads given, whose maximum length lies at the ends of the
         claim [m]; both zero where no band does.
     holds : bool
-        Whether the greatest length lies within the claim: what an edge must be made for.
+        Whether the maximum length lies within the claim: what an edge must be made for.
     holds_throughout : bool
-        Whether the least does as well.
+        Whether the minimum does as well.
     """
 
     way: str
@@ -148,7 +148,7 @@ def length_verdict(
     edge_angle : float
         α [rad], between −π/2 and π/2.
     diameter, offset : float
-        d of the largest head and greatest offset Δ [m].
+        d of the largest head and maximum offset Δ [m].
     stroke : Stroke, optional
         Of the knife; without it there is no length for every phase.
 
@@ -193,7 +193,7 @@ def lengths_over(
     offset: ArrayLike,
     stroke: Stroke | None = None,
 ) -> Floats:
-    """Least and greatest length over the speeds of a claim.
+    """Minimum and maximum length over the speeds of a claim.
 
     Parameters
     ----------
@@ -222,7 +222,7 @@ def lengths_over(
 def bands_of(
     claim: Claim, way: str, edge_angle: ArrayLike, offset_share: ArrayLike, stroke: Stroke | None = None
 ) -> Floats:
-    """Bands of heads whose greatest length over the speeds lies at the ends of a claim.
+    """Bands of heads whose maximum length over the speeds lies at the ends of a claim.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ class VerdictChart(Result):
     offsets : ndarray, shape (m,)
         Δ [m].
     lengths : tuple of float
-        Least and greatest length that is claimed [m].
+        Minimum and maximum length that is claimed [m].
     edge_angle, band, cut_height, offset : float
         Of the machine: size of α [rad], d + 2Δ, h_p and Δ [m].
     bands : dict of str to ndarray, shape (2, n)

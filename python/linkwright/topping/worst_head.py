@@ -33,7 +33,7 @@ class Worst:
     Attributes
     ----------
     value : float
-        What is greatest there.
+        What is maximum there.
     phase, offset : float
         Of that head [rad, m].
     edge : Edge
@@ -52,7 +52,7 @@ def worst_head(
     phase: float | None,
     measure: Measure,
 ) -> Worst:
-    """The head at which something is greatest, over offsets up to Δ on both sides and over all phases.
+    """The head at which something is maximum, over offsets up to Δ on both sides and over all phases.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def _worst(edge: Edge, offset: float, phase: float | None, measure: Measure) -> 
 
 
 def _best(edge: Edge, phases: Floats, offsets: Floats, measure: Measure) -> Worst:
-    """The greatest of a grid."""
+    """The maximum of a grid."""
     phi, delta = (each.ravel() for each in np.meshgrid(phases, offsets, indexing="ij"))
     values = measure(edge, delta, phi)
     at = int(np.argmax(values))

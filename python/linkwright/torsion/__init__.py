@@ -12,7 +12,7 @@
 | `model/` | Trains in a machine file: discs, shafts, gears, couplings, dampers, engines, manoeuvres |
 | `modes/` | Free vibration: frequencies, mode shapes, damping, the Campbell diagram, equivalent schemes |
 | `page` | The page of a study of torsional vibration, from the template of all reports |
-| `response/` | Forced vibration: torques, amplitudes, stresses, unevenness over the speed |
+| `response/` | Forced vibration: torques, amplitudes, stresses, speed fluctuation over the speed |
 | `study` | All of these as one |
 | `tables/` | Tables of trains |
 """

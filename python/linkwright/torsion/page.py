@@ -74,13 +74,13 @@ def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
         run = study.machine.train.run if study.machine.train is not None else None
         if run is not None:
             at = int(np.argmin(np.abs(forced.speeds - run.service)))
-            yield "unevenness in service, least", number(float(forced.unevenness[:, at].min()), 3), ""
-            yield "unevenness in service, most", number(float(forced.unevenness[:, at].max()), 3), ""
+            yield "minimum speed fluctuation in service", number(float(forced.unevenness[:, at].min()), 3), ""
+            yield "maximum speed fluctuation in service", number(float(forced.unevenness[:, at].max()), 3), ""
     steady = () if study.verdict is None else study.verdict.judgements
     moved = () if study.transient is None else study.transient.judgements
     if steady or moved:
         state = "ok" if study.verdict is None else study.verdict.state
-        words = {"ok": "all limits kept", "bar": "speeds to be barred", "exceeds": "limits exceeded"}
+        words = {"ok": "all limits kept", "bar": "barred speed ranges", "exceeds": "limits exceeded"}
         yield "verdict", words["exceeds" if study.findings else state], ""
 
 
@@ -104,7 +104,7 @@ def _formulas(study: TorsionStudy) -> Iterator[Formula]:
     yield formula("Forced vibration at order ν and speed Ω", "ω = ν Ω", den_hartog)
     yield formula("", "( K ( 1 + i η ) + i ω C − ω^2 J ) θ_ν = M_ν", "Ker Wilson, vol. 4")
     yield formula("Orders in phase", "θ ( t ) = Σ Re θ_ν e^iνΩt", "Ker Wilson, vol. 2")
-    yield formula("Unevenness of rotation", "δ = frac(ω_max − ω_min|ω_m)", "Paper 3")
+    yield formula("Speed fluctuation", "δ = frac(ω_max − ω_min|ω_m)", "Paper 3")
     yield formula("Heat", "P = frac(1|2) Σ ( ω^2 c + ω η k ) Δ^2", den_hartog)
     if study.machine.train is not None and study.machine.train.engine is not None:
         yield formula(

@@ -23,7 +23,7 @@ from linkwright.torsion.modes.free import FreeVibration, free_vibration, train_o
 from linkwright.torsion.modes.holzer import HolzerTable, holzer_table
 from linkwright.torsion.modes.scheme import Scheme, scheme
 from linkwright.torsion.response.engine_data import EngineData, engine_data
-from linkwright.torsion.response.excited import Excited, excited, is_excited, pulsates
+from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, is_excited, pulsates
 from linkwright.torsion.response.forced import ForcedVibration, responded
 from linkwright.torsion.response.peaks import TorquePeaks, torque_peaks
 from linkwright.torsion.response.stress import ShaftStress, shaft_stress
@@ -56,7 +56,7 @@ class TorsionStudy:
         At the frequencies asked for.
     damped : DampedVibration or None
         The same with damping; None where nothing damps it.
-    excited : Excited or None
+    excited : ExcitedTrain or None
         Its torques; None where nothing excites it.
     forced : ForcedVibration or None
         Its vibration under them.
@@ -65,7 +65,7 @@ class TorsionStudy:
     verdict : Verdict or None
         Whether all limits are kept.
     along : UnevennessAlong or None
-        Unevenness over the cylinders of an engine at its speed of service.
+        Speed fluctuation over the cylinders of an engine at its speed of service.
     engine : EngineData or None
         What an engine is in the train.
     campbell : CampbellDiagram or None
@@ -81,7 +81,7 @@ class TorsionStudy:
     free: FreeVibration
     holzer: tuple[HolzerTable, ...]
     damped: DampedVibration | None = None
-    excited: Excited | None = None
+    excited: ExcitedTrain | None = None
     forced: ForcedVibration | None = None
     stress: ShaftStress | None = None
     verdict: Verdict | None = None
@@ -132,12 +132,12 @@ class TorsionStudy:
 
 @public
 def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionStudy:
-    """Study the torsional vibration of a train or of a drive line.
+    """Study the torsional vibration of a train or of a driveline.
 
     Parameters
     ----------
     machine : Machine
-        With a [train], or with a drive line that twists.
+        With a [train], or with a torsionally flexible driveline.
     holzer : sequence of float
         Frequencies of Holzer's tables [Hz].
 
@@ -160,7 +160,7 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
         moved = torsion_transient(machine)
     if not is_excited(machine):
         return TorsionStudy(machine, scheme(machine), free, tables, damped, transient=moved)
-    at = excited(machine)
+    at = excited_train(machine)
     forced = responded(at)
     stress, seen = shaft_stress(machine, forced), survey(machine, at, forced)
     return TorsionStudy(
@@ -204,8 +204,8 @@ def _engine(machine: Machine) -> EngineData | None:
     return engine_data(train.engine, train.run.service)
 
 
-def _along(machine: Machine, at: Excited, forced: ForcedVibration) -> UnevennessAlong | None:
-    """Unevenness over the cylinders, where there is an engine whose cylinders fire one after another."""
+def _along(machine: Machine, at: ExcitedTrain, forced: ForcedVibration) -> UnevennessAlong | None:
+    """Speed fluctuation over the cylinders of an engine whose cylinders fire one after another."""
     train = machine.train
     if train is None or train.engine is None or train.run is None:
         return None
@@ -258,7 +258,7 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     run = None if train is None else train.run
     if run is not None and not run.speed_min <= run.service <= run.speed_max:
         near = min(max(run.service, run.speed_min), run.speed_max) * 30 / np.pi
-        yield f"The speed of service is not among those looked at: what is told of it is at {near:.5g} rpm."
+        yield f"The service speed is not among the speeds analysed: its results are those of {near:.5g} rpm."
     if train is not None and train.engine is not None and at.referred.is_free:
         yield from _balance_warnings(train.engine, train, at)
     yield from _about_loads(study, at)
@@ -270,7 +270,7 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
         yield f"Orders {listed} have no common base with the others: their amplitudes are added up."
 
 
-def _balance_warnings(engine: ReciprocatingEngine, train: Train, at: Excited) -> Iterator[str]:
+def _balance_warnings(engine: ReciprocatingEngine, train: Train, at: ExcitedTrain) -> Iterator[str]:
     """Loads that do not take what an engine gives."""
     if not train.loads:
         yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
@@ -283,15 +283,15 @@ def _balance_warnings(engine: ReciprocatingEngine, train: Train, at: Excited) ->
         yield f"The engine gives no torque in the mean, at {rpm} rpm: the loads are taken to drive it there."
 
 
-def _about_loads(study: TorsionStudy, at: Excited) -> Iterator[str]:
+def _about_loads(study: TorsionStudy, at: ExcitedTrain) -> Iterator[str]:
     """Loads that the engine does not fit."""
     speeds, run = at.torques.speeds, study.machine.train.run if study.machine.train is not None else None
     service = speeds[-1] if run is None else run.service
     factor = float(at.torques.load_factor[np.abs(speeds - service).argmin()])
-    # Loads that drive the engine are told by themselves.
+    # Loads that drive the engine are reported by themselves.
     if at.train.loads and factor > 0 and abs(factor - 1) > _FITS:
         yield (
-            f"At the speed of service the loads count {factor:.3g} times, to take what the engine gives. "
+            f"At the speed of service the loads were scaled by {factor:.3g} to take the power of the engine. "
             "Check torque and speed of [train.loads], or the mean effective pressure of the gas."
         )
 

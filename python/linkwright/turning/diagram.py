@@ -57,7 +57,7 @@ _AREAS = (
 
 @dataclass(frozen=True)
 class TurningMomentDiagram(Result):
-    """A shaft over a cycle of its turning moments. What cannot be told is None."""
+    """A shaft over a cycle of its turning moments. What cannot be determined is None."""
 
     cycle: Annotated[float, Shown("angle of a cycle", "", "rad")]
     speed_mean: Annotated[
@@ -131,7 +131,7 @@ class TurningMomentDiagram(Result):
             "moment of inertia of the flywheel",
             "J_f",
             "kg m²",
-            "That gives the evenness asked for; zero if none is needed.",
+            "That gives the speed fluctuation asked for; zero if none is needed.",
             table="flywheel",
             before="inertia",
         ),
@@ -322,7 +322,7 @@ def _require_balance(driver: float, load: float, curves: TurnCurve, described: T
 
 
 def _evened(described: TurningMoment, change: float) -> _Evened:
-    """The flywheel that is asked for, or the evenness that the given inertia gives."""
+    """The flywheel that is asked for, or the speed fluctuation that the given inertia gives."""
     omega, wanted, own = described.speed, described.unevenness, described.inertia or 0.0
     flywheel = mass = None
     total = own

@@ -44,7 +44,7 @@ impl fmt::Display for PlanError {
                 write!(f, "table {number}: knots must be finite and increase, with one value each")
             }
             PlanError::MotionLaw => {
-                write!(f, "the pieces of a motion law must follow one another for a turn")
+                write!(f, "the pieces of a motion law must follow one another over one revolution")
             }
         }
     }

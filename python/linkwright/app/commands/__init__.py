@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `check` | `linkwright check FILE`: is the machine file sound, and the geometry that it describes? |
+| `glossary` | `linkwright glossary [WORD]`: the terms of tables, messages and reports |
 | `new` | `linkwright new TEMPLATE`: a machine file to start from |
 | `papers` | `linkwright papers`: published numbers against computed ones |
 | `run` | `linkwright run FILE`: everything that can be computed about a machine |

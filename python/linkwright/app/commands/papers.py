@@ -31,7 +31,7 @@ _COLOURS = {"reproduced": "green", "near": "yellow", "far": "red", "none": "dim"
 
 
 def papers(number: Number = None, json: Json = False, out: Folder = None, force: Force = False) -> None:
-    """Compute a paper anew and set it beside what it prints.
+    """Recompute a published paper and compare with its printed results.
 
     Each value with its deviation and a verdict. That a value is not reproduced is a result, not an error.
     """

@@ -44,7 +44,7 @@ def run(
 ) -> None:
     """Compute how a machine moves.
 
-    Reduced inertia and load, steady motion and its evenness, run-up; with --out also a report.
+    Reduced inertia and load, steady motion and its speed fluctuation, run-up; with --out also a report.
     """
     from contextlib import nullcontext
 

@@ -5,6 +5,6 @@
 | `assumptions` | What was taken for granted, as it applies to a machine |
 | `figures` | The figures of a study, with captions |
 | `page` | The page: `report_html`, `write_report` |
-| `scene` | The moving sketch: positions over a turn |
+| `scene` | The moving sketch: positions over one revolution |
 | `tables` | Results as tables, for the page and for the terminal |
 """

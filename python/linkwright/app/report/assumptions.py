@@ -32,8 +32,8 @@ _LOADS = {
     ViscousFriction: "Viscous friction is proportional to the speed.",
     ForcePosition: "A force over position is linear between the given points; outside them the end values "
     "hold. It is positive against the motion, forward and back.",
-    TorqueAngle: "A resisting torque over the crank angle is linear between the given angles.",
-    TorqueSpeed: "A resisting torque over the speed is linear between the given speeds; outside them the end "
+    TorqueAngle: "A load torque over the crank angle is linear between the given angles.",
+    TorqueSpeed: "A load torque over the speed is linear between the given speeds; outside them the end "
     "values hold.",
     Spring: "Springs have no mass; a force over the length is linear between the given lengths, and outside "
     "them the end values hold.",
@@ -88,10 +88,10 @@ def _topper(machine: Machine) -> list[str]:
 def _mechanism() -> Iterator[str]:
     yield (
         "One degree of freedom, the crank angle φ, counted counter-clockwise from the x axis; the crank "
-        "turns forward, φ grows. Links and shafts are rigid, joints have no play and no friction but what is "
-        "given as a load."
+        "turns forward, φ grows. Links and shafts are rigid. Joints have no clearance, and no friction but "
+        "what is given as a load."
     )
-    yield "Resisting torque M_r is positive where it opposes forward rotation."
+    yield "Load torque M_r is positive where it opposes forward rotation."
 
 
 def _bodies(machine: Machine) -> Iterator[str]:
@@ -172,7 +172,7 @@ def _methods(study: Study) -> Iterator[str]:
     if steady is not None and steady.method == "collocation":
         difference = number(max(steady.accuracy, _FINEST), 1)
         yield (
-            "Steady motion is the periodic solution itself, by Newton's method on the turn, with "
+            "Steady motion is the periodic solution itself, by Newton's method on the revolution, with "
             f"{steady.steps} steps from kink to kink, each checked against two of half its length: relative "
             f"error {difference}. Curves go through {len(steady.crank_angle)} points; extremes, work and "
             "root mean squares do not depend on them."

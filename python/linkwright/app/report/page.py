@@ -150,14 +150,14 @@ def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
     steady, run_up, reduced = study.steady_state, study.run_up, study.reduction
     if steady is not None:
         yield "mean speed", number(steady.speed_mean_time, 4), "rad/s"
-        yield "unevenness δ", number(steady.unevenness, 4), ""
-        yield "dynamism H", number(steady.dynamism, 4), ""
+        yield "speed fluctuation δ", number(steady.unevenness, 4), ""
+        yield "dynamic factor H", number(steady.dynamism, 4), ""
         # Without losses the mean is zero but for rounding.
         power = steady.power_motor_mean if steady.power_motor_mean > 1e-9 * steady.power_motor_max else 0.0
         yield "mean motor power", number(power, 4), "W"
     if run_up is not None:
         yield "run-up time", number(run_up.time, 4), "s"
     if steady is None and reduced is not None:
-        yield "least reduced inertia", number(reduced.inertia_min, 4), "kg m²"
-        yield "greatest reduced inertia", number(reduced.inertia_max, 4), "kg m²"
-        yield "mean resisting torque", number(reduced.torque_load_mean, 4), "N m"
+        yield "minimum reduced inertia", number(reduced.inertia_min, 4), "kg m²"
+        yield "maximum reduced inertia", number(reduced.inertia_max, 4), "kg m²"
+        yield "mean load torque", number(reduced.torque_load_mean, 4), "N m"

@@ -1,9 +1,9 @@
 """The moving sketch: where each point and link is over the motion, and how long that takes.
 
 Positions come from `kinematics` at even crank angles. The time at each angle is that of steady motion, so the
-sketch moves as unevenly as the machine does; without steady motion it turns evenly. A mechanism that does not
-close all round swings within the range where it does; one that repeats after several turns is drawn over all
-of them. What is drawn at these places is said in `scene_parts`.
+sketch moves as unevenly as the machine does; without steady motion its speed is constant. A mechanism that
+does not close all round swings within the range where it does; one that repeats after several revolutions is
+drawn over all of them. What is drawn at these places is said in `scene_parts`.
 """
 
 from __future__ import annotations
@@ -25,14 +25,15 @@ from linkwright.machine.machine import Machine
 Floats = NDArray[np.float64]
 Scene = dict[str, Any]
 
-# Every second degree; the page draws straight between them. Of a longer motion, so many turns as finely.
+# Every second degree; the page draws straight between them. Of a longer motion, so many revolutions as
+# finely.
 _INTERVALS = 180
 _TURNS_FINE = 8
 
 # Part of its range at each end that a swinging mechanism keeps clear of [rad].
 _MARGIN = 1e-5
 
-# Seconds for a turn, or a swing, that nothing is known of.
+# Seconds for a revolution, or a swing, that nothing is known of.
 _DURATION = 4.0
 
 # Share of the mechanism's size that is the last digit of a position, and last digit of an angle [rad].
@@ -51,9 +52,9 @@ def scene(study: Study) -> Scene | None:
     -------
     dict or None
         ``angles`` [rad], ``times`` [s], ``speeds`` [rad/s], ``points``, x and y [m] by name, ``headings``,
-        angles of links [rad] by name, all at the same instants; ``parts`` to draw; ``box``, least and
-        greatest x and y; ``swings``, whether the motion goes to and fro; ``true_speed``, whether the times
-        are those of steady motion. None if the mechanism closes nowhere, or nothing moves.
+        angles of links [rad] by name, all at the same instants; ``parts`` to draw; ``box``, minimum
+        and maximum x and y; ``swings``, whether the motion goes back and forth; ``true_speed``, whether the
+        times are those of steady motion. None if the mechanism closes nowhere, or nothing moves.
     """
     machine = study.machine
     if not _closes(machine):
@@ -94,7 +95,7 @@ def _cam_headings(machine: Machine, angles: Floats) -> dict[str, Floats]:
 
 
 def _cam_reach(machine: Machine) -> Iterable[tuple[str, float]]:
-    """Centre and greatest radius of each cam."""
+    """Centre and maximum radius of each cam."""
     if not machine.mechanism.cams:
         return ()
     from linkwright.cam.scene import reach
@@ -138,7 +139,7 @@ def _points(machine: Machine, motion: Kinematics) -> dict[str, Floats]:
 
 
 def _box(machine: Machine, drawn: dict[str, Floats], listed: list[Scene], motion: Kinematics) -> list[float]:
-    """Least x, least y, greatest x, greatest y of all points, pitch circles, levers and cams."""
+    """Minimum x, minimum y, maximum x, maximum y of all points, pitch circles, levers and cams."""
     every = list(drawn.values())
     for part in listed:
         if part["kind"] == "gear":
@@ -162,7 +163,7 @@ def _times(study: Study, angles: Floats) -> tuple[Floats, Floats]:
     """Time and speed at each angle."""
     steady = study.steady_state
     if steady is not None:
-        # The last angle of a turn is not the first of the next, which would be back at its time zero.
+        # The last angle of a revolution is not the first of the next, which would be back at its time zero.
         turn = np.ceil(angles / (2 * np.pi) - 1e-9) - 1
         within = angles - 2 * np.pi * turn
         time = turn * steady.period + np.interp(within, steady.crank_angle, steady.time)

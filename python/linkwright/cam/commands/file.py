@@ -15,7 +15,7 @@ from linkwright.kernel.errors import ExchangeError, InputError
 
 if TYPE_CHECKING:
     from linkwright.app.study import Study
-    from linkwright.cam.manufacture.drawing import Measured
+    from linkwright.cam.manufacture.drawing import MeasuredOutline
     from linkwright.kernel.files.output import OutputFolder
     from linkwright.kernel.page.table import Table
 
@@ -79,7 +79,7 @@ def cam_file(
 
 
 def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dict[str, Any]:
-    """What the drawings shall be; what makes no sense is told before anything is computed."""
+    """What the drawings shall be; what makes no sense is reported before anything is computed."""
     from linkwright.cam.manufacture.fit import FORMS
     from linkwright.cam.manufacture.write import ALL_FORMATS
     from linkwright.kernel.units import ANGLE, LENGTH
@@ -113,7 +113,7 @@ class _Drawn(NamedTuple):
     """A drawing that was written and read back: its bytes, and what was measured in them."""
 
     data: bytes
-    outlines: tuple[Measured, ...]
+    outlines: tuple[MeasuredOutline, ...]
 
 
 def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawn], list[str]]:

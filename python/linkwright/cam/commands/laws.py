@@ -28,19 +28,19 @@ Folder = Annotated[
     Path | None, out_option("Write cam_laws.json and the laws in one figure, as SVG and PNG, there.")
 ]
 
-# Lines that can still be told apart in one figure; without --law, these.
+# Lines that can still be distinguished in one figure; without --law, these.
 _DRAWN = ("parabolic", "cycloidal", "modified_trapezoid", "modified_sine", "polynomial_3_4_5", "minimum_jerk")
 
 
 def cam() -> None:
-    """Cams: `linkwright cam FILE` looks at those of a machine; or one of these commands."""
+    """Cams: `linkwright cam FILE` analyses those of a machine; or one of these commands."""
 
 
 def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force = False) -> None:
     """Factors of the motion laws, for a rise between two dwells.
 
-    Greatest velocity, acceleration, jerk, and velocity times acceleration, and the integrals of the squares,
-    with what no law can go below.
+    Maximum velocity, acceleration, jerk, and velocity times acceleration, and the integrals of the squares,
+    with theoretical lower bounds.
     """
     from linkwright.cam.law_factors import cam_laws
 
@@ -74,7 +74,7 @@ def _known(wanted: list[str], everything: dict[str, Any]) -> list[str]:
 
 
 def _results(chosen: dict[str, LawFactors]) -> dict[str, Any]:
-    """The factors of each law, and what none can go below."""
+    """The factors of each law, and their theoretical lower bounds."""
     from linkwright.cam.laws.bounds import BOUNDS
     from linkwright.cam.laws.catalogue import LAWS
 

@@ -51,7 +51,7 @@ Steep = Annotated[
 ]
 Tight = Annotated[
     str | None,
-    typer.Option("--curvature-radius", metavar="LENGTH", help="Least convex one allowed on the profile."),
+    typer.Option("--curvature-radius", metavar="LENGTH", help="Minimum convex one allowed on the profile."),
 ]
 Count = Annotated[
     int, typer.Option("--count", metavar="N", help="How many of the smallest are shown.", min=1)

@@ -24,7 +24,7 @@ from linkwright.cam.dynamics.follower_load import CamCourse
 
 Floats = NDArray[np.float64]
 
-# Share of a turn within which the first and the last angle are one turn apart.
+# Share of a turn within which the first and the last angle are one revolution apart.
 _TURN = 1e-9
 
 
@@ -105,7 +105,7 @@ def _change(
 
 
 class _Landing:
-    """Flight across the clearance, through the rows from a change of sign on; over a turn if need be."""
+    """Flight across the clearance, through the rows from a change of sign on; at most over one revolution."""
 
     def __init__(self, course: CamCourse, pull: Floats, place: tuple[int, float]) -> None:
         b, share = place

@@ -60,7 +60,7 @@ class Push(NamedTuple):
     moving: Floats
 
 
-class Held(NamedTuple):
+class BearingReaction(NamedTuple):
     """How a bearing answers to a normal force of one.
 
     Attributes
@@ -135,7 +135,7 @@ class StemGuide:
             diameter=(self.diameter, not_negative(LENGTH)),
         )
 
-    def held(self, course: CamCourse, push: Push) -> Held:
+    def held(self, course: CamCourse, push: Push) -> BearingReaction:
         """Reactions and friction for a normal force of one.
 
         Parameters
@@ -147,7 +147,7 @@ class StemGuide:
 
         Returns
         -------
-        Held
+        BearingReaction
             For each angle.
 
         Raises
@@ -167,7 +167,7 @@ class StemGuide:
         far = (course.offset * push.along + lever * push.across) / self.length
         near = -push.across - far
         loss = self.coefficient * push.moving * (np.abs(near) + np.abs(far))
-        return Held(push.along - loss, near, far, loss)
+        return BearingReaction(push.along - loss, near, far, loss)
 
 
 @public_type
@@ -197,7 +197,7 @@ class ArmPivot:
             radius=(self.radius, not_negative(LENGTH)),
         )
 
-    def held(self, course: CamCourse, push: Push) -> Held:
+    def held(self, course: CamCourse, push: Push) -> BearingReaction:
         """Reaction and friction for a normal force of one.
 
         Parameters
@@ -209,20 +209,20 @@ class ArmPivot:
 
         Returns
         -------
-        Held
+        BearingReaction
             For each angle.
         """
         force = np.full_like(course.cam_angle, np.hypot(1.0, push.friction))
         loss = self.coefficient * self.radius * push.moving * force
         arm = alike(cam_angle=course.cam_angle, arm=self.arm)["arm"]
-        return Held(arm * push.along - loss, force, np.zeros_like(force), loss)
+        return BearingReaction(arm * push.along - loss, force, np.zeros_like(force), loss)
 
 
 @dataclass(frozen=True)
 class NoFriction:
     """A bearing of a translating follower that takes whatever comes across the way, without friction."""
 
-    def held(self, course: CamCourse, push: Push) -> Held:
+    def held(self, course: CamCourse, push: Push) -> BearingReaction:
         """Nothing is lost; the whole reaction counts as that of the near end.
 
         Parameters
@@ -234,11 +234,11 @@ class NoFriction:
 
         Returns
         -------
-        Held
+        BearingReaction
             For each angle.
         """
         none = np.zeros_like(course.cam_angle)
-        return Held(push.along, -push.across, none, none)
+        return BearingReaction(push.along, -push.across, none, none)
 
 
 Bearing = StemGuide | ArmPivot | NoFriction

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.cam.dynamics.backlash import SideChange, side_changes
-from linkwright.cam.dynamics.bearing import ArmPivot, Bearing, Held, NoFriction, Push, pushes
+from linkwright.cam.dynamics.bearing import ArmPivot, Bearing, BearingReaction, NoFriction, Push, pushes
 from linkwright.cam.dynamics.follower_load import CamCourse, FollowerLoad, force_along
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
@@ -97,14 +97,14 @@ class ContactForce(Result):
     power_friction: Annotated[Floats, Shown("power of friction", "", "W", "Never positive.")]
     jammed: Annotated[Flags, About("Where no force of the cam moves the follower, shape (n,).")]
     lost: Annotated[Flags, About("Where a force-closed follower leaves the cam, shape (n,).")]
-    normal_max: Annotated[float, Shown("greatest normal force", "N_max", "N", "Largest size.")]
-    normal_max_angle: Annotated[float, Shown("cam angle of the greatest normal force", "φ(N_max)", "rad")]
-    normal_min: Annotated[float, Shown("least normal force", "N_min", "N")]
+    normal_max: Annotated[float, Shown("maximum normal force", "N_max", "N", "Largest size.")]
+    normal_max_angle: Annotated[float, Shown("cam angle of the maximum normal force", "φ(N_max)", "rad")]
+    normal_min: Annotated[float, Shown("minimum normal force", "N_min", "N")]
     torque_max: Annotated[
-        float, Shown("greatest driving torque of the cam shaft", "", "N m", "Over the angles given.")
+        float, Shown("maximum driving torque of the cam shaft", "", "N m", "Over the angles given.")
     ]
     torque_min: Annotated[
-        float, Shown("least driving torque of the cam shaft", "", "N m", "Over the angles given.")
+        float, Shown("minimum driving torque of the cam shaft", "", "N m", "Over the angles given.")
     ]
     torque_mean: Annotated[
         float,
@@ -207,7 +207,7 @@ def contact_force(
     )
 
 
-def _held(course: CamCourse, bearing: Bearing, friction: float, side: Floats) -> tuple[Held, Push]:
+def _held(course: CamCourse, bearing: Bearing, friction: float, side: Floats) -> tuple[BearingReaction, Push]:
     """What a normal force of one on the flank that carries does, and how the bearing answers."""
     still = np.abs(course.lift_d1) <= _REST * np.abs(course.lift_d1).max(initial=0.0)
     moving = np.where(still, 0.0, np.sign(course.lift_d1))

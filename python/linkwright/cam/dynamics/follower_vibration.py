@@ -1,12 +1,12 @@
-r"""How the mass of a follower really moves, over a turn, when its train is elastic.
+r"""How the mass of a follower really moves, over one revolution, when its train is elastic.
 
 The departure e = x − κs from the place that a slow lift would give obeys, over the cam angle with r = Ω/ω,
 
 .. math:: e'' + 2(\zeta + \zeta_f) r\,e' + r^2 e
     = -\kappa s'' - 2r\left(\kappa(\zeta + \zeta_f) - \zeta\right) s'
 
-which is solved exactly and closed over the turn. Where the lift's velocity jumps by Δs′, e′ jumps by −κΔs′:
-the cam strikes.
+which is solved exactly and closed over the revolution. Where the lift's velocity jumps by Δs′, e′ jumps by
+−κΔs′: the cam strikes.
 
 Source: M. P. Koster, *Vibrations of Cam Mechanisms*, Macmillan 1974, chapters 2 and 3; H. Dresig,
 F. Holzweißig, *Maschinendynamik*, Springer, on cam mechanisms.
@@ -59,9 +59,11 @@ _KEEPS_CONTACT = (
 
 @dataclass(frozen=True)
 class FollowerVibration(Result):
-    """Motion of the follower's mass over one turn."""
+    """Motion of the follower's mass over one revolution."""
 
-    cam_angle: Annotated[Floats, Shown("cam angle", "φ", "rad", "One turn in even steps.", shape="(n + 1,)")]
+    cam_angle: Annotated[
+        Floats, Shown("cam angle", "φ", "rad", "One revolution in even steps.", shape="(n + 1,)")
+    ]
     lift: Annotated[Floats, Shown("lift", "s", "m")]
     position: Annotated[Floats, Shown("position of the mass", "x", "m")]
     velocity: Annotated[Floats, Shown("velocity of the mass", "ẋ", "m/s")]
@@ -69,16 +71,16 @@ class FollowerVibration(Result):
     force: Annotated[Floats, Shown("force of the train on the cam", "", "N", "Positive where it presses.")]
     speed: Annotated[float, Shown("speed of the cam", "ω", "rad/s")]
     natural_frequency: Annotated[float, Shown("natural frequency of the follower", "Ω", "rad/s")]
-    vibrations_per_turn: Annotated[float, Shown("vibrations in a turn", "Ω/ω", "")]
-    force_max: Annotated[float, Shown("greatest force of the train on the cam", "", "N", "Exact.")]
-    force_min: Annotated[float, Shown("least force of the train on the cam", "", "N", "Exact.")]
-    force_max_angle: Annotated[float, Shown("cam angle of the greatest force", "", "rad")]
-    force_min_angle: Annotated[float, Shown("cam angle of the least force", "", "rad")]
+    vibrations_per_turn: Annotated[float, Shown("vibrations in one revolution", "Ω/ω", "")]
+    force_max: Annotated[float, Shown("maximum force of the train on the cam", "", "N", "Exact.")]
+    force_min: Annotated[float, Shown("minimum force of the train on the cam", "", "N", "Exact.")]
+    force_max_angle: Annotated[float, Shown("cam angle of the maximum force", "", "rad")]
+    force_min_angle: Annotated[float, Shown("cam angle of the minimum force", "", "rad")]
     acceleration_max: Annotated[
-        float, Shown("greatest acceleration of the mass", "", "m/s²", "In size, exact.")
+        float, Shown("maximum acceleration of the mass", "", "m/s²", "In size, exact.")
     ]
     departure_max: Annotated[
-        float, Shown("greatest departure from the lift", "", "m", "Largest size of e = x − κs, exact.")
+        float, Shown("maximum departure from the lift", "", "m", "Largest size of e = x − κs, exact.")
     ]
     impulses: Annotated[tuple[Impulse, ...], About("Where the cam strikes.")]
     keeps_contact: Annotated[bool, About(_KEEPS_CONTACT)]
@@ -176,13 +178,13 @@ class Train:
         return found
 
     def departure_extremes(self) -> tuple[Extreme, Extreme]:
-        """Least and greatest departure e [m]."""
+        """Minimum and maximum departure e [m]."""
         return self.departure.extremes(
             lambda *at: self.departure.at(*at)[0], lambda *at: self.departure.at(*at)[1]
         )
 
     def acceleration_extremes(self) -> tuple[Extreme, Extreme]:
-        """Least and greatest acceleration of the mass [m/s²]."""
+        """Minimum and maximum acceleration of the mass [m/s²]."""
         return self.departure.extremes(lambda *at: self.motion(*at)[2], self._jerk)
 
     def _jerk(self, step: Indices, phi: Floats) -> Floats:
@@ -205,13 +207,13 @@ def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 7
     Parameters
     ----------
     lift : MotionLaw
-        s over one turn [m over rad].
+        s over one revolution [m over rad].
     model : OneMass
         The follower.
     speed : float
         ω [rad/s].
     n : int
-        Steps of the turn in the arrays; greatest and least values do not depend on it.
+        Steps of the revolution in the arrays; maximum and minimum values do not depend on it.
 
     Returns
     -------
@@ -221,7 +223,7 @@ def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 7
     Raises
     ------
     InputError
-        The lift jumps, or is not one turn long; or the follower vibrates too often in a turn.
+        The lift jumps, or is not one revolution long; or the follower vibrates too often in one revolution.
     FindingError
         Undamped and at resonance.
     """
@@ -258,7 +260,7 @@ def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 7
 
 
 def _size(extremes: tuple[Extreme, Extreme]) -> float:
-    """The larger size of least and greatest."""
+    """The larger size of minimum and maximum."""
     return max(abs(each.value) for each in extremes)
 
 
@@ -282,10 +284,10 @@ class VibrationSweep(Result):
     """Largest values of the periodic motion over the speed."""
 
     speed: Annotated[Floats, Shown("speed of the cam", "ω", "rad/s")]
-    force_max: Annotated[Floats, Shown("greatest force of the train on the cam", "", "N")]
-    force_min: Annotated[Floats, Shown("least force of the train on the cam", "", "N")]
-    acceleration_max: Annotated[Floats, Shown("greatest acceleration of the mass", "", "m/s²")]
-    departure_max: Annotated[Floats, Shown("greatest departure from the lift", "", "m", "Of e = x − κs.")]
+    force_max: Annotated[Floats, Shown("maximum force of the train on the cam", "", "N")]
+    force_min: Annotated[Floats, Shown("minimum force of the train on the cam", "", "N")]
+    acceleration_max: Annotated[Floats, Shown("maximum acceleration of the mass", "", "m/s²")]
+    departure_max: Annotated[Floats, Shown("maximum departure from the lift", "", "m", "Of e = x − κs.")]
     keeps_contact: Annotated[NDArray[np.bool_], About("Whether the train presses all the time, shape (n,).")]
 
 
@@ -296,7 +298,7 @@ def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: Column) -> Vib
     Parameters
     ----------
     lift : MotionLaw
-        s over one turn [m over rad].
+        s over one revolution [m over rad].
     model : OneMass
         The follower.
     speeds : array_like, shape (n,)
@@ -310,7 +312,7 @@ def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: Column) -> Vib
     Raises
     ------
     InputError
-        The lift jumps, or is not one turn long.
+        The lift jumps, or is not one revolution long.
     FindingError
         Undamped and at resonance.
     """

@@ -4,12 +4,13 @@ Without friction the follower presses along its way with
 
 .. math:: F(\varphi, \omega) = m s''\omega^2 + c s'\omega + ks + F_0 + F_\mathrm{load}
 
-It first leaves the cam at the speed at which the least F over the turn becomes zero; without damper, at
+It first leaves the cam at the speed at which the minimum F over the revolution becomes zero; without damper,
+at
 
 .. math:: \omega = \min_{s'' < 0} \sqrt{\frac{ks + F_0 + F_\mathrm{load}}{-m s''}}
 
 That minimum is found with the exact extremes of F, a law in pieces like the lift: from the speed at which
-F is zero at one angle, go to the angle at which F is least at that speed, and so on. Every step lowers the
+F is zero at one angle, go to the angle at which F is minimum at that speed, and so on. Every step lowers the
 speed, as in the method of Dinkelbach for ratios, and the last one changes nothing but rounding.
 
 Source: R. L. Norton, *Design of Machinery*, McGraw-Hill, chapter 15, on follower jump; W. Dinkelbach, *On
@@ -37,7 +38,7 @@ from linkwright.kernel.units import FORCE, MASS, SPEED, not_negative, positive
 
 Floats = NDArray[np.float64]
 
-# Steps to the least speed: each about doubles the number of digits.
+# Steps to the minimum speed: each about doubles the number of digits.
 _ROUNDS = 60
 
 # Angles a piece from which the search may begin.
@@ -53,7 +54,9 @@ class LiftOff(Result):
 
     speed: Annotated[
         float,
-        Shown("least speed at which the follower leaves the cam", "ω", "rad/s", "Infinite if it never does."),
+        Shown(
+            "minimum speed at which the follower leaves the cam", "ω", "rad/s", "Infinite if it never does."
+        ),
     ]
     cam_angle: Annotated[float, Shown("cam angle where it leaves first", "φ", "rad")]
     lift_d2: Annotated[float, Shown("second derivative of the lift there", "s″", "m/rad²")]
@@ -62,16 +65,16 @@ class LiftOff(Result):
 
 @public
 def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = None) -> LiftOff:
-    """The least speed at which the follower leaves the cam.
+    """The minimum speed at which the follower leaves the cam.
 
     Parameters
     ----------
     lift : MotionLaw
-        s over one turn [m over rad].
+        s over one revolution [m over rad].
     follower : FollowerLoad
         Inertia, spring, damper; its load a single number.
     load : MotionLaw, optional
-        What acts from outside besides, over the same turn, positive against the lift [N over rad].
+        What acts from outside besides, over the same revolution, positive against the lift [N over rad].
 
     Returns
     -------
@@ -83,7 +86,7 @@ def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = N
     FindingError
         Nothing presses the follower on the cam at rest, or its velocity jumps and it leaves at any speed.
     InputError
-        The lift jumps or is not one turn long; the load is an array, or there is no mass.
+        The lift jumps or is not one revolution long; the load is an array, or there is no mass.
     """
     without_steps(lift, "turn")
     in_range(mass=(follower.mass, positive(MASS)))
@@ -92,7 +95,7 @@ def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = N
     if low.value <= 0:
         raise FindingError(
             f"at rest the follower is not held on the cam at {np.degrees(low.at):.4g}°: spring and load "
-            f"press with {low.value:.4g} N; {-low.value:.4g} N more preload are the least that can hold it"
+            f"press with {low.value:.4g} N; {-low.value:.4g} N more preload are the minimum that can hold it"
         )
     _no_drop(lift, "there the follower leaves the cam at any speed")
     return _least(lift, follower, held)
@@ -110,7 +113,7 @@ def _no_drop(lift: MotionLaw, consequence: str) -> None:
 
 
 def _spring(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None) -> MotionLaw:
-    """ks + F₀ + F_load over the turn."""
+    """ks + F₀ + F_load over the revolution."""
     outside = np.asarray(follower.load, dtype=float)
     if outside.ndim:
         raise InputError(
@@ -128,7 +131,7 @@ def _needed(lift: MotionLaw, follower: FollowerLoad, speed: float) -> MotionLaw:
 
 
 def _least(lift: MotionLaw, follower: FollowerLoad, held: MotionLaw) -> LiftOff:
-    """The search for the least speed."""
+    """The search for the minimum speed."""
     at, speed = _start(lift, follower, held)
     for _ in range(_ROUNDS):
         if math.isinf(speed):
@@ -157,7 +160,7 @@ def _start(lift: MotionLaw, follower: FollowerLoad, held: MotionLaw) -> tuple[Ex
 
 
 def _speed_at(lift: MotionLaw, follower: FollowerLoad, held: MotionLaw, place: Extreme) -> float:
-    """The least positive root of m s″ω² + c s′ω + held = 0 at one angle; infinite if there is none."""
+    """The minimum positive root of m s″ω² + c s′ω + held = 0 at one angle; infinite if there is none."""
     a = follower.mass * float(lift.at(place.at, 2, place.side))
     b = follower.damping * float(lift.at(place.at, 1, place.side))
     c = float(held.at(place.at, 0, place.side))
@@ -165,7 +168,7 @@ def _speed_at(lift: MotionLaw, follower: FollowerLoad, held: MotionLaw, place: E
 
 
 def speed_of_loss(still: ArrayLike, linear: ArrayLike, square: ArrayLike) -> Floats:
-    """The least positive ω at which a force N₀ + N₁ω + N₂ω² that presses at rest becomes zero.
+    """The minimum positive ω at which a force N₀ + N₁ω + N₂ω² that presses at rest becomes zero.
 
     Parameters
     ----------
@@ -192,7 +195,7 @@ class LeastPreload(Result):
     Attributes
     ----------
     preload : float
-        Least F₀; negative if none is needed [N].
+        Minimum F₀; negative if none is needed [N].
     cam_angle : float
         The angle that asks for it [rad].
     """
@@ -210,18 +213,18 @@ def least_preload(
     *,
     contact: float = 0.0,
 ) -> LeastPreload:
-    """The least preload with which the follower stays on the cam at a speed.
+    """The minimum preload with which the follower stays on the cam at a speed.
 
     Parameters
     ----------
     lift : MotionLaw
-        s over one turn [m over rad].
+        s over one revolution [m over rad].
     follower : FollowerLoad
         Inertia, spring rate, damper; its load a single number, its preload does not count.
     speed : float
         ω [rad/s].
     load : MotionLaw, optional
-        What acts from outside besides, over the same turn, positive against the lift [N over rad].
+        What acts from outside besides, over the same revolution, positive against the lift [N over rad].
     contact : float
         Force along the way with which it shall press at least [N].
 
@@ -235,7 +238,7 @@ def least_preload(
     FindingError
         The velocity of the lift drops at once, and no preload holds it.
     InputError
-        The lift jumps or is not one turn long; the load is an array, or the speed makes no sense.
+        The lift jumps or is not one revolution long; the load is an array, or the speed makes no sense.
     """
     in_range(speed=(speed, positive(SPEED)), contact=(contact, not_negative(FORCE)))
     without_steps(lift, "turn")

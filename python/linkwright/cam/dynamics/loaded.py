@@ -78,10 +78,10 @@ class LoadedCam(Result):
     ]
     pressure_angle: Annotated[Floats, Shown("pressure angle", "γ", "rad", "Of the first contact.")]
     name: Annotated[str, About("The cam's.")]
-    force_max: Annotated[float, Shown("greatest normal force", "N_max", "N", "With its sign.")]
-    force_max_angle: Annotated[float, Shown("crank angle of the greatest normal force", "φ(N_max)", "rad")]
-    force_min: Annotated[float, Shown("least normal force", "N_min", "N", "With its sign.")]
-    force_min_angle: Annotated[float, Shown("crank angle of the least normal force", "φ(N_min)", "rad")]
+    force_max: Annotated[float, Shown("maximum normal force", "N_max", "N", "With its sign.")]
+    force_max_angle: Annotated[float, Shown("crank angle of the maximum normal force", "φ(N_max)", "rad")]
+    force_min: Annotated[float, Shown("minimum normal force", "N_min", "N", "With its sign.")]
+    force_min_angle: Annotated[float, Shown("crank angle of the minimum normal force", "φ(N_min)", "rad")]
     speed: Annotated[float, Shown("mean speed of the motion", "ω_m", "rad/s")]
     side_changes: Annotated[
         int, Shown("changes of the force from one side to the other", "", "", "In these angles, gone round.")
@@ -100,13 +100,13 @@ class LoadedCam(Result):
     ]
     pressure_max: Annotated[
         float | None,
-        Shown("greatest contact pressure", "p₀", "Pa", "By Hertz; None without width, or for an edge."),
+        Shown("maximum contact pressure", "p₀", "Pa", "By Hertz; None without width, or for an edge."),
     ]
     pressure_max_angle: Annotated[
-        float | None, Shown("crank angle of the greatest contact pressure", "φ(p₀)", "rad")
+        float | None, Shown("crank angle of the maximum contact pressure", "φ(p₀)", "rad")
     ]
-    shear_max: Annotated[float | None, Shown("greatest shear stress below the surface", "", "Pa")]
-    shear_depth: Annotated[float | None, Shown("depth of the greatest shear stress", "", "m")]
+    shear_max: Annotated[float | None, Shown("maximum shear stress below the surface", "", "Pa")]
+    shear_depth: Annotated[float | None, Shown("depth of the maximum shear stress", "", "m")]
     pressure: Annotated[Floats | None, Shown("contact pressure", "p", "Pa")]
     findings: Annotated[tuple[str, ...], About(_FINDINGS)] = ()
 
@@ -133,7 +133,7 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
     Returns
     -------
     LoadedCam
-        Over a turn, at the angles of the profile: each joint of the law from before and from after.
+        Over one revolution, at the angles of the profile: each joint of the law from before and from after.
 
     Raises
     ------
@@ -179,7 +179,7 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
 
 
 def _angles(profile: CamProfile) -> Floats:
-    """Crank angles of the profile within a turn, increasing; joints from before and from after."""
+    """Crank angles of the profile within a revolution, increasing; joints from before and from after."""
     cam_angles = profile.angle.copy()
     twice = np.flatnonzero(np.diff(cam_angles) == 0)
     cam_angles[twice] -= _BESIDE
@@ -191,7 +191,7 @@ def _angles(profile: CamProfile) -> Floats:
 
 
 def _pressed(machine: Machine, speed: float | None, angles: Floats) -> Forces:
-    """Forces at crank angles of one turn, in steady motion or at a speed."""
+    """Forces at crank angles of one revolution, in steady motion or at a speed."""
     drive = machine.drive
     if speed is None and drive is not None and drive.motor is not None:
         return forces(machine, steady_state(machine, accuracy=_ACCURACY, angles=angles))

@@ -39,7 +39,7 @@ _NODES = 12
 # Samples a step, in which extremes are looked for: 6 a radian of the oscillation at least.
 _SAMPLES = 12
 
-# Distance of e^{μL} from 1 below which the answer over a turn is rounding.
+# Distance of e^{μL} from 1 below which the answer over one revolution is rounding.
 _RESONANCE = 1e-10
 
 
@@ -184,7 +184,7 @@ class Oscillation:
         return np.asarray(np.clip(found, 0, len(self.pieces) - 1))
 
     def extremes(self, value: Value, slope: Value) -> tuple[Extreme, Extreme]:
-        """Least and greatest of a quantity that is smooth inside the steps.
+        """Minimum and maximum of a quantity that is smooth inside the steps.
 
         Parameters
         ----------
@@ -194,7 +194,7 @@ class Oscillation:
         Returns
         -------
         tuple of Extreme
-            Least and greatest.
+            Minimum and maximum.
         """
         share = np.linspace(0, 1, _SAMPLES + 1)
         x = self.starts[:-1, None] + share * np.diff(self.starts)[:, None]
@@ -250,7 +250,7 @@ def oscillation(drive: MotionLaw, pole: complex, kicks: Floats, *, periodic: boo
         if abs(back) < _RESONANCE:
             order = round(pole.imag * drive.length / (2 * math.pi))
             raise FindingError(
-                f"the follower train has {order} free vibrations in a turn and no damping: it is at "
+                f"the follower train has {order} free vibrations in one revolution and no damping: it is at "
                 "resonance; give a damping ratio or another speed"
             )
         # What is there at the end is there again at the start.

@@ -38,15 +38,16 @@ class Polydyne(Result):
     wanted: Annotated[MotionLaw, About("x of the follower's mass [m].")]
     speed: Annotated[float, Shown("speed for which the cam is made", "ω", "rad/s")]
     continuity: Annotated[int, Shown("highest order up to which the derivatives of x have no jump", "", "")]
-    lift_max: Annotated[float, Shown("greatest lift", "", "m")]
+    lift_max: Annotated[float, Shown("maximum lift", "", "m")]
     lift_min: Annotated[
-        float, Shown("least lift", "", "m", "A cam dips below its base circle where s is less than at rest.")
+        float,
+        Shown("minimum lift", "", "m", "A cam dips below its base circle where s is less than at rest."),
     ]
     correction_max: Annotated[
-        float, Shown("greatest correction of the lift", "", "m", "Largest size of κs − x.")
+        float, Shown("maximum correction of the lift", "", "m", "Largest size of κs − x.")
     ]
     acceleration_max: Annotated[
-        float, Shown("greatest acceleration by the lift", "", "m/s²", "Largest size of s″ω².")
+        float, Shown("maximum acceleration by the lift", "", "m/s²", "Largest size of s″ω².")
     ]
     findings: Annotated[tuple[str, ...], About("Strikes, jumps of acceleration, and dips, in sentences.")]
 
@@ -74,7 +75,7 @@ def polydyne(wanted: MotionLaw, model: OneMass, speed: float, ends: Ends = "dwel
     Raises
     ------
     InputError
-        The train has a damper: behind it, the lift of a dwell would have to fade for ever.
+        The train has a damper: behind it, the lift of a dwell would never fade.
     FindingError
         x, x′ or x″ jumps: the lift would have to jump.
     """

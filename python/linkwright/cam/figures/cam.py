@@ -58,7 +58,7 @@ def lift_figure(profile: CamProfile) -> Figure:
     Returns
     -------
     Figure
-        Four panels; upright lines where sections meet, gaps where a derivative jumps.
+        Four panels; vertical lines at segment boundaries, gaps where a derivative jumps.
     """
     figure, axes = panels(4, height=7.6)
     swings = profile.cam.is_oscillating
@@ -249,7 +249,7 @@ def _with_gaps(angle: Floats, values: Floats) -> tuple[Floats, Floats]:
 
 
 def _joints(axes: Axes, profile: CamProfile) -> None:
-    """Upright lines where sections meet."""
+    """Vertical lines at segment boundaries."""
     for joint in profile.cam.programme.joints:
         axes.axvline(math.degrees(joint.angle), color=SOFT, linewidth=0.8, linestyle=(0, (1, 2)), zorder=0.5)
 

@@ -42,16 +42,16 @@ def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) ->
         )
         words = (
             f"The pressure angle is {degrees(profile.pressure_angle_max)} at most; "
-            f"{degrees(profile.cam.limit)} are allowed. Dotted: where sections meet."
+            f"{degrees(profile.cam.limit)} are allowed. Dotted: segment boundaries."
         )
         figure = pressure_angle_figure(profile)
         yield Captioned(f"cam_{name}_pressure_angle", f"Pressure angle of cam {name}", words, figure)
         figure, words = curvature_figure(profile), _curvature_words(profile)
         yield Captioned(f"cam_{name}_curvature", f"Curvature of cam {name}", words, figure)
         if name in borne:
-            words = f"The contact bears up to {number(borne[name].force_size)} N."
+            words = f"The peak contact force is {number(borne[name].force_size)} N."
             if borne[name].side_changes:
-                words += " Where the force is negative, the other side carries."
+                words += " Where the force is negative, the other side is in contact."
             figure = cam_force_figure(borne[name])
             yield Captioned(f"cam_{name}_force", f"Contact force of cam {name}", words, figure)
 
@@ -87,12 +87,12 @@ def _lift_words(profile: CamProfile) -> str:
     ]
     verb = "swings" if swings else "rises"
     return f"The follower {verb} by {reach}; derivatives are by the cam angle. " + (
-        f"Where sections meet (dotted), {'; '.join(told)}." if told else "Nothing jumps up to the jerk."
+        f"At segment boundaries (dotted), {'; '.join(told)}." if told else "It is continuous up to the jerk."
     )
 
 
 def _curvature_words(profile: CamProfile) -> str:
-    """Least radii of convex and concave parts."""
+    """Minimum radii of convex and concave parts."""
     parts = [
         f"{word} parts {_mm(value)}"
         for word, value in (
@@ -101,7 +101,7 @@ def _curvature_words(profile: CamProfile) -> str:
         )
         if value is not None and math.isfinite(value)
     ]
-    words = f"Least radius of curvature of the profile: {', '.join(parts)}. Positive where convex."
+    words = f"Minimum radius of curvature of the profile: {', '.join(parts)}. Positive where convex."
     if profile.cam.curvature_limit is not None:
         words += f" Allowed are convex radii from {_mm(profile.cam.curvature_limit)} on."
     if profile.cam.cutter_radius is not None:

@@ -133,19 +133,19 @@ LAWS: dict[str, Entry] = {
         partial(by_conditions, continuity_start=3, continuity_end=3),
     ),
     "optimal": Entry(
-        "least ∫ of the square of a derivative (here: acceleration)",
+        "minimum ∫ of the square of a derivative (here: acceleration)",
         "Gelfand and Fomin, Calculus of Variations (1963)",
         of_task=optimal_section,
         parameters={"order": 2},
     ),
     "minimum_acceleration": Entry(
-        "least peak of acceleration", "Pontryagin et al. (1962)", of_task=minimum_acceleration
+        "minimum peak of acceleration", "Pontryagin et al. (1962)", of_task=minimum_acceleration
     ),
     "minimum_jerk": Entry(
-        "least peak of jerk, no acceleration at the ends", "Pontryagin et al. (1962)", of_task=minimum_jerk
+        "minimum peak of jerk, no acceleration at the ends", "Pontryagin et al. (1962)", of_task=minimum_jerk
     ),
     "combined": Entry(
-        "start, constant velocity, braking; ramps of least ∫ jerk²",
+        "start, constant velocity, braking; ramps of minimum ∫ jerk²",
         "paper 2, equations (1)–(10)",
         start_and_stop,
         parameters=_SIXTHS | {"ramp": "optimal_jerk"},

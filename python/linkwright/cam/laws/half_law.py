@@ -1,6 +1,6 @@
 r"""Any symmetric law of rest to rest, used for any boundary values.
 
-The first half of a law f brings a follower from rest to its greatest velocity. Stretched over a section it
+The first half of a law f brings a follower from rest to its maximum velocity. Stretched over a section it
 changes the velocity there,
 
 .. math:: x(z) = v_0 z + (v_1 - v_0)\,G(z) + \bigl(s - v_0 - (v_1 - v_0)\,G(1)\bigr) f(z), \qquad

@@ -1,8 +1,8 @@
-r"""Laws with the least peak of acceleration, and of jerk.
+r"""Laws with the minimum peak of acceleration, and of jerk.
 
-What has the least peak is at its peak throughout, and only changes its sign: once for the acceleration, twice
-for the jerk. With the velocities v₀, v₁ at the ends, Δ = v₁ − v₀ and the lift s over a section of length one,
-q = s − (v₀ + v₁)/2,
+What has the minimum peak is at its peak throughout, and only changes its sign: once for the acceleration,
+twice for the jerk. With the velocities v₀, v₁ at the ends, Δ = v₁ − v₀ and the lift s over a section of
+length one, q = s − (v₀ + v₁)/2,
 
 .. math:: A = 2q \pm \sqrt{4q^2 + \Delta^2}, \qquad J = 16q \pm \sqrt{256q^2 + 16\Delta^2}
 
@@ -29,7 +29,7 @@ _NONE = 1e-9
 
 
 def minimum_acceleration(task: Boundary) -> MotionLaw:
-    """The law of least peak acceleration.
+    """The law of minimum peak acceleration.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def minimum_acceleration(task: Boundary) -> MotionLaw:
 
 
 def minimum_jerk(task: Boundary) -> MotionLaw:
-    """The law of least peak jerk without acceleration at the ends.
+    """The law of minimum peak jerk without acceleration at the ends.
 
     Parameters
     ----------

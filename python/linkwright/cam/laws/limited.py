@@ -1,8 +1,8 @@
 r"""Trapezoidal velocity and S-curve by limits of velocity, acceleration and jerk.
 
 A section has its length; what is free is how fast to go between the ramps. Ramps use the acceleration (and
-the jerk) that is allowed, and the velocity between them is the least with which the section is done in its
-length. In the shortest possible length that is the motion of least time. A ramp to the velocity v takes
+the jerk) that is allowed, and the velocity between them is the minimum with which the section is done in its
+length. In the shortest possible length that is the motion of minimum time. A ramp to the velocity v takes
 
 .. math:: t_r(v) = \frac{v}{A}, \qquad
           t_r(v) = \frac{v}{A} + \frac{A}{J} \ (v \ge A^2/J), \qquad t_r(v) = 2\sqrt{v/J} \ (v \le A^2/J)
@@ -43,11 +43,11 @@ class Limits:
     Attributes
     ----------
     velocity : float
-        Greatest velocity [m/rad or –]; infinite without a limit.
+        Maximum velocity [m/rad or –]; infinite without a limit.
     acceleration : float
-        Greatest acceleration [m/rad² or 1/rad].
+        Maximum acceleration [m/rad² or 1/rad].
     jerk : float
-        Greatest jerk [m/rad³ or 1/rad²]; infinite without a limit.
+        Maximum jerk [m/rad³ or 1/rad²]; infinite without a limit.
     """
 
     velocity: float
@@ -55,13 +55,13 @@ class Limits:
     jerk: float = inf
 
     def ramp(self, v: float) -> float:
-        """Least length in which the velocity v is reached from rest [rad]."""
+        """Minimum length in which the velocity v is reached from rest [rad]."""
         if v * self.jerk <= self.acceleration**2:
             return 2 * sqrt(v / self.jerk)
         return v / self.acceleration + self.acceleration / self.jerk
 
     def fastest(self, lift: float) -> float:
-        """Greatest velocity of the motion of least length over a lift [m/rad or –]."""
+        """Maximum velocity of the motion of minimum length over a lift [m/rad or –]."""
         # Without any other limit, acceleration and deceleration meet at this velocity.
         low, high = 0.0, min(self.velocity, sqrt(self.acceleration * lift))
         if high * self.ramp(high) <= lift:
@@ -72,7 +72,7 @@ class Limits:
         return low
 
     def shortest(self, lift: float) -> float:
-        """Least length of a section with a lift of this size [rad]."""
+        """Minimum length of a section with a lift of this size [rad]."""
         v = self.fastest(lift)
         return lift / v + self.ramp(v)
 
@@ -89,7 +89,7 @@ def limited_section(
     angle : float
         Of the section [rad].
     velocity, acceleration, jerk : float or None
-        Greatest derivatives by the cam angle [m or rad, per rad, rad², rad³]; None without a limit.
+        Maximum derivatives by the cam angle [m or rad, per rad, rad², rad³]; None without a limit.
 
     Returns
     -------

@@ -29,7 +29,7 @@ _SAME = 1e-12
 
 
 class Extreme(NamedTuple):
-    """A greatest or least value.
+    """A maximum or minimum value.
 
     Attributes
     ----------
@@ -212,7 +212,7 @@ class MotionLaw:
         return found
 
     def extremes(self, order: int = 0) -> tuple[Extreme, Extreme]:
-        """The least and the greatest value of a derivative.
+        """The minimum and maximum value of a derivative.
 
         Parameters
         ----------
@@ -222,7 +222,7 @@ class MotionLaw:
         Returns
         -------
         tuple of Extreme
-            Least and greatest; of equal ones the first.
+            Minimum and maximum; of equal ones the first.
         """
         ends = [(x, "after") for x in self.breaks[:-1]] + [(x, "before") for x in self.breaks[1:]]
         listed: list[Extreme] = []

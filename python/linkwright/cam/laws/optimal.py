@@ -1,4 +1,4 @@
-r"""Optimal polynomials: the least integral of the square of a derivative.
+r"""Optimal polynomials: the minimum integral of the square of a derivative.
 
 .. math:: \int_0^1 \bigl(x^{(n)}\bigr)^2 dz \to \min
 
@@ -25,7 +25,7 @@ from linkwright.kernel.errors import LawError, Problem
 
 
 def optimal(order: int, start: Conditions, end: Conditions) -> MotionLaw:
-    """The law of least ∫ (dⁿx/dzⁿ)² dz.
+    """The law of minimum ∫ (dⁿx/dzⁿ)² dz.
 
     Parameters
     ----------

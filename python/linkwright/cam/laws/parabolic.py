@@ -10,10 +10,10 @@ from linkwright.cam.laws.piece import Piece
 
 
 def constant_velocity() -> MotionLaw:
-    """The straight line f = z: the least velocity, which jumps at both ends."""
+    """The straight line f = z: the minimum velocity, which jumps at both ends."""
     return MotionLaw((0.0, 1.0), (Piece((0.0, 1.0)),))
 
 
 def parabolic() -> MotionLaw:
-    """f = 2 z² up to the middle, its mirror image from there: the least acceleration, which jumps."""
+    """f = 2 z² up to the middle, its mirror image from there: the minimum acceleration, which jumps."""
     return MotionLaw((0.0, 0.5, 1.0), (Piece((0.0, 0.0, 0.5)), Piece((0.5, 1.0, -0.5))))

@@ -1,4 +1,4 @@
-"""A programme: sections one after the other over a turn of the cam, and how smoothly they meet.
+"""A programme: sections one after the other over one revolution of the cam, and how smoothly they meet.
 
 What a section does not say of its ends follows from its neighbours: a dwell rests, constant velocity has its
 slope, and what one side of a joint says counts for both. What nobody says is rest.
@@ -19,10 +19,10 @@ from linkwright.kernel.errors import InputError
 
 TURN = 2 * math.pi
 
-# Angles add to a turn, and lifts to zero, within this share; what is left of it is shared out.
+# Angles add to a revolution, and lifts to zero, within this share; what is left of it is shared out.
 CLOSES = 1e-9
 
-# A jump below this share of the greatest value of its derivative is rounding.
+# A jump below this share of the maximum value of its derivative is rounding.
 _ROUNDING = 1e-9
 
 # Orders of the derivatives whose jumps are stated.
@@ -116,14 +116,14 @@ class Joint:
 
 @dataclass(frozen=True)
 class Programme:
-    """The motion of a follower over a turn of the cam.
+    """The motion of a follower over one revolution of the cam.
 
     Attributes
     ----------
     law : MotionLaw
         Lift over the cam angle from 0 to exactly 2π, beginning and ending with 0.
     joints : tuple of Joint
-        At the start of each section; the first is where the turn closes.
+        At the start of each section; the first is where the revolution closes.
     tasks : tuple of Boundary
         What each section had to do, by its own z.
     """
@@ -139,13 +139,13 @@ def programme(sections: Sequence[Section]) -> Programme:
     Parameters
     ----------
     sections : sequence of Section
-        In their order; their angles add to a turn, their lifts to zero.
+        In their order; their angles add to a revolution, their lifts to zero.
 
     Returns
     -------
     Programme
-        Closed: what rounding leaves of the turn is shared by all angles in proportion, and what it leaves of
-        the lift is taken from the largest lift.
+        Closed: what rounding leaves of the revolution is shared by all angles in proportion, and what it
+        leaves of the lift is taken from the largest lift.
 
     Raises
     ------
@@ -241,7 +241,7 @@ def _said(own: float | None, other: float | None) -> float | None:
 
 
 def _closed(sections: Sequence[Section]) -> list[Section]:
-    """The sections with what rounding leaves of turn and lift shared out."""
+    """The sections with what rounding leaves of revolution and lift shared out."""
     turn = math.fsum(each.angle for each in sections)
     left = math.fsum(each.lift for each in sections)
     largest = max(range(len(sections)), key=lambda i: abs(sections[i].lift))

@@ -1,7 +1,7 @@
 r"""Ramps: from rest to a velocity of one over a length of one.
 
-Halves of the symmetric laws, and two of least :math:`\int \dddot x^2`: for the travel of 3/5, which makes the
-jerk end in zero,
+Halves of the symmetric laws, and two of minimum :math:`\int \dddot x^2`: for the travel of 3/5, which makes
+the jerk end in zero,
 
 .. math:: G = 2u^3 - 2u^4 + \tfrac35 u^5, \qquad \int \dddot x^2 = 19.2
 
@@ -31,12 +31,12 @@ from linkwright.kernel.errors import LawError, Problem
 
 
 def optimal_jerk() -> MotionLaw:
-    """Least ∫ jerk² over a travel of 3/5; the jerk ends in zero."""
+    """Minimum ∫ jerk² over a travel of 3/5; the jerk ends in zero."""
     return MotionLaw((0.0, 1.0), (Piece((0.0, 0.0, 0.0, 2.0, -2.0, 0.6)),))
 
 
 def optimal_jerk_free() -> MotionLaw:
-    """Least ∫ jerk² over any travel, which comes out as 1/2."""
+    """Minimum ∫ jerk² over any travel, which comes out as 1/2."""
     return MotionLaw((0.0, 1.0), (Piece((0.0, 0.0, 0.0, 1.0, -0.5)),))
 
 

@@ -9,7 +9,7 @@
 | `drawing` | What is drawn of a cam, and what was measured of a written file |
 | `dxf` | Drawings as DXF (AutoCAD 2010), in millimetres |
 | `fit` | Any of these forms within a tolerance |
-| `found` | An outline as it was found in a file |
+| `file_outline` | An outline as a file holds it |
 | `hermite` | The B-spline of a curve, from Hermite pieces over the cam angle |
 | `mesh` | Where to cut a stretch so that few pieces keep a tolerance |
 | `outline` | A closed outline of arcs and lines, by vertices and bulges as drawings keep it |

@@ -32,7 +32,7 @@ Floats = NDArray[np.float64]
 # Error of a biarc by its length.
 _ORDER = 3.0
 
-# Greatest angle that a piece may turn [rad]: a quarter and a little, so that a circle becomes four arcs.
+# Maximum angle that a piece may turn [rad]: a quarter and a little, so that a circle becomes four arcs.
 _TURN = 0.51 * np.pi
 
 # Shares of a piece at which it is compared with the curve. Where the curvature grows evenly, the error

@@ -81,7 +81,7 @@ class Drawing:
 
 
 @dataclass(frozen=True)
-class Measured:
+class MeasuredOutline:
     """An outline of a file, read back and compared with its curve.
 
     Attributes
@@ -103,16 +103,16 @@ class Measured:
 
 
 @dataclass(frozen=True)
-class Written:
+class WrittenFile:
     """A file that was written and read back.
 
     Attributes
     ----------
     path : Path
         The file.
-    outlines : tuple of Measured
+    outlines : tuple of MeasuredOutline
         What it holds.
     """
 
     path: Path
-    outlines: tuple[Measured, ...]
+    outlines: tuple[MeasuredOutline, ...]

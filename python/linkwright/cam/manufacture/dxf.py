@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.cam.manufacture.drawing import CENTRE, CUTTER_PATH, PITCH_CURVE, TEXT, ZERO_ANGLE, Drawing
-from linkwright.cam.manufacture.found import Found
+from linkwright.cam.manufacture.file_outline import FileOutline
 from linkwright.cam.manufacture.outline import Outline
 from linkwright.cam.manufacture.spline import EvaluatedSpline, Spline
 from linkwright.kernel.errors import ExchangeError
@@ -117,7 +117,7 @@ def _add_notes(document: Document, drawing: Drawing, notes: tuple[str, ...]) -> 
         text.set_placement(place)
 
 
-def read_dxf(file: File, layers: tuple[str, ...]) -> dict[str, Found]:
+def read_dxf(file: File, layers: tuple[str, ...]) -> dict[str, FileOutline]:
     """Read the outlines of a DXF file.
 
     Parameters
@@ -129,7 +129,7 @@ def read_dxf(file: File, layers: tuple[str, ...]) -> dict[str, Found]:
 
     Returns
     -------
-    dict of str to Found
+    dict of str to FileOutline
         Layer → its outline.
 
     Raises
@@ -152,7 +152,7 @@ def read_dxf(file: File, layers: tuple[str, ...]) -> dict[str, Found]:
     return {layer: _outline_of(file, document, layer) for layer in layers}
 
 
-def _outline_of(file: File, document: Document, layer: str) -> Found:
+def _outline_of(file: File, document: Document, layer: str) -> FileOutline:
     """The one closed entity of a layer."""
     entities: list[Any] = [each for each in document.modelspace() if each.dxf.layer == layer]
     kinds = [entity.dxftype() for entity in entities]
@@ -163,9 +163,9 @@ def _outline_of(file: File, document: Document, layer: str) -> Found:
     if not entity.closed:
         raise ExchangeError(f"{file}: the {kinds[0]} of layer {layer} is not marked as closed")
     if kinds[0] == "SPLINE":
-        return Found(_spline_of(file, entity.construction_tool(), layer), "SPLINE")
+        return FileOutline(_spline_of(file, entity.construction_tool(), layer), "SPLINE")
     rows = np.array(entity.get_points("xyb"))
-    return Found(Outline(1e-3 * rows[:, :2], rows[:, 2]), "LWPOLYLINE")
+    return FileOutline(Outline(1e-3 * rows[:, :2], rows[:, 2]), "LWPOLYLINE")
 
 
 def _spline_of(file: File, tool: BSpline, layer: str) -> EvaluatedSpline:

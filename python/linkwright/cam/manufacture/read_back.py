@@ -8,10 +8,10 @@ import numpy as np
 
 from linkwright.cam.manufacture.curve import size
 from linkwright.cam.manufacture.deviation import deviation
-from linkwright.cam.manufacture.drawing import PROFILE, Drawing, Measured
+from linkwright.cam.manufacture.drawing import PROFILE, Drawing, MeasuredOutline
 from linkwright.cam.manufacture.dxf import read_dxf
+from linkwright.cam.manufacture.file_outline import FileOutline
 from linkwright.cam.manufacture.fit import TOLERANCE
-from linkwright.cam.manufacture.found import Found
 from linkwright.cam.manufacture.outline import Outline
 from linkwright.cam.manufacture.step import read_step
 from linkwright.cam.manufacture.svg import read_svg
@@ -30,7 +30,7 @@ _BEND, _BESIDE = 1e-6, 1e-9
 
 def read_back(
     file: File, drawing: Drawing, tolerance: float = TOLERANCE, *, layers: tuple[str, ...] | None = None
-) -> tuple[Measured, ...]:
+) -> tuple[MeasuredOutline, ...]:
     """Read a file and compare its outlines with their curves.
 
     Parameters
@@ -46,7 +46,7 @@ def read_back(
 
     Returns
     -------
-    tuple of Measured
+    tuple of MeasuredOutline
         One a layer: what was measured.
 
     Raises
@@ -75,7 +75,7 @@ def read_back(
 _READERS = {".dxf": read_dxf, ".svg": read_svg}
 
 
-def _compare(file: File, layer: str, found: Found, track: Track, tolerance: float) -> Measured:
+def _compare(file: File, layer: str, found: FileOutline, track: Track, tolerance: float) -> MeasuredOutline:
     """The deviation of an outline; refused if larger than the tolerance."""
     try:
         measured = deviation(found.path, track)
@@ -87,10 +87,10 @@ def _compare(file: File, layer: str, found: Found, track: Track, tolerance: floa
             "cam angle "
             f"{np.degrees(measured.angle):.6g}°; the tolerance is {1e3 * tolerance:.6g} mm"
         )
-    return Measured(layer, found.form, measured, tolerance)
+    return MeasuredOutline(layer, found.form, measured, tolerance)
 
 
-def _compare_rows(file: File, track: Track, layer: str) -> Measured:
+def _compare_rows(file: File, track: Track, layer: str) -> MeasuredOutline:
     """Each row lies on the curve at its cam angle; the deviation is that of the chords between the rows."""
     rows = read_csv(file)
     tau = track.at_cam_angles(rows.phi)
@@ -106,7 +106,7 @@ def _compare_rows(file: File, track: Track, layer: str) -> Measured:
     forward = rows.phi[-1] > rows.phi[0]
     corners = rows.place[:-1] if forward else rows.place[:0:-1]
     chords = deviation(Outline(corners, np.zeros(len(corners))), track)
-    return Measured(layer, "rows", chords, chords.largest)
+    return MeasuredOutline(layer, "rows", chords, chords.largest)
 
 
 def _compare_curvature(file: File, rows: Table, track: Track, tau: np.ndarray) -> None:

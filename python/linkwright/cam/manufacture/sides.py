@@ -116,7 +116,7 @@ class Sides:
         from_end = from_start - self.chords[:, None]
         after_start = dot(from_start, self.start_directions[:, None]) >= 0
         before_end = dot(from_end, self.end_directions[:, None]) <= 0
-        # Beyond half a turn the sector is what at least one of the half planes holds.
+        # Beyond half a revolution the sector is what at least one of the half planes holds.
         short = np.abs(self.bulges[:, None]) <= 1
         beside = np.where(short, after_start & before_end, after_start | before_end)
         to_ends = np.minimum(np.linalg.norm(from_start, axis=-1), np.linalg.norm(from_end, axis=-1))

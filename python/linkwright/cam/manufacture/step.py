@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.manufacture.found import Found
+from linkwright.cam.manufacture.file_outline import FileOutline
 from linkwright.cam.manufacture.spline import EvaluatedSpline, Spline
 from linkwright.kernel.errors import ExchangeError, InputError
 
@@ -28,7 +28,7 @@ _PLANE = 1e-6
 
 
 def _kernel(module: str) -> Any:
-    """A module of Open CASCADE; the user is told how to get it if it is not there."""
+    """A module of Open CASCADE; the error says how to install it."""
     try:
         found = import_module(f"OCP.{module}")
         message = import_module("OCP.Message")
@@ -105,7 +105,7 @@ def _filled(kind: Any, values: list[Any]) -> Any:
     return array
 
 
-def read_step(file: File, sense: int) -> Found:
+def read_step(file: File, sense: int) -> FileOutline:
     """Read the outline of a solid from a STEP file: that of its lower face.
 
     Parameters
@@ -117,7 +117,7 @@ def read_step(file: File, sense: int) -> Found:
 
     Returns
     -------
-    Found
+    FileOutline
         Its outline.
 
     Raises
@@ -146,7 +146,7 @@ def read_step(file: File, sense: int) -> Found:
         place, slope = np.array(found).transpose(1, 0, 2)
         return place.reshape(*parameter.shape, 2), slope.reshape(*parameter.shape, 2)
 
-    return Found(EvaluatedSpline(np.arange(len(pieces) + 1.0), evaluate), "solid")
+    return FileOutline(EvaluatedSpline(np.arange(len(pieces) + 1.0), evaluate), "solid")
 
 
 def _at(piece: tuple[Any, float, float], u: float) -> tuple[Floats, Floats]:

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.cam.manufacture.drawing import CENTRE, CUTTER_PATH, PITCH_CURVE, ZERO_ANGLE, Drawing
-from linkwright.cam.manufacture.found import Found
+from linkwright.cam.manufacture.file_outline import FileOutline
 from linkwright.cam.manufacture.outline import Outline
 from linkwright.kernel.errors import ExchangeError
 from linkwright.kernel.files.output import write_file
@@ -97,7 +97,7 @@ def path_data(outline: Outline) -> str:
     return " ".join([*parts, "Z"])
 
 
-def read_svg(file: File, layers: tuple[str, ...]) -> dict[str, Found]:
+def read_svg(file: File, layers: tuple[str, ...]) -> dict[str, FileOutline]:
     """Read the outlines of an SVG file.
 
     Parameters
@@ -109,7 +109,7 @@ def read_svg(file: File, layers: tuple[str, ...]) -> dict[str, Found]:
 
     Returns
     -------
-    dict of str to Found
+    dict of str to FileOutline
         Layer → its outline.
 
     Raises
@@ -127,7 +127,7 @@ def read_svg(file: File, layers: tuple[str, ...]) -> dict[str, Found]:
         data = [each.get("d", "") for each in root.iter(f"{_NAMESPACE}path") if each.get("id") == layer]
         if len(data) != 1:
             raise ExchangeError(f'{file}: {len(data)} paths have the id "{layer}", expected one')
-        found[layer] = Found(_outline(file, layer, data[0]), "path")
+        found[layer] = FileOutline(_outline(file, layer, data[0]), "path")
     return found
 
 

@@ -33,13 +33,13 @@ _WHOLE = 1e-9
 # Polar angles of one place, seen from both sides of a joint, differ by rounding [rad].
 _ROUNDING = 1e-9
 
-# Rounds of Newton from samples to a polar angle; quadratic from a two-thousandth of a turn.
+# Rounds of Newton from samples to a polar angle; quadratic from a two-thousandth of a revolution.
 _ROUNDS = 6
 
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of an outline; the last is the first, one turn on.
+    """Rows of an outline; the last is the first, one revolution on.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ def table(track: Track, step: float, by: By = "cam") -> Table:
     track : Track
         The curve.
     step : float
-        Step of the angle; a whole number of them makes a turn [rad].
+        Step of the angle; a whole number of them makes a revolution [rad].
     by : {"cam", "polar"}
         Which angle has the steps: that of the cam from 0, or that of the place from the x axis.
 
@@ -84,7 +84,7 @@ def table(track: Track, step: float, by: By = "cam") -> Table:
     Raises
     ------
     InputError
-        The step does not divide the turn.
+        The step does not divide the revolution.
     ExchangeError
         The curve is not a function of its polar angle.
     """
@@ -120,7 +120,7 @@ def curvature(track: Track, tau: Floats) -> Floats:
 
 
 def _count(step: float) -> int:
-    """How many steps make a turn."""
+    """How many steps make a revolution."""
     n = 2 * math.pi / step if step > 0 else math.nan
     if not math.isnan(n):
         remedy = f"take {360 / ROWS_OUT.most:.3g}° or more"
@@ -128,7 +128,7 @@ def _count(step: float) -> int:
     if not (math.isfinite(n) and n >= 3 and abs(n - round(n)) <= _WHOLE * n):
         near = [360 / max(3, math.floor(n)), 360 / max(3, math.ceil(n))] if 0 < n < 1e9 else [1.0, 0.5]
         raise InputError(
-            f"step of {math.degrees(step):.9g}°: expected a whole number of steps a turn, at least 3, such "
+            f"step of {math.degrees(step):.9g}°: expected a whole number of steps per revolution, 3 or more, "
             f"as {near[0]:.6g}° or {near[1]:.6g}°"
         )
     return round(n)
@@ -214,7 +214,7 @@ def _refuse(file: File, rows: Table, radius: Floats) -> None:
         raise ExchangeError(f"{file}: the last row is not the place of the first")
     x, y = radius * np.cos(rows.polar_angle), radius * np.sin(rows.polar_angle)
     off = np.hypot(x - rows.place[:, 0], y - rows.place[:, 1])
-    # Angles in degrees up to a turn, and their radians, are rounded: some units of 1e-16 of the radius.
+    # Angles in degrees up to a revolution, and their radians, are rounded: some units of 1e-16 of the radius.
     wrong = np.flatnonzero(~(off <= 1e-14 * np.abs(radius).max()))
     if wrong.size:
         raise ExchangeError(

@@ -69,7 +69,7 @@ class Track:
         return np.asarray(tau + turns * self.period)
 
     def angles(self, tau: Floats) -> Floats:
-        """Cam angles of τ (n,), each turn on [rad]."""
+        """Cam angles of τ (n,), each revolution on [rad]."""
         turns = np.floor(tau / self.period)
         inside = tau - self.period * turns
         low = np.array([part.low for part in self.parts])

@@ -7,7 +7,7 @@ import os
 from collections.abc import Callable, Iterable
 from pathlib import Path as File
 
-from linkwright.cam.manufacture.drawing import PROFILE, Drawing, Measured, Written
+from linkwright.cam.manufacture.drawing import PROFILE, Drawing, MeasuredOutline, WrittenFile
 from linkwright.cam.manufacture.dxf import write_dxf
 from linkwright.cam.manufacture.fit import TOLERANCE, Form, fit
 from linkwright.cam.manufacture.outline import Outline
@@ -42,7 +42,7 @@ def write_drawing(
     step: float = STEP,
     by: By = "cam",
     stem: str = "",
-) -> tuple[Written, ...]:
+) -> tuple[WrittenFile, ...]:
     """Write a drawing in several formats, each read back and compared with the curves.
 
     Parameters
@@ -67,7 +67,7 @@ def write_drawing(
 
     Returns
     -------
-    tuple of Written
+    tuple of WrittenFile
         The files, with the deviations that were measured in them.
 
     Raises
@@ -82,7 +82,7 @@ def write_drawing(
     if unknown := [each for each in formats if each not in ALL_FORMATS]:
         raise InputError(f'format "{unknown[0]}": expected {", ".join(ALL_FORMATS)}')
     place = File(directory) / (stem or file_name(drawing.name) or "cam")
-    written: list[Written] = []
+    written: list[WrittenFile] = []
     try:
         File(directory).mkdir(parents=True, exist_ok=True)
         if "dxf" in formats:
@@ -99,13 +99,13 @@ def write_drawing(
 
 
 def _checked(
-    file: File, write: Callable[[File], None], check: Callable[[File], tuple[Measured, ...]]
-) -> Written:
+    file: File, write: Callable[[File], None], check: Callable[[File], tuple[MeasuredOutline, ...]]
+) -> WrittenFile:
     """Write under another name, check, and only then take the name."""
     with trial(file) as part:
         write(part)
         measured = check(part)
-    return Written(file, measured)
+    return WrittenFile(file, measured)
 
 
 def _with_ending(place: File, ending: str) -> File:
@@ -113,7 +113,7 @@ def _with_ending(place: File, ending: str) -> File:
     return place.with_name(place.name + ending)
 
 
-def _dxf(place: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
+def _dxf(place: File, drawing: Drawing, form: Form, tolerance: float) -> WrittenFile:
     """The drawing as DXF, with name, tolerance and what was measured as text."""
     fits = {layer: fit(track, form, tolerance) for layer, track in drawing.tracks.items()}
     paths: dict[str, Outline | Spline] = {layer: path for layer, (path, _) in fits.items()}
@@ -132,7 +132,7 @@ def _dxf(place: File, drawing: Drawing, form: Form, tolerance: float) -> Written
     )
 
 
-def _svg(place: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
+def _svg(place: File, drawing: Drawing, form: Form, tolerance: float) -> WrittenFile:
     """The drawing as SVG; splines, which it has not, as arcs."""
     paths = {}
     for layer, track in drawing.tracks.items():
@@ -146,7 +146,7 @@ def _svg(place: File, drawing: Drawing, form: Form, tolerance: float) -> Written
     )
 
 
-def _step(place: File, drawing: Drawing, form: Form, tolerance: float) -> Written:
+def _step(place: File, drawing: Drawing, form: Form, tolerance: float) -> WrittenFile:
     """The profile as a solid."""
     if drawing.width is None or PROFILE not in drawing.tracks:
         raise InputError(
@@ -166,7 +166,7 @@ def _spline(form: Form) -> Form:
     return "cubic" if form == "cubic" else "spline"
 
 
-def _csv(place: File, drawing: Drawing, layer: str, step: float, by: By) -> Written:
+def _csv(place: File, drawing: Drawing, layer: str, step: float, by: By) -> WrittenFile:
     """One outline as a table."""
     rows = table(drawing.tracks[layer], step, by)
     tail = "" if layer == PROFILE else f"_{layer.lower()}"

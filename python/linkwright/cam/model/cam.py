@@ -5,9 +5,9 @@ r"""A cam on the crankshaft and the follower that it moves.
 | translating | along a line, to the left of the cam's centre by the offset | a point on a slide |
 | oscillating | about its own pivot | a link with a point at its end |
 
-Its sections say how it moves over a turn. Where the lift is least, the contact lies on the base circle, r_0
-from the cam's centre; a roller's centre then lies on the prime circle, r_0 + r_r. Two followers that touch
-one cam on opposite sides have their distance, the breadth, instead: b = 2 (r_0 + r_r) + lift.
+Its sections say how it moves over one revolution. Where the lift is minimum, the contact lies on the base
+circle, r_0 from the cam's centre; a roller's centre then lies on the prime circle, r_0 + r_r. Two followers
+that touch one cam on opposite sides have their distance, the breadth, instead: b = 2 (r_0 + r_r) + lift.
 
 In the mechanism a cam stands for a driver that follows the programme (`cam_follower`).
 """
@@ -25,7 +25,7 @@ from linkwright.cam.model.follower_motion import FollowerMotion, follower_motion
 from linkwright.cam.model.follower_train import FollowerTrain
 from linkwright.cam.model.motion_section import MotionSection
 from linkwright.cam.model.section_faults import section_faults
-from linkwright.kernel.description.base import Checked, Description, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.units import (
     ACUTE,
     ANGLE,
@@ -79,7 +79,7 @@ class SecondFollower(Description):
     )
 
 
-class Cam(Checked):
+class Cam(CheckedDescription):
     """A cam on the crankshaft, and its follower."""
 
     follower: Literal["translating", "oscillating"] = Field(
@@ -93,7 +93,7 @@ class Cam(Checked):
         description="What keeps the follower on the cam: a force, a groove, a second cam for a second "
         "follower, or the same cam between two followers (points or rollers; flat faces).",
     )
-    sections: tuple[MotionSection, ...] = Field(description="How the follower moves over a turn.")
+    sections: tuple[MotionSection, ...] = Field(description="How the follower moves over one revolution.")
     phase: Angle = Field(0.0, description="Crank angle at which the first section begins.")
     rotation: Literal["same", "opposite"] = Field(
         "same", description="Whether the cam turns with the crankshaft, or against it as fast."
@@ -102,7 +102,7 @@ class Cam(Checked):
         None, description="Fixed point that the cam turns about. Without it, the origin."
     )
     base_radius: PositiveLength | None = Field(
-        None, description="Of the cam where the lift is least. Without it, from the breadth."
+        None, description="Of the cam where the lift is minimum. Without it, from the breadth."
     )
     breadth: PositiveLength | None = Field(
         None,
@@ -134,7 +134,7 @@ class Cam(Checked):
         "oscillating follower.",
     )
     curvature_limit: PositiveLength | None = Field(
-        None, description="Least convex radius of curvature allowed on the profile."
+        None, description="Minimum convex radius of curvature allowed on the profile."
     )
     friction: Annotated[float, not_negative(RATIO)] = Field(
         0.0,
@@ -192,12 +192,12 @@ class Cam(Checked):
 
     @property
     def lift(self) -> MotionLaw:
-        """The lift from the base circle: its least value is zero."""
+        """The lift from the base circle: its minimum value is zero."""
         return self.motion.lift
 
     @property
     def stroke(self) -> float:
-        """Greatest lift [m or rad]."""
+        """Maximum lift [m or rad]."""
         return self.motion.stroke
 
     @property

@@ -1,4 +1,4 @@
-"""How the follower of a cam moves over a turn: its programme, counted from the base circle, and its peaks.
+"""How the follower of a cam moves: its programme over one revolution, from the base circle, and its peaks.
 
 The same sections give the same motion, which is worked out once.
 """
@@ -37,9 +37,9 @@ class FollowerMotion:
     programme : Programme
         As the sections say: it begins with zero.
     lift : MotionLaw
-        Counted from the base circle: its least value is zero [m or rad].
+        Counted from the base circle: its minimum value is zero [m or rad].
     stroke : float
-        Greatest lift [m or rad].
+        Maximum lift [m or rad].
 
     Raises
     ------
@@ -64,7 +64,7 @@ class FollowerMotion:
 
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
-        """How smooth the lift is where sections meet, and where a law inside a section has a break."""
+        """How smooth the lift is at segment boundaries, and where a law inside a section has a break."""
         from linkwright.cam.laws.programme import joints
 
         return joints(self.lift, self.lift.breaks[:-1])

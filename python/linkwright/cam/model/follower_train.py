@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import FORCE, MASS, RATIO, SPEED, STIFFNESS, Quantity, not_negative, positive
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Ratio = Annotated[float, not_negative(RATIO)]
 
 
-class FollowerTrain(Checked):
+class FollowerTrain(CheckedDescription):
     """What vibrates between cam and load: one mass on one stiffness."""
 
     mass: Annotated[float, positive(MASS)] = Field(description="Of all that moves, reduced to the follower.")
@@ -40,7 +40,7 @@ class FollowerTrain(Checked):
         if both >= 1:
             yield fault("damping_ratio", found=both, expected="less than 1, both together")
         if self.polydyne_speed is not None and self.damping_ratio:
-            remedy = "behind a damper in the train the lift of a dwell would have to fade for ever"
+            remedy = "behind a damper in the train the lift of a dwell would never fade"
             yield fault(
                 "polydyne_speed", found=self.polydyne_speed, expected="a train without damper", remedy=remedy
             )

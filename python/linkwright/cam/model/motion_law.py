@@ -5,7 +5,7 @@
 | `cycloidal`, `polynomial_3_4_5`, … | a law of the catalogue that has no parameters |
 | `modified_trapezoid`, `modified_sine` | with a share of their ramps |
 | `polynomial` | by its boundary conditions, of any degree |
-| `optimal` | least integral of the square of a derivative |
+| `optimal` | minimum integral of the square of a derivative |
 | `combined`, `trapezoidal_velocity`, `s_curve` | ramp, constant velocity, ramp, by shares |
 | `limited` | the same by limits of velocity, acceleration and jerk |
 
@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.errors import LawError, Problem
 from linkwright.kernel.units import (
     LIFT_D1,
@@ -55,7 +55,7 @@ Order = Literal[1, 2, 3, 4]
 Continuity = Literal[0, 1, 2, 3, 4, 5, 6, 7]
 
 
-class Law(Checked):
+class Law(CheckedDescription):
     """What all laws have in common."""
 
     def own_lift(self, angle: float, *, swing: bool) -> float | None:
@@ -165,7 +165,7 @@ class PolynomialLaw(Law):
 
 
 class OptimalLaw(Law):
-    """The law of least integral of the square of a derivative."""
+    """The law of minimum integral of the square of a derivative."""
 
     kind: Literal["optimal"]
     order: Literal[1, 2, 3, 4, 5] = Field(
@@ -198,7 +198,7 @@ class CombinedLaw(Law):
         "polynomial_4_5_6_7",
     ] = Field(
         "optimal_jerk",
-        description="Course of the velocity over a ramp: of least ∫ jerk² over 3/5 of the travel at full "
+        description="Course of the velocity over a ramp: of minimum ∫ jerk² over 3/5 of the travel at full "
         "velocity, the same over free travel, or the first half of a law.",
     )
 
@@ -227,22 +227,22 @@ class LimitedLaw(Law):
 
     kind: Literal["limited"]
     velocity_max: Annotated[float, positive(LIFT_D1)] | None = Field(
-        None, description="Greatest lift per cam angle. Without it, no limit."
+        None, description="Maximum lift per cam angle. Without it, no limit."
     )
     acceleration_max: Annotated[float, positive(LIFT_D2)] | None = Field(
-        None, description="Greatest second derivative."
+        None, description="Maximum second derivative."
     )
     jerk_max: Annotated[float, positive(LIFT_D3)] | None = Field(
-        None, description="Greatest third derivative. Without it, the acceleration jumps."
+        None, description="Maximum third derivative. Without it, the acceleration jumps."
     )
     swing_velocity_max: Annotated[float, positive(RATIO)] | None = Field(
-        None, description="For an oscillating follower: greatest angle per cam angle."
+        None, description="For an oscillating follower: maximum angle per cam angle."
     )
     swing_acceleration_max: Annotated[float, positive(SWING_D2)] | None = Field(
-        None, description="Greatest second derivative of its angle."
+        None, description="Maximum second derivative of its angle."
     )
     swing_jerk_max: Annotated[float, positive(SWING_D3)] | None = Field(
-        None, description="Greatest third derivative of its angle."
+        None, description="Maximum third derivative of its angle."
     )
 
     def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
@@ -251,7 +251,7 @@ class LimitedLaw(Law):
         names = [f"swing_{name}" if swing else name for name in _LIMITS]
         velocity, acceleration, jerk = (getattr(self, name) for name in names)
         if acceleration is None:
-            expected = "the greatest second derivative by the cam angle"
+            expected = "the maximum second derivative by the cam angle"
             raise LawError(Problem(names[1], "nothing", expected))
         return limited_section(task, angle, velocity, acceleration, jerk)
 

@@ -1,4 +1,4 @@
-"""A motion programme as it is written in a machine file: sections one after the other over a turn of the cam.
+"""A motion programme as a machine file has it: sections one after the other over one revolution of the cam.
 
     sections = [
       { angle = "120 deg", lift = "20 mm", law = "cycloidal" },
@@ -184,7 +184,7 @@ def programme(sections: Sequence[MotionSection], expected: Family = "lift") -> P
     Returns
     -------
     Programme
-        Over a turn of the cam.
+        Over one revolution of the cam.
 
     Raises
     ------

@@ -96,7 +96,7 @@ def _ends_other_than(
 
 
 def _turn_faults(sections: Sequence[MotionSection], key: str) -> Iterator[InitErrorDetails]:
-    """Angles that do not add to a turn."""
+    """Angles that do not add to a revolution."""
     turn = math.fsum(each.angle for each in sections)
     over = turn - TURN
     if abs(over) <= CLOSES * TURN:
@@ -106,9 +106,9 @@ def _turn_faults(sections: Sequence[MotionSection], key: str) -> Iterator[InitEr
     if sections[longest].angle <= over:
         longest = max(range(len(sections)), key=lambda i: sections[i].angle)
     new = sections[longest].angle - over
-    few = f'{_degrees(over)} too much: {key}.{longest}.angle = "{_degrees(new)}" closes the turn'
+    few = f'{_degrees(over)} too much: {key}.{longest}.angle = "{_degrees(new)}" closes the revolution'
     many = f"{_degrees(over)} too much: more than any one section has; shorten all to {TURN / turn:.6g} of it"
-    short = f'{_degrees(-over)} missing: {key}.{longest}.angle = "{_degrees(new)}" closes the turn'
+    short = f'{_degrees(-over)} missing: {key}.{longest}.angle = "{_degrees(new)}" closes the revolution'
     remedy = short if over < 0 else few if new > 0 else many
     found = f"angles that add to {_degrees(turn)}"
     problem = wrong(found, "angles that add to 360 deg", remedy)

@@ -9,5 +9,5 @@
 | `least_sizes` | The smallest base circle for its limits, and the largest roller |
 | `lift_steps` | Which derivatives of a lift jump, and where? |
 | `opposite` | Do two followers touch one cam at every angle? |
-| `profile` | What is known of a cam: lift, pressure angle, curvature over a turn, and their extremes |
+| `profile` | A cam over one revolution: lift, pressure angle, curvature, and their extremes |
 """

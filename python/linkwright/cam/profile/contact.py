@@ -39,7 +39,7 @@ class Contact:
     name : str
         ``"cam"``, or ``"second cam"`` for the second of two contacts.
     law : MotionLaw
-        Lift over the cam angle, least value zero [m or rad].
+        Lift over the cam angle, minimum value zero [m or rad].
     sizes : Sizes
         Dimensions.
     kernel : CamKernel

@@ -9,11 +9,11 @@ doubtful.
 | arm as fast as the cam | β′ changes its sign: the face turns over the cam |
 | locked | d·n ≤ 0: pressure angle of 90° or more |
 | crossed | the profile crosses itself where it is nowhere undercut |
-| hollow | the cutter is larger than the least concave radius, or wider than the groove |
+| hollow | the cutter is larger than the minimum concave radius, or wider than the groove |
 | diameter | two followers do not both touch |
 
-Each is told with the cam angle, the amount, and the smallest change that mends it. A profile whose radius is
-smaller than allowed, or a pressure angle above its limit, is a caution: the cam can be made.
+Each is reported with the cam angle, the amount, and the smallest change that mends it. A profile whose radius
+is smaller than allowed, or a pressure angle above its limit, is a caution: the cam can be made.
 
 References
 ----------
@@ -240,7 +240,7 @@ def _diameter(profile: CamProfile) -> Iterator[str]:
     yield (
         f"cam {profile.name} is not of constant {profile.cam.closure.removeprefix('constant_')}: at "
         f"{_degrees(worst.angle)} it is {_mm(abs(apart))} {what} for followers "
-        f"{_mm(both.breadth)} apart; it takes a motion whose second half turn is the first one mirrored, "
+        f"{_mm(both.breadth)} apart; the second half revolution of the motion must mirror the first, "
         "s(φ + 180°) = h − s(φ), or one follower held by a spring"
     )
 

@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 _SCANNED = 240
 _FROM, _TO = 0.02, 20.0
 
-# Cam angles a turn of the scan, and of the exact search.
+# Cam angles per revolution of the scan, and of the exact search.
 _COARSE, _FINE = 360, 720
 
 _TURN: Floats = 2 * np.pi / _FINE * np.arange(float(_FINE))
@@ -71,7 +71,7 @@ def base_for_curvature(cam: Cam, contact: Contact, limit: float) -> float | None
     contact : Contact
         One of its contacts; all else stays as it is.
     limit : float
-        Least radius of curvature of the profile [m].
+        Minimum radius of curvature of the profile [m].
 
     Returns
     -------

@@ -33,7 +33,7 @@ class LeastSizes(Result):
             "smallest base radius for the curvature",
             "",
             "m",
-            "That keeps the least convex radius of curvature; None without such a limit.",
+            "That keeps the minimum convex radius of curvature; None without such a limit.",
         ),
     ]
     base_radius_least: Annotated[
@@ -53,7 +53,7 @@ class LeastSizes(Result):
         ),
     ]
     pressure_angle_limit: Annotated[float, Shown("limit of the pressure angle", "", "rad")]
-    curvature_limit: Annotated[float | None, Shown("least convex radius of curvature allowed", "", "m")]
+    curvature_limit: Annotated[float | None, Shown("minimum convex radius of curvature allowed", "", "m")]
 
 
 @public

@@ -100,11 +100,11 @@ def without_steps(law: MotionLaw, ends: Ends) -> None:
     Raises
     ------
     InputError
-        It does, or a law that should repeat is not one turn long.
+        It does, or a law that should repeat is not one revolution long.
     """
     if ends == "turn" and abs(law.length - 2 * np.pi) > 1e-9:
         raise InputError(
-            f"lift: found a law over {law.length:.9g} rad, expected one turn, {2 * np.pi:.9g} rad"
+            f"lift: found a law over {law.length:.9g} rad, expected one revolution, {2 * np.pi:.9g} rad"
         )
     jumps = steps(law, 0, ends)
     if jumps.any():

@@ -5,8 +5,8 @@ With d(φ) the distance of the follower from the cam's centre, the two touch if 
 .. math:: d(\varphi) + d(\varphi + \pi) = b
 
 at every angle (points and rollers: diameter of the pitch curve; flat faces: breadth, d the support
-function). So the lift over the second half of the turn must be that of the first, mirrored: s(φ + π) = h −
-s(φ).
+function). So the lift over the second half of the revolution must be that of the first, mirrored: s(φ + π) =
+h − s(φ).
 
 References
 ----------
@@ -38,7 +38,7 @@ class Opposite:
     breadth : float
         Distance of the followers [m].
     diameter : MotionLaw
-        Distance of two followers that touch the cam, over half a turn [m].
+        Distance of two followers that touch the cam, over half a revolution [m].
     least, greatest : Extreme
         Its extremes.
     """
@@ -56,7 +56,7 @@ class Opposite:
 
 
 def opposite(cam: Cam, contact: Contact) -> Opposite:
-    """The diameter over the turn, with its extremes located exactly.
+    """The diameter over the revolution, with its extremes located exactly.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-r"""What is known of a cam: lift, pressure angle and curvature over a turn, and their extremes.
+r"""What is known of a cam: lift, pressure angle and curvature over one revolution, and their extremes.
 
 The pressure angle γ is that between the force on the follower, along the normal of the contact, and the way
 that the follower moves; positive to the left. The radius of curvature ρ of the profile is positive where the
@@ -29,13 +29,13 @@ from linkwright.machine.machine import Machine
 
 Floats = NDArray[np.float64]
 
-# Angles a turn at which a cam is looked at; between them extremes are found exactly.
+# Angles per revolution at which a cam is looked at; between them extremes are found exactly.
 ANGLES = 720
 
 
 @dataclass(frozen=True)
 class Flank:
-    """One contact over a turn.
+    """One contact over one revolution.
 
     Attributes
     ----------
@@ -44,9 +44,9 @@ class Flank:
     shape : Shape
         What the core knows of it.
     pressure_angle_max, pressure_angle_min : Extreme
-        Greatest and least pressure angle, with sign [rad].
+        Maximum and minimum pressure angle, with sign [rad].
     convex, concave : Extreme or None
-        Least radius of curvature of the convex and of the concave parts of the profile, both positive [m];
+        Minimum radius of curvature of the convex and of the concave parts of the profile, both positive [m];
         the first is negative where it is undercut. None if there is no such part.
     """
 
@@ -91,7 +91,7 @@ _PARTS = ("cam", "flanks", "opposite")
 
 @dataclass(frozen=True)
 class CamProfile(Result):
-    """A cam and its followers over a turn."""
+    """A cam and its followers over one revolution."""
 
     angle: Annotated[
         Floats,
@@ -115,11 +115,11 @@ class CamProfile(Result):
         Floats, Shown("radius of curvature of the profile", "ρ", "m", "Of the first contact.")
     ]
     name: Annotated[str, About("The cam's.")]
-    stroke: Annotated[float, Shown("greatest lift", "h", "m or rad")]
+    stroke: Annotated[float, Shown("maximum lift", "h", "m or rad")]
     velocity_max: Annotated[
         float | None,
         Shown(
-            "greatest velocity of the follower",
+            "maximum velocity of the follower",
             "",
             "m/s or rad/s",
             "Largest in size at the design speed; None without one.",
@@ -128,7 +128,7 @@ class CamProfile(Result):
     acceleration_max: Annotated[
         float | None,
         Shown(
-            "greatest acceleration of the follower",
+            "maximum acceleration of the follower",
             "",
             "m/s² or rad/s²",
             "Largest in size at the design speed; None without one.",
@@ -137,7 +137,7 @@ class CamProfile(Result):
     jerk_max: Annotated[
         float | None,
         Shown(
-            "greatest jerk of the follower",
+            "maximum jerk of the follower",
             "",
             "m/s³ or rad/s³",
             "Largest in size at the design speed; None without one.",
@@ -146,7 +146,7 @@ class CamProfile(Result):
     speed_constant: Annotated[
         float | None,
         Shown(
-            "greatest velocity that is kept over a section",
+            "maximum velocity that is kept over a section",
             "",
             "m/s or rad/s",
             "None without such a section or speed.",
@@ -155,30 +155,35 @@ class CamProfile(Result):
     base_radius: Annotated[float, Shown("base radius", "r₀", "m", "Of the first cam.")]
     prime_radius: Annotated[float, Shown("prime radius", "", "m", "Of the first cam.")]
     pressure_angle_max: Annotated[
-        float, Shown("greatest pressure angle", "γ_max", "rad", "Largest in size over all contacts.")
+        float, Shown("maximum pressure angle", "γ_max", "rad", "Largest in size over all contacts.")
     ]
     pressure_angle_max_angle: Annotated[
-        float, Shown("cam angle of the greatest pressure angle", "φ(γ_max)", "rad")
+        float, Shown("cam angle of the maximum pressure angle", "φ(γ_max)", "rad")
     ]
     curvature_radius_min: Annotated[
         float | None,
         Shown(
-            "least radius of curvature", "ρ_min", "m", "In size, convex or concave, negative where undercut."
+            "minimum radius of curvature",
+            "ρ_min",
+            "m",
+            "In size, convex or concave, negative where undercut.",
         ),
     ]
     curvature_radius_min_angle: Annotated[
-        float | None, Shown("cam angle of the least radius of curvature", "φ(ρ_min)", "rad")
+        float | None, Shown("cam angle of the minimum radius of curvature", "φ(ρ_min)", "rad")
     ]
     curvature_radius_convex_min: Annotated[
-        float | None, Shown("least convex radius of curvature", "", "m", "None where there is no such part.")
+        float | None,
+        Shown("minimum convex radius of curvature", "", "m", "None where there is no such part."),
     ]
     curvature_radius_concave_min: Annotated[
-        float | None, Shown("least concave radius of curvature", "", "m", "None where there is no such part.")
+        float | None,
+        Shown("minimum concave radius of curvature", "", "m", "None where there is no such part."),
     ]
     diameter_min: Annotated[
         float | None,
         Shown(
-            "least distance of two followers on opposite sides",
+            "minimum distance of two followers on opposite sides",
             "",
             "m",
             "That touch one cam; None for other closures.",
@@ -187,7 +192,7 @@ class CamProfile(Result):
     diameter_max: Annotated[
         float | None,
         Shown(
-            "greatest distance of two followers on opposite sides",
+            "maximum distance of two followers on opposite sides",
             "",
             "m",
             "That touch one cam; None for other closures.",
@@ -196,7 +201,7 @@ class CamProfile(Result):
     face_min: Annotated[
         float | None,
         Shown(
-            "least place of the contact on a flat face",
+            "minimum place of the contact on a flat face",
             "",
             "m",
             "To the left of its stem or along the arm; None for rollers.",
@@ -205,7 +210,7 @@ class CamProfile(Result):
     face_max: Annotated[
         float | None,
         Shown(
-            "greatest place of the contact on a flat face",
+            "maximum place of the contact on a flat face",
             "",
             "m",
             "To the left of its stem or along the arm; None for rollers.",
@@ -218,7 +223,7 @@ class CamProfile(Result):
 
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:
-        """Where sections meet: cam angle [rad], highest continuous derivative, jumps of the derivatives."""
+        """Segment boundaries: cam angle [rad], highest continuous derivative, jumps of the derivatives."""
         found = self.cam.motion.joints
         return tuple({"angle": j.angle, "order": j.order, "jumps": list(j.jumps)} for j in found)
 
@@ -267,7 +272,7 @@ def the_cam(machine: Machine, name: str | None = None) -> tuple[str, Cam]:
 
 @public
 def cam_profile(machine: Machine, name: str | None = None, *, n: int = ANGLES) -> CamProfile:
-    """Look at a cam over a turn.
+    """Look at a cam over one revolution.
 
     Parameters
     ----------
@@ -276,7 +281,7 @@ def cam_profile(machine: Machine, name: str | None = None, *, n: int = ANGLES) -
     name : str, optional
         The cam's name; may be left out if there is one.
     n : int
-        Cam angles a turn, at least 16; extremes do not depend on it.
+        Cam angles per revolution, at least 16; extremes do not depend on it.
 
     Returns
     -------
@@ -311,7 +316,7 @@ def profile_of(name: str, cam: Cam, touching: tuple[Contact, ...], speed: float 
     speed : float or None
         Design speed [rad/s].
     n : int
-        Cam angles a turn.
+        Cam angles per revolution.
     """
     flanks = tuple(_flank(contact, n) for contact in touching)
     first = flanks[0]
@@ -356,7 +361,7 @@ def profile_of(name: str, cam: Cam, touching: tuple[Contact, ...], speed: float 
 
 
 def _least(found: list[Extreme | None]) -> Extreme | None:
-    """The least of those that there are."""
+    """The minimum of those that there are."""
     return min((each for each in found if each is not None), key=lambda each: each.value, default=None)
 
 

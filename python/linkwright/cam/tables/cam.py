@@ -85,9 +85,9 @@ def _motion_rows(profile: CamProfile) -> Iterator[Row]:
     at = "" if profile.speed is None else f"at {number(profile.speed)} rad/s"
     for word, symbol, value, per in (
         ("constant velocity", "v", profile.speed_constant, "/s"),
-        ("greatest velocity", "v_max", profile.velocity_max, "/s"),
-        ("greatest acceleration", "a_max", profile.acceleration_max, "/s²"),
-        ("greatest jerk", "j_max", profile.jerk_max, "/s³"),
+        ("maximum velocity", "v_max", profile.velocity_max, "/s"),
+        ("maximum acceleration", "a_max", profile.acceleration_max, "/s²"),
+        ("maximum jerk", "j_max", profile.jerk_max, "/s³"),
     ):
         if value is not None:
             yield word, symbol, with_unit(value, unit + per), at
@@ -108,17 +108,17 @@ def _size_rows(profile: CamProfile) -> Iterator[Row]:
         yield "prime circle", "r_p", _mm(profile.prime_radius), ""
     limit = f"limit {degrees(profile.cam.limit)}"
     steep = f"at {degrees(profile.pressure_angle_max_angle % (2 * math.pi))}, {limit}"
-    yield "greatest pressure angle", "γ_max", degrees(profile.pressure_angle_max), steep
+    yield "maximum pressure angle", "γ_max", degrees(profile.pressure_angle_max), steep
     flanks = profile.flanks if profile.cam.closure == "conjugate" else profile.flanks[:1]
     for flank in flanks:
         which = f" of the {flank.contact.name}" if len(flanks) > 1 else ""
         for word, extreme in (("convex", flank.convex), ("concave", flank.concave)):
             if extreme is not None:
                 where = f"at {degrees(extreme.angle % (2 * math.pi))}"
-                yield f"least {word} radius{which}", "ρ_min", _mm(extreme.value), where
+                yield f"minimum {word} radius{which}", "ρ_min", _mm(extreme.value), where
     if profile.diameter_min is not None:
-        yield "least diameter", "d_min", _mm(profile.diameter_min), ""
-        yield "greatest diameter", "d_max", _mm(profile.diameter_max), ""
+        yield "minimum diameter", "d_min", _mm(profile.diameter_min), ""
+        yield "maximum diameter", "d_max", _mm(profile.diameter_max), ""
     if profile.face_min is not None:
         yield "contact on the face, from", "", _mm(profile.face_min), ""
         yield "to", "", _mm(profile.face_max), ""
@@ -130,7 +130,7 @@ def size_table(sizes: LeastSizes) -> Table:
     Parameters
     ----------
     sizes : LeastSizes
-        Its least sizes.
+        Its minimum sizes.
 
     Returns
     -------
@@ -145,11 +145,11 @@ def size_table(sizes: LeastSizes) -> Table:
         limit = f"for {_mm(sizes.curvature_limit)} radius of curvature"
         wanted.append((sizes.base_radius_curvature, limit))
     rows: list[Row] = [
-        ("least base circle", "r_0", "any" if value == 0 else _mm(value), what) for value, what in wanted
+        ("minimum base circle", "r_0", "any" if value == 0 else _mm(value), what) for value, what in wanted
     ]
     if sizes.roller_radius_max is not None:
         rows.append(("largest roller", "r_r", _mm(sizes.roller_radius_max), "on this pitch curve"))
-    title = f"How small cam {sizes.name} might be, all else as it is"
+    title = f"Minimum dimensions of cam {sizes.name}, other parameters fixed"
     return Table(f"cam_{sizes.name}_sizes", title, ("quantity", "", "value", "where"), rows)
 
 
@@ -171,7 +171,7 @@ def joint_table(profile: CamProfile) -> Table:
         (joint.words(unit).replace("-", "−"), "", degrees(joint.angle))
         for joint in profile.cam.programme.joints
     ]
-    heads = ("where sections meet, the motion is", "", "cam angle")
+    heads = ("continuity at segment boundaries", "", "cam angle")
     return Table(f"cam_{profile.name}_joints", f"Joints of cam {profile.name}", heads, rows)
 
 
@@ -191,21 +191,21 @@ def force_table(loaded: LoadedCam) -> Table:
     rows: list[Row] = [
         (f"{word} contact force", symbol, with_unit(force, "N"), f"at φ = {degrees(angle)}")
         for word, symbol, force, angle in (
-            ("greatest", "N_max", loaded.force_max, loaded.force_max_angle),
-            ("least", "N_min", loaded.force_min, loaded.force_min_angle),
+            ("maximum", "N_max", loaded.force_max, loaded.force_max_angle),
+            ("minimum", "N_min", loaded.force_min, loaded.force_min_angle),
         )
     ]
     if loaded.side_changes:
-        rows.append(("changes of the side that carries, a turn", "", str(loaded.side_changes), ""))
+        rows.append(("contact-side reversals per revolution", "", str(loaded.side_changes), ""))
     if loaded.speed_lost is not None and loaded.speed_lost_angle is not None:
         at = f"at φ = {degrees(loaded.speed_lost_angle)}"
         rows.append(("speed at which contact is lost", "ω_off", with_unit(loaded.speed_lost, "rad/s"), at))
     if loaded.pressure_max is not None and loaded.pressure_max_angle is not None:
         at = f"at φ = {degrees(loaded.pressure_max_angle)}"
-        rows.append(("greatest contact pressure", "p_max", f"{number(1e-6 * loaded.pressure_max)} MPa", at))
+        rows.append(("maximum contact pressure", "p_max", f"{number(1e-6 * loaded.pressure_max)} MPa", at))
     if loaded.shear_max is not None:
         deep = f"{_mm(loaded.shear_depth)} below the surface"
-        rows.append(("greatest shear stress", "τ_max", f"{number(1e-6 * loaded.shear_max)} MPa", deep))
+        rows.append(("maximum shear stress", "τ_max", f"{number(1e-6 * loaded.shear_max)} MPa", deep))
     heads = ("quantity", "", "value", "where")
     return Table(
         f"cam_{loaded.name}_force",
@@ -248,7 +248,7 @@ def _factor_row(name: str, factors: LawFactors) -> Row:
 
 
 def _own(profile: CamProfile) -> Iterator[tuple[str, LawFactors]]:
-    """Name and factors of each section from rest to rest; sections alike are told once."""
+    """Name and factors of each section from rest to rest; sections alike are reported once."""
     law, seen = profile.cam.lift, []
     ends = [joint.angle for joint in profile.cam.programme.joints] + [law.end]
     for n, (low, high) in enumerate(pairwise(ends), start=1):

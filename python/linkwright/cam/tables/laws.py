@@ -42,7 +42,7 @@ def law_table(factors: Mapping[str, LawFactors]) -> Table:
 
 
 def bound_table() -> Table:
-    """What no law goes below, and which law gets there.
+    """Theoretical lower bounds, and which law gets there.
 
     Returns
     -------
@@ -53,7 +53,7 @@ def bound_table() -> Table:
         (each.holds_for, _COLUMNS[each.name], number(each.value), _named(each.reached_by)) for each in BOUNDS
     ]
     return Table(
-        "cam_law_bounds", "No law goes below", ("for laws with", "factor", "bound", "reached by"), rows
+        "cam_law_bounds", "Theoretical lower bound", ("for laws with", "factor", "bound", "reached by"), rows
     )
 
 

@@ -5,7 +5,7 @@
 | `captions` | The figures of a drive with their captions |
 | `compare` | Steady motion of several machines in one picture |
 | `motor` | The motor's characteristic, and the part of it that steady motion uses |
-| `reduction` | Reduced inertia and torque over a turn |
+| `reduction` | Reduced inertia and torque over one revolution |
 | `run_up` | Speed from the start to steady motion |
-| `steady` | Speed, acceleration, torque and power over a turn and over time |
+| `steady` | Speed, acceleration, torque and power over one revolution and over time |
 """

@@ -85,12 +85,12 @@ def _points(axes: Axes, characteristic: Characteristic) -> None:
 def _detail(
     axes: Axes, characteristic: Characteristic, steady: SteadyState, span: tuple[float, float]
 ) -> None:
-    """The working range, large: the points that a turn goes through."""
+    """The working range, large: the points that a revolution goes through."""
     _curves(axes, characteristic)
     _points(axes, characteristic)
     speed = steady.speed * characteristic.ratio
     axes.plot(
-        speed, steady.torque_motor, color=BLUE, linewidth=4, alpha=0.75, label="one turn of steady motion"
+        speed, steady.torque_motor, color=BLUE, linewidth=4, alpha=0.75, label="steady motion, one revolution"
     )
     axes.axvspan(*span, color=SKY, alpha=0.25, linewidth=0)
     # Room for the rated point and the synchronous speed, which lie near the working range.

@@ -1,4 +1,4 @@
-"""The machine reduced to its crank: inertia and resisting torque over a turn."""
+"""The machine reduced to its crank: inertia and load torque over one revolution."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def reduction_figure(reduction: Reduction) -> Figure:
     inertia.plot(degrees, reduction.inertia_reduced, color=INERTIA)
     inertia.set_ylabel("reduced inertia $J$\n[kg m²]", **MATH)
     roomy(inertia, reduction.inertia_reduced)
-    torque.plot(degrees, reduction.torque_load, color=LOAD, label="resisting torque")
+    torque.plot(degrees, reduction.torque_load, color=LOAD, label="load torque")
     level(torque, reduction.torque_load_mean, f"mean {reduction.torque_load_mean:.4g} N m")
     torque.set_ylabel("reduced torque $M_r$\n[N m]", **MATH)
     roomy(torque, reduction.torque_load, np.array([0.0]))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from linkwright.drive.steady_state import SteadyState
     from linkwright.drive.transient import Transient
 
-# Points a turn that show the solver's quintics as smooth lines.
+# Points per revolution that show the solver's quintics as smooth lines.
 _POINTS = 180
 
 # Share of the motion after settling that is drawn: enough to see that it repeats.
@@ -95,7 +95,7 @@ def _band(axes: Axes, steady: SteadyState | None) -> None:
 
 
 def _words(axes: list[Axes]) -> None:
-    for panel, word in zip(axes, ("time t [s]", "turns of the crank [–]"), strict=True):
+    for panel, word in zip(axes, ("time t [s]", "revolutions of the crank [–]"), strict=True):
         panel.set_xlabel(word)
         panel.set_ylim(bottom=0)
         panel.spines["left"].set_color(SOFT)

@@ -1,4 +1,4 @@
-"""One turn of steady motion: speed, acceleration, torque and power."""
+"""One revolution of steady motion: speed, acceleration, torque and power."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def _speed(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
     level(axes, steady.speed_mean_extremes, f"mean of the extremes {steady.speed_mean_extremes:.5g} rad/s")
     places = np.degrees([steady.speed_min_angle, steady.speed_max_angle])
     extremes = [steady.speed_min, steady.speed_max]
-    axes.plot(places, extremes, "o", color=SPEED, markersize=4.5, label="least and greatest")
+    axes.plot(places, extremes, "o", color=SPEED, markersize=4.5, label="minimum and maximum")
     axes.set_ylabel("speed ω\n[rad/s]")
     roomy(axes, steady.speed)
     legend_above(axes)
@@ -89,7 +89,7 @@ def torque_figure(steady: SteadyState) -> Figure:
     """
     figure, (torque, power) = panels(2, height=4.2)
     degrees = np.degrees(steady.crank_angle)
-    torque.plot(degrees, steady.torque_load, color=LOAD, label="resisting torque")
+    torque.plot(degrees, steady.torque_load, color=LOAD, label="load torque")
     torque.plot(degrees, steady.torque_drive, color=DRIVE, label="driving torque")
     torque.set_ylabel("torque at the crank\n[N m]")
     roomy(torque, steady.torque_drive, steady.torque_load)
@@ -115,7 +115,7 @@ def _power(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
 
 @styled
 def time_figure(steady: SteadyState) -> Figure:
-    """Draw speed and motor torque against time, over two turns.
+    """Draw speed and motor torque against time, over two revolutions.
 
     Parameters
     ----------
@@ -140,6 +140,6 @@ def time_figure(steady: SteadyState) -> Figure:
     roomy(torque, steady.torque_motor)
     zero_line(torque)
     legend_above(torque)
-    torque.set_xlabel("time t [s], two turns")
+    torque.set_xlabel("time t [s], two revolutions")
     torque.set_xlim(0, _TURNS * steady.period)
     return figure

@@ -3,6 +3,6 @@
 | module | |
 | --- | --- |
 | `catalogue` | Published motors |
-| `drive` | Gearbox, coupling, flywheel, brake; a drive line whose shafts twist, as a train |
+| `drive` | Gearbox, coupling, flywheel, brake; a driveline whose shafts twist, as a train |
 | `motor` | The kinds of motor, and how their entries follow from one another |
 """

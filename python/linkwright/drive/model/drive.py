@@ -1,10 +1,10 @@
-"""The drive line: motor, coupling, brake and gearbox, and the flywheel, on the way to the crankshaft.
+"""The driveline: motor, coupling, brake and gearbox, and the flywheel, on the way to the crankshaft.
 
 Inertias of the motor, of the coupling and of the gearbox are given at the motor shaft; that is how catalogues
 give them. At the crankshaft they count with the square of the ratio.
 
 Shafts and gears are rigid unless their stiffness is given. What steady motion and motion in time do not ask
-for, torsional vibration does: `drive_train` makes a train of a drive line that twists.
+for, torsional vibration does: `drive_train` makes a train of a torsionally flexible driveline.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from pydantic import BeforeValidator, Field, WithJsonSchema
 from pydantic_core import InitErrorDetails
 
 from linkwright.drive.model.motor import AnyMotor
-from linkwright.kernel.description.base import Checked, Description, fault, wrong
-from linkwright.kernel.description.elsewhere import elsewhere
+from linkwright.kernel.description.base import CheckedDescription, Description, fault, wrong
+from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.units import (
     FRACTION,
     INERTIA,
@@ -35,7 +35,7 @@ from linkwright.torsion.model.train_base import PositiveStiffness
 if TYPE_CHECKING:
     from linkwright.torsion.model.train import ElasticShaft
 else:
-    ElasticShaft = elsewhere("torsion.model.train", "ElasticShaft")
+    ElasticShaft = deferred_model("torsion.model.train", "ElasticShaft")
 
 Shaft = Literal["motor", "crank"]
 End = Literal["motor", "gearbox", "crank"]
@@ -87,7 +87,7 @@ class Coupling(Description):
     )
 
 
-class _OnShaft(Checked):
+class _OnShaft(CheckedDescription):
     """A part on one of the two shafts, which may twist."""
 
     def _faults(self) -> Iterator[InitErrorDetails]:

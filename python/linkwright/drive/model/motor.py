@@ -118,7 +118,7 @@ def with_rated_point(given: Values) -> Values:
 
 
 def breakdown_slip(slip_rated: Any, overload: Any, resistance_ratio: Any) -> Any:
-    """Slip at which Kloss's formula through the rated point has its greatest torque.
+    """Slip at which Kloss's formula through the rated point has its maximum torque.
 
     Parameters
     ----------
@@ -158,15 +158,15 @@ class InductionMotor(Motor):
         None, description="Type in the catalogue of motors; gives what is not given here."
     )
     speed_synchronous: PositiveSpeed | None = Field(None, description="Speed without any torque.")
-    torque_breakdown: PositiveTorque | None = Field(None, description="Greatest torque.")
+    torque_breakdown: PositiveTorque | None = Field(None, description="Maximum torque.")
     speed_breakdown: PositiveSpeed | None = Field(
-        None, description="Speed of greatest torque. Without it, from the rated point."
+        None, description="Speed of maximum torque. Without it, from the rated point."
     )
     torque_start: PositiveTorque | None = Field(
         None, description="Torque at standstill. Without it, Kloss's formula holds down to standstill."
     )
     torque_pull_up: PositiveTorque | None = Field(
-        None, description="Least torque between standstill and breakdown."
+        None, description="Minimum torque between standstill and breakdown."
     )
     speed_pull_up: PositiveSpeed | None = Field(None, description="Speed of the pull-up torque.")
     resistance_ratio: Annotated[float, not_negative(RATIO)] = Field(
@@ -238,7 +238,7 @@ class InductionMotor(Motor):
                 "torque_start",
                 found=f"{start:.6g} N m",
                 expected=f"at most the breakdown torque, {peak:.6g} N m",
-                remedy="the breakdown torque is the greatest torque of the characteristic",
+                remedy="the breakdown torque is the maximum torque of the characteristic",
             )
         if pull is None and self.speed_pull_up is None:
             return

@@ -53,7 +53,7 @@ def reports_errors(
 ) -> Callable[P, R]:
     """Let a command end with a message on standard error and its exit code, without a traceback.
 
-    A finding that ends a command is its answer all the same, and with ``--json`` it is told as any other.
+    A finding that ends a command is its answer all the same, and with ``--json`` it is reported as any other.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ Force = Annotated[bool, typer.Option("--force", help="Replace files that exist."
 
 
 def output_folder(out: Path | None, *, force: bool) -> OutputFolder | None:
-    """The folder of ``--out``; what it cannot be is told before anything is computed.
+    """The folder of ``--out``; what it cannot be is reported before anything is computed.
 
     Raises
     ------

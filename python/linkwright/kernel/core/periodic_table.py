@@ -126,7 +126,7 @@ def waves(
     Parameters
     ----------
     orders : sequence of float
-        ν, waves a turn; ν times the turns are whole numbers.
+        ν, cycles per revolution; ν times the turns are whole numbers.
     amplitudes, phases : array_like, shape (orders,)
         M_ν, and β_ν [rad].
     turns : int

@@ -4,7 +4,7 @@
 | --- | --- |
 | `base` | What all descriptions share |
 | `curve` | Curves given by points |
-| `elsewhere` | Tables of a machine file that another room describes |
+| `deferred_model` | Tables of a machine file that another room describes |
 | `formula` | Formulas as texts |
 | `formula_faults` | What can be wrong with a formula in a file: its text, its names, its constants |
 | `plain` | Look into a description that may be a checked model or the raw tables of a file |

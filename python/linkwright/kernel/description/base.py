@@ -86,7 +86,7 @@ def faults_of(error: ValidationError) -> list[InitErrorDetails]:
     ]
 
 
-class Checked(Description):
+class CheckedDescription(Description):
     """A description whose entries have to fit together."""
 
     @model_validator(mode="after")

@@ -28,7 +28,7 @@ def curve_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iter
     Yields
     ------
     InitErrorDetails
-        Too few points, arguments that do not increase or are not told apart, lists of different length.
+        Too few points, arguments that do not increase or are not distinct, lists of different length.
     """
     points: tuple[float, ...] = getattr(owner, argument)
     mark = mark_of(annotation_at(type(owner), (argument,)))
@@ -58,7 +58,7 @@ def not_rising(
     before, here : float
         The one before it, and itself, in SI.
     apart : float
-        Least difference of the two [SI]; 0 where any will do.
+        Minimum difference of the two [SI]; 0 where any will do.
     """
     mark = mark_of(annotation_at(type(owner), (name,)))
     least = f"{before:.6g}" if mark is None else worded(before, mark.kind)

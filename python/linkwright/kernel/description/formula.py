@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 from linkwright.kernel.limits import FORMULA, grouped
 
-# Function → least and greatest number of arguments; None for any number.
+# Function → minimum and maximum number of arguments; None for any number.
 FUNCTIONS: dict[str, tuple[int, int | None]] = {
     **dict.fromkeys(("sin", "cos", "tan", "asin", "acos", "atan", "tanh", "exp", "log", "sqrt"), (1, 1)),
     **dict.fromkeys(("abs", "sign", "step"), (1, 1)),

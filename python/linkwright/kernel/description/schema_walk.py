@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
-from linkwright.kernel.description.elsewhere import Elsewhere
+from linkwright.kernel.description.deferred_model import DeferredModel
 from linkwright.kernel.description.plain import field_names, look
 from linkwright.kernel.units import Quantity, QuantityList
 
@@ -123,7 +123,7 @@ def _bare(annotation: Any) -> Any:
     """The annotation without its marks; the model of a table that is described elsewhere."""
     if get_origin(annotation) is not Annotated:
         return annotation
-    marks = (mark for mark in annotation.__metadata__ if isinstance(mark, Elsewhere))
+    marks = (mark for mark in annotation.__metadata__ if isinstance(mark, DeferredModel))
     mark = next(marks, None)
     return get_args(annotation)[0] if mark is None else mark.model()
 

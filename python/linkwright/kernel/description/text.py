@@ -62,7 +62,7 @@ def join(parts: Iterable[str]) -> str:
 
 
 def _quoted(part: str) -> str:
-    """A part in quotes; no name has both kinds, and a key that has is told with one."""
+    """A part in quotes; no name has both kinds, and a key that has is quoted with one."""
     if '"' in part and "'" in part:
         part = part.replace('"', "'")
     return f"'{part}'" if '"' in part else f'"{part}"'

@@ -121,7 +121,7 @@ def panels(rows: int, *, height: float, columns: int = 1, shared: bool = True) -
 
 
 def turn_axis(axes: Axes, *, label: bool = True) -> None:
-    """Let x be the crank angle of one turn in degrees."""
+    """Let x be the crank angle of one revolution in degrees."""
     axes.set_xlim(0, 360)
     axes.set_xticks(range(0, 361, 45))
     if label:

@@ -1,7 +1,7 @@
 """Sizes of what a file holds, looked at before any of it is understood.
 
 All walks are loops over the file: what is nested deeper than Python's stack, or longer than its patience, is
-told like any other fault.
+reported like any other fault.
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 
 # Singular values below this share of the largest are rounding, also of columns that are differences.
 _ROUNDING = 1e-9
-# Part of a parameter in what cannot be told from which on it is open.
+# Part of a parameter in what cannot be determined from which on it is open.
 _OPEN = 1e-6
 
 
@@ -35,7 +35,7 @@ class Fit(NamedTuple):
     deviation : ndarray, shape (parameters,)
         Standard deviations; infinite for what is open.
     covariance : ndarray, shape (parameters, parameters)
-        As far as it can be told.
+        As far as it can be determined.
     is_open : ndarray of bool, shape (parameters,)
         What the equations do not tell.
     condition : float

@@ -83,7 +83,7 @@ def _share(a: Floats, b: Floats, c: Floats, fa: Floats, fb: Floats, fc: Floats) 
 
 
 def minima(function: Function, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """Least values of a function in brackets that hold one minimum each, by golden section.
+    """Minimum values of a function in brackets that hold one minimum each, by golden section.
 
     Parameters
     ----------

@@ -181,7 +181,7 @@ def _sqrt(x: Taylor) -> Taylor:
 
 
 def _sine(x: Taylor, shift: float) -> Taylor:
-    """sin(x + shift): its derivatives by x are shifts by a quarter turn."""
+    """sin(x + shift): its derivatives by x are shifts by a quarter revolution."""
     d = [np.sin(x.c[0] + shift + 0.5 * np.pi * k) for k in range(TERMS)]
     c1, c2, c3 = x.c[1:]
     return Taylor(

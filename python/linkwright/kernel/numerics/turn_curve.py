@@ -91,7 +91,7 @@ class TurnCurve:
         return found
 
     def extreme(self, sign: int, k: int = 0) -> tuple[float, float]:
-        """Greatest (+1) or least (−1) value of a quantity, and the first crank angle that has it [rad].
+        """Maximum (+1) or minimum (−1) value of a quantity, and the first crank angle that has it [rad].
 
         At a jump it is the limit from the side that has it.
         """
@@ -144,7 +144,7 @@ class TurnCurve:
         return half
 
     def _candidates(self, sign: int, k: int) -> tuple[Floats, Floats]:
-        """Values times the sign, and angles, that may be greatest: ends of pieces and zeros of slopes."""
+        """Values times the sign, and angles, that may be maximum: ends of pieces and zeros of slopes."""
         series = sign * self.series[:, k]
         low, high = chebyshev.chebval(-1.0, series.T), series.sum(axis=1)
         values, angles = [low, high], [self.ends[:-1], self.ends[1:]]

@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 # Values of k quantities at crank angles (n,), shape (k, n).
 Quantities = Callable[[Floats], Floats]
 
-# Nodes of a piece: fewer ask for more pieces, more for longer ones; the work is least between 12 and 24.
+# Nodes of a piece: fewer ask for more pieces, more for longer ones; the work is minimum between 12 and 24.
 _NODES = 16
 
 # Pieces of the revolution to begin with, so that a peak of some ten degrees is not between the first nodes.
@@ -45,7 +45,7 @@ _PROBED = (0.382, 0.618)
 _LONG = 1e-7
 
 # Deviation in terms of the mean high coefficient of rounding: coefficients are a third of the values'
-# rounding (√(2/N)), and the greatest of some hundred deviations, amplified by extrapolation, is ten of them.
+# rounding (√(2/N)), and the maximum of some hundred deviations, amplified by extrapolation, is ten of them.
 _ROUNDING = 40.0
 
 # Width [rad] of a piece that holds a jump: what is left of it counts for nothing in an integral.

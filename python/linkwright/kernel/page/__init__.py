@@ -4,6 +4,7 @@
 | --- | --- |
 | `csv` | Curves as text |
 | `formulas` | Formulas of the measures, with their sources |
+| `glossary` | The field's words: terms, definitions, sources, and the words that they replace |
 | `html` | What the pages of all reports share: templates by Jinja2, figures and data inside the page |
 | `numbers` | Numbers and angles as text |
 | `table` | A table of text, and the rows that attributes of results make |

@@ -105,9 +105,11 @@ KLOSS = Formula(
     "Kloss 1909; paper 1 (8)",
 )
 GEARBOX = Formula("Driving torque at the crank, behind the gearbox", _math("M_d = M i η"), "paper 1 (9)")
-UNEVENNESS = Formula("Coefficient of unevenness", _math("δ = frac(ω_max − ω_min|ω_mean)"), "paper 1 (13)")
-DYNAMISM = Formula("Coefficient of dynamism", _math("H = frac(∣ε∣_max|ω_mean^2)"), "paper 1 (14)")
-COEFFICIENT = Formula("Generalised coefficient of motion", _math("k_p = δ^2 + H"), "paper 1 (15)")
+UNEVENNESS = Formula(
+    "Coefficient of speed fluctuation", _math("δ = frac(ω_max − ω_min|ω_mean)"), "paper 1 (13)"
+)
+DYNAMISM = Formula("Dynamic factor", _math("H = frac(∣ε∣_max|ω_mean^2)"), "paper 1 (14)")
+COEFFICIENT = Formula("Combined non-uniformity index", _math("k_p = δ^2 + H"), "paper 1 (15)")
 MEANS = Formula(
     "Mean speed, of the extremes or over time",
     _math("ω_mean = frac(ω_max + ω_min|2) or ω_mean = frac(2 π|T)"),

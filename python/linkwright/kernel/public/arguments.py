@@ -39,7 +39,7 @@ Column = ArrayLike
 
 
 class Range(NamedTuple):
-    """Least and greatest value, both allowed."""
+    """Minimum and maximum value, both allowed."""
 
     least: float
     greatest: float

@@ -51,7 +51,7 @@ def _require(name: str, value: Any, mark: Quantity) -> None:
 
 
 def _suspects(numbers: Floats) -> list[int]:
-    """Places of the numbers that are wrong if any is: not finite, the extremes, the least above 0."""
+    """Places of the numbers that are wrong if any is: not finite, the extremes, the minimum above 0."""
     if not numbers.size:
         return []
     places = [int(np.argmin(np.isfinite(numbers))), int(np.argmin(numbers)), int(np.argmax(numbers))]

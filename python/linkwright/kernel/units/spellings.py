@@ -222,7 +222,9 @@ def unknown(unit: str) -> str:
 def other_quantity(unit: str, dimension: Dimension, kind: Kind) -> str:
     """What the unit measures instead."""
     if kind is SPEED and dimension == FREQUENCY.dimension:
-        return f"{show(unit)} does not say whether it counts turns or radians: write rpm, rev/s or rad/s"
+        return (
+            f"{show(unit)} does not say whether it counts revolutions or radians: write rpm, rev/s or rad/s"
+        )
     if _POUND.search(unit) and dimension in (MASS.dimension, MASS_PER_LENGTH.dimension):
         return f"{show(unit)} counts pounds of mass: a pound of force is lbf"
     other = next((known.noun for known in KINDS if known.dimension == dimension), "")

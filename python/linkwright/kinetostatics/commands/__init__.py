@@ -2,6 +2,6 @@
 
 | module | |
 | --- | --- |
-| `balance` | `linkwright balance FILE`: counterweights against the forces on the frame |
-| `forces` | `linkwright forces FILE`: what pins, guides and teeth bear, and what the drive must give |
+| `balance` | `linkwright balance FILE`: counterweights against the shaking forces |
+| `forces` | `linkwright forces FILE`: joint reactions, driving torque, shaking force |
 """

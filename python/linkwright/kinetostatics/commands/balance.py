@@ -1,4 +1,4 @@
-"""``linkwright balance FILE``: counterweights against the forces on the frame."""
+"""``linkwright balance FILE``: counterweights against the shaking forces."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def balance(
 ) -> None:
     """Find counterweights.
 
-    Those on given links that make the force of inertia on the frame least, or one on the crank against a
+    Those on given links that minimise the shaking force of inertia, or one on the crank against a
     share of a slider's mass; and what they change.
     """
     from linkwright.machine.read import read

@@ -1,4 +1,4 @@
-"""``linkwright forces FILE``: what pins, guides and teeth bear, and what the drive must give."""
+"""``linkwright forces FILE``: joint reactions, driving torque, shaking force."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def forces(
 ) -> None:
     """Compute the forces in a machine.
 
-    Forces in all pins, guides, slots, teeth and cables, driving torque, force and moment on the frame;
+    Joint reactions of all pins, guides, slots, teeth and cables, driving torque, shaking force and moment;
     along the steady motion, or at a constant speed.
     """
     from linkwright.machine.read import read

@@ -15,12 +15,12 @@ def captioned_forces(forces: Forces) -> Iterator[Captioned]:
     pins = forces.reaction_max
     largest = max(pins, key=lambda name: pins[name])
     caption = (
-        f"What pins and guides bear along the steady motion: {largest} at most {number(pins[largest])} N. "
+        f"Joint reactions along the steady motion: {largest} at most {number(pins[largest])} N. "
         f"The drive gives up to {number(forces.torque_drive_max)} N m at the crank."
     )
     yield Captioned("forces", "Forces in the pairs", caption, forces_figure(forces))
     caption = (
-        f"Ends of the force vectors over a turn, a mark at φ = 0; the frame feels up to "
+        f"Ends of the force vectors over one revolution, a mark at φ = 0; the shaking force is up to "
         f"{number(forces.shaking_force_max)} N."
     )
     yield Captioned("hodographs", "Hodographs of forces", caption, hodograph_figure(forces))

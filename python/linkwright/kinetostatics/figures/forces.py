@@ -64,7 +64,7 @@ def forces_figure(forces: Forces) -> Figure:
 
 @styled
 def hodograph_figure(forces: Forces) -> Figure:
-    """Draw the ends of force vectors: the largest reactions, and the force on the frame.
+    """Draw the ends of force vectors: the largest reactions, and the shaking force.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def polar_figure(forces: Forces) -> Figure:
 
 @styled
 def cases_figure(cases: Mapping[str, Forces]) -> Figure:
-    """Draw driving torque and force on the frame of several load cases.
+    """Draw driving torque and shaking force of several load cases.
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ def cases_figure(cases: Mapping[str, Forces]) -> Figure:
         torque.plot(degrees, forces.torque_drive, color=colour, label=named(name))
         frame.plot(degrees, np.hypot(*forces.shaking_force.T), color=colour)
     torque.set_ylabel("driving torque $M_d$\n[N m]", **MATH)
-    frame.set_ylabel("force on the frame\n[N]")
+    frame.set_ylabel("shaking force\n[N]")
     legend_above(torque)
     zero_line(torque)
     _angle_axis(torque, degrees, label=False)
@@ -151,7 +151,7 @@ def cases_figure(cases: Mapping[str, Forces]) -> Figure:
 
 
 def _angle_axis(axes: Axes, degrees: np.ndarray, *, label: bool = True) -> None:
-    """One turn along x, or the angles that there are."""
+    """One revolution along x, or the angles that there are."""
     turn_axis(axes, label=label)
     if abs(degrees[0]) > 1e-6 or abs(degrees[-1] - 360) > 1e-6:
         axes.set_xticks([])

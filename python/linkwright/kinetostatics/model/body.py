@@ -20,13 +20,13 @@ from typing import Annotated
 from pydantic import BaseModel, Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault, suggestion
+from linkwright.kernel.description.base import CheckedDescription, fault, suggestion
 from linkwright.kernel.description.plain import keys, look
 from linkwright.kernel.units import INERTIA, MASS, MASS_PER_LENGTH, Length, not_negative
 from linkwright.linkages.model.outline import Outline
 
 
-class Body(Checked):
+class Body(CheckedDescription):
     """A mass on a link or on a point."""
 
     on: str | None = Field(

@@ -24,7 +24,7 @@ def linkage_figures(machine: Machine, found: Linkage) -> Iterator[Captioned]:
     if worst:
         least = min(worst, key=lambda each: each.transmission_angle_worst or 0.0)
         caption = (
-            "Angle between what pushes and what gives way: best at 90°. It is least good in "
+            "90° is ideal. The poorest transmission is that of "
             f"{least.element}, {degrees(least.transmission_angle_worst or 0.0)} from being in line."
         )
         yield Captioned("transmission", "Transmission angles", caption, transmission_figure(found))

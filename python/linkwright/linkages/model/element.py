@@ -25,7 +25,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, Description, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults
 from linkwright.kernel.units import COUNT, LENGTH, Angle, AnyQuantity, Length, Quantity, positive
 
@@ -72,7 +72,7 @@ def _law_faults(law: str | None, constants: Constants) -> Iterator[InitErrorDeta
         yield from text_faults("law", law, constants, ("phi",))
 
 
-class Crank(Checked):
+class Crank(CheckedDescription):
     """A crank; its angle is that of the crankshaft, or follows it by a law."""
 
     radius: PositiveLength = Field(description="From the pivot to the pin.")
@@ -81,7 +81,7 @@ class Crank(Checked):
     law: str | None = Field(
         None,
         description="Angle of the crank in rad as a formula in phi, to which the phase is added: "
-        '"0.6*sin(phi)" swings to and fro. Without it, phi.',
+        '"0.6*sin(phi)" swings back and forth. Without it, phi.',
     )
     constants: Constants = Field(
         default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
@@ -95,12 +95,12 @@ class Crank(Checked):
         return _law_faults(self.law, self.constants)
 
 
-class LinearDriver(Checked):
+class LinearDriver(CheckedDescription):
     """A point that the drive moves along a guide, in proportion to the crank angle or by a law."""
 
     guide: Guide = Field(default_factory=Guide, description="What it moves along.")
     start: Length = Field(0.0, description="Place along the guide when the crank angle is zero.")
-    per_turn: Length | None = Field(None, description="Distance for a turn of the crankshaft.")
+    per_turn: Length | None = Field(None, description="Distance for a revolution of the crankshaft.")
     law: str | None = Field(None, description="Distance from the start in m as a formula in phi.")
     constants: Constants = Field(
         default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
@@ -168,7 +168,7 @@ class Crossing(Description):
     second: Guide = Field(description="The other.")
 
 
-class Yoke(Checked):
+class Yoke(CheckedDescription):
     """A body on a guide, moved by a pin in its slot."""
 
     pin: str = Field(description="Moving point in the slot.")
@@ -189,7 +189,7 @@ class RigidPoint(Description):
     across: Length = Field(0.0, description="To the left of the link.")
 
 
-class Gear(Checked):
+class Gear(CheckedDescription):
     """A gear, or a pulley, that turns in proportion to another."""
 
     kind: Literal["external", "internal", "belt", "crossed_belt"] = Field(
@@ -241,12 +241,12 @@ class Cable(Description):
 class Joint(Description):
     """A joint held by bars and at most one guide; its place follows from them."""
 
-    x: Length = Field(description="About where it is when the mechanism is assembled.")
-    y: Length = Field(description="About where it is when the mechanism is assembled.")
+    x: Length = Field(description="Approximate position at `assembled_at`, to the right.")
+    y: Length = Field(description="Approximate position at `assembled_at`, upwards.")
     guide: Guide | None = Field(None, description="Guide that it moves on.")
 
 
-class Bar(Checked):
+class Bar(CheckedDescription):
     """A link of given length between two points."""
 
     start: str = Field(description="Point that it starts at.")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self
 from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
 
 from linkwright.kernel.description.base import Description, Name, faults_of, raise_faults
-from linkwright.kernel.description.elsewhere import elsewhere
+from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.units import Angle
 from linkwright.linkages.model.assembly import Step
 from linkwright.linkages.model.element import (
@@ -35,7 +35,7 @@ from linkwright.linkages.model.outline import ORIGIN, Outline
 if TYPE_CHECKING:
     from linkwright.cam.model.cam import Cam
 else:
-    Cam = elsewhere("cam.model.cam", "Cam")
+    Cam = deferred_model("cam.model.cam", "Cam")
 
 
 class Link(NamedTuple):

@@ -37,7 +37,7 @@ class Mobility:
 
     @property
     def freedom(self) -> int:
-        """W, the number of independent motions by the count."""
+        """W, the degree of freedom by the count."""
         return 3 * self.links - 2 * self.lower - self.higher
 
     def __str__(self) -> str:

@@ -19,7 +19,8 @@ Floats = NDArray[np.float64]
 _NO_POINT = [1.0, 0.0, 1.0, 0.0, -1.0, *[0.0] * 12]
 _NO_ARM = [1.0, -1.0, *[0.0] * 40]
 
-# Lengths whose difference is this share of themselves are told apart (`UNDECIDED` in the core's `in_line`).
+# Lengths whose difference is this share of themselves are distinguished (`UNDECIDED` in the core's
+# `in_line`).
 _TOLD_APART = 1e-8
 
 

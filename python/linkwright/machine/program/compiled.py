@@ -49,9 +49,10 @@ class Compiled:
     dyads : tuple of str
         Names of the elements that must close.
     two_turns : ndarray of bool, shape (1,) or (n,)
-        Machines in which a dyad passes an odd number of change points, so that it repeats after two turns.
+        Machines in which a dyad passes an odd number of change points, so that it repeats after two
+        revolutions.
     one_turn : bool
-        Whether all motions repeat after one turn of the crank by the kinds of the elements alone.
+        Whether all motions repeat after one revolution of the crank by the kinds of the elements alone.
     speed_guess : float
         Crank speed from which steady motion is sought [rad/s].
     gear_factors : tuple of float
@@ -135,7 +136,7 @@ class Compiled:
         return _core.reductions(self.plan, self.one, angles)
 
     def law_torques(self, angles: ArrayLike, speeds: ArrayLike) -> Floats:
-        """Resisting torque of the laws at crank angles and speeds, (speeds, angles) [N m]."""
+        """Load torque of the laws at crank angles and speeds, (speeds, angles) [N m]."""
         phi, omega = (np.atleast_1d(np.asarray(x, dtype=np.float64)) for x in (angles, speeds))
         return _core.law_torques(self.plan, self.one, np.ascontiguousarray(phi), omega)
 
@@ -145,7 +146,7 @@ class Compiled:
         return _core.motor_torques(self.plan, self.one, at)
 
     def speed_load(self, speeds: ArrayLike) -> Floats:
-        """Resisting torque of the loads over speed at crank speeds [N m]."""
+        """Load torque of the loads over speed at crank speeds [N m]."""
         at = np.asarray(speeds, dtype=np.float64)
         return sum((np.interp(at, x, y) for x, y in self.speed_tables), np.zeros_like(at))
 

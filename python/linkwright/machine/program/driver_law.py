@@ -11,7 +11,7 @@ from linkwright.kernel.errors import AssemblyError
 
 Floats = NDArray[np.float64]
 
-# Intervals of the turn that are looked at.
+# Intervals of the revolution that are looked at.
 _LOOK = 720
 
 # Share of a law's range by which its rise over an interval may differ from its slopes without being looked

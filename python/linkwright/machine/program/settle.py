@@ -3,9 +3,9 @@
 | pending | is settled by |
 | --- | --- |
 | side of a joint given by its place | where that lies when the mechanism is assembled |
-| continuous angle of a link | its turns in a turn of the crank, and the middle of its swing about them |
+| continuous angle of a link | its turns per revolution of the crank, and the middle of its swing about them |
 | change points of a dyad | the radicand's zeros, found exactly, and its series there |
-| start of a group | its motion, followed step by step over the turn |
+| start of a group | its motion, followed step by step over the revolution |
 
 They are settled in build order, each with what stands before it.
 """
@@ -32,7 +32,7 @@ Floats = NDArray[np.float64]
 # First row of all parameters, which of them vary, and their values over the rows.
 Columns = tuple[Floats, NDArray[np.int32], Floats]
 
-# Angles of a look at a link over the turn.
+# Angles of a look at a link over the revolution.
 _LOOK = 720
 
 # Largest swing of a link about its mean turning that leaves its angle unambiguous, in radians.
@@ -45,7 +45,7 @@ _JUST_AFTER = 1e-7
 # A joint's place this near to the line of its bars, over their length, says nothing of its side.
 _IN_LINE = 1e-9
 
-# A whole number of turns is one to this.
+# A whole number of revolutions is one to this.
 _WHOLE = 1e-6
 
 # Difference in length of a redundant bar, over its length, that counts as rounding.
@@ -65,7 +65,7 @@ class Settled:
         self.plan = plan()
         # Crank angle at which the side of a dyad is given, by the slot of its sign; others just after zero.
         self.given_at: dict[int, float] = {}
-        # Machines in which a dyad passes an odd number of change points: their motion takes two turns.
+        # Machines in which a dyad passes an odd number of change points: their motion takes two revolutions.
         self.odd = np.zeros(1, dtype=np.bool_)
 
     def run(self) -> None:
@@ -151,7 +151,7 @@ class Settled:
     # -- continuous angles -------------------------------------------------------------------------------
 
     def _continuous(self, each: Continuous) -> None:
-        """Turns a turn of the crank, and the middle of the swing about them."""
+        """Turns a revolution of the crank, and the middle of the swing about them."""
         angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
         cos, sin, *_ = self._motion(1, each.link, angles)
         closes = np.isfinite(cos)

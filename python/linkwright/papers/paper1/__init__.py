@@ -1,4 +1,4 @@
-"""Paper 1: evenness of motion of crank drives with one to four carts.
+"""Paper 1: speed fluctuation of crank drives with one to four carts.
 
 | module | |
 | --- | --- |

@@ -32,7 +32,7 @@ from linkwright.papers.paper1.scheme import published_scheme, turns_to_steady
 from linkwright.papers.words import filled
 from linkwright.sizing.motor import MotorChoice, choose_motor
 
-# Intervals of the turn for curves; the paper's own step is a degree.
+# Intervals of the revolution for curves; the paper's own step is a degree.
 _ANGLES = 1440
 
 
@@ -49,7 +49,7 @@ class PublishedDrive:
 
     @property
     def phase(self) -> float:
-        """Between neighbouring cranks where they are spread over the turn [rad]."""
+        """Between neighbouring cranks where they are spread over the revolution [rad]."""
         return 2 * np.pi / self.carts
 
 

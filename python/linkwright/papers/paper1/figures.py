@@ -34,14 +34,14 @@ _TORQUE_SHOWN, _INERTIA_SHOWN = 1400.0, 120.0
 
 
 def figures(paper: Paper1) -> dict[str, Figure]:
-    """Evenness of all drives, then figures 5 to 12 of the paper by machine, under names for files."""
+    """Speed fluctuation of all drives, then figures 5 to 12 of the paper by machine, by names of files."""
     drawn = {each.published.machine: _drive(each) for each in paper.drives}
     return {"evenness": _evenness(paper)} | drawn
 
 
 @styled
 def _drive(drive: Drive) -> Figure:
-    """One drive: M_0 and I over the turn, run-up, ω and ε over a turn of steady motion."""
+    """One drive: M_0 and I over the revolution, run-up, ω and ε over one revolution of steady motion."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(7.1, 8.4), layout="constrained")
@@ -56,12 +56,12 @@ def _drive(drive: Drive) -> Figure:
 
 
 def _reduced(torque: Axes, inertia: Axes, drive: Drive) -> None:
-    """Resisting torque and reduced inertia over the turn, from zero as the paper draws them."""
+    """Load torque and reduced inertia over the revolution, from zero as the paper draws them."""
     reduced = drive.reduced
     degrees = np.degrees(reduced.crank_angle)
     torque.plot(degrees, reduced.torque_load, color=ORANGE)
     level(torque, reduced.torque_load_mean, "mean")
-    torque.set_title("resisting torque at the crank $M_0$ [N m]", loc="left", **MATH)
+    torque.set_title("load torque referred to the crank $M_0$ [N m]", loc="left", **MATH)
     torque.set_ylim(
         min(0.0, 1.1 * reduced.torque_load.min()), max(_TORQUE_SHOWN, 1.1 * reduced.torque_load_max)
     )
@@ -74,7 +74,7 @@ def _reduced(torque: Axes, inertia: Axes, drive: Drive) -> None:
 
 
 def _run_up(axes: Axes, drive: Drive) -> None:
-    """Speed over the turns from rest: the solution of (1) and the published scheme."""
+    """Speed over the revolutions from rest: the solution of (1) and the published scheme."""
     row, up, scheme = drive.published.values, drive.up, drive.scheme
     turns = min(row["turns"] + 4, scheme.crank_angle[-1] / (2 * np.pi))
     for angle, speed, colour, name in (
@@ -100,7 +100,7 @@ def _run_up(axes: Axes, drive: Drive) -> None:
 
 
 def _dense(drive: Drive) -> tuple[np.ndarray, np.ndarray]:
-    """The run-up at 200 points a turn, followed by steady turns."""
+    """The run-up at 200 points per revolution, followed by steady turns."""
     motion, steady = drive.up.motion, drive.steady
     time = np.linspace(0.0, motion.time[-1], int(200 * motion.turns))
     angle, speed = motion.at(time)
@@ -112,13 +112,14 @@ def _dense(drive: Drive) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _steady(speed: Axes, acceleration: Axes, drive: Drive) -> None:
-    """One turn of steady motion in three ways, with the published extremes."""
+    """One revolution of steady motion in three ways, with the published extremes."""
     row, steady = drive.published.values, drive.steady
     n = round(2 * np.pi / drive.scheme.step)
     degrees = np.degrees(steady.crank_angle)
     by_step = np.arange(n) * 360 / n
     omega, epsilon = limit_curves(drive.reduced, row["speed_mean"])
-    # The last turn of the scheme: the speed at its angles, the acceleration of the steps that begin there.
+    # The last revolution of the scheme: the speed at its angles, the acceleration of the steps that begin
+    # there.
     last = slice(-n - 1, -1)
     for axes, exact, limit, scheme in (
         (speed, steady.speed, omega, drive.scheme.speed[last]),
@@ -158,7 +159,7 @@ def _evenness(paper: Paper1) -> Figure:
         bars = axes.bar(places + 0.2 * (n - 1.5), values, 0.18, color=colour, label=name)
         axes.bar_label(bars, fmt="%.2f", fontsize=7.5, padding=1.5)
     axes.set_xticks(places, [_carts(each.published.carts) for each in paper.drives])
-    axes.set_title("generalised coefficient of motion $k_p = δ^2 + H$; less is more even", loc="left", **MATH)
+    axes.set_title("combined non-uniformity index $k_p = δ^2 + H$; less is more even", loc="left", **MATH)
     axes.grid(visible=False, axis="x")
     axes.legend(ncols=2, loc="upper right")
     return figure

@@ -94,7 +94,7 @@ def scaled_to(found: ConstantEnergy, reduced: Reduction, speed_mean: float) -> d
 
 
 def limit_curves(reduced: Reduction, speed_mean: float) -> tuple[Floats, Floats]:
-    """ω [rad/s] and ε [rad/s²] over the turn at constant energy, at a mean of the extremes of ω."""
+    """ω [rad/s] and ε [rad/s²] over the revolution at constant energy, at a mean of the extremes of ω."""
     J = reduced.inertia_reduced
     extremes = 0.5 * (reduced.inertia_min**-0.5 + reduced.inertia_max**-0.5)
     omega = speed_mean / (extremes * np.sqrt(J))

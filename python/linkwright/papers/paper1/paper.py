@@ -57,7 +57,7 @@ class Paper1(Paper):
 
     @property
     def rankings(self) -> dict[str, list[int]]:
-        """Numbers of carts from the most even drive to the least, by k_p, for each way of finding it."""
+        """Numbers of carts in order of increasing k_p, for each way of finding it."""
         ways: dict[str, Callable[[Drive], float]] = {
             "published": lambda each: each.published.values["motion_coefficient"],
             "solution of (1), motors by rated power": lambda each: each.steady.motion_coefficient,
@@ -178,7 +178,7 @@ def _sized_coefficient(one: Drive) -> float:
 
 
 def load_by_steps(reduced: Reduction, degrees: float) -> float:
-    """Mean resisting torque over a turn, as a table by steps of an angle [°] gives it [N m].
+    """Mean load torque over one revolution, as a table by steps of an angle [°] gives it [N m].
 
     The reduction has a whole number of intervals in a step.
     """
@@ -187,7 +187,7 @@ def load_by_steps(reduced: Reduction, degrees: float) -> float:
 
 
 def _load_in_closed_form(two: Drive) -> float:
-    """Each cart travels 4r a turn against its resistance; gravity does no work over a turn [N m]."""
+    """Each cart travels 4r per revolution against its resistance; gravity does no net work [N m]."""
     loads = [each.force for each in two.machine.loads.values() if isinstance(each, DryFriction)]
     radii = [each.radius for each in two.machine.mechanism.cranks.values()]
     return sum(4 * r * float(F or 0.0) for r, F in zip(radii, loads, strict=True)) / (2 * np.pi)

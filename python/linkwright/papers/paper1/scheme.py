@@ -20,7 +20,7 @@ from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
-# Steps of the angle that are tried, in degrees; all divide the turn.
+# Steps of the angle that are tried, in degrees; all divide the revolution.
 STEPS = (0.25, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
 
 # Share of the speed by which it may differ from steady motion when a run-up counts as done, as in `run_up`.
@@ -28,14 +28,14 @@ _SETTLED = 0.01
 
 
 def published_scheme(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotion:
-    """Motion from rest by the published scheme: all turns, and the measures of the last.
+    """Motion from rest by the published scheme: all revolutions, and the measures of the last.
 
-    The step of the angle [rad] must divide the turn.
+    The step of the angle [rad] must divide the revolution.
 
     Raises
     ------
     InputError
-        The step does not divide the turn.
+        The step does not divide the revolution.
     StartError
         The machine does not start, or comes to rest.
 
@@ -78,7 +78,7 @@ def motor_torque(motor: InductionMotor, speed: float) -> float:
 
 
 def turns_to_steady(motion: StepMotion) -> int:
-    """Whole turns after which the speed stays within 1 % of that of the last turn at the same angle."""
+    """Whole revolutions after which the speed stays within 1 % of the last revolution at the same angle."""
     n = round(2 * np.pi / motion.step)
     speed = motion.speed[1:]
     turns = speed[: len(speed) // n * n].reshape(-1, n)

@@ -9,5 +9,5 @@
 | `formulas` | The closed forms of paper 2 as printed, a second way beside the motion laws and the core |
 | `paper` | paper 2 computed anew: the cam drive of a cart |
 | `roller` | Rollers on the printed profile, which is made for points; two cams against one |
-| `start` | which start section has the least ∫ jerk² |
+| `start` | which start section has the minimum ∫ jerk² |
 """

@@ -30,8 +30,8 @@ Floats = NDArray[np.float64]
 
 CART, ROLLING = "cart", "rolling"
 
-# Intervals of the turn. Values are taken in the middle of pairs of them, off the joints of the laws, where
-# the rolling resistance changes its sign; between these angles extremes err by 1e-6.
+# Intervals of the revolution. Values are taken in the middle of pairs of them, off the joints of the laws,
+# where the rolling resistance changes its sign; between these angles extremes err by 1e-6.
 _ANGLES = 7200
 
 
@@ -54,7 +54,7 @@ class Alternative:
     velocity_max, acceleration_max, jerk_max, jerk_step : float
         Largest in size at the design speed, exact for a cam; largest step [m/s, m/s², m/s³].
     pressure_angle_max, concave_radius : float or None
-        Of a cam [rad]; least concave radius of curvature, if there are hollows [m].
+        Of a cam [rad]; minimum concave radius of curvature, if there are hollows [m].
     steady_share : float
         Share of the stroke at constant speed [–].
     """
@@ -83,7 +83,7 @@ class Alternative:
 
     @property
     def torque_max(self) -> float:
-        """Greatest torque that the cart asks of the shaft in steady motion [N m]."""
+        """Maximum torque that the cart asks of the shaft in steady motion [N m]."""
         return float(self.torque.max())
 
     @property
@@ -188,7 +188,7 @@ def _of_cam(machine: Machine, omega: float) -> dict[str, Any]:
     """Peaks of a cam drive, the largest step of its jerk, its shape, and its share at constant speed."""
     profile = cam_profile(machine)
     law = profile.cam.lift
-    # The joints inside the turn, and that where it closes.
+    # The joints inside the revolution, and that where it closes.
     steps = np.append(law.jumps(3), law.at(law.start, 3) - law.at(law.end, 3, "before"))
     return {
         "velocity_max": profile.velocity_max,
@@ -202,7 +202,7 @@ def _of_cam(machine: Machine, omega: float) -> dict[str, Any]:
 
 
 def _even(law: MotionLaw) -> float:
-    """Travel at constant speed over a turn [m]."""
+    """Travel at constant speed over one revolution [m]."""
     stretches = zip(pairwise(law.breaks), law.derivative(2).pieces, strict=True)
     ends = [law.at(np.array(pair)) for pair, bend in stretches if bend.vanishes(law.peak(2).value)]
     return float(sum(abs(high - low) for low, high in ends))

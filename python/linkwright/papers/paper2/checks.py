@@ -103,7 +103,7 @@ def _joint(formulas: Formulas) -> float:
 
 
 def _radius_joint(formulas: Formulas) -> float:
-    """Whether (17) meets (18), (18) meets (19), and the two half turns meet."""
+    """Whether (17) meets (18), (18) meets (19), and the two half revolutions meet."""
     ends = np.array([*formulas.branch_begins, np.pi])
     values = [formulas.branch(n, ends[n : n + 2]) for n in range(3)]
     steps = [before[1] - after[0] for before, after in pairwise(values)]

@@ -16,12 +16,12 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Course:
-    """The cart over a turn of steady motion.
+    """The cart over one revolution of steady motion.
 
     Attributes
     ----------
     time : ndarray, shape (n,)
-        From the start of the turn [s].
+        From the start of the revolution [s].
     velocity, intended : ndarray, shape (n,)
         Of the cart, and by the law at the mean speed over time [m/s].
     speed : ndarray, shape (n,)
@@ -45,7 +45,7 @@ class Course:
 
     @property
     def period(self) -> float:
-        """Of the turn [s]."""
+        """Of the revolution [s]."""
         return float(self.time[-1])
 
     @property
@@ -65,7 +65,7 @@ class Course:
 
     @property
     def steady_range(self) -> tuple[float, float]:
-        """Least and greatest speed of the cart where the law has constant speed, over that speed [–]."""
+        """Minimum and maximum speed of the cart where the law has constant speed, over that speed [–]."""
         speeds = np.abs(self.velocity[self.steady]) / self.speed_constant
         return float(speeds.min()), float(speeds.max())
 
@@ -82,7 +82,7 @@ class Course:
 
 
 def course(drive: Alternative, formulas: Formulas) -> Course:
-    """The cart of the cam drive with the printed law over one turn of steady motion."""
+    """The cart of the cam drive with the printed law over one revolution of steady motion."""
     turn, law, given = drive.steady, the_cam(drive.machine)[1].lift, formulas.printed["given"]
     mean = turn.speed_mean_time
     half = np.mod(turn.crank_angle, np.pi) / np.pi

@@ -43,7 +43,7 @@ LINES_OF_MOTION = ("x [m]", "ẋ [m/s]", "ẍ [m/s²]", "jerk [m/s³]")
 _SHOWN = {
     "as printed": BLUE,
     "crank": SOFT,
-    "free at the turn": GREEN,
+    "free at the reversal": GREEN,
     "continuous jerk": ORANGE,
     "polynomial 4-5-6-7": PURPLE,
 }
@@ -249,7 +249,7 @@ def _outwards(drive: Alternative) -> tuple[Floats, tuple[Floats, ...]]:
 
 @styled
 def _course(paper: Paper2) -> Figure:
-    """Speed of the shaft, velocity of the cart, and its deviation, over a turn."""
+    """Speed of the shaft, velocity of the cart, and its deviation, over one revolution."""
     found = paper.course
     figure, (shaft, cart, off) = panels(3, height=6.0)
     shaft.plot(found.time, found.speed, color=BLUE, label="in steady motion")

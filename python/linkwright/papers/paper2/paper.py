@@ -22,7 +22,7 @@ from linkwright.papers.paper2.formulas import Formulas
 from linkwright.papers.paper2.roller import Rollers, rollers, two_cams
 from linkwright.papers.paper2.start import Start, starts
 
-# Cam angles a turn of the curves.
+# Cam angles per revolution of the curves.
 _ANGLES = 1440
 
 # Share of a force up to which another is nothing beside it: that of sums of products of some hundred numbers.
@@ -40,7 +40,7 @@ class Paper2(Paper):
     profile : CamProfile
         The cam by the general synthesis.
     starts : dict of str to Start
-        The start section, and those of least ∫ jerk².
+        The start section, and those of minimum ∫ jerk².
     rollers : Rollers
         Rollers on the printed profile.
     pair : dict of str to float
@@ -106,7 +106,7 @@ class Paper2(Paper):
         """Drives side by side, and the cart in steady motion."""
         laws = {each.short: each for each in self.alternatives}
         cam, crank = laws["as printed"], laws["crank"]
-        free, smooth = laws["free at the turn"], laws["continuous jerk"]
+        free, smooth = laws["free at the reversal"], laws["continuous jerk"]
         whole = [each for each in laws.values() if each.steady_share < _NOTHING and each is not crank]
         low, high = self.course.steady_range
         peaks = ("velocity_max", "acceleration_max", "jerk_max", "torque_max")

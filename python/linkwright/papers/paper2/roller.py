@@ -24,7 +24,7 @@ Floats = NDArray[np.float64]
 # Points of the curve of centres, an even number: between them straight lines err by 1e-9 of the radius.
 _POINTS = 40_000
 
-# Angles of the turn at which forces are compared, every quarter of a degree, off the joints of the law.
+# Angles of the revolution at which forces are compared, every quarter of a degree, off the joints of the law.
 _ANGLES = 1440
 
 
@@ -35,15 +35,15 @@ class Rollers:
     Attributes
     ----------
     radius, largest_in_hollow, largest_inside : float
-        Of the rollers looked at; what a roller must stay below that runs on the printed profile, its least
-        concave radius, and whose centre runs on it, its least convex radius [m].
+        Of the rollers looked at; what a roller must stay below that runs on the printed profile, its minimum
+        concave radius, and whose centre runs on it, its minimum convex radius [m].
     play, lift_error : float
-        By how much the distance of two rollers on the printed profile changes over a turn, and the place of a
-        roller's centre differs from ρ + r at most [m].
+        By how much the distance of two rollers on the printed profile changes over one revolution, and the
+        place of a roller's centre differs from ρ + r at most [m].
     offset : CamProfile
         The cam whose rollers' centres run on the printed curve.
     breadth_for_limit : float
-        Least b at which the pressure angle keeps the limit of the cam [m].
+        Minimum b at which the pressure angle keeps the limit of the cam [m].
     """
 
     radius: float
@@ -78,9 +78,9 @@ def rollers(profile: CamProfile, machine: str, radius: float) -> Rollers:
 
 
 def centre_distance(profile: CamProfile, radius: float) -> Floats:
-    """Distance of a roller's centre from the cam's at equal angles of a turn [m], the roller on the profile.
+    """Distance of a roller's centre from the cam's at equal angles of a revolution [m], on the profile.
 
-    Its radius [m] is below the least concave radius of the profile.
+    Its radius [m] is below the minimum concave radius of the profile.
     """
     x, y = profile.flanks[0].curve(radius).points(_angles()).T
     # The cam is seen as it stands at the start: the place of contact goes round it backwards.
@@ -90,7 +90,7 @@ def centre_distance(profile: CamProfile, radius: float) -> Floats:
 
 
 def _angles() -> Floats:
-    """Equal angles of a turn [rad]."""
+    """Equal angles of a revolution [rad]."""
     return np.linspace(0.0, 2 * np.pi, _POINTS, endpoint=False)
 
 

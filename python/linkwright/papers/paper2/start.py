@@ -1,4 +1,4 @@
-r"""Which start section has the least :math:`\int \dddot x^2 dt`, with what held fixed.
+r"""Which start section has the minimum :math:`\int \dddot x^2 dt`, with what held fixed.
 
 | law | position at its end | acceleration at its begin |
 | --- | --- | --- |
@@ -58,7 +58,7 @@ class Start:
 
 
 def starts(formulas: Formulas) -> dict[str, Start]:
-    """The printed start section, and those of least ∫ jerk² by what is held fixed: the table above."""
+    """The printed start section, and those of minimum ∫ jerk² by what is held fixed: the table above."""
     rest, end = {0: 0.0, 1: 0.0, 2: 0.0}, {1: 1.0, 2: 0.0}
     piece = Piece(tuple(formulas.polynomial("start", 0).coef.tolist()))
     printed = Start(MotionLaw((0.0, 1.0), (piece,)))

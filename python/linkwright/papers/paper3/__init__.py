@@ -8,6 +8,6 @@
 | `paper` | paper 3 computed anew: its formulas on a V-12 with articulated rods |
 | `swing` | Formulas (13) to (15) of paper 3, tried on a rod that swings as the exact laws have it |
 | `throw` | Formulas (16) and (17) of paper 3: inertia and compliance of a throw from its geometry |
-| `uneven` | Unevenness of rotation along the shaft of the V-12: rigid, with torsion, with weak cylinders |
+| `uneven` | Speed fluctuation along the shaft of the V-12: rigid, with torsion, with weak cylinders |
 | `weak` | Which cylinder is weak, told from the speed of a disc |
 """

@@ -80,7 +80,7 @@ class TrialEngine:
 
     @cached_property
     def inertia(self) -> float:
-        """Exact mean over the turn of the inertia of a throw with both rods and pistons [kg m²]."""
+        """Exact mean over the revolution of the inertia of a throw with both rods and pistons [kg m²]."""
         return mean_inertia(self.engine.radius, self.gears, self.own).mean
 
     @cached_property
@@ -105,7 +105,7 @@ class TrialEngine:
 
     @property
     def order(self) -> float:
-        """Firings a turn, the order that all cylinders excite together."""
+        """Firings a revolution, the order that all cylinders excite together."""
         return 2 * self.engine.n_cylinders / self.engine.strokes
 
     @property

@@ -77,7 +77,7 @@ def _modes(paper: Paper3) -> Figure:
 
 @styled
 def _disc(paper: Paper3) -> Figure:
-    """Inertia of a throw over its turn, and the discs that stand for it."""
+    """Inertia of a throw over its revolution, and the discs that stand for it."""
     trial = paper.trial
     phi = np.linspace(0, 2 * np.pi, 721)
     figure, (axes,) = panels(1, height=2.9)

@@ -47,7 +47,7 @@ def inertia_checks(trial: TrialEngine, printed: dict[str, Any]) -> dict[str, Any
         "centre_split": two.body.centre,
         # Mean inertia of a throw with the master rod alone, as two masses over exact.
         "split": of_two / exact - 1,
-        # (3): greatest difference, as a share of the greatest speed.
+        # (3): maximum difference, as a share of the maximum speed.
         "speed": _speed_difference(R, rod.length),
         # (7) over the exact mean of the same two masses, and of the master rod; (9) in SI over the latter.
         "series": seven / of_two - 1,
@@ -67,7 +67,7 @@ def inertia_checks(trial: TrialEngine, printed: dict[str, Any]) -> dict[str, Any
 
 
 def _speed_difference(crank_radius: float, length: float) -> float:
-    """(3) against the exact speed of the piston, as a share of the greatest."""
+    """(3) against the exact speed of the piston, as a share of the maximum."""
     phi = 2 * np.pi * np.arange(_ANGLES) / _ANGLES
     # Exact speeds are counted away from the crank, that of (3) towards it.
     exact = -slider_crank(crank_radius, length, phi).piston_d1

@@ -1,8 +1,8 @@
 """Paper 3 computed anew: its formulas for inertia and compliance of throws, on a V-12 with articulated rods.
 
 The paper has no worked example, so that its formulas are compared with the exact ones: true motion of master
-and articulated rod, geometry of the throw. What a difference means is told in natural frequencies, and what
-torsion does to the unevenness of rotation by which cylinders are judged.
+and articulated rod, geometry of the throw. What a difference means is reported in natural frequencies, and
+what torsion does to the speed fluctuation by which cylinders are judged.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Paper3(Paper):
     inertia, swing, throw : dict
         (1) to (12), (13) to (15), (16) and (17), each against the exact value.
     uneven : UnevennessChecks
-        Unevenness along the shaft.
+        Speed fluctuation along the shaft.
     weak : WeakChecks
         Which cylinder is weak, by the elastic and by a rigid train.
     """
@@ -53,7 +53,7 @@ class Paper3(Paper):
         return (*self.inertia["shifts"], *self.throw["shifts"])
 
     def quantities(self) -> dict[str, Any]:
-        """Formula over exact, trains side by side, and what torsion does to the unevenness."""
+        """Formula over exact, trains side by side, and what torsion does to the speed fluctuation."""
         return self._of_rods() | self._of_throws() | self._of_unevenness() | self._of_weakness()
 
     def _of_rods(self) -> dict[str, Any]:

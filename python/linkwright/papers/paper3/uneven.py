@@ -1,4 +1,4 @@
-"""Unevenness of rotation along the shaft of the V-12: rigid, with torsion, with weak cylinders."""
+"""Speed fluctuation along the shaft of the V-12: rigid, with torsion, with weak cylinders."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from linkwright.machine.machine import Machine
 from linkwright.papers.paper3.engine import TrialEngine
 from linkwright.torsion.model.engine.firing import firing_angles
 from linkwright.torsion.model.whole_train import throw_names
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import ForcedVibration, forced_vibration, responded
 from linkwright.torsion.response.synthesis import span
 from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
 
 Floats = NDArray[np.float64]
 
-# Orders whose swing is told one by one.
+# Orders whose swing is reported one by one.
 _TOLD = 3
 
 
 @dataclass(frozen=True)
 class UnevennessChecks:
-    """Unevenness of the discs at the speed of service.
+    """Speed fluctuation of the discs at the speed of service.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class UnevennessChecks:
     delta, delta_rigid : ndarray, shape (discs,), and float
         δ of the sound engine, with torsion, and if nothing twisted.
     swing : ndarray, shape (discs,)
-        Half of greatest less least angle of vibration, all orders in phase [rad].
+        Half the peak-to-peak angle of vibration, all orders in phase [rad].
     orders, by_order : tuple of float, ndarray, shape (orders, discs)
         Those that swing most, and their amplitudes [rad].
     weak, weak_rigid : ndarray, shape (cylinders, discs) and (cylinders,)
@@ -84,12 +84,12 @@ class UnevennessChecks:
 
 
 def unevenness_checks(trial: TrialEngine, factor: float) -> UnevennessChecks:
-    """Unevenness along the shaft at the speed of service, sound and with each cylinder weak in turn.
+    """Speed fluctuation along the shaft at the speed of service, sound and with each cylinder weak in turn.
 
     A weak cylinder has the share ``factor`` of its combustion.
     """
     machine, engine, speed = trial.machine, trial.engine, trial.service
-    at = excited(machine, np.array([speed]))
+    at = excited_train(machine, np.array([speed]))
     found = responded(at)
     discs = _along(found, throw_names(len(engine.throws)))
     places = [found.discs.index(name) for name in discs]

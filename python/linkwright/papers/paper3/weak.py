@@ -12,7 +12,7 @@ from linkwright.papers.paper3.uneven import weakened
 from linkwright.torsion.diagnosis.diagnosis import diagnosis
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
 from linkwright.torsion.response.engine_torques import cylinder_torques
-from linkwright.torsion.response.excited import Excited, excited
+from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.forced import ForcedVibration, responded
 
 Floats = NDArray[np.float64]
@@ -47,7 +47,7 @@ def weak_checks(trial: TrialEngine, cylinder: int, factor: float, discs: tuple[s
 
     By the orders below that of the firing; one cylinder, counted from 1, has a share of its combustion.
     """
-    at = excited(trial.machine, np.array([trial.service]))
+    at = excited_train(trial.machine, np.array([trial.service]))
     sources = _sources(trial, at)
     weak = weakened(trial.machine, trial.service, cylinder, factor)
     sound = responded(at)
@@ -69,7 +69,7 @@ def _measured(found: ForcedVibration, disc: str, below: float) -> MeasuredSpeed:
     return MeasuredSpeed(disc, orders, 1j * orders * found.speeds[0] * theta, None)
 
 
-def _sources(trial: TrialEngine, at: Excited) -> Complexes:
+def _sources(trial: TrialEngine, at: ExcitedTrain) -> Complexes:
     """What the firing of each cylinder adds to the torque on its throw, (cylinders, orders, discs)."""
     engine, orders = trial.engine, at.torques.orders
     gas = cylinder_torques(engine, at.torques.speeds, float(orders[-1]))

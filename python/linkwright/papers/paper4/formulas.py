@@ -69,7 +69,7 @@ class Unit:
         return self.k_1 - self.l_3 * np.cos(phi_3), depth + self.l_3 * np.sin(phi_3)
 
     def extremes(self) -> tuple[float, float]:
-        """Least and greatest l_d [m], (5) and (6)."""
+        """Minimum and maximum l_d [m], (5) and (6)."""
         (_, top), (_, bottom) = self.ends()
         return tuple(float(np.hypot(*self.diagonal(np.asarray(end)))) for end in (top, bottom))  # type: ignore[return-value]
 

@@ -20,7 +20,7 @@ from linkwright.papers.paper4.formulas import LeverFormula, Unit
 from linkwright.papers.paper4.unit import Place, recomputed_places, rounded_lengths
 from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator
 
-# Intervals of the turn.
+# Intervals of the revolution.
 _ANGLES = 1440
 
 # What counts as nearly a straight line: a degree, the width of a line as figures of angles are printed [rad].
@@ -40,7 +40,8 @@ class Paper4(Paper):
     continuous, intermittent : RodRotatorMotion
         The rotators of the library.
     straightness : float
-        Greatest distance of φ_5 from the straight line of one turn in a turn, continuous regime [rad].
+        Maximum distance of φ_5 from the straight line of one revolution in one revolution, continuous regime
+        [rad].
     closing : tuple of float
         Crank angles of the machine file between which the printed intermittent lengths close [rad].
     """

@@ -30,7 +30,7 @@ class Place:
     unit : Unit
         The unit with it.
     least_angle : float
-        Least angle between pitman and rear arm, or its supplement, over the turn [rad].
+        Minimum angle between pitman and rear arm, or its supplement, over the revolution [rad].
     upstroke : float
         Angle that the crank turns in the upstroke, counter-clockwise with the well to the right [rad].
     """

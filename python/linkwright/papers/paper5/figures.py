@@ -98,7 +98,7 @@ def _contours(axes: Axes, surface: Surface, lengths: Floats, colour: str, paper:
 
 @styled
 def _step(paper: Paper5) -> Figure:
-    """The factor, and all lengths over the angle at the greatest v_h/v."""
+    """The factor, and all lengths over the angle at the maximum v_h/v."""
     figure, (left, right) = panels(1, height=3.0, columns=2)
     degrees = np.linspace(0.0, 60.0, 241)
     alpha = np.radians(degrees)

@@ -46,13 +46,14 @@ def short_checks(claim: Claim, edge_angle: float, offset_share: tuple[float, flo
     )
     (by_10, by_4) = ((float(each.min()), float(each.max())) for each in chosen)
     return {
-        # 2 cos²θ at the greatest v_h/v: nothing is below it.
+        # 2 cos²θ at the maximum v_h/v: nothing is below it.
         "bound": 2 / (1 + claim.ratios[1] ** 2),
-        # Least exact length over (10), and v_h/v, α and share of the offsets there; the least without offset.
+        # Minimum exact length over (10), and v_h/v, α and share of the offsets there; the minimum without
+        # offset.
         "least": float(over_10.min()),
         "least_at": [float(each[at]) for each in shape],
         "least_axis": float(over_10[..., 0].min()),
-        # Least over the length by (4); extremes over both for the angle and heads chosen.
+        # Minimum over the length by (4); extremes over both for the angle and heads chosen.
         "least_consistent": float(over_4.min()),
         "chosen": by_10,
         "chosen_consistent": by_4,

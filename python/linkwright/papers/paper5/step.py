@@ -39,7 +39,7 @@ _HAIR = 1e-9
 
 
 def step_checks(angles: Floats, ratio: float) -> dict[str, Any]:
-    """The step from (4) to (5) at angles α of a table [rad], for the greatest v_h/v."""
+    """The step from (4) to (5) at angles α of a table [rad], for the maximum v_h/v."""
     cos, sin = np.cos(_ANGLES), np.sin(_ANGLES)
     closed = 1 + (1 - cos) * (1 + 2 * cos) / cos**2
     travel = 1 - sin**2 * (1 - cos)
@@ -51,7 +51,7 @@ def step_checks(angles: Floats, ratio: float) -> dict[str, Any]:
         # The length by (4) over that by (5); S_x over the travel that passes the head, knife at rest.
         "longer": length_consistent(1.0, angles, ratio) / length_published(1.0, angles, ratio),
         "travels": _travels(angles),
-        # Greatest differences of factors and travels from their closed forms.
+        # Maximum differences of factors and travels from their closed forms.
         "identity": float(np.abs(factors(_ANGLES) / closed - 1).max()),
         "travel_identity": float(np.abs(_travels(_ANGLES) - travel).max()),
         # Whether (1) breaks a hair below the length by (4), and holds a hair above, at every angle.

@@ -39,20 +39,20 @@ class ClaimVerdict:
     stroke : Stroke
         Chosen.
     diameters : tuple of float
-        d of the least and the largest head chosen [m].
+        d of the minimum and the largest head chosen [m].
     offset : float
         Δ chosen [m].
     angles : tuple of LengthVerdict
         One for each angle of the table.
     offsets : dict of str to ndarray
-        Way → offsets Δ of that head, one row for each angle, whose greatest lengths are those of the claim
+        Way → offsets Δ of that head, one row for each angle, whose maximum lengths are those of the claim
         [m]; negative where the head alone needs more, NaN where no edge does.
     chosen : LengthVerdict
         At the angle chosen.
     least_band : float
-        Least band for which (10) gives the shorter length of the claim at any angle [m].
+        Minimum band for which (10) gives the shorter length of the claim at any angle [m].
     throughout : dict of str to tuple of float
-        Way → least and greatest angle at which one band of heads has all its lengths within the claim [rad].
+        Way → minimum and maximum angle at which one band of heads has all its lengths within the claim [rad].
     """
 
     claim: Claim
@@ -67,7 +67,7 @@ class ClaimVerdict:
 
     @property
     def shares(self) -> tuple[float, float]:
-        """2Δ/(d + 2Δ) of the largest and the least head chosen [–]."""
+        """2Δ/(d + 2Δ) of the largest and the minimum head chosen [–]."""
         least, largest = (2 * self.offset / (d + 2 * self.offset) for d in self.diameters)
         return largest, least
 
@@ -126,7 +126,7 @@ def _offsets(claim: Claim, way: str, angles: Floats, diameter: float, stroke: St
 
 
 def _throughout(claim: Claim, diameter: float, offset: float) -> Iterator[tuple[str, tuple[float, float]]]:
-    """Angles at which the least length over the greatest is at least that of the claim; the edge advances."""
+    """Angles at which the minimum length over the maximum is at least the claimed one; the edge advances."""
     low, high = claim.lengths
     angles = _ANGLES[claim.ratios[1] * np.tan(_ANGLES) < 1]
     for way in ("published", "consistent", "constant_speed"):

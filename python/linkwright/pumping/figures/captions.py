@@ -26,7 +26,7 @@ def _unit(unit: PumpingUnitMotion) -> Iterator[Captioned]:
         f"{degrees(unit.upstroke_angle)}. The torque factor runs from {number(unit.torque_factor_min)} to "
         f"{number(unit.torque_factor_max)} m."
     )
-    yield Captioned("polished_rod", "Polished rod over a turn", caption, polished_rod_figure(unit))
+    yield Captioned("polished_rod", "Polished rod over one revolution", caption, polished_rod_figure(unit))
     if gear is not None:
         caption = (
             "Torque at the crank by the polished rod and by its counterbalance; their sum peaks at "

@@ -1,4 +1,4 @@
-"""Pumping units and rotators: the polished rod, the torque of the gearbox, and the lever over a turn."""
+"""Pumping units and rotators: polished rod, torque of the gearbox, and lever over one revolution."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ def mechanism_of(unit: PumpingUnit, rotator: RodRotator | None = None) -> Mechan
     Returns
     -------
     Mechanism
-        Its elements, unchecked: a unit that does not close is told of by the analyses.
+        Its elements, unchecked: a unit that does not close is reported by the analyses.
     """
     x, y = unit.saddle
     parts: dict[str, dict[str, Any]] = {

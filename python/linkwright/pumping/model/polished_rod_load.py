@@ -51,7 +51,9 @@ _COUNTERBALANCE_SCHEMA: dict[str, Any] = {
 class PolishedRodLoad(Description):
     """Load on the polished rod over a stroke, and what balances it."""
 
-    angle: Angles | None = Field(None, description="Crank angles of the table, increasing, within one turn.")
+    angle: Angles | None = Field(
+        None, description="Crank angles of the table, increasing, within one revolution."
+    )
     force: Forces | None = Field(None, description="Load at each crank angle.")
     position: Annotated[tuple[float, ...], QuantityList(RATIO)] | None = Field(
         None, description="Positions of the rod, increasing, from 0 at the bottom to 1 at the top."
@@ -64,7 +66,7 @@ class PolishedRodLoad(Description):
         WithJsonSchema(_COUNTERBALANCE_SCHEMA),
     ] = Field(
         "optimal",
-        description="Greatest moment of the counterweights about the crankshaft, or the one with which the "
+        description="Maximum moment of the counterweights about the crankshaft, or the one with which the "
         "torques of both strokes have equal peaks. With an air cylinder, use counterbalance_effect.",
     )
     phase: Angle = Field(0.0, description="Angle τ by which the counterweights lead the crank.")
@@ -98,8 +100,8 @@ class PolishedRodLoad(Description):
 
 
 def _range_faults(load: PolishedRodLoad) -> Iterator[InitErrorDetails]:
-    """Positions outside the stroke; angles of more than a turn."""
+    """Positions outside the stroke; angles of more than a revolution."""
     if load.position and not (load.position[0] >= 0 and load.position[-1] <= 1):
         yield fault("position", found="positions outside the stroke", expected="positions from 0 to 1")
     if load.angle and load.angle[-1] - load.angle[0] > 2 * np.pi * (1 + 1e-9):
-        yield fault("angle", found="more than a turn", expected="angles within one turn")
+        yield fault("angle", found="more than a revolution", expected="angles within one revolution")

@@ -28,7 +28,7 @@ from linkwright.linkages.model.element import PositiveLength
 PIN, ROTATOR = "rotator_pin", "rotator"
 LINK, LEVER = f"{ROTATOR}.coupler", f"{ROTATOR}.rocker"
 
-# A lever that swings through half a turn comes into line with its link.
+# A lever that swings through half a revolution comes into line with its link.
 _SWING = Bound(
     " between 0 and 180 deg,",
     {"exclusiveMinimum": 0, "exclusiveMaximum": np.pi},
@@ -52,13 +52,13 @@ class RodRotator(Description):
         None, description="Length l_5 of the lever. Without it, that which suits the regime."
     )
     swing: Annotated[float, Quantity(ANGLE, _SWING)] | None = Field(
-        None, description="Wanted swing of the lever in the intermittent regime. Without it, 90 deg."
+        None, description="Required swing of the lever in the intermittent regime. Without it, 90 deg."
     )
     assembly: Literal["left", "right"] = Field(
         "left", description="Side of the joint of link and lever, seen from the pin to the hanger."
     )
     worm_ratio: Annotated[float, positive(RATIO)] | None = Field(
-        None, description="Turns of the worm for a turn of the rod string."
+        None, description="Revolutions of the worm for a revolution of the rod string."
     )
     worm_efficiency: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
         1.0, description="Of the worm gear, worm driving."

@@ -12,7 +12,7 @@ so for :math:`l_3 < k_1` it falls steadily while the beam rises: its extremes ar
 top and M at the bottom.
 
 In the continuous regime link and lever are in line at both ends, :math:`l_5 = (M-m)/2`, :math:`l_4 =
-(M+m)/2`. In the intermittent regime the lever rocks through a wanted swing; of the lengths that give it,
+(M+m)/2`. In the intermittent regime the lever rocks through a required swing; of the lengths that give it,
 those are taken with which the angle γ between lever and diagonal l_d swings evenly about 90°, where the link
 pulls best: :math:`l_5 = (M-m)/(2\sin\tfrac{s}{2})`, :math:`l_4^2 = M m + l_5^2` with s the swing against the
 diagonal. The diagonal swings too, so not every swing can be had: s = 180° would give the shortest lever, and
@@ -42,11 +42,11 @@ P = TypeVar("P", bound=Description)
 _SAMPLES = 2001
 _EVERY = 16
 
-# Greatest swing against the diagonal [rad]: at 180° link and lever are in line at both ends of the stroke and
+# Maximum swing against the diagonal [rad]: at 180° link and lever are in line at both ends of the stroke and
 # may go on either way. A thousandth less keeps the joint a fifty-thousandth of the lever's length from there.
 _SHORT_OF_LINE = np.pi - 1e-3
 
-# Greatest swing that can be asked for, rounded as it is told [deg].
+# Maximum swing that can be asked for, rounded as it is reported [deg].
 _MOST = 179.99
 
 # Swings against the diagonal at which the first look finds between which two the wanted one is.
@@ -94,7 +94,7 @@ def diagonal(unit: PumpingUnit, rotator: RodRotator, front: Any) -> tuple[Any, A
 
 
 def diagonal_extremes(unit: PumpingUnit, rotator: RodRotator) -> tuple[Any, Any]:
-    """Least and greatest distance from the pin to the hanger, m at the top and M at the bottom [m]."""
+    """Minimum and maximum distance from the pin to the hanger, m at the top and M at the bottom [m]."""
     ends = (unit.front_angle(psi) for psi in (unit.psi_top, unit.psi_bottom))
     top, bottom = (np.hypot(*diagonal(unit, rotator, end)) for end in ends)
     return top, bottom
@@ -144,7 +144,7 @@ def lengths(unit: PumpingUnit, rotator: RodRotator) -> Lengths:
 
 
 def _rocking_lever(unit: PumpingUnit, rotator: RodRotator, varies: bool) -> Any:
-    """Lever that rocks through the wanted swing [m]; NaN in the rows of a batch that have none."""
+    """Lever that rocks through the required swing [m]; NaN in the rows of a batch that have none."""
     wanted = np.atleast_1d(np.pi / 2 if rotator.swing is None else rotator.swing)
     stroke = _Stroke.of(unit, rotator)
     swings, spread = stroke.first_look()
@@ -184,14 +184,14 @@ def _unattainable(rotator: RodRotator, wanted: float, stroke: _Stroke, spread: A
     remedy = f'assembly = "{other}"' if fits else "a rod_rotator.swing between these or another pin_distance"
     return AssemblyError(
         f"no lever of the rotator swings through {np.degrees(wanted):.6g}°: levers from {0.5 * (M - m):.4g} "
-        f"m, in line with the link at both ends of the stroke, to {M:.4g} m, the greatest distance from the "
+        f"m, in line with the link at both ends of the stroke, to {M:.4g} m, the maximum distance from the "
         f"beam's pin to the hanger, swing through {low:.2f}° to {high:.2f}°; choose {remedy}",
         element=ROTATOR,
     )
 
 
 def _range(spread: Any) -> tuple[float, float]:
-    """Least and greatest swing of the lever [deg], rounded inward so that what is told can be had."""
+    """Minimum and maximum swing of the lever [deg], rounded inward so that what is reported can be had."""
     low, high = (100 * np.degrees(float(each(spread))) for each in (np.nanmin, np.nanmax))
     return float(np.ceil(low) / 100), min(float(np.floor(high) / 100), _MOST)
 
@@ -284,7 +284,7 @@ def _as_columns(part: P) -> P:
 
 
 def _spread(angle: Any) -> Any:
-    """Greatest less least of each row of smooth values, an extreme between samples by the parabola there."""
+    """Peak-to-peak value of each row of smooth values, an extreme between samples by the parabola there."""
     ends = []
     for sign in (1.0, -1.0):
         values = sign * angle

@@ -139,7 +139,7 @@ class PumpingUnit(Description):
 
     def psi(self, reach: Any) -> Any:
         """Angle ψ between C and K with equalizer bearing and crankshaft a distance apart [rad]."""
-        # A unit that does not close is told of by the analyses; it still has a place on paper.
+        # A unit that does not close is reported by the analyses; it still has a place on paper.
         return np.arccos(np.clip(self._cosine(reach), -1.0, 1.0))
 
     @property
@@ -208,7 +208,7 @@ class Rating(NamedTuple):
     torque : float
         Peak torque of the gearbox [N m].
     load : float
-        Greatest load of the polished rod [N].
+        Maximum load of the polished rod [N].
     stroke : float
         Longest nominal stroke [m].
     """

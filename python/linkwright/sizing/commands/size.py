@@ -30,7 +30,11 @@ Reserve = Annotated[
 ]
 Unevenness = Annotated[
     float,
-    typer.Option("--unevenness", metavar="X", help="(ω_max − ω_min)/ω_mean that the flywheel must give."),
+    typer.Option(
+        "--unevenness",
+        metavar="X",
+        help="Coefficient of speed fluctuation, (ω_max − ω_min)/ω_mean, to be reached by the flywheel.",
+    ),
 ]
 By = Annotated[
     Literal["all", "fixed-start", "power"],
@@ -252,13 +256,13 @@ def _verdict(each: Candidate, motor: MotorChoice) -> str | Text:
 def _flywheel_words(flywheel: FlywheelChoice) -> Text:
     """What flywheel, what it gives, what the classical estimate would have been."""
     without = flywheel.unevenness_without
-    bare = "there is no steady motion" if without is None else f"the unevenness is {without:.4f}"
+    bare = "there is no steady motion" if without is None else f"the speed fluctuation is {without:.4f}"
     if flywheel.inertia == 0:
         wanted = f" {bare}, at most {flywheel.unevenness_wanted:g} is wanted"
         return styled(("No flywheel is needed:", "bold"), wanted)
     return styled(
         (f"Flywheel {flywheel.inertia:.4g} kg m² on the crankshaft", "bold"),
-        f" for an unevenness of "
+        f" for a speed fluctuation of "
         f"{flywheel.unevenness:.6g}; without it {bare}\n"
         f"  classical estimate {flywheel.inertia_estimate:.4g} kg m², from an excess work of "
         f"{flywheel.excess_work:.4g} J",

@@ -45,7 +45,7 @@ TimeRatio = Annotated[
     typer.Option(
         "--time-ratio",
         metavar="X",
-        help="Crank angle from outer to inner dead centre over the rest of the turn.",
+        help="Crank angle from outer to inner dead centre over the rest of the revolution.",
     ),
 ]
 Frame = Annotated[

@@ -48,7 +48,8 @@ def print_catalogue(lines: tuple[Any, ...]) -> None:
     from math import degrees
 
     typer.echo(
-        f"{'kind':<14} {'exact':<6} {'links':>5} {'deviation':>11} {'crank range':>20} {'longest':>9}  turns"
+        f"{'kind':<14} {'exact':<6} {'links':>5} {'deviation':>11} {'crank range':>20} "
+        f"{'longest':>9}  rotates"
     )
     for each in lines:
         span = f"{degrees(each.crank_angle_start):.1f}° to {degrees(each.crank_angle_end):.1f}°"

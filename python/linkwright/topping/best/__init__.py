@@ -3,7 +3,7 @@
 | module | |
 | --- | --- |
 | `best_knife` | What knife of a topper is the shortest, or the fastest, that keeps its limits? |
-| `knife_failing` | Which limit does no knife keep, and by how much? |
+| `limit_failure` | Which limit does no knife keep, and by how much? |
 | `knife_search` | The search for the best knife of a topper |
 | `knife_trial` | One knife of a topper that may be the best |
 """

@@ -1,7 +1,7 @@
 r"""The best knife of a topper: shortest edge, or fastest along the row, that keeps its limits.
 
 At an angle α, a speed v_h of the knife and a speed v along the row, one pass over the heads gives the length
-that each needs, and so the least edge for the share of heads that has to be cut right through; where the
+that each needs, and so the minimum edge for the share of heads that has to be cut right through; where the
 haulm has a limit, the edge is made longer until it is kept. The draw-cut ratio does not depend on the length.
 So only α and v_h are sought, on a grid, and then on ever finer ones about the best:
 
@@ -12,7 +12,7 @@ So only α and v_h are sought, on a grid, and then on ever finer ones about the 
 Edges that run backwards at times are passed over: they push the head instead of cutting it. Without
 `slicing_min` nothing speaks for moving the knife: the shortest edge then rests across the row.
 
-For the fastest, the shortest edge is sought at several speeds; between the greatest speed at which it is
+For the fastest, the shortest edge is sought at several speeds; between the maximum speed at which it is
 short enough and the next one, halving goes on.
 
 References
@@ -33,9 +33,9 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-from linkwright.topping.best.knife_failing import Failing, failing_limit
 from linkwright.topping.best.knife_search import MAP, KnifeGrid
 from linkwright.topping.best.knife_trial import Trial, Trials, thinned
+from linkwright.topping.best.limit_failure import LimitFailure, failing_limit
 from linkwright.topping.coverage import FINE
 from linkwright.topping.edge import require_topper
 from linkwright.topping.field import TopperField, field_result
@@ -64,7 +64,7 @@ _IS_VERIFIED = "Whether the other roots keep the limits, but for what the interv
 class BestKnife(Result):
     """The best knife."""
 
-    edge_angle: Annotated[float, Shown("angle of the edge", "α", "rad")]
+    edge_angle: Annotated[float, Shown("edge angle", "α", "rad")]
     edge_length: Annotated[float, Shown("length of the edge", "L", "m")]
     knife_speed: Annotated[float, Shown("mean speed across the row", "v_h", "m/s")]
     forward_speed: Annotated[float, Shown("speed along the row", "v", "m/s")]
@@ -78,19 +78,19 @@ class BestKnife(Result):
         Shown("share of heads that are cut right through", "", "", "Over the roots that it was sought with."),
     ]
     share_complete_low: Annotated[
-        float, Shown("least share of heads that are cut right through", "", "", "End of its interval.")
+        float, Shown("minimum share of heads that are cut right through", "", "", "End of its interval.")
     ]
     share_complete_high: Annotated[
-        float, Shown("greatest share of heads that are cut right through", "", "", "End of its interval.")
+        float, Shown("maximum share of heads that are cut right through", "", "", "End of its interval.")
     ]
     haulm_mean: Annotated[
         float, Shown("mean share of the head that is left", "", "", "Over the roots that it was sought with.")
     ]
     haulm_mean_low: Annotated[
-        float, Shown("least mean share of the head that is left", "", "", "End of its interval.")
+        float, Shown("minimum mean share of the head that is left", "", "", "End of its interval.")
     ]
     haulm_mean_high: Annotated[
-        float, Shown("greatest mean share of the head that is left", "", "", "End of its interval.")
+        float, Shown("maximum mean share of the head that is left", "", "", "End of its interval.")
     ]
     share_verified: Annotated[
         float,
@@ -103,11 +103,11 @@ class BestKnife(Result):
     ]
     share_verified_low: Annotated[
         float,
-        Shown("least share of heads that are cut right through, verified", "", "", "End of its interval."),
+        Shown("minimum share of heads that are cut right through, verified", "", "", "End of its interval."),
     ]
     share_verified_high: Annotated[
         float,
-        Shown("greatest share of heads that are cut right through, verified", "", "", "End of its interval."),
+        Shown("maximum share of heads that are cut right through, verified", "", "", "End of its interval."),
     ]
     haulm_verified: Annotated[
         float,
@@ -119,10 +119,10 @@ class BestKnife(Result):
         ),
     ]
     haulm_verified_low: Annotated[
-        float, Shown("least mean share of the head that is left, verified", "", "", "End of its interval.")
+        float, Shown("minimum mean share of the head that is left, verified", "", "", "End of its interval.")
     ]
     haulm_verified_high: Annotated[
-        float, Shown("greatest mean share of the head that is left, verified", "", "", "End of its interval.")
+        float, Shown("maximum mean share of the head that is left, verified", "", "", "End of its interval.")
     ]
     seed_verified: Annotated[int, Shown("seed of the other roots", "", "")]
     is_verified: Annotated[bool, About(_IS_VERIFIED)]
@@ -138,7 +138,7 @@ class KnifeSearch(Result):
     map_angle, map_speed : ndarray, shape (a,), (b,)
         Angles [rad] and knife speeds [m/s] of the map.
     map_length : ndarray, shape (a, b)
-        Least edge for the shares asked for [m], at the forward speed of the best; NaN where the edge runs
+        Minimum edge for the shares asked for [m], at the forward speed of the best; NaN where the edge runs
         backwards, infinite where none does.
     map_slicing : ndarray, shape (a, b)
         Mean draw-cut ratio [–].
@@ -147,12 +147,12 @@ class KnifeSearch(Result):
     limits : TopperLimits
         What had to be kept.
     length_max : float
-        Greatest length of the edge [m]; infinite without a limit.
+        Maximum length of the edge [m]; infinite without a limit.
     tried : int
         Knives that were looked at.
     best : BestKnife or None
         The best one; None if no knife keeps the limits.
-    failing : Failing or None
+    failing : LimitFailure or None
         What cannot be kept then.
     """
 
@@ -165,7 +165,7 @@ class KnifeSearch(Result):
     length_max: float
     tried: int
     best: BestKnife | None
-    failing: Failing | None
+    failing: LimitFailure | None
 
 
 @public
@@ -183,7 +183,7 @@ def best_knife(
     machine : Machine
         With a topper, its limits, and a field of roots.
     objective : {"shortest", "fastest"}
-        The shortest edge at the forward speed of the file; or the greatest forward speed, with an edge of
+        The shortest edge at the forward speed of the file; or the maximum forward speed, with an edge of
         at most ``length_max``, without it that of the file.
     seed : int, optional
         In place of the field's.

@@ -29,7 +29,7 @@ _EACH = _COARSE[0] * _COARSE[1] + _ROUNDS * _CLOSE**2
 _ONCE = MAP[0] * MAP[1] + (_ROUNDS - _SKIPPED) * _CLOSE**2
 _ALL = {"shortest": _ONCE + _ROUNDS * _CLOSE**2, "fastest": _ONCE + (_SPEEDS + _HALVINGS) * _EACH}
 
-# Share of the greatest speed at which the slowest knife on a mechanism is looked at.
+# Share of the maximum speed at which the slowest knife on a mechanism is looked at.
 _SLOWEST = 0.01
 
 
@@ -45,9 +45,9 @@ class KnifeGrid:
     trials : Trials
         Looks at each.
     length_max : float
-        Greatest length of the edge [m].
+        Maximum length of the edge [m].
     objective : str
-        ``"shortest"`` or ``"fastest"``, for what is told of the progress.
+        ``"shortest"`` or ``"fastest"``, for what is reported of the progress.
     watch : callable or None
         Told how much is done, from 0 to 1.
     """
@@ -89,7 +89,7 @@ class KnifeGrid:
         return [[self._at(angle, speed, forward_speed) for speed in axes[1]] for angle in axes[0]]
 
     def shortest(self, forward_speed: float, first: Sequence[Trial] | None = None) -> Trial:
-        """The knife of the shortest edge; the one that lacks least if all lack draw-cut.
+        """The knife of the shortest edge; the one that lacks minimum if all lack draw-cut.
 
         Parameters
         ----------
@@ -145,7 +145,7 @@ class KnifeGrid:
         return best
 
     def fastest(self) -> Trial:
-        """The knife of the greatest forward speed; the one that comes closest if none keeps the limits."""
+        """The knife of the maximum forward speed; the one that comes closest if none keeps the limits."""
         speeds = np.linspace(*self.speeds, _SPEEDS if self.speeds[1] > self.speeds[0] else 1).tolist()
         found = [self.shortest(speed) for speed in speeds]
         kept = [i for i, each in enumerate(found) if self.keeps(each)]

@@ -1,4 +1,4 @@
-"""One knife of a topper that may be the best: the least edge that does what is asked of it, and how it
+"""One knife of a topper that may be the best: the minimum edge that does what is asked of it, and how it
 slices."""
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from linkwright.topping.sweep import edges_with
 
 Floats = NDArray[np.float64]
 
-# The haulm that an edge leaves falls with its length: halvings to 1e-4 of the greatest length.
+# The haulm that an edge leaves falls with its length: halvings to 1e-4 of the maximum length.
 _HALVINGS = 14
 
 
@@ -35,7 +35,7 @@ class Trial:
     knife_speed, forward_speed : float
         v_h and v [m/s].
     length : float
-        Least edge that keeps the limits of heads and haulm [m]; infinite if none does, NaN if it runs
+        Minimum edge that keeps the limits of heads and haulm [m]; infinite if none does, NaN if it runs
         backwards at times.
     slicing : float
         Mean draw-cut ratio [–]; NaN likewise.
@@ -123,7 +123,7 @@ class Trials:
         return Trial(angle, knife_speed, forward_speed, length, slicing(edges).ratio_mean)
 
     def length(self, edges: list[Edge]) -> float:
-        """Least edge for the share of heads, and for the haulm that may be left [m].
+        """Minimum edge for the share of heads, and for the haulm that may be left [m].
 
         Parameters
         ----------
@@ -139,7 +139,7 @@ class Trials:
         return self._for_haulm(edges, least, float(needed[np.isfinite(needed)][-1]), limits.haulm_max)
 
     def _for_haulm(self, edges: list[Edge], least: float, most: float, haulm_max: float) -> float:
-        """Least edge, from one that cuts enough heads on, that leaves no more haulm."""
+        """Minimum edge, from one that cuts enough heads on, that leaves no more haulm."""
         if float(self.roots.is_missed.mean()) > haulm_max:
             return math.inf
         if self._haulm(edges, least) <= haulm_max:

@@ -30,7 +30,7 @@ Best = Annotated[
     Objective,
     typer.Option(
         "--objective",
-        help="The shortest edge at the forward speed of the file, or the greatest forward speed with an edge "
+        help="The shortest edge at the forward speed of the file, or the maximum forward speed with an edge "
         "of at most length_max.",
     ),
 ]

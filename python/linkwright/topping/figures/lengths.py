@@ -81,7 +81,7 @@ def length_chart_figure(chart: LengthChart) -> Figure:
 def _way(axes: Axes, chart: LengthChart, lines: Lines, way: str, scale: float) -> None:
     """One panel."""
     for speed, values, colour in zip(chart.forward_speeds, getattr(lines, way), LINES, strict=False):
-        # A line that leaves the panel for ever ends there.
+        # A line that leaves the panel indefinitely ends there.
         axes.plot(scale * lines.along, _MILLI * values, color=colour, label=f"v = {speed:.3g} m/s")
     if way == "constant_speed" and lines.moved.size:
         style: dict[str, Any] = {"color": PURPLE, "linestyle": (0, (4, 2))}

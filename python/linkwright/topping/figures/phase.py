@@ -175,8 +175,8 @@ def edge_use_figure(place: Floats, use: Floats, edge_length: float, diameter: fl
     reach = 1.04 * max(half, float(x[-1]))
     axes.set_xlim(-reach, reach)
     axes.set_ylim(0, 1.12 * max(float(y.max()), _MILLI * diameter))
-    axes.set_xlabel("place along the edge from its middle [mm], its left end on the right")
-    axes.set_ylabel("mean way through a head\n[mm]")
+    axes.set_xlabel("position along the edge from its middle [mm], its left end on the right")
+    axes.set_ylabel("mean path through a head\n[mm]")
     legend_above(axes)
     return figure
 

@@ -159,7 +159,7 @@ def sweep_figures(swept: FieldSweep) -> dict[str, Figure]:
 
 @styled
 def best_knife_figure(found: KnifeSearch) -> Figure:
-    """Draw the least length over angle and speed of the knife, with the limits and the best.
+    """Draw the minimum length over angle and speed of the knife, with the limits and the best.
 
     Parameters
     ----------
@@ -174,10 +174,10 @@ def best_knife_figure(found: KnifeSearch) -> Figure:
     figure, (axes,) = panels(1, height=4.0)
     at = (np.degrees(found.map_angle), found.map_speed)
     share = 100 * found.limits.complete_min
-    _map(axes, at, 1e3 * _drawable(found.map_length), f"least edge [mm] for {share:.4g} % of the heads")
+    _map(axes, at, 1e3 * _drawable(found.map_length), f"minimum edge [mm] for {share:.4g} % of the heads")
     lines = [
-        (found.map_slicing, found.limits.slicing_min, RED, "least draw-cut ratio"),
-        (found.map_length, found.length_max, PURPLE, "greatest length"),
+        (found.map_slicing, found.limits.slicing_min, RED, "minimum draw-cut ratio"),
+        (found.map_length, found.length_max, PURPLE, "maximum length"),
     ]
     for values, limit, colour, label in lines:
         finite = values[np.isfinite(values)]

@@ -29,7 +29,7 @@ _REACH = 1.25
 # Width over height of the panel.
 _PANEL = 1.5
 
-# An edge far aslant comes from far away: beyond so many diameters it is not drawn.
+# An edge at a large angle comes from far away: beyond so many diameters it is not drawn.
 _FAR = 3.5
 
 # Room about what is drawn, over the head's diameter.
@@ -74,7 +74,7 @@ def top_view_figure(
 def _shown(seen: HeadPass) -> slice:
     """The part of the pass that is drawn."""
     near = np.flatnonzero(np.abs(seen.normal) <= _REACH * 0.5 * seen.diameter)
-    # An edge that stands may keep away from the head for ever.
+    # An edge that stands may keep away from the head indefinitely.
     return slice(int(near[0]), int(near[-1]) + 1) if near.size else slice(0, len(seen.time))
 
 

@@ -17,17 +17,17 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import unread_file
 from linkwright.kernel.limits import ROOTS
 from linkwright.kernel.units import DENSITY, LENGTH, Lengths, Quantity, positive
 from linkwright.topping.model.scatter import AnyScatter, ConstantScatter, Scatter, UniformScatter
 
 
-class RootField(Checked):
+class RootField(CheckedDescription):
     """What all fields have."""
 
-    seed: Annotated[int, Field(ge=0)] = Field(1, description="Where random numbers begin.")
+    seed: Annotated[int, Field(ge=0)] = Field(1, description="Seed of the random generator.")
     root_density: Annotated[float, positive(DENSITY)] | None = Field(
         None, description="Of the roots, for the mass that is lost."
     )
@@ -55,7 +55,7 @@ class RandomField(RootField):
     spacing: AnyScatter | None = Field(
         None,
         description="Distance of neighbours along the row, from which phases of the knife follow. Without "
-        "it, phases come as they may.",
+        "it, phases are independent and uniform.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -77,7 +77,7 @@ def _below_zero(key: str, scatter: Scatter) -> InitErrorDetails:
     if isinstance(scatter, ConstantScatter):
         return fault(key, found=scatter.value, expected=expected)
     lowest = scatter.ends[0]
-    found = "no least value" if math.isinf(lowest) else f"values down to {lowest:.6g} m"
+    found = "no minimum value" if math.isinf(lowest) else f"values down to {lowest:.6g} m"
     return fault(key, found=found, expected=expected + " for each", remedy='add least, such as "20 mm"')
 
 
@@ -91,7 +91,7 @@ class MeasuredField(RootField):
         'head with units: "root_diameter [mm], cut_height [mm], offset [mm]".',
     )
     phases: Annotated[int, Field(ge=4, le=100_000)] = Field(
-        64, description="Phases of the knife in which each root is looked at, evenly over a turn."
+        64, description="Phases of the knife in which each root is looked at, evenly over one revolution."
     )
     root_diameter: Lengths = Field((), description="Diameter D of each root.")
     cut_height: Lengths = Field(
@@ -174,7 +174,7 @@ def field_faults(
     field : RandomField or MeasuredField
         The field.
     has_cycle : bool
-        Whether the knife goes to and fro, or rests.
+        Whether the knife goes back and forth, or rests.
     phase : float or None
         Phase in which it meets all heads [rad].
 

@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import (
     ANGLE,
     INSIDE_ONE,
@@ -35,31 +35,31 @@ Share = Annotated[float, Quantity(RATIO, INSIDE_ONE)]
 Speed = Annotated[float, not_negative(VELOCITY)]
 
 
-class TopperLimits(Checked):
+class TopperLimits(CheckedDescription):
     """Limits of the best knife, and where it is sought."""
 
     complete_min: Share = Field(0.95, description="Share of heads that have to be cut right through.")
     haulm_max: Share | None = Field(
-        None, description="Greatest mean share of the head that may be left. Without it, any."
+        None, description="Maximum mean share of the head that may be left. Without it, any."
     )
     slicing_min: Annotated[float, not_negative(RATIO)] | None = Field(
         None,
-        description="Least mean draw-cut ratio: speed along the edge over that normal to it. Without it, the "
-        "shortest edge rests across the row.",
+        description="Minimum mean draw-cut ratio: speed along the edge over that normal to it. Without it, "
+        "the shortest edge rests across the row.",
     )
     length_max: PositiveLength | None = Field(
         None,
-        description="Greatest length of the edge. Without it, any; for the fastest, edge_length.",
+        description="Maximum length of the edge. Without it, any; for the fastest, edge_length.",
     )
-    angle_min: Slant = Field(0.0, description="Least angle of the edge.")
-    angle_max: Slant = Field(math.radians(60), description="Greatest angle of the edge.")
-    knife_speed_min: Speed = Field(0.0, description="Least speed of the knife.")
-    knife_speed_max: Speed = Field(1.0, description="Greatest speed of the knife.")
+    angle_min: Slant = Field(0.0, description="Minimum angle of the edge.")
+    angle_max: Slant = Field(math.radians(60), description="Maximum angle of the edge.")
+    knife_speed_min: Speed = Field(0.0, description="Minimum speed of the knife.")
+    knife_speed_max: Speed = Field(1.0, description="Maximum speed of the knife.")
     forward_speed_min: Annotated[float, positive(VELOCITY)] = Field(
-        0.5, description="Least speed along the row, where the fastest is sought."
+        0.5, description="Minimum speed along the row, where the fastest is sought."
     )
     forward_speed_max: Annotated[float, positive(VELOCITY)] = Field(
-        4.0, description="Greatest speed along the row, likewise."
+        4.0, description="Maximum speed along the row, likewise."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

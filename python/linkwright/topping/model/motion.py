@@ -1,4 +1,4 @@
-"""How the knife of a topper is moved to and fro across the row."""
+"""How the knife of a topper is moved back and forth across the row."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, Description, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.units import Angle
 from linkwright.linkages.model.element import PositiveLength
 
@@ -23,8 +23,8 @@ class KnifeMotion(Description):
     )
 
 
-class ConstantKnife(KnifeMotion, Checked):
-    """The same speed across the row, to and fro."""
+class ConstantKnife(KnifeMotion, CheckedDescription):
+    """The same speed across the row, back and forth."""
 
     kind: Literal["constant"] = Field(description="Constant speed.")
     stroke: PositiveLength | None = Field(

@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import BeforeValidator, Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import LENGTH, Length, Quantity, not_negative
 from linkwright.linkages.model.element import PositiveLength
 
@@ -49,12 +49,12 @@ _LEFT = 1e-9
 _LAST = 2.0**-53
 
 
-class Scatter(Checked):
+class Scatter(CheckedDescription):
     """What all have in common: quantities of one length."""
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Least and greatest value [m]; infinite without such."""
+        """Minimum and maximum value [m]; infinite without such."""
         raise NotImplementedError
 
     @property
@@ -101,12 +101,12 @@ class UniformScatter(Scatter):
     deviation: Deviation | None = Field(
         None, description="Standard deviation, with the mean: half the distance of the ends over √3."
     )
-    least: Length | None = Field(None, description="Least value.")
-    greatest: Length | None = Field(None, description="Greatest value.")
+    least: Length | None = Field(None, description="Minimum value.")
+    greatest: Length | None = Field(None, description="Maximum value.")
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Least and greatest value [m]."""
+        """Minimum and maximum value [m]."""
         if self.least is not None and self.greatest is not None:
             return self.least, self.greatest
         middle, half = self.mean or 0.0, math.sqrt(3.0) * (self.deviation or 0.0)
@@ -140,14 +140,14 @@ class BellScatter(Scatter):
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Least and greatest value [m]; infinite without such."""
+        """Minimum and maximum value [m]; infinite without such."""
         if not self.deviation:
             return self.mean, self.mean
         return self._lowest if self.least is None else self.least, _or(self.greatest, math.inf)
 
     @property
     def _lowest(self) -> float:
-        """Least value of the whole distribution."""
+        """Minimum value of the whole distribution."""
         return -math.inf
 
     def values(self, shares: ArrayLike) -> Floats:

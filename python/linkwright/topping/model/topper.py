@@ -1,10 +1,10 @@
-r"""The topper of a root-crop harvester: a knife that moves to and fro across the row and slices heads off.
+r"""The topper of a root-crop harvester: a knife that reciprocates across the row and slices heads off.
 
 | letter of paper 5 | is | key |
 | --- | --- | --- |
 | D | diameter of the root | `root_diameter` |
 | h_p | height of the slice, from the top of the root to the plane of the cut | `cut_height` |
-| Δ | greatest distance of a root's axis from the axis of the row | `offset` |
+| Δ | maximum distance of a root's axis from the axis of the row | `offset` |
 | α | angle of the edge to the transverse axis | `edge_angle` |
 | L_h | working length of the edge | `edge_length` |
 | v, v_h | speed of the machine along, of the knife across the row | `forward_speed`, `knife_speed` |
@@ -27,7 +27,7 @@ from typing import Annotated
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault, suggestion
+from linkwright.kernel.description.base import CheckedDescription, fault, suggestion
 from linkwright.kernel.description.plain import look
 from linkwright.kernel.units import ANGLE, LENGTH, VELOCITY, Bound, Quantity, not_negative, positive
 from linkwright.linkages.model.element import PositiveLength
@@ -43,7 +43,7 @@ _ACROSS = Bound(
 )
 
 
-class Topper(Checked):
+class Topper(CheckedDescription):
     """Heads of roots in a row, and the knife that tops them."""
 
     root_diameter: PositiveLength = Field(description="Diameter D of the root.")
@@ -51,7 +51,7 @@ class Topper(Checked):
         description="Height h_p of the slice, from the top of the root down to the plane of the cut."
     )
     offset: Annotated[float, not_negative(LENGTH)] = Field(
-        0.0, description="Greatest distance Δ of a root's axis from the axis of the row, on either side."
+        0.0, description="Maximum distance Δ of a root's axis from the axis of the row, on either side."
     )
     edge_angle: Annotated[float, Quantity(ANGLE, _ACROSS)] = Field(
         0.0, description="Angle α of the edge to the transverse axis; positive where its left end leads."
@@ -60,7 +60,7 @@ class Topper(Checked):
     forward_speed: Annotated[float, positive(VELOCITY)] = Field(description="Speed v along the row.")
     knife_speed: Annotated[float, not_negative(VELOCITY)] | None = Field(
         None,
-        description="Mean speed v_h of the knife across the row; at 0 it rests amid its stroke, or where "
+        description="Mean speed v_h of the knife across the row; at 0 it stands at mid-stroke, or where "
         "a given phase puts it. A mechanism gives it itself.",
     )
     motion: AnyKnifeMotion = Field(description="How the knife moves across the row.")
@@ -69,7 +69,7 @@ class Topper(Checked):
 
     @property
     def has_cycle(self) -> bool:
-        """Whether the knife goes to and fro, or rests."""
+        """Whether the knife goes back and forth, or rests."""
         is_one_way = isinstance(self.motion, ConstantKnife) and self.motion.stroke is None
         return not (is_one_way and self.knife_speed)
 

@@ -30,7 +30,7 @@ def best_table(found: KnifeSearch, best: BestKnife) -> Table:
     """
     limits = found.limits
     rows: list[Row] = [
-        ("angle of the edge", "α", f"{number(math.degrees(best.edge_angle))}°", "", ""),
+        ("edge angle", "α", f"{number(math.degrees(best.edge_angle))}°", "", ""),
         ("length of the edge", "L", f"{number(best.edge_length)} m", "", _at_most(found.length_max, "m")),
         ("speed of the knife", "v_h", f"{number(best.knife_speed)} m/s", "", ""),
         ("speed along the row", "v", f"{number(best.forward_speed)} m/s", "", ""),

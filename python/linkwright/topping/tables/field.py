@@ -22,7 +22,7 @@ _ROWS = 40
 # Words and symbols of what varies.
 WORDS = {
     "edge_length": ("length of the edge", "L", "m"),
-    "edge_angle": ("angle of the edge", "α", "°"),
+    "edge_angle": ("edge angle", "α", "°"),
     "forward_speed": ("speed along the row", "v", "m/s"),
     "knife_speed": ("speed of the knife", "v_h", "m/s"),
     "cut_height": ("mean height of the slice", "h_p", "m"),

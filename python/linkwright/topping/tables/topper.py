@@ -76,7 +76,7 @@ def _lengths(found: TopperStudy, described: Topper) -> Table:
         ("printed in paper 5", "(10)", found.length_published, "compares times, not what is covered"),
         ("what its condition (4) gives", "(4)", found.length_consistent, "step from (4) to (5) put right"),
         ("knife at rest", "v_h = 0", found.length_at_rest, "(d + 2Δ)/cos α"),
-        ("exact at constant speed", "", steady, "no turn over a head, worse direction"),
+        ("exact at constant speed", "", steady, "no revolution over a head, worse direction"),
         *(() if found.obstacle else _moved(found, described)),
     ]
     rows: list[Row] = [
@@ -85,7 +85,7 @@ def _lengths(found: TopperStudy, described: Topper) -> Table:
     if found.obstacle:
         rows.append(("exact", "L", "–", "–", "not computed: too many strokes over a head"))
     title = f"Length of the edge; it has {mm(own)}"
-    return Table("topper_lengths", title, ("least length", "", "value", "is met", "remark"), rows)
+    return Table("topper_lengths", title, ("minimum length", "", "value", "is met", "remark"), rows)
 
 
 def _moved(found: TopperStudy, described: Topper) -> Iterator[tuple[str, str, float, str]]:

@@ -74,7 +74,7 @@ def topper_headline(described: Topper, found: TopperStudy) -> Iterator[tuple[str
     if not found.obstacle:
         yield "left at worst", number(100 * found.uncut_share, 3), "%"
     if found.stroke:
-        yield "strokes to and fro", number(found.frequency, 3), "1/s"
+        yield "double strokes", number(found.frequency, 3), "1/s"
 
 
 def topper_formulas(described: Topper, found: TopperStudy | None) -> list[Formula]:

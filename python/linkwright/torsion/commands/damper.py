@@ -50,10 +50,11 @@ Folder = Annotated[
 
 
 def torsion() -> None:
-    """Torsional vibration: `linkwright torsion FILE` looks at a train; or one of these commands.
+    """Torsional vibration: `linkwright torsion FILE` analyses a train; or one of these commands.
 
     FILE gives natural frequencies, shapes and nodes; with torques and [train.run] also critical speeds,
-    torques, stresses, limits, barred speeds, unevenness and heat. Exit code 1 if a limit is exceeded.
+    torques, stresses, limits, barred speed ranges, speed fluctuation and heat. Exit code 1 if a limit is
+    exceeded.
 
     With FILE: --set PATH=VALUE, --json, --holzer HZ, --out DIR (report, drawings, JSON).
     """
@@ -72,7 +73,7 @@ def damper(
     out: Folder = None,
     force: Force = False,
 ) -> None:
-    """The best damper for a mode: damping, and stiffness, that leave least of its resonance."""
+    """The best damper for a mode: damping, and stiffness, that minimise its resonance."""
     from linkwright.kernel.units import INERTIA
     from linkwright.machine.read import read
     from linkwright.torsion.damper.damper_design import design_damper

@@ -45,7 +45,8 @@ def torsion(
     """Torsional vibration of a train: modes, and under its torques all that its parts bear.
 
     Natural frequencies, shapes and nodes; with torques and [train.run] in the file also critical speeds,
-    torques, stresses, limits, barred speeds, unevenness and heat. Exit code 1 if a limit is exceeded.
+    torques, stresses, limits, barred speed ranges, speed fluctuation and heat. Exit code 1 if a limit is
+    exceeded.
     """
     from linkwright.kernel.command.console import progress
     from linkwright.machine.read import read

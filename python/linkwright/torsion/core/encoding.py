@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright import _core
 from linkwright.kernel.core.curve import Curve
 from linkwright.kernel.core.periodic_table import PeriodicTable
-from linkwright.torsion.core.torque import Decaying, Following, OverSpeed, Power, TrainTorque
+from linkwright.torsion.core.torque import DecayingTorque, GovernorTorque, OverSpeed, Power, TrainTorque
 from linkwright.torsion.core.train import HELD
 
 if TYPE_CHECKING:
@@ -91,10 +91,10 @@ def _torque(
             kind, numbers = (1 if is_even else 2), [speed, exponent, 0.0, 0.0, 0.0]
         case OverSpeed(over_speed):
             kind, curve = 3, over_speed
-        case Following(gain, over_time):
+        case GovernorTorque(gain, over_time):
             curve = over_time
             kind, numbers = 4, [gain, 0.0, 0.0, 0.0, 0.0]
-        case Decaying(start, end, rate, speed, phase):
+        case DecayingTorque(start, end, rate, speed, phase):
             kind, numbers = 5, [start, end, rate, speed, phase]
     n = float(train.speed[torque.on])
     row = [int(train.mass[torque.on]), kind, _place(torque.weight, curves), _place(torque.shape, tables)]

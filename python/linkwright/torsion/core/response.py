@@ -102,7 +102,7 @@ def respond(referred: ReferredTrain, at: Operating, orders: Floats, torques: Com
     at : Operating
         Speeds, and what depends on them.
     orders : ndarray, shape (orders,)
-        Waves a turn of the first disc.
+        Cycles per revolution of the first disc.
     torques : ndarray of complex, shape (orders, masses, speeds)
         Referred [N m].
 
@@ -236,7 +236,7 @@ def _solved(matrix: Complexes, torque: Complexes) -> Complexes:
 
 
 def extremes(coefficients: Complexes) -> Floats:
-    """Greatest value, its place, least value, its place of sums of harmonics.
+    """Maximum value, its place, minimum value, its place of sums of harmonics.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ its apparent power over its speed, without load before, and for the worst instan
 .. math:: M_3 = \frac{1}{x''}\sin\omega t, \qquad
     M_2 = \frac{1}{x''}\left(\sin\omega t - \tfrac12\sin 2\omega t\right)
 
-for three phases and for two, with the subtransient reactance :math:`x''`, both decaying. The greatest of M_2
+for three phases and for two, with the subtransient reactance :math:`x''`, both decaying. The maximum of M_2
 is :math:`\tfrac34\sqrt3/x''`, at a third of a period.
 
 References
@@ -63,7 +63,7 @@ class OverSpeed:
 
 
 @dataclass(frozen=True)
-class Following:
+class GovernorTorque:
     """A torque in proportion to what is missing in speed: a governor, or a test bench that leads the speed.
 
     Attributes
@@ -79,7 +79,7 @@ class Following:
 
 
 @dataclass(frozen=True)
-class Decaying:
+class DecayingTorque:
     """A sine that decays.
 
     Attributes
@@ -99,7 +99,7 @@ class Decaying:
     phase: float = 0.0
 
 
-Law = Power | OverSpeed | Following | Decaying
+Law = Power | OverSpeed | GovernorTorque | DecayingTorque
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ class TrainTorque:
         Disc.
     scale : float
         Torque where the law and the shape are 1 [N m].
-    law : Power, OverSpeed, Following, Decaying or None
+    law : Power, OverSpeed, GovernorTorque, DecayingTorque or None
         How it depends on speed or time; None for not at all.
     shape : PeriodicTable or None
         How it depends on the angle; None for not at all.
@@ -193,7 +193,7 @@ def short_circuit(
     frequency lasts longer in truth, but passes most trains unfelt.
     """
     size = -torque / reactance
-    first = Decaying(start, end, 1.0 / decay, speed)
+    first = DecayingTorque(start, end, 1.0 / decay, speed)
     simple = TrainTorque(name, on, size, first)
     if phases == 3:
         return (simple,)

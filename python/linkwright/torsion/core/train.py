@@ -76,7 +76,7 @@ class ReferredTrain:
 
     @property
     def is_free(self) -> bool:
-        """Whether it can turn as a whole."""
+        """Whether it can rotate as a rigid body."""
         return not bool((self.ends == HELD).any())
 
     @cached_property
@@ -135,7 +135,7 @@ class ReferredTrain:
         return omega[order], shapes[order]
 
     def _part(self, masses: list[int], is_free: bool) -> tuple[Floats, Floats]:
-        """Modes of masses that hang together."""
+        """Modes of connected masses."""
         J = self.inertia[masses]
         scale = 1.0 / np.sqrt(J)
         K = self.stiffness_matrix[np.ix_(masses, masses)]
@@ -152,7 +152,7 @@ def refer(train: Train) -> ReferredTrain:
     Parameters
     ----------
     train : Train
-        Checked: it hangs together, and its loops can turn. Couplings and dampers count as discs and shafts.
+        Checked: it is connected, and its loops can turn. Couplings and dampers count as discs and shafts.
 
     Raises
     ------

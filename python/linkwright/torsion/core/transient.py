@@ -63,14 +63,14 @@ class VariableInertia:
 def variable_inertia(
     on: int, inertia: ArrayLike, slope: ArrayLike | None = None, phase: float = 0.0
 ) -> VariableInertia:
-    """An inertia from even samples over a turn.
+    """An inertia from even samples over one revolution.
 
     Parameters
     ----------
     on : int
         Disc.
     inertia : array_like, shape (samples,)
-        From angle zero on, without the repetition at the end of the turn [kg m²].
+        From angle zero on, without the repetition at the end of the revolution [kg m²].
     slope : array_like, shape (samples,), optional
         Its derivative by the angle, to check that the samples tell all of it [kg m²/rad].
     phase : float
@@ -90,7 +90,7 @@ def variable_inertia(
     """
     J = np.asarray(inertia, dtype=float)
     if not len(J) or not (np.isfinite(J).all() and (J > 0).all()):
-        raise InputError("inertia over the turn: expected finite numbers above zero")
+        raise InputError("inertia over the revolution: expected finite numbers above zero")
     table = smooth(J)
     if slope is not None:
         given = np.asarray(slope, dtype=float)
@@ -100,13 +100,13 @@ def variable_inertia(
         if not off <= _SLOPES_AGREE * float(np.abs(given).max() or J.mean()):
             raise InputError(
                 f"slope of an inertia: differs by {off:.3g} kg m²/rad from that of its {len(J)} samples; "
-                "sample the turn more finely"
+                "sample the revolution more finely"
             )
     return VariableInertia(on, table, phase)
 
 
 @dataclass(frozen=True)
-class Moved:
+class TrainMotion:
     """A motion as the core gives it, in terms of masses.
 
     Attributes
@@ -130,7 +130,7 @@ class Moved:
     kinetic, potential : ndarray, shape (times,)
         Energy [J].
     extremes : ndarray, shape (shafts + masses, 4)
-        Largest value, its time, least value, its time, of torques and speeds.
+        Largest value, its time, minimum value, its time, of torques and speeds.
     work : ndarray, shape (torques + shafts + masses,)
         Of torques, and lost in shafts and at masses [J].
     """
@@ -212,7 +212,7 @@ class MovingTrain:
 
     @property
     def mean_inertia(self) -> Floats:
-        """Inertia of the discs, averaged over the turn, (discs,) [kg m²]."""
+        """Inertia of the discs, averaged over the revolution, (discs,) [kg m²]."""
         J = np.array(self.inertia, dtype=float)
         np.add.at(J, [each.on for each in self.inertias], [each.table.mean for each in self.inertias])
         return J
@@ -252,7 +252,7 @@ class MovingTrain:
         start: float = 0.0,
         method: str = "auto",
         steps_max: int,
-    ) -> Moved:
+    ) -> TrainMotion:
         """The motion from given angles and speeds.
 
         Parameters
@@ -272,7 +272,7 @@ class MovingTrain:
 
         Returns
         -------
-        Moved
+        TrainMotion
             Samples beyond the time reached are NaN.
         """
         at, turning, sampled = (

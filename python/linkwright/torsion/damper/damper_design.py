@@ -6,7 +6,7 @@ In a mode with the shape θ the train is one mass at the disc that carries the d
 
 and `damper_rules` says which c and k are best for it. The other modes give a little, and the ring changes the
 shape; so the same is sought for the train as a whole, with all its modes: the pair of c and k for which the
-largest twist is least of the shaft that the mode twists most (`ring_on_train`).
+largest twist of the shaft that the mode twists most is minimum (`ring_on_train`).
 What else damps the train is left out, so that it does with less than is found here.
 
 References
@@ -31,7 +31,7 @@ from linkwright.kernel.result import Result
 from linkwright.kernel.units import INERTIA, RATIO, positive
 from linkwright.machine.machine import Machine
 from linkwright.torsion.damper.damper_rules import rubber_rule, tuned_rule, viscous_rule
-from linkwright.torsion.damper.ring_on_train import Holding, RingOnTrain, best_holding
+from linkwright.torsion.damper.ring_on_train import RingOnTrain, RingSupport, best_holding
 from linkwright.torsion.modes.free import FreeVibration, free_vibration
 
 Floats = NDArray[np.float64]
@@ -150,11 +150,11 @@ def design_damper(
     rule = _RULES[kind](mu)
     first = train.holding(rule)
     if loss_factor is not None:
-        first = Holding(first.damping, first.stiffness, loss_factor)
+        first = RingSupport(first.damping, first.stiffness, loss_factor)
     best = best_holding(train, first, free_loss=loss_factor is None)
     return DamperDesign(
         frequencies=train.omega / (2 * math.pi),
-        response_bare=train.response(Holding(0.0, 0.0, 0.0)),
+        response_bare=train.response(RingSupport(0.0, 0.0, 0.0)),
         response_rule=train.response(first),
         response_best=train.response(best),
         kind=kind,

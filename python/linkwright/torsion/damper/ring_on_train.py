@@ -42,17 +42,17 @@ _C_RANGE, _K_RANGE, _FOUND = 8.0, 1.6, 1e-5
 
 
 @dataclass(frozen=True)
-class Holding:
+class RingSupport:
     """What holds the ring."""
 
     damping: float
     stiffness: float
     loss_factor: float
 
-    def scaled(self, c: float, k: float = 1.0) -> Holding:
+    def scaled(self, c: float, k: float = 1.0) -> RingSupport:
         """With c, or where there is none η, and k by factors."""
         loss = self.loss_factor * (c if self.damping == 0 else 1.0)
-        return Holding(self.damping * c, self.stiffness * k, loss)
+        return RingSupport(self.damping * c, self.stiffness * k, loss)
 
 
 class RingOnTrain:
@@ -77,13 +77,13 @@ class RingOnTrain:
         self.rest = found.modal_inertia[mode] * self.natural**2 / pole[mode]
         self.amplitude = shape[mode, on] / found.twists[mode, shaft]
 
-    def holding(self, rule: DamperRule) -> Holding:
+    def holding(self, rule: DamperRule) -> RingSupport:
         """A damper of these ratios in the mode."""
         ring, omega = self.ring, self.natural
         stiffness = ring * (rule.tuning * omega) ** 2
-        return Holding(2 * ring * omega * rule.damping_ratio, stiffness, rule.loss_factor)
+        return RingSupport(2 * ring * omega * rule.damping_ratio, stiffness, rule.loss_factor)
 
-    def response(self, held: Holding) -> Floats:
+    def response(self, held: RingSupport) -> Floats:
         """Twist of the watched shaft over that at rest."""
         joint = held.stiffness * (1 + 1j * held.loss_factor) + 1j * self.omega * held.damping
         D = ring_stiffness(joint, self.ring * self.omega**2)
@@ -91,7 +91,7 @@ class RingOnTrain:
         found: Floats = np.abs(self.rest * (1 - part))
         return found
 
-    def peak(self, held: Holding) -> float:
+    def peak(self, held: RingSupport) -> float:
         """Largest response, by the parabola through the highest points."""
         y = self.response(held)
         n = int(np.argmax(y))
@@ -106,10 +106,10 @@ class RingOnTrain:
         return float(y[0] + (at - x[0]) * (slopes[0] + bend * (at - x[1])))
 
 
-def best_holding(train: RingOnTrain, first: Holding, *, free_loss: bool) -> Holding:
-    """The damper with the least peak: c, or the loss of rubber, for each k, and k over these."""
+def best_holding(train: RingOnTrain, first: RingSupport, *, free_loss: bool) -> RingSupport:
+    """The damper with the minimum peak: c, or the loss of rubber, for each k, and k over these."""
 
-    def damped(k: float) -> Holding:
+    def damped(k: float) -> RingSupport:
         if not free_loss:
             return first.scaled(1.0, k)
         c = _least(lambda x: train.peak(first.scaled(math.exp(x), k)), math.log(_C_RANGE))
@@ -122,7 +122,7 @@ def best_holding(train: RingOnTrain, first: Holding, *, free_loss: bool) -> Hold
 
 
 def _least(value: Callable[[float], float], reach: float) -> float:
-    """Where a function is least between −reach and reach: the best of some samples, then golden section."""
+    """Where a function is minimum between −reach and reach: the best of some samples, then golden section."""
     samples = np.linspace(-reach, reach, 17)
     n = int(np.argmin([value(float(x)) for x in samples]))
     low, high = float(samples[max(n - 1, 0)]), float(samples[min(n + 1, 16)])

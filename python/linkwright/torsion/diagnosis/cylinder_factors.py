@@ -22,13 +22,13 @@ class Diagnosis(Result):
     cylinders : tuple of str
         Their names.
     factor : ndarray, shape (cylinders,)
-        Firing part over that of a healthy cylinder; 1 where it cannot be told.
+        Firing part over that of a healthy cylinder; 1 where it cannot be determined.
     deviation : ndarray, shape (cylinders,)
-        Standard deviation of each; infinite where it cannot be told.
+        Standard deviation of each; infinite where it cannot be determined.
     covariance : ndarray, shape (cylinders, cylinders)
-        Of the factors, as far as they can be told.
+        Of the factors, as far as they can be determined.
     condition : float
-        Largest over smallest singular value; infinite where cylinders cannot be told apart.
+        Largest over smallest singular value; infinite where cylinders cannot be distinguished.
     misfit : float
         What is left over for each degree of freedom, over the noise if that is known, else [rad/s]; NaN
         without any degree of freedom.

@@ -9,18 +9,18 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.torsion.core.response import Operating, respond
 from linkwright.torsion.core.train import ReferredTrain
-from linkwright.torsion.response.carried import responses
-from linkwright.torsion.response.excited import Excited
+from linkwright.torsion.response.excited_train import ExcitedTrain
+from linkwright.torsion.response.torsion_response import responses
 
 Complexes = NDArray[np.complex128]
 
 
-def disc_speed(at: Excited, disc: str, *, rigid: bool = False) -> Complexes:
+def disc_speed(at: ExcitedTrain, disc: str, *, rigid: bool = False) -> Complexes:
     """Harmonics of the speed of a disc under the torques of its train.
 
     Parameters
     ----------
-    at : Excited
+    at : ExcitedTrain
         The train.
     disc : str
         The disc.
@@ -35,7 +35,7 @@ def disc_speed(at: Excited, disc: str, *, rigid: bool = False) -> Complexes:
     Raises
     ------
     InputError
-        There is no such disc, or the train is held and cannot turn as a whole.
+        There is no such disc, or the train is held and cannot rotate as a rigid body.
     """
     place = _place(at.referred, disc)
     if rigid:
@@ -48,12 +48,12 @@ def disc_speed(at: Excited, disc: str, *, rigid: bool = False) -> Complexes:
     return found
 
 
-def cylinder_response(at: Excited, sources: Complexes, disc: str, *, rigid: bool = False) -> Complexes:
+def cylinder_response(at: ExcitedTrain, sources: Complexes, disc: str, *, rigid: bool = False) -> Complexes:
     """Harmonics of the speed of a disc under torques one by one.
 
     Parameters
     ----------
-    at : Excited
+    at : ExcitedTrain
         The train, at one speed.
     sources : ndarray of complex, shape (sources, orders, discs)
         Torques at the orders of the train's torques [N m].
@@ -70,7 +70,7 @@ def cylinder_response(at: Excited, sources: Complexes, disc: str, *, rigid: bool
     Raises
     ------
     InputError
-        There is no such disc, or the train is held and cannot turn as a whole.
+        There is no such disc, or the train is held and cannot rotate as a rigid body.
     """
     referred, many, orders = at.referred, len(sources), at.torques.orders
     place = _place(referred, disc)
@@ -103,7 +103,7 @@ def _rigid(
 ) -> Complexes:
     """Amplitude of a train that does not twist, (orders, speeds)."""
     if not referred.is_free:
-        raise InputError("a train held by the ground does not turn as a whole: it cannot be taken as rigid")
+        raise InputError("a train held by the ground has no rigid-body mode: it cannot be taken as rigid")
     omega = orders[:, None] * operating.speeds
     damping = operating.disc_damping.sum(axis=0)
     q: Complexes = torques.sum(axis=1) / (-(omega**2) * referred.inertia.sum() + 1j * omega * damping)

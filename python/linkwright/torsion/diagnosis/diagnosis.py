@@ -12,7 +12,7 @@ problem with real x,
 .. math:: \hat x = (A^T A)^{-1} A^T y, \qquad \mathrm{cov}\, \hat x = \sigma^2 (A^T A)^{-1}
 
 where σ = 1 for noise that is known, else estimated from what is left over. Cylinders with parallel columns of
-A act alike on this disc at these orders, and only their sum can be told.
+A act alike on this disc at these orders, and only their sum can be determined.
 
 H is that of the elastic train. A train taken as rigid has
 :math:`H = i\nu\Omega \sum M/(-(\nu\Omega)^2 \sum J)` in its place, the same at every disc, and gives other
@@ -40,7 +40,7 @@ from linkwright.kernel.numerics.least_squares import Fit, least_squares
 from linkwright.torsion.diagnosis.cylinder_factors import Diagnosis
 from linkwright.torsion.diagnosis.cylinder_response import cylinder_response
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
-from linkwright.torsion.response.excited import Excited
+from linkwright.torsion.response.excited_train import ExcitedTrain
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -52,7 +52,7 @@ _EQUAL = 1e-9
 
 
 def diagnosis(
-    at: Excited,
+    at: ExcitedTrain,
     sources: Complexes,
     measured: MeasuredSpeed,
     cylinders: Sequence[str] | None = None,
@@ -63,7 +63,7 @@ def diagnosis(
 
     Parameters
     ----------
-    at : Excited
+    at : ExcitedTrain
         The train at the speed of the measurement, all cylinders healthy.
     sources : ndarray of complex, shape (cylinders, orders, discs)
         Torque that the firing of each healthy cylinder adds, at the orders of the train's torques, which hold
@@ -97,7 +97,7 @@ def diagnosis(
     every = cylinder_response(at, np.concatenate([sources, rest[None]]), measured.disc, rigid=rigid)
     columns = every[:, places(at.torques.orders, measured)]
     A = equations(columns[:-1], measured).T
-    # What is sought is how far factors are from 1, so that what cannot be told stays healthy.
+    # What is sought is how far factors are from 1, so that what cannot be determined stays healthy.
     y = equations(measured.harmonics - columns.sum(axis=0), measured)
     return diagnosed(least_squares(A, y, is_known=measured.noise is not None), A, names, measured)
 
@@ -186,7 +186,7 @@ def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list
     listed = []
     if open_part.any():
         listed.append(
-            f"cylinders {', '.join(names[open_part])} cannot be told apart by these orders at this disc"
+            f"cylinders {', '.join(names[open_part])} cannot be distinguished by these orders at this disc"
         )
     size = np.linalg.norm(A, axis=0)
     product = np.outer(size, size)
@@ -204,7 +204,7 @@ def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list
     return listed
 
 
-def _names(at: Excited, sources: Complexes, cylinders: Sequence[str] | None) -> tuple[str, ...]:
+def _names(at: ExcitedTrain, sources: Complexes, cylinders: Sequence[str] | None) -> tuple[str, ...]:
     """Names of the cylinders, of arrays that fit."""
     if len(at.torques.speeds) != 1:
         speeds = len(at.torques.speeds)

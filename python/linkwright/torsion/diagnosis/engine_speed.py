@@ -16,7 +16,7 @@ from linkwright.torsion.core.train import refer
 from linkwright.torsion.diagnosis.cylinder_response import disc_speed
 from linkwright.torsion.modes.free import train_of
 from linkwright.torsion.response.engine_torques import CylinderStates, cylinder_torques, throw_sources
-from linkwright.torsion.response.excited import Excited, highest_order, under
+from linkwright.torsion.response.excited_train import ExcitedTrain, highest_order, under
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -58,7 +58,7 @@ class EngineSpeed:
         self.referred = refer(self.train)
         self.gas = cylinder_torques(self.engine, np.array([speed]), highest_order(train))
 
-    def states(self, values: Floats) -> Excited:
+    def states(self, values: Floats) -> ExcitedTrain:
         """The train in some states of its cylinders.
 
         Parameters
@@ -69,7 +69,7 @@ class EngineSpeed:
 
         Returns
         -------
-        Excited
+        ExcitedTrain
             A column for each state, all at the same speed.
         """
         speeds = np.repeat(self.gas.banks[0].speeds, values.shape[1])
@@ -91,7 +91,7 @@ class EngineSpeed:
         Returns
         -------
         orders : ndarray, shape (orders,)
-            Waves a turn of the first disc.
+            Cycles per revolution of the first disc.
         harmonics : ndarray of complex, shape (states, orders)
             [rad/s].
         """
@@ -109,7 +109,7 @@ class EngineSpeed:
         Returns
         -------
         orders : ndarray, shape (orders,)
-            Waves a turn of the first disc.
+            Cycles per revolution of the first disc.
         harmonics : ndarray of complex, shape (orders,)
             [rad/s].
         derivatives : ndarray of complex, shape (kinds · cylinders, orders)

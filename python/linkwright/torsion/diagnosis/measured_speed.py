@@ -36,7 +36,7 @@ class MeasuredSpeed:
     disc : str
         Where it was measured.
     orders : ndarray, shape (orders,)
-        Waves a turn of the first disc.
+        Cycles per revolution of the first disc.
     harmonics : ndarray of complex, shape (orders,)
         c of Re Σ c e^{iνφ}, φ the angle of the first disc [rad/s].
     noise : ndarray, shape (orders,), or None
@@ -60,9 +60,9 @@ def measured_speed(
     disc : str
         Where it was measured.
     samples : array_like, shape (n,)
-        Speed at even steps of the angle of the first disc, from 0 on, over whole turns [rad/s].
+        Speed at even steps of the angle of the first disc, from 0 on, over whole revolutions [rad/s].
     turns : int
-        How many turns of the first disc they span.
+        How many revolutions of the first disc they span.
     orders : array_like, shape (orders,)
         Those wanted.
     noise : float, optional
@@ -78,7 +78,7 @@ def measured_speed(
     ShapeError
         Too few samples for the highest order.
     InputError
-        A sample is no number, or an order does not repeat in these turns.
+        A sample is no number, or an order does not repeat in these revolutions.
     """
     in_range(
         samples=(samples, Quantity(SPEED)), orders=(orders, positive(COUNT)), noise=(noise, positive(SPEED))
@@ -89,11 +89,13 @@ def measured_speed(
     if apart.any() or (waves < 1).any():
         order = wanted[apart | (waves < 1)][0]
         raise InputError(
-            f"order {order:.6g} does not repeat in {turns} turns: expected multiples of 1/{turns}"
+            f"order {order:.6g} does not repeat in {turns} revolutions: expected multiples of 1/{turns}"
         )
     if len(values) <= 2 * waves.max():
         least = int(2 * np.rint(waves.max())) + 1
-        raise ShapeError(f"{len(values)} samples in {turns} turns: order {wanted.max():.6g} needs {least}")
+        raise ShapeError(
+            f"{len(values)} samples in {turns} revolutions: order {wanted.max():.6g} needs {least}"
+        )
     angle = 2 * np.pi * turns * np.arange(len(values)) / len(values)
     harmonics = 2 / len(values) * np.exp(-1j * wanted[:, None] * angle) @ values
     spread = None if noise is None else np.full(len(wanted), noise * np.sqrt(2 / len(values)))

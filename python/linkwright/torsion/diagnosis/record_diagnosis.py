@@ -17,7 +17,7 @@ from linkwright.torsion.diagnosis.recorded_speed import recorded_speed
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.engine.firing import firing_angles
 from linkwright.torsion.modes.free import train_of
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 
 # Factors beyond these are no shares of a combustion, at whatever load: something else does not fit.
 _LEAST, _GREATEST = -0.25, 4.0
@@ -107,7 +107,7 @@ class RecordDiagnosis:
             worst = float(self.found.factor[np.argmax(np.abs(self.found.factor - 1))])
             listed.append(
                 f"A factor of {worst:.3g} is no share of a combustion: look at the disc, at the angle 0 of "
-                "the record and the turn in which it lies, and at the train."
+                "the record and the revolution in which it lies, and at the train."
             )
         elif abs(mean - 1) > _OTHER_LOAD:
             listed.append(
@@ -143,7 +143,7 @@ def record_diagnosis(
         Standard deviation of a sample; without it, estimated from what the cylinders leave over [rad/s].
     zero : int, optional
         Number of the cylinder at whose firing dead centre the angle is 0. Without it, throw 1 points to the
-        vertical there, in the turn in which the first cylinder of the firing order fires.
+        vertical there, in the revolution in which the first cylinder of the firing order fires.
     rigid : bool
         Whether the train is taken as rigid, to see what that costs.
 
@@ -163,7 +163,7 @@ def record_diagnosis(
     if record.mean <= 0:
         raise InputError(f"a mean speed of {record.mean:.6g} rad/s: expected more than 0")
     crank = record.mean / _turning(machine, disc)
-    orders = record.orders(excited(machine, np.array([crank])).torques.orders)
+    orders = record.orders(excited_train(machine, np.array([crank])).torques.orders)
     measured = record.harmonics(disc, orders, noise)
     return RecordDiagnosis(disc, crank, len(orders), engine_diagnosis(machine, measured, crank, rigid=rigid))
 

@@ -51,12 +51,12 @@ class RecordedSpeed:
         Parameters
         ----------
         orders : ndarray, shape (orders,)
-            Waves a turn.
+            Cycles per revolution.
 
         Returns
         -------
         ndarray
-            Orders that repeat in the turns of the record, with more than two samples a wave.
+            Orders that repeat in the revolutions of the record, with more than two samples a wave.
         """
         waves = orders * self.turns
         whole = np.abs(waves - np.rint(waves)) <= 1e-9 * np.maximum(waves, 1.0)

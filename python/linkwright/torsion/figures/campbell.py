@@ -23,7 +23,7 @@ _RPM = 30 / math.pi
 # Areas of the points [pt²]: without severity, and of the most severe.
 _PLAIN, _LARGEST = 14.0, 150.0
 
-# Critical speeds that are told beside their points.
+# Critical speeds that are reported beside their points.
 _TOLD = 6
 
 # Width and height of the words beside a point, as shares of the picture.

@@ -59,7 +59,7 @@ def _manoeuvre(moved: TorsionTransient) -> Iterator[Captioned]:
     """Speeds and torques over time, and what orders they hold."""
     caption = "Speeds of discs and torques of the shafts that swing most; marked are their extremes."
     yield Captioned("transient", "Manoeuvre", caption, transient_figure(moved))
-    # Orders are told by turns: while the first disc stands there are none.
+    # Orders are found by revolutions: while the first disc stands there are none.
     turning = moved.speed[0] > _TURNING * moved.speed[0].max()
     first = int(np.argmax(turning))
     angle = moved.angle[0, first:]
@@ -82,12 +82,12 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
         caption = "Natural frequencies over the speed, rays of the orders, and where they meet."
         yield Captioned("campbell", "Critical speeds", caption, campbell_figure(study.campbell))
     if forced.shafts:
-        caption = "Half of greatest less least torque, all orders in phase."
+        caption = "Half the peak-to-peak torque, all orders in phase."
         yield Captioned("torques", "Torque of the shafts", caption, shaft_torques_figure(forced))
     if study.stress is not None:
-        caption = "Vibratory shear stress with its concentration; dashed what the shaft bears."
+        caption = "Vibratory shear stress with its concentration; dashed: permitted."
         barred = () if study.verdict is None else study.verdict.barred
-        caption += " Shaded are speeds to be barred." if barred else ""
+        caption += " Shaded are barred speed ranges." if barred else ""
         yield Captioned("stress", "Stress of the shafts", caption, stress_figure(study.stress, barred))
     if forced.shafts:
         yield _of_the_worst_shaft(study, forced)
@@ -98,7 +98,7 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
         "phase, so they do not add up."
     )
     figure = torsion_unevenness_figure(forced, in_a_row(forced.discs, study.free.joined), shown)
-    yield Captioned("unevenness", "Unevenness of rotation", caption, figure)
+    yield Captioned("unevenness", "Speed fluctuation", caption, figure)
     parts = _heated(study, forced)
     if parts:
         yield Captioned("heat", "Heat", "Mean power that damping turns to heat.", heat_figure(forced, parts))
@@ -145,7 +145,7 @@ def _of_the_freest_disc(forced: ForcedVibration) -> Captioned:
     single, total = angular_deflection(forced, name)
     figure = orders_figure(forced, single, total, "angle [°]", 180 / math.pi)
     caption = (
-        "Vibration beside the steady turning: amplitude of each order, and half the span of all in phase."
+        "Vibration superposed on steady rotation: amplitude of each order, and half the span of all in phase."
     )
     return Captioned("amplitude", f"Amplitude of {name}", caption, figure)
 

@@ -1,4 +1,4 @@
-"""Forced vibration of a train over its speeds: torques, stresses, amplitudes, unevenness, heat."""
+"""Forced vibration of a train over its speeds: torques, stresses, amplitudes, speed fluctuation, heat."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-# Lines that can be told apart in one panel.
+# Lines that can be distinguished in one panel.
 _LINES_MAX = len(LINES)
 
 _HEIGHT = 2.7
@@ -86,7 +86,7 @@ def stress_figure(stress: ShaftStress, barred: Sequence[BarredRange] = ()) -> Fi
     stress : ShaftStress
         What to draw.
     barred : sequence of BarredRange
-        Speeds to be barred, which are shaded.
+        Barred speed ranges, which are shaded.
 
     Returns
     -------
@@ -171,7 +171,7 @@ def orders_figure(
 
 @styled
 def torsion_unevenness_figure(found: ForcedVibration, row: list[int], speed: float) -> Figure:
-    """Draw the unevenness of rotation along the train, and over the speed.
+    """Draw the speed fluctuation along the train, and over the speed.
 
     Parameters
     ----------
@@ -192,7 +192,7 @@ def torsion_unevenness_figure(found: ForcedVibration, row: list[int], speed: flo
     x = np.arange(len(found.discs))
     parts = (
         (found.unevenness, "in all", BLUE),
-        (found.unevenness_rigid, "train as a whole", ORANGE),
+        (found.unevenness_rigid, "rigid-body rotation", ORANGE),
         (found.unevenness_torsional, "torsional part", SKY),
     )
     for n, (values, words, colour) in enumerate(parts):
@@ -206,8 +206,8 @@ def torsion_unevenness_figure(found: ForcedVibration, row: list[int], speed: flo
     for d, colour in zip(shown, (BLUE, RED, LINES[2]), strict=False):
         over.plot(_rpm(found.speeds), found.unevenness[d], color=colour, label=found.discs[d])
     rigid = found.unevenness_rigid[0]
-    over.plot(_rpm(found.speeds), rigid, color=SOFT, linestyle=(0, (5, 3)), label="train as a whole")
-    _over_speed(over, found.speeds, "unevenness δ")
+    over.plot(_rpm(found.speeds), rigid, color=SOFT, linestyle=(0, (5, 3)), label="rigid-body rotation")
+    _over_speed(over, found.speeds, "speed fluctuation δ")
     over.set_xlabel("speed of the first disc [rpm]")
     legend_above(over)
     return figure

@@ -285,7 +285,7 @@ def _spanning(
 
 
 def _weights(root: str, below: Mapping[str, Sequence[_Edge]]) -> dict[str, int]:
-    """How many discs hang together behind each."""
+    """How many discs are connected behind each."""
     order = [root]
     for at in order:
         order += [edge.other for edge in below.get(at, ())]

@@ -182,7 +182,7 @@ def _loaded(found: TorsionTransient) -> list[int]:
 
 
 def _curve(axes: Axes, time: Floats, values: Floats, colour: str, label: str | None = None) -> None:
-    """A line; of more samples than the picture has columns, the band between least and largest of each."""
+    """A line; of more samples than the picture has columns, the band between minimum and largest of each."""
     fold = len(time) // _COLUMNS
     if fold < 4:
         axes.plot(time, values, color=colour, label=label, linewidth=1.1)

@@ -25,7 +25,7 @@ from linkwright.torsion.model.train_transient import TrainTransient
 
 Floats = NDArray[np.float64]
 
-# Angles of two turns at which mean torques are taken: some twenty a wave of order 24.
+# Angles of two revolutions at which mean torques are taken: some twenty a wave of order 24.
 _MEAN_ANGLES = 1024
 
 # Speeds over that given, between which a steady one is sought, how many, and halvings: to rounding.
@@ -36,7 +36,7 @@ _ROUNDING = 1e-12
 
 
 def mean_torques(train: MovingTrain, speed: float, angle: float = 0.0) -> Floats:
-    """Mean torque on each mass over two turns of the first disc, without twist.
+    """Mean torque on each mass over two revolutions of the first disc, without twist.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def mean_torques(train: MovingTrain, speed: float, angle: float = 0.0) -> Floats
     speed : float
         Of its first disc [rad/s].
     angle : float
-        Of its first disc where the two turns begin [rad].
+        Of its first disc where the two revolutions begin [rad].
 
     Returns
     -------
@@ -144,7 +144,7 @@ def _with_combustion(
     if factor <= 0:
         told = f"no combustion balances the mean torques: {left:+.5g} N m are left over at the start"
         return found, manoeuvre.speed, told
-    told = f"combustion counts {factor:.5g} times at the start, as the loads ask for"
+    told = f"combustion was scaled by {factor:.5g} at the start so that the mean torques balance"
     return _scaled(found, [_burns(each) for each in found.torques], factor), manoeuvre.speed, told
 
 

@@ -4,8 +4,8 @@ In steady running mean torques and the mean acceleration of the whole balance on
 
 .. math:: \bar M_i(\theta) = \bar J_i\,\frac{\sum\bar M}{\sum\bar J}
 
-over two turns. The twists that do so are found by Newton's method, whatever the curves of couplings are.
-Without them a motion would begin with the shock of torques that set in at once.
+over two revolutions. The twists that do so are found by Newton's method, whatever the curves of couplings
+are. Without them a motion would begin with the shock of torques that set in at once.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from linkwright.torsion.core.transient import MovingTrain
 
 Floats = NDArray[np.float64]
 
-# Angles of two turns: some twenty a wave of order 24.
+# Angles of two revolutions: some twenty a wave of order 24.
 _ANGLES = 1024
 
 # A time before the start [s]: laws over time are what they are there, and nothing has set in that begins
@@ -33,7 +33,8 @@ _STEPS = 60
 # closer a thousandfold in each step at the worst.
 _FLOOR = 1e-3
 
-# Share of the torques that may be left, and of the stiffest shaft's torque per angle: rounding of two turns.
+# Share of the torques that may be left, and of the stiffest shaft's torque per angle: rounding of two
+# revolutions.
 _LEFT, _ROUNDING = 1e-9, 1e-14
 
 

@@ -1,4 +1,4 @@
-r"""A drive line that moves in time: motor, shafts that twist, the mechanism with its inertia over the angle.
+r"""A driveline that moves in time: motor, shafts that twist, the mechanism with its inertia over the angle.
 
 The mechanism is the disc at the crank, with the reduced inertia J(φ) and the resistance of its loads,
 
@@ -44,7 +44,7 @@ _AT_REST = 1e-3
 
 
 def moving_drive(machine: Machine, manoeuvre: TrainTransient) -> tuple[MovingTrain, TrainTransient]:
-    """A drive line ready for a manoeuvre.
+    """A driveline ready for a manoeuvre.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def moving_drive(machine: Machine, manoeuvre: TrainTransient) -> tuple[MovingTra
 
 
 def _inertia(compiled: Compiled, crank: int) -> VariableInertia:
-    """Reduced inertia over the turn of the crank."""
+    """Reduced inertia over the revolution of the crank."""
     J, J_d1 = compiled.reductions(_turn())[:2]
     return variable_inertia(crank, J, J_d1)
 

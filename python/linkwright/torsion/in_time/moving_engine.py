@@ -31,7 +31,7 @@ Floats = NDArray[np.float64]
 # Name of what combustion adds in a cylinder, before its number.
 COMBUSTION = "combustion_"
 
-# Angles over a turn at which a throw is reduced: far beyond its harmonics.
+# Angles over one revolution at which a throw is reduced: far beyond its harmonics.
 _SAMPLES = 256
 
 

@@ -11,7 +11,14 @@ from linkwright.kernel.core.curve import Curve, odd, straight, switched
 from linkwright.kernel.core.periodic_table import PeriodicTable, waves
 from linkwright.kernel.errors import InputError, MachineError, Problem
 from linkwright.torsion.core.motor import motor_curve
-from linkwright.torsion.core.torque import Decaying, Following, OverSpeed, Power, TrainTorque, short_circuit
+from linkwright.torsion.core.torque import (
+    DecayingTorque,
+    GovernorTorque,
+    OverSpeed,
+    Power,
+    TrainTorque,
+    short_circuit,
+)
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.core.transient import MovingTrain, moving, viscous
 from linkwright.torsion.in_time.moving_engine import engine_motion_torques, throw_inertias
@@ -28,7 +35,7 @@ from linkwright.torsion.model.train_torques import Harmonic, LoadHarmonic, Train
 from linkwright.torsion.model.train_transient import TrainTransient, transient_faults
 from linkwright.torsion.model.whole_train import whole_train
 from linkwright.torsion.modes.free import lead_speeds
-from linkwright.torsion.response.excited import highest_order
+from linkwright.torsion.response.excited_train import highest_order
 
 Floats = NDArray[np.float64]
 
@@ -186,7 +193,7 @@ def _load(name: str, load: TrainLoad, manoeuvre: TrainTransient, on: int) -> Ite
 def _shapes(
     harmonics: Sequence[Harmonic] | Sequence[LoadHarmonic], mean: float
 ) -> list[tuple[PeriodicTable, float, float]]:
-    """Tables with pitch and phase: one for orders that repeat together within some turns, else one each."""
+    """Tables with pitch and phase: one for orders that repeat within some revolutions, else one each."""
     orders = np.array([each.order for each in harmonics])
     sizes = [each.torque if isinstance(each, Harmonic) else each.share for each in harmonics]
     phases = [each.phase for each in harmonics]
@@ -208,12 +215,12 @@ def _events(manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainT
         match event:
             case TorqueStep():
                 # A sine that neither swings nor decays is a constant.
-                law = Decaying(event.time, event.end, 0.0, 0.0, np.pi / 2)
+                law = DecayingTorque(event.time, event.end, 0.0, 0.0, np.pi / 2)
                 yield TrainTorque(name, place[event.on], event.torque, law)
             case TorqueCourse():
                 yield TrainTorque(name, place[event.on], weight=straight(event.times, event.torque))
             case SpeedCourse():
-                lead = Following(event.gain, straight(event.times, event.speed))
+                lead = GovernorTorque(event.gain, straight(event.times, event.speed))
                 yield TrainTorque(name, place[event.on], 1.0, lead)
             case ShortCircuit():
                 yield from short_circuit(

@@ -27,7 +27,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-from linkwright.torsion.core.transient import Moved, MovingTrain
+from linkwright.torsion.core.transient import MovingTrain, TrainMotion
 from linkwright.torsion.in_time.balanced_start import balanced_start
 from linkwright.torsion.in_time.loaded_start import loaded_angles
 from linkwright.torsion.in_time.moving_drive import moving_drive
@@ -37,7 +37,7 @@ from linkwright.torsion.model.train_transient import TrainTransient
 
 Floats = NDArray[np.float64]
 
-# Samples of a motion where nothing is said, and their greatest distance [s]: order 24 at 2500 rpm is a
+# Samples of a motion where nothing is said, and their maximum distance [s]: order 24 at 2500 rpm is a
 # kilohertz.
 _SAMPLES = 4000
 _SAMPLE_TIME = 5e-4
@@ -73,7 +73,7 @@ class TorsionTransient(Result):
     torque_max: Annotated[
         Floats,
         Shown(
-            "greatest torque in each shaft",
+            "maximum torque in each shaft",
             "M_max",
             "N m",
             "Of the whole motion, between the samples as well.",
@@ -82,12 +82,12 @@ class TorsionTransient(Result):
         ),
     ]
     torque_max_time: Annotated[
-        Floats, Shown("time of the greatest torque", "", "s", shape="(shafts,)", over="torque_max_time")
+        Floats, Shown("time of the maximum torque", "", "s", shape="(shafts,)", over="torque_max_time")
     ]
     torque_min: Annotated[
         Floats,
         Shown(
-            "least torque in each shaft",
+            "minimum torque in each shaft",
             "M_min",
             "N m",
             "Of the whole motion, between the samples as well.",
@@ -96,12 +96,12 @@ class TorsionTransient(Result):
         ),
     ]
     torque_min_time: Annotated[
-        Floats, Shown("time of the least torque", "", "s", shape="(shafts,)", over="torque_min_time")
+        Floats, Shown("time of the minimum torque", "", "s", shape="(shafts,)", over="torque_min_time")
     ]
     speed_max: Annotated[
         Floats,
         Shown(
-            "greatest speed of each disc",
+            "maximum speed of each disc",
             "ω_max",
             "rad/s",
             "Of the whole motion, between the samples as well.",
@@ -110,12 +110,12 @@ class TorsionTransient(Result):
         ),
     ]
     speed_max_time: Annotated[
-        Floats, Shown("time of the greatest speed", "", "s", shape="(discs,)", over="speed_max_time")
+        Floats, Shown("time of the maximum speed", "", "s", shape="(discs,)", over="speed_max_time")
     ]
     speed_min: Annotated[
         Floats,
         Shown(
-            "least speed of each disc",
+            "minimum speed of each disc",
             "ω_min",
             "rad/s",
             "Of the whole motion, between the samples as well.",
@@ -124,7 +124,7 @@ class TorsionTransient(Result):
         ),
     ]
     speed_min_time: Annotated[
-        Floats, Shown("time of the least speed", "", "s", shape="(discs,)", over="speed_min_time")
+        Floats, Shown("time of the minimum speed", "", "s", shape="(discs,)", over="speed_min_time")
     ]
     work: Annotated[dict[str, float], About("Work of each torque from outside [J].")]
     loss: Annotated[
@@ -186,10 +186,10 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
     Parameters
     ----------
     machine : Machine
-        With a [train], or with a drive line that twists.
+        With a [train], or with a torsionally flexible driveline.
     manoeuvre : TrainTransient, optional
-        Without it, that of the file, [train.transient]; a drive line needs one. Speeds are those of the first
-        disc, of a drive line those of the motor.
+        Without it, that of the file, [train.transient]; a driveline needs one. Speeds are those of the first
+        disc, of a driveline those of the motor.
 
     Returns
     -------
@@ -201,7 +201,7 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
     InputError
         There is no train, or no manoeuvre, or it does not fit the train.
     AssemblyError
-        The mechanism behind the drive line does not close all round.
+        The mechanism behind the driveline does not close all round.
     ConvergenceError
         The accuracy cannot be kept, or needs too many steps.
     """
@@ -320,7 +320,7 @@ def _require(duration: float, accuracy: float, sample_time: float | None, settle
 
 
 def _require_inertia(train: MovingTrain) -> None:
-    """Refuse masses whose inertia is not positive all over the turn."""
+    """Refuse masses whose inertia is not positive all over the revolution."""
     least = np.array(train.inertia, dtype=float)
     for each in train.inertias:
         least[each.on] += each.table.value.min()
@@ -329,7 +329,7 @@ def _require_inertia(train: MovingTrain) -> None:
     for mass in np.flatnonzero(~(J > 0)):
         names = [name for name, of in zip(train.discs, train.mass, strict=True) if of == mass]
         raise InputError(
-            f"inertia of {' with '.join(names)}: found {J[mass]:g} kg m² at its least, expected more than 0"
+            f"inertia of {' with '.join(names)}: found {J[mass]:g} kg m² at its minimum, expected more than 0"
         )
 
 
@@ -377,7 +377,7 @@ def _fastest_disc(train: MovingTrain) -> str:
     return train.discs[int(np.flatnonzero(train.mass == fastest)[0])]
 
 
-def _result(train: MovingTrain, times: Floats, moved: Moved) -> TorsionTransient:
+def _result(train: MovingTrain, times: Floats, moved: TrainMotion) -> TorsionTransient:
     """The motion in terms of discs."""
     n, m = train.speed, len(train.shafts)
     of_shafts, of_masses = moved.extremes[:m].T, moved.extremes[m:][train.mass].T
@@ -413,7 +413,7 @@ def _named(word: str) -> tuple[str, str, str, str]:
     return f"{word}_max", f"{word}_max_time", f"{word}_min", f"{word}_min_time"
 
 
-def _energy(train: MovingTrain, moved: Moved) -> tuple[dict[str, float], dict[str, float], float]:
+def _energy(train: MovingTrain, moved: TrainMotion) -> tuple[dict[str, float], dict[str, float], float]:
     """Work of each torque, losses, and what is left of the balance."""
     k, m = len(train.torques), len(train.shafts)
     work: dict[str, float] = {}

@@ -1,9 +1,9 @@
 r"""Amplitudes over speed and order: the short-time Fourier transform of a motion over the angle of one of
 its discs.
 
-A motion that speeds up is no periodic one, but over a few turns it nearly is. A window of N turns slides
-over it, and in each the signal x is taken over the angle φ of the disc, not over time, so that orders stay
-where they are while the speed changes,
+A motion that speeds up is no periodic one, but over a few revolutions it nearly is. A window of N revolutions
+slides over it, and in each the signal x is taken over the angle φ of the disc, not over time, so that orders
+stay where they are while the speed changes,
 
 .. math:: A_\nu = \frac{2}{\int w\,d\varphi} \left|\int w(\varphi)\,\bigl(x - \bar
 x\bigr)\,e^{-i\nu\varphi}\,d\varphi\right|
@@ -47,12 +47,14 @@ class Waterfall(Result):
 
     time: Annotated[Floats, Shown("time", "t", "s", "In the middle of each window.", shape="(windows,)")]
     speed: Annotated[Floats, Shown("mean speed of the disc", "ω", "rad/s", "In each window.")]
-    orders: Annotated[Floats, Shown("waves in a turn of the disc", "ν", "", shape="(orders,)", over="orders")]
+    orders: Annotated[
+        Floats, Shown("excitation order of the disc", "ν", "", shape="(orders,)", over="orders")
+    ]
     amplitudes: Annotated[
         Floats,
         Shown("amplitude of each order", "", "", "In the unit of the signal.", shape="(windows, orders)"),
     ]
-    turns: Annotated[int, Shown("turns of a window", "", "")]
+    turns: Annotated[int, Shown("revolutions of a window", "", "")]
 
     def order(self, wanted: float) -> Floats:
         """Amplitudes of one order over the windows.
@@ -60,7 +62,7 @@ class Waterfall(Result):
         Parameters
         ----------
         wanted : float
-            Waves a turn; the nearest order is taken.
+            Cycles per revolution; the nearest order is taken.
 
         Returns
         -------
@@ -151,8 +153,10 @@ def _require(t: Floats, phi: Floats, x: Floats, highest: float, step: float, tur
         )
     if phi[-1] - phi[0] < 2 * np.pi * turns:
         done = (phi[-1] - phi[0]) / (2 * np.pi)
-        raise InputError(f"turns: found a motion of {done:.4g} turns, expected {turns} or more for a window")
-    # Four samples a wave are the least from which a cubic finds its amplitude to a few per cent.
+        raise InputError(
+            f"turns: found a motion of {done:.4g} revolutions, expected {turns} or more for a window"
+        )
+    # Four samples a wave are the minimum from which a cubic finds its amplitude to a few per cent.
     if advance.max() * highest > 0.5 * np.pi:
         most = 0.5 * np.pi / advance.max()
         raise InputError(

@@ -51,7 +51,7 @@ class BarredRange(Result):
     speed_min: Annotated[
         float,
         Shown(
-            "least speed at which the stress is too large",
+            "minimum speed at which the stress is too large",
             "ω_min",
             "rad/s",
             "Above what is permitted in continuous operation.",
@@ -60,7 +60,7 @@ class BarredRange(Result):
     speed_max: Annotated[
         float,
         Shown(
-            "greatest speed at which the stress is too large",
+            "maximum speed at which the stress is too large",
             "ω_max",
             "rad/s",
             "Above what is permitted in continuous operation.",
@@ -101,7 +101,7 @@ class BarredRange(Result):
     class_min: Annotated[
         float | None,
         Shown(
-            "least speed that is barred by the societies' formula",
+            "minimum speed that is barred by the societies' formula",
             "",
             "rad/s",
             "About all peaks in the range.",
@@ -110,7 +110,7 @@ class BarredRange(Result):
     class_max: Annotated[
         float | None,
         Shown(
-            "greatest speed that is barred by the societies' formula",
+            "maximum speed that is barred by the societies' formula",
             "",
             "rad/s",
             "About all peaks in the range.",
@@ -119,7 +119,7 @@ class BarredRange(Result):
     service_speed: Annotated[float, Shown("service speed", "", "rad/s", "That λ = 1 stands for.")]
     ratio_permitted: Annotated[
         float | None,
-        Shown("greatest speed ratio that the rule lets be barred", "λ", "", "None without a rule."),
+        Shown("maximum speed ratio that the rule lets be barred", "λ", "", "None without a rule."),
     ]
 
     @property
@@ -137,7 +137,7 @@ class BarredRange(Result):
 
     @property
     def barred(self) -> tuple[float, float]:
-        """Speeds to be barred: those of too much stress, and those of the formula [rad/s]."""
+        """Barred speed ranges: those of too much stress, and those of the formula [rad/s]."""
         low = self.speed_min if self.class_min is None else min(self.speed_min, self.class_min)
         high = self.speed_max if self.class_max is None else max(self.speed_max, self.class_max)
         return low, high
@@ -197,7 +197,7 @@ def surveyed_ranges(seen: Survey) -> tuple[BarredRange, ...]:
 
 
 def together(ranges: Iterable[BarredRange]) -> list[tuple[float, float]]:
-    """Speeds to be barred for all shafts, ranges that meet taken as one.
+    """Barred speed ranges for all shafts, ranges that meet taken as one.
 
     Parameters
     ----------

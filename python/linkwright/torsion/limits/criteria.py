@@ -2,7 +2,7 @@
 
 | part | what | permitted by |
 | --- | --- | --- |
-| shaft | vibratory stress, continuous and in transient passage, greatest stress, torques | its `limit` |
+| shaft | vibratory stress, continuous and in transient passage, maximum stress, torques | its `limit` |
 | coupling | torque, vibratory torque, heat | its own entries |
 | damper | heat | `heat_permitted` |
 | gear stage | drop of the torque below its mean | the mean: beyond it teeth part |
@@ -22,10 +22,10 @@ from linkwright.torsion.model.coupling import Coupling
 from linkwright.torsion.model.damper import Damper
 from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.model.train import Shaft, Train
-from linkwright.torsion.response.carried import Carried
-from linkwright.torsion.response.excited import Excited
+from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
 from linkwright.torsion.response.stress import ShaftStress, shaft_stress
+from linkwright.torsion.response.torsion_response import TorsionResponse
 
 Floats = NDArray[np.float64]
 
@@ -66,16 +66,18 @@ class Criterion(NamedTuple):
         return np.where(np.isnan(self.permitted), 0.0, ratio)
 
 
-def criteria(machine: Machine, at: Excited, found: Carried, service: float | None = None) -> list[Criterion]:
+def criteria(
+    machine: Machine, at: ExcitedTrain, found: TorsionResponse, service: float | None = None
+) -> list[Criterion]:
     """All that limits of a train ask for.
 
     Parameters
     ----------
     machine : Machine
         With a train that something excites.
-    at : Excited
+    at : ExcitedTrain
         The train under its torques, at some speeds.
-    found : Carried
+    found : TorsionResponse
         What its shafts carry there.
     service : float, optional
         Speed of the first disc that λ = 1 stands for, as of `service_speed` [rad/s].
@@ -103,10 +105,10 @@ def _stresses(stress: ShaftStress, shafts: dict[str, Shaft]) -> Iterator[Criteri
             yield Criterion(name, PASSING_STRESS, PRESSURE, vibratory, stress.transient[row])
         if limit.stress_greatest is not None:
             permitted = np.full(len(stress.speeds), limit.stress_greatest)
-            yield Criterion(name, "greatest stress", PRESSURE, stress.greatest[row], permitted)
+            yield Criterion(name, "maximum stress", PRESSURE, stress.greatest[row], permitted)
 
 
-def _torques(train: Train | None, shafts: dict[str, Shaft], found: Carried) -> Iterator[Criterion]:
+def _torques(train: Train | None, shafts: dict[str, Shaft], found: TorsionResponse) -> Iterator[Criterion]:
     """Of shafts and couplings."""
     limits = {name: shaft.limit for name, shaft in shafts.items() if shaft.limit is not None}
     bearing: dict[str, ShaftLimit | Coupling] = {**limits, **(train.couplings if train else {})}
@@ -120,7 +122,7 @@ def _torques(train: Train | None, shafts: dict[str, Shaft], found: Carried) -> I
                 yield Criterion(name, what, TORQUE, torque[row], np.full(len(found.speeds), permitted))
 
 
-def _heats(train: Train | None, found: Carried) -> Iterator[Criterion]:
+def _heats(train: Train | None, found: TorsionResponse) -> Iterator[Criterion]:
     """Of couplings and dampers."""
     heated: dict[str, Coupling | Damper] = {**train.couplings, **train.dampers} if train else {}
     for name, each in heated.items():

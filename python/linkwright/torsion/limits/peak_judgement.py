@@ -4,10 +4,11 @@ r"""Whether shafts and couplings bear a manoeuvre: largest torques and stresses 
 | --- | --- |
 | `torque_permitted` | largest torque either way |
 | `stress_greatest` | its stress |
-| vibratory stress in transient passage | half the peak-to-peak stress within two turns of the first disc |
+| vibratory stress in transient passage | half the peak-to-peak stress within two revolutions of disc 1 |
 
 Limits of continuous operation, vibratory torques and heat among them, are those of steady running and not
-judged here. Largest torques are exact between the samples; those within two turns are read from the samples.
+judged here. Largest torques are exact between the samples; those within two revolutions are read from the
+samples.
 """
 
 from __future__ import annotations
@@ -69,7 +70,7 @@ class PeakJudgement:
         """The judgement as a sentence."""
         scale, unit = (1e6, "MPa") if self.kind is PRESSURE else (1.0, self.kind.unit)
         found, permitted = self.found / scale, self.permitted / scale
-        verdict = "kept" if self.is_kept else "exceeded"
+        verdict = "within limit" if self.is_kept else "limit exceeded"
         return (
             f"{self.part}: {self.what} {found:.4g} {unit} in the manoeuvre at {self.time:.4g} s, permitted "
             f"{permitted:.4g} {unit}: {verdict}"
@@ -88,7 +89,7 @@ def judged(machine: Machine, moved: TorsionTransient) -> tuple[PeakJudgement, ..
     Parameters
     ----------
     machine : Machine
-        With a train, or a drive line that twists.
+        With a train, or a torsionally flexible driveline.
     moved : TorsionTransient
         The manoeuvre.
 
@@ -122,7 +123,7 @@ def _stresses(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgeme
         torque, time = _largest(moved, name)
         if limit.stress_greatest is not None:
             size = factor * torque
-            yield PeakJudgement(name, "greatest stress", PRESSURE, size, limit.stress_greatest, time)
+            yield PeakJudgement(name, "maximum stress", PRESSURE, size, limit.stress_greatest, time)
         times, speeds, swings = _swings(moved, name)
         service = service_speed(machine, np.abs(moved.speed[0]))
         permitted = limit.permitted_stress(speeds / service, section.diameter)[1]
@@ -143,9 +144,9 @@ def _largest(moved: TorsionTransient, name: str) -> tuple[float, float]:
 
 
 def _swings(moved: TorsionTransient, name: str) -> tuple[Floats, Floats, Floats]:
-    """Time, speed of the first disc and half of greatest less least torque, in turns that overlap."""
+    """Time, speed of the first disc and half the peak-to-peak torque, in revolutions that overlap."""
     torque, turned = moved.torque[moved.shafts.index(name)], np.abs(moved.angle[0] - moved.angle[0, 0])
-    # A disc that turns to and fro stays in its window.
+    # A disc that turns back and forth stays in its window.
     turned = np.maximum.accumulate(turned)
     starts = np.arange(0.0, max(turned[-1] - _WINDOW, 0.0) + 1e-9, 0.5 * _WINDOW)
     first = np.searchsorted(turned, starts)

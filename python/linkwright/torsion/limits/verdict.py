@@ -77,10 +77,10 @@ class Judgement:
         text += f", permitted {_shown(self.permitted, self.kind)}"
         listed = ", ".join(f"{_rpm(low)} to {_rpm(high)}" for low, high in self.ranges)
         if self.state == "ok":
-            return f"{text}: kept"
+            return f"{text}: within limit"
         if self.state == "bar":
-            return f"{text}: bar {listed}, pass quickly"
-        return f"{text}: exceeded from {listed}" + (f"; {self.reason}" if self.reason else "")
+            return f"{text}: barred speed range {listed}, pass quickly"
+        return f"{text}: limit exceeded from {listed}" + (f"; {self.reason}" if self.reason else "")
 
 
 @dataclass(frozen=True)

@@ -5,11 +5,11 @@
 | `coupling` | An elastic coupling: linear, or with a torque that grows faster than the twist |
 | `crankshaft_limit` | Vibratory stress that the Korean Register permits in crankshafts of main engines |
 | `damper` | A torsional damper: a ring that turns with a disc, held by a fluid or by rubber |
-| `drive_train` | Gearbox, coupling, flywheel, brake; a drive line whose shafts twist, as a train |
+| `drive_train` | Gearbox, coupling, flywheel, brake; a driveline whose shafts twist, as a train |
 | `engine/` | Reciprocating engines: descriptions of their parts, and what follows from them in closed form |
 | `propulsion_shaft` | Vibratory stress that classification societies permit in propulsion shafts |
 | `shaft_flexibility` | Closed forms for the twist of cones |
-| `shaft_limit` | What a shaft bears: where its stress counts, and what is permitted there |
+| `shaft_limit` | The permitted stress of the shaft: where its stress counts, and what is permitted there |
 | `shaft_row` | Sections of a shaft in a row: their flexibilities with those of the steps between them |
 | `shaft_section` | Sections of a shaft |
 | `shaft_step` | What a step of a shaft adds to its thinner side |

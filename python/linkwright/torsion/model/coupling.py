@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, not_rising
 from linkwright.kernel.numerics.roots import zeros
 from linkwright.kernel.units import POWER, Angles, Torques, positive
@@ -23,7 +23,7 @@ from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveSti
 Floats = NDArray[np.float64]
 
 
-class Coupling(Checked):
+class Coupling(CheckedDescription):
     """An elastic coupling between two discs."""
 
     between: tuple[str, str] = Field(description="The two discs that it joins.")

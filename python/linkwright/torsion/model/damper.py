@@ -13,12 +13,12 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import INERTIA, POWER, positive
 from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveStiffness
 
 
-class Damper(Checked):
+class Damper(CheckedDescription):
     """A damper on a disc: viscous (Lanchester, Houde), or tuned by a spring or rubber."""
 
     on: str = Field(description="The disc that it sits on; its housing counts with the disc.")

@@ -1,4 +1,4 @@
-r"""A drive line whose shafts twist, as a train.
+r"""A driveline whose shafts twist, as a train.
 
 Its stations stand in a row; what lies between two of them is rigid unless its stiffness is given:
 
@@ -32,7 +32,7 @@ from linkwright.torsion.model.train import GROUND, Disc, ElasticShaft, Shaft, Tr
 MOTOR, GEARBOX, WHEEL, CRANK = "motor", "gearbox", "wheel", "crank"
 MOTOR_SHAFT, GEARS, CRANKSHAFT = "motor_shaft", "gears", "crankshaft"
 
-# Entries that make a drive line elastic, as a message names them.
+# Entries that make a driveline elastic, as a message names them.
 STIFFNESS_KEYS = ("drive.motor_shaft.stiffness", "drive.gearbox.stiffness", "drive.crankshaft.stiffness")
 
 # What a disc without inertia lacks.
@@ -47,7 +47,7 @@ _REMEDY = "give it, however small, or leave out the stiffness of one of the two 
 
 
 def drive_train(drive: Drive, inertia: float) -> Train:
-    """Discs, shafts and gears of a drive line.
+    """Discs, shafts and gears of a driveline.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def station_inertias(drive: Drive, inertia: float) -> dict[str, float]:
 
 
 def two_trains(machine: object) -> Iterator[InitErrorDetails]:
-    """The fault of a file that describes a train beside a drive line that twists.
+    """The fault of a file that describes a train beside a torsionally flexible driveline.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def two_trains(machine: object) -> Iterator[InitErrorDetails]:
         for key in place:
             node = look(node, key)
         if node is not None:
-            remedy = "describe the drive line in [train], or leave [train] out"
+            remedy = "describe the driveline in [train], or leave [train] out"
             yield fault("drive", *place, found="one beside [train]", expected="one train", remedy=remedy)
 
 
@@ -191,7 +191,7 @@ def _shafts(drive: Drive, at: dict[str, str]) -> dict[str, Shaft]:
 
 
 def _between(shaft: ElasticShaft, ends: tuple[str, str]) -> Shaft:
-    """A shaft of the drive line as one of a train."""
+    """A shaft of the driveline as one of a train."""
     entries = {name: getattr(shaft, name) for name in ElasticShaft.model_fields}
     return Shaft(between=ends, **entries)
 

@@ -6,9 +6,9 @@ With the tensile strength σ_B in N/mm², the outside diameter d in mm and λ th
 
 .. math:: C_\lambda = 3 - 2\lambda^2 \;(\lambda < 0.9), \qquad 1.38 \;(0.9 \le \lambda \le 1.05)
 
-are permitted in continuous operation, in N/mm², as amplitude of the nominal stress: half of greatest less
-least, in the plain section, without stress concentration. Where τ_C is exceeded, the speeds are barred and
-passed quickly, and the amplitude there must stay below
+are permitted in continuous operation, in N/mm², as amplitude of the nominal stress: half the
+peak-to-peak value, in the plain section, without stress concentration. Where τ_C is exceeded, the speeds are
+barred and passed quickly, and the amplitude there must stay below
 
 .. math:: \tau_T = 1.7\, \tau_C/\sqrt{C_K}
 
@@ -82,7 +82,7 @@ def counted_strength(tensile_strength: float, steel: Steel, design: Design) -> f
     Parameters
     ----------
     tensile_strength : float
-        Least that the material is specified to have [Pa].
+        Minimum that the material is specified to have [Pa].
     steel : {"carbon", "alloy"}
         Carbon and carbon-manganese steel, or alloy steel.
     design : str
@@ -155,7 +155,7 @@ def continuous_stress(strength: float, diameter: float, design_factor: float, sp
 
 
 def transient_stress(continuous: Floats, design_factor: float) -> Floats:
-    """τ_T, permitted while barred speeds are passed.
+    """τ_T, permitted while barred speed ranges are passed.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ def transient_stress(continuous: Floats, design_factor: float) -> Floats:
 
 
 def barred_speeds(critical_speed: float, rated_speed: float) -> tuple[float, float]:
-    """Speeds to be barred about a critical one by the formula.
+    """Barred speed ranges about a critical one by the formula.
 
     Parameters
     ----------

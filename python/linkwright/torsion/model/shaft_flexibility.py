@@ -4,8 +4,9 @@ A solid cone from $d_1$ to $d_2$ has
 
 .. math:: \int_0^L \frac{dx}{I_p} = \frac{32 L}{3 \pi} \, \frac{d_1^2 + d_1 d_2 + d_2^2}{d_1^3 d_2^3}
 
-Sections are taken to stay plane and to turn as a whole. Föppl's exact solution of the cone, whose surfaces of
-equal twist are spheres, is more flexible by 0.5 % at a half angle of 10°, 2.1 % at 20°, 5.2 % at 30°.
+Sections are taken to stay plane and to rotate as a rigid body. Föppl's exact solution of the cone, whose
+surfaces of equal twist are spheres, is more flexible by 0.5 % at a half angle of 10°, 2.1 % at 20°, 5.2 % at
+30°.
 
 References
 ----------

@@ -1,4 +1,4 @@
-"""What a shaft bears: where its stress counts, and what is permitted there.
+"""The permitted stress of the shaft: where its stress counts, and what is permitted there.
 
 | kind | vibratory stress permitted |
 | --- | --- |
@@ -6,7 +6,7 @@
 | `iacs_m68` | propulsion shafts of ships: IACS UR M68 (`propulsion_shaft`) |
 | `kr_crankshaft` | crankshafts of main engines: Korean Register (`crankshaft_limit`) |
 
-Torques and the greatest stress, mean and vibration together, may be limited with each kind.
+Torques and the maximum stress, mean and vibration together, may be limited with each kind.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import FRACTION, PRESSURE, RATIO, SECTION_MODULUS, Quantity, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.torsion.model import propulsion_shaft
@@ -70,8 +70,8 @@ class StressedSection(NamedTuple):
     diameter: float | None
 
 
-class ShaftLimit(Checked):
-    """What a shaft bears."""
+class ShaftLimit(CheckedDescription):
+    """The permitted stress of the shaft."""
 
     kind: Kind = Field("given", description="Where the permitted vibratory stress comes from.")
     diameter: PositiveLength | None = Field(
@@ -82,13 +82,13 @@ class ShaftLimit(Checked):
         None, description="Torque per stress there, in place of the diameter."
     )
     stress_concentration: Annotated[float, positive(RATIO)] | None = Field(
-        None, description="Greatest over nominal stress, which the stresses given hold for. Without it, 1."
+        None, description="Maximum over nominal stress, which the stresses given hold for. Without it, 1."
     )
     stress_permitted: Stress | None = Field(
         None, description="Amplitude of the shear stress in continuous operation."
     )
     stress_transient: Stress | None = Field(
-        None, description="The same, while barred speeds are passed quickly."
+        None, description="The same, while barred speed ranges are passed quickly."
     )
     stress_greatest: Stress | None = Field(None, description="Shear stress of mean and vibration together.")
     torque_permitted: PositiveTorque | None = Field(None, description="Mean and vibratory torque together.")
@@ -116,7 +116,7 @@ class ShaftLimit(Checked):
         if self.kind == "iacs_m68" and self.tensile_strength is None:
             yield fault("tensile_strength", expected="the tensile strength of the steel, for IACS UR M68")
         if self.tensile_strength is not None and self.tensile_strength < STRENGTH_MIN:
-            expected = "at least 400 MPa, the least for which the rules are made"
+            expected = "at least 400 MPa, the minimum for which the rules are made"
             yield fault("tensile_strength", found=self.tensile_strength, expected=expected)
         if self.design is not None and self.design_factor is not None:
             yield fault("design_factor", found=self.design_factor, expected="either design or design_factor")
@@ -162,7 +162,7 @@ class ShaftLimit(Checked):
 
     @property
     def concentration(self) -> float:
-        """Greatest over nominal stress."""
+        """Maximum over nominal stress."""
         return 1.0 if self.stress_concentration is None else self.stress_concentration
 
     @property

@@ -41,7 +41,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import (
     DENSITY,
     FRACTION,
@@ -80,7 +80,7 @@ _KEYS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 _FURTHER = tuple(dict.fromkeys(key for pair in _KEYS.values() for keys in pair for key in keys))
 
 
-class ShaftSection(Checked):
+class ShaftSection(CheckedDescription):
     """A length of a shaft: a cylinder, solid or hollow, or another kind."""
 
     kind: Kind = Field("cylinder", description="What it is.")

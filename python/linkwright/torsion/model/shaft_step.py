@@ -1,4 +1,4 @@
-r"""What a step of a shaft adds to its thinner side: the thicker one does not turn as a whole at the step.
+r"""What a step of a shaft adds to its thinner side: the thicker one is not rigid at the step.
 
 The torque enters the middle of the thicker side, which yields there. This counts as a further length λd of
 the thinner side, which is measured up to the shoulder. With D/d the ratio of the diameters, r the radius of

@@ -22,7 +22,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, Description, Name, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, Name, fault
 from linkwright.kernel.units import INERTIA, positive
 from linkwright.linkages.model.element import PositiveNumber
 from linkwright.torsion.model.coupling import Coupling
@@ -48,7 +48,7 @@ class Disc(Description):
     )
 
 
-class ElasticShaft(Checked):
+class ElasticShaft(CheckedDescription):
     """What makes a shaft twist: its stiffness, or its sections."""
 
     stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
@@ -113,7 +113,7 @@ class Shaft(ElasticShaft):
             yield fault("density", found=self.density, expected=expected, remedy="leave density out")
 
 
-class TrainGear(Checked):
+class TrainGear(CheckedDescription):
     """A gear stage between two discs, rigid, or elastic in its mesh."""
 
     between: tuple[str, str] = Field(description="The two discs that it joins.")
@@ -156,14 +156,14 @@ class TrainGear(Checked):
 class Train(Description):
     """Discs, shafts and gear stages by name, what damps them and what excites them."""
 
-    discs: dict[Name, Disc] = Field(default_factory=dict, description="What turns, by name.")
-    shafts: dict[Name, Shaft] = Field(default_factory=dict, description="What twists, by name.")
+    discs: dict[Name, Disc] = Field(default_factory=dict, description="Rotating discs, by name.")
+    shafts: dict[Name, Shaft] = Field(default_factory=dict, description="Shafts between them, by name.")
     gears: dict[Name, TrainGear] = Field(default_factory=dict, description="Gear stages by name.")
     couplings: dict[Name, Coupling] = Field(default_factory=dict, description="Elastic couplings by name.")
     dampers: dict[Name, Damper] = Field(default_factory=dict, description="Torsional dampers by name.")
     loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="What the train drives, by name.")
     excitations: dict[Name, Excitation] = Field(
-        default_factory=dict, description="Torques that pulsate, by name."
+        default_factory=dict, description="Pulsating torques, by name."
     )
     engine: ReciprocatingEngine | None = Field(
         None, description="Reciprocating engine, which stands for discs throw_1, throw_2, … and their shafts."

@@ -20,7 +20,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, Description, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.description.curve import curve_faults
 from linkwright.kernel.units import (
     RATIO,
@@ -40,7 +40,7 @@ Instants = Annotated[tuple[float, ...], QuantityList(TIME)]
 Share = Annotated[float, not_negative(RATIO)]
 
 
-class _Passing(Checked):
+class _Passing(CheckedDescription):
     """An event that may end."""
 
     time: Instant = Field(description="When it begins.")
@@ -98,7 +98,7 @@ class TorqueStep(_Passing):
     torque: Torque = Field(description="Positive if it drives.")
 
 
-class TorqueCourse(Checked):
+class TorqueCourse(CheckedDescription):
     """A torque on a disc over time."""
 
     kind: Literal["torque_course"]
@@ -110,7 +110,7 @@ class TorqueCourse(Checked):
         yield from curve_faults(self, "times", ("torque",))
 
 
-class SpeedCourse(Checked):
+class SpeedCourse(CheckedDescription):
     """A governor or test bench that leads the speed of a disc."""
 
     kind: Literal["speed_course"]

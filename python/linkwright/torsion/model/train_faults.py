@@ -1,4 +1,4 @@
-"""What is wrong with a train as a whole: names that mean nothing, parts that do not hang together, loops."""
+"""What is wrong with a train as a whole: names that mean nothing, unconnected parts, loops."""
 
 from __future__ import annotations
 
@@ -139,14 +139,14 @@ def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
 
 
 def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
-    """A train that falls apart; what hangs on the ground alone hangs together with nothing."""
+    """A train in unconnected parts; the ground alone connects nothing."""
     pairs = [(a, b) for table in _TABLES for _, (a, b) in _pairs(train, table) if GROUND not in (a, b)]
     pairs += pairwise(throw_names(_throws(train)))
     parts = parts_of(discs, pairs)
     if len(parts) > 1:
         found = "; ".join(_listed(part) for part in parts[:4]) + ("; …" if len(parts) > 4 else "")
         remedy = "join them by shafts, couplings or gears, or describe each as a train of its own file"
-        expected = "one train that hangs together"
+        expected = "one connected train"
         yield fault("train", found=f"{len(parts)} parts: {found}", expected=expected, remedy=remedy)
 
 

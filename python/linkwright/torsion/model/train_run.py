@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import COUNT, Bound, Quantity
 from linkwright.torsion.model.train_base import PositiveSpeed
 
@@ -26,7 +26,7 @@ _ORDER = Bound(
 Floats = NDArray[np.float64]
 
 
-class TrainRun(Checked):
+class TrainRun(CheckedDescription):
     """The range of speeds of the first disc, and how far orders count."""
 
     speed_min: PositiveSpeed = Field(description="Lowest speed of the first disc.")

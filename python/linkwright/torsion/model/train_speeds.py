@@ -87,7 +87,7 @@ def joints(train: Train) -> Iterator[Joint]:
 
 
 def speeds(train: Train) -> tuple[dict[str, float], list[Contradiction]]:
-    """Speeds of the discs when the train turns as a whole.
+    """Speeds of the discs when the train rotates as a rigid body.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ def speeds(train: Train) -> tuple[dict[str, float], list[Contradiction]]:
 
 
 def _spread(root: str, about: Mapping[str, list[tuple[str, float]]], found: dict[str, float]) -> None:
-    """Give speeds to all that hangs together with a disc."""
+    """Give speeds to all that is connected with a disc."""
     found[root] = 1.0
     waiting = [root]
     while waiting:

@@ -21,7 +21,7 @@ from typing import Annotated
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, Description, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.limits import HARMONICS, ORDER
 from linkwright.kernel.units import COUNT, RATIO, TORQUE, Angle, Bound, Quantity, not_negative
 from linkwright.torsion.model.train_base import PositiveSpeed, PositiveTorque
@@ -57,12 +57,12 @@ Order = Annotated[
 class LoadHarmonic(Description):
     """A pulsation of a load."""
 
-    order: Order = Field(description="Waves a turn of its disc; of a propeller, its blades.")
+    order: Order = Field(description="Cycles per revolution of its disc; of a propeller, its blades.")
     share: Annotated[float, not_negative(RATIO)] = Field(description="Amplitude over the mean torque.")
     phase: Angle = Field(0.0, description="β of the resistance cos(νφ + β), φ the angle of the disc.")
 
 
-class TrainLoad(Checked):
+class TrainLoad(CheckedDescription):
     """What a disc drives: a propeller, a pump, a generator, a brake."""
 
     on: str = Field(description="The disc that drives it.")
@@ -74,7 +74,7 @@ class TrainLoad(Checked):
     damping_factor: Annotated[float, not_negative(RATIO)] = Field(
         1.0, description="Damping of its vibration over the slope of its torque; propellers often 1 to 1.5."
     )
-    harmonics: tuple[LoadHarmonic, ...] = Field((), description="Pulsation over its turn.")
+    harmonics: tuple[LoadHarmonic, ...] = Field((), description="Pulsation over its revolution.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from _listed_twice([each.order for each in self.harmonics])
@@ -91,12 +91,12 @@ class TrainLoad(Checked):
 class Harmonic(Description):
     """One order of a pulsating torque."""
 
-    order: Order = Field(description="Waves a turn of its disc.")
+    order: Order = Field(description="Cycles per revolution of its disc.")
     torque: Annotated[float, not_negative(TORQUE)] = Field(description="Amplitude.")
     phase: Angle = Field(0.0, description="β of cos(νφ + β), φ the angle of the disc.")
 
 
-class Excitation(Checked):
+class Excitation(CheckedDescription):
     """A torque on a disc that pulsates with its angle."""
 
     on: str = Field(description="The disc that it acts on.")

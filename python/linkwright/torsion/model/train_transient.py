@@ -9,7 +9,14 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.drive.model.motor import ConstantTorqueMotor, DcMotor, InductionMotor, TableMotor
-from linkwright.kernel.description.base import Checked, Description, Name, close_match, fault, suggestion
+from linkwright.kernel.description.base import (
+    CheckedDescription,
+    Description,
+    Name,
+    close_match,
+    fault,
+    suggestion,
+)
 from linkwright.kernel.limits import SAMPLES
 from linkwright.kernel.units import SPEED, TIME, Angle, not_negative, positive
 from linkwright.torsion.model.train_base import PositiveSpeed
@@ -41,7 +48,7 @@ class TrainMotor(Description):
     on_at_start: bool = Field(True, description="Whether it drives from the start.")
 
 
-class TrainTransient(Checked):
+class TrainTransient(CheckedDescription):
     """A manoeuvre: start, stop, change of speed or load, short circuit."""
 
     duration: Annotated[float, positive(TIME)] = Field(description="Time that is followed.")

@@ -1,8 +1,9 @@
 """A train with all that stands for discs and shafts written out: engine, couplings, dampers, heavy shafts.
 
-An engine is a disc a throw, with the mean of its inertia over the turn, and shafts between them. A coupling
-is a shaft with the slope of its curve without torque; a damper is a disc, its ring, on a shaft without
-stiffness or with that of its spring. A shaft with a density gives its own inertia to the discs at its ends.
+An engine is a disc a throw, with the mean of its inertia over the revolution, and shafts between them. A
+coupling is a shaft with the slope of its curve without torque; a damper is a disc, its ring, on a shaft
+without stiffness or with that of its spring. A shaft with a density gives its own inertia to the discs at its
+ends.
 """
 
 from __future__ import annotations

@@ -71,7 +71,7 @@ class CriticalSpeed(NamedTuple):
     speed : float
         Of the first disc [rad/s].
     order : float
-        Waves a turn of the first disc.
+        Cycles per revolution of the first disc.
     mode : int
         Row of `FreeVibration`.
     frequency : float
@@ -119,7 +119,7 @@ class CampbellDiagram(Result):
         ),
     ]
     orders: Annotated[
-        Floats, Shown("waves in a turn of the first disc", "ν", "", shape="(orders,)", over="orders")
+        Floats, Shown("excitation order of the first disc", "ν", "", shape="(orders,)", over="orders")
     ]
     critical: Annotated[tuple[CriticalSpeed, ...], About("Critical speeds in the range, by speed.")]
 
@@ -156,7 +156,7 @@ def campbell(
     source : Machine or FreeVibration
         A machine with a train, or its free vibration.
     orders : sequence of float, optional
-        Waves a turn of the first disc; without them, those of the torques of the machine.
+        Cycles per revolution of the first disc; without them, those of the torques of the machine.
     speed_range : tuple of float, optional
         Lowest and highest speed of the first disc; without it, that of `[train.run]` [rad/s].
     excitation : ndarray of complex, shape (orders, discs), optional
@@ -299,7 +299,7 @@ def _peak(speed: float, ratio: float | None, growth: float) -> float | None:
         return None
     roots = np.roots([growth - 2, (growth - 1) * (4 * ratio**2 - 2), growth])
     real = roots.real[(roots.imag == 0) & (roots.real > 0)]
-    # Of two the one near the crossing is the peak, the other a least value.
+    # Of two the one near the crossing is the peak, the other a minimum value.
     return float(speed * math.sqrt(real[np.abs(real - 1).argmin()])) if len(real) else None
 
 

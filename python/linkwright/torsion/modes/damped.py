@@ -38,7 +38,7 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.modes.damped_modes import damped_modes
 from linkwright.torsion.modes.free import lead_speeds, train_of, twists_of
-from linkwright.torsion.response.excited import prepared
+from linkwright.torsion.response.excited_train import prepared
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -49,7 +49,7 @@ class DampedVibration(Result):
     """Free vibration of a train with damping, one row a mode.
 
     Modes come by their natural frequency: the motions as a whole first; then those that vibrate and, a row
-    each, motions that creep back without vibration.
+    each, overdamped (aperiodic) motions.
     """
 
     natural_frequencies: Annotated[
@@ -58,7 +58,7 @@ class DampedVibration(Result):
             "natural frequencies",
             "ω/2π",
             "Hz",
-            "Size of s over 2π; of a motion that creeps σ/2π.",
+            "Size of s over 2π; of an overdamped one σ/2π.",
             shape="(modes,)",
         ),
     ]

@@ -160,7 +160,7 @@ def free_vibration(machine: Machine) -> FreeVibration:
     InputError
         The machine has no train.
     AssemblyError
-        The mechanism behind the drive line does not close all round.
+        The mechanism behind the driveline does not close all round.
 
     References
     ----------
@@ -190,7 +190,7 @@ def free_vibration(machine: Machine) -> FreeVibration:
 
 
 def train_of(machine: Machine) -> Train:
-    """The train of a machine, as discs, shafts and gears: that of its file, or that of its drive line.
+    """The train of a machine, as discs, shafts and gears: that of its file, or that of its driveline.
 
     Parameters
     ----------
@@ -205,9 +205,9 @@ def train_of(machine: Machine) -> Train:
     Raises
     ------
     InputError
-        It has none, and its drive line does not twist.
+        It has none, and its driveline does not twist.
     AssemblyError
-        The mechanism behind the drive line does not close all round.
+        The mechanism behind the driveline does not close all round.
     """
     return whole_train(drive_line(machine) if machine.train is None else machine.train)
 

@@ -13,7 +13,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import ReferredTrain
 from linkwright.torsion.modes.free import FreeVibration, train_of
-from linkwright.torsion.response.excited import Excited, prepared
+from linkwright.torsion.response.excited_train import ExcitedTrain, prepared
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -123,7 +123,7 @@ class _Constant(ModesAt):
         )
 
     def orders(self, speeds: Floats) -> Floats:
-        raise InputError("orders: expected a list of orders, waves a turn of the first disc")
+        raise InputError("orders: expected a list of orders, cycles per revolution of the first disc")
 
     def torques(self, speeds: Floats, orders: Floats) -> Complexes | None:
         return None
@@ -135,7 +135,7 @@ class _OfMachine(ModesAt):
     def __init__(self, machine: Machine) -> None:
         self.machine = machine
         # At the speeds that were asked for last: frequencies, shapes and torques of the same follow.
-        self._last: Excited | None = None
+        self._last: ExcitedTrain | None = None
 
     @cached_property
     def _curved(self) -> bool:
@@ -164,7 +164,7 @@ class _OfMachine(ModesAt):
         omega, shapes, stiffness, ratios = (np.array(column) for column in zip(*each, strict=True))
         return Shapes(omega, shapes, stiffness, ratios)
 
-    def _shape(self, at: Excited, n: int, mode: int) -> tuple[float, Floats, float, float]:
+    def _shape(self, at: ExcitedTrain, n: int, mode: int) -> tuple[float, Floats, float, float]:
         """ω, θ, modal stiffness and ζ of a mode at a speed."""
         train = _train(at, at.operating.stiffness[:, n], at.operating.disc_damping[:, n])
         omega, masses = train.modes()
@@ -192,14 +192,14 @@ class _OfMachine(ModesAt):
             found[n] = torques.harmonics[same, :, n].sum(axis=0)
         return found
 
-    def _at(self, speeds: Floats) -> Excited:
+    def _at(self, speeds: Floats) -> ExcitedTrain:
         """The machine at some speeds."""
         if self._last is None or not np.array_equal(self._last.torques.speeds, speeds):
             self._last = prepared(self.machine, speeds)
         return self._last
 
 
-def _train(at: Excited, stiffness: Floats, damping: Floats | None = None) -> ReferredTrain:
+def _train(at: ExcitedTrain, stiffness: Floats, damping: Floats | None = None) -> ReferredTrain:
     """The train with the stiffness and damping that it has at a speed."""
     damping = at.referred.disc_damping if damping is None else damping
     return replace(at.referred, stiffness=np.ascontiguousarray(stiffness), disc_damping=damping)

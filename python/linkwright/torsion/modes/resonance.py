@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.torsion.response.excited import Excited
+from linkwright.torsion.response.excited_train import ExcitedTrain
 
 Floats = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ class Resonance(NamedTuple):
     speed : float
         Of the first disc [rad/s].
     order : float
-        Waves a turn of the first disc.
+        Cycles per revolution of the first disc.
     mode : int
         Of the natural frequencies in increasing order, from 0.
     """
@@ -34,12 +34,12 @@ class Resonance(NamedTuple):
     mode: int
 
 
-def resonances(at: Excited) -> tuple[Resonance, ...]:
+def resonances(at: ExcitedTrain) -> tuple[Resonance, ...]:
     """Resonances between the lowest and the highest speed, by speed.
 
     Parameters
     ----------
-    at : Excited
+    at : ExcitedTrain
         A train with the orders of its torques; natural frequencies are those of couplings under their mean
         torque.
 
@@ -58,7 +58,7 @@ def resonances(at: Excited) -> tuple[Resonance, ...]:
     return tuple(sorted(found))
 
 
-def _frequencies(at: Excited) -> Floats:
+def _frequencies(at: ExcitedTrain) -> Floats:
     """Natural frequencies above zero at every speed, (speeds, modes) [rad/s]."""
     # Rings in a fluid hang on nothing elastic: LAPACK takes what is no train in pieces.
     columns, place = np.unique(at.operating.stiffness, axis=1, return_inverse=True)

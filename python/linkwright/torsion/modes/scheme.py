@@ -126,7 +126,7 @@ def scheme(machine: Machine, *, diameter: float = 0.1) -> Scheme:
     InputError
         The machine has no train, or the diameter is not greater than 0.
     AssemblyError
-        The mechanism behind a drive line does not close all round.
+        The mechanism behind a driveline does not close all round.
     """
     in_range(diameter=(diameter, positive(LENGTH)))
     train = train_of(machine)

@@ -1,14 +1,14 @@
-"""Forced vibration: torques, amplitudes, stresses, unevenness over the speed.
+"""Forced vibration: torques, amplitudes, stresses, speed fluctuation over the speed.
 
 | module | |
 | --- | --- |
-| `carried` | What the shafts of a train carry as it vibrates: torque, its extremes over all orders, heat |
-| `drive_line` | The train of a drive line, and how its mechanism excites it |
+| `torsion_response` | Vibratory torques in the shafts of a train, their extremes over all orders, heat |
+| `drive_line` | The train of a driveline, and how its mechanism excites it |
 | `engine_data` | What an engine is in a train |
 | `engine_torques` | Torques of an engine on its throws: gas, inertia, weight |
-| `excited` | A train made ready for forced vibration: its torques, and what it is at each speed |
-| `forced` | Forced vibration of a train: amplitudes, shaft torques and unevenness at every speed |
-| `mechanism_torques` | What a mechanism does to its drive line |
+| `excited_train` | A train made ready for forced vibration: its torques, and what it is at each speed |
+| `forced` | Forced vibration of a train: amplitudes, shaft torques and speed fluctuation at every speed |
+| `mechanism_torques` | What a mechanism does to its driveline |
 | `mesh_torque` | Torque in the gear stages of a train, and where their teeth lose contact |
 | `peaks` | The largest torques of shafts over all speeds, also at resonances between the speeds of a run |
 | `stress` | Shear stress in the shafts of a train, and what is permitted there |

@@ -1,13 +1,13 @@
-r"""A drive line whose shafts twist: its train, and the torque of the mechanism that excites it.
+r"""A driveline whose shafts twist: its train, and the torque of the mechanism that excites it.
 
 In a train a mechanism is a disc, and what it asks of the crank at constant speed acts on that disc as a
-torque over the turn,
+torque over the revolution,
 
 .. math:: M(\varphi) = -M_r(\varphi, \omega) - \tfrac12 J'(\varphi)\,\omega^2
     = \operatorname{Re} \sum_\nu M_\nu e^{i\nu\varphi}, \qquad \varphi = \omega t
 
-The disc has the mean of the reduced inertia over the turn. This is the motion's linear part: what J(φ) − J̄
-does to the swinging itself is left out, and is small as long as either is small against its mean.
+The disc has the mean of the reduced inertia over the revolution. This is the motion's linear part: what J(φ)
+− J̄ does to the swinging itself is left out, and is small as long as either is small against its mean.
 
 Where torques follow the speed, they damp: :math:`c = -\partial M/\partial\omega`.
 
@@ -47,7 +47,7 @@ _STEP = 1e-5
 
 @public
 def drive_line(machine: Machine) -> Train:
-    """The train of a machine's drive line, from the motor to the crank.
+    """The train of a machine's driveline, from the motor to the crank.
 
     Parameters
     ----------
@@ -68,14 +68,14 @@ def drive_line(machine: Machine) -> Train:
     """
     if machine.drive is None or not machine.drive.twists:
         raise InputError(
-            f"{machine.name} has no [train], and its drive line does not twist: expected [train.discs] and "
+            f"{machine.name} has no [train], and its driveline does not twist: expected [train.discs] and "
             f"[train.shafts], or one of {', '.join(STIFFNESS_KEYS)}"
         )
     return drive_train(machine.drive, mean_inertia(machine))
 
 
 def mean_inertia(machine: Machine) -> float:
-    """Mean over the turn of the mechanism's reduced inertia, without that of the drive.
+    """Mean over the revolution of the mechanism's reduced inertia, without that of the drive.
 
     Parameters
     ----------
@@ -108,8 +108,8 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     speed : array_like, shape () or (speeds,)
         Of the crank [rad/s].
     orders : array_like, shape (n,)
-        Per turn of the crank, multiples of ½. Halves of a turn are not in a motion that repeats every turn:
-        their harmonics are zero.
+        Per revolution of the crank, multiples of ½. Halves of a revolution are not in a motion that repeats
+        every revolution: their harmonics are zero.
 
     Returns
     -------
@@ -121,7 +121,7 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     InputError
         An order is negative or no multiple of ½, or a speed is not positive.
     AssemblyError
-        The mechanism does not close all round, or does not repeat every turn.
+        The mechanism does not close all round, or does not repeat every revolution.
 
     Notes
     -----
@@ -150,9 +150,9 @@ def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
     Returns
     -------
     dict of str to ndarray, shape () or (speeds,)
-        −∂M/∂ω of ``"motor"`` at its own speed, and of ``"crank"``, mean over the turn [N m s/rad]. Negative
-        where a torque grows with the speed it drives. That of the motor holds the gearbox's efficiency, by
-        which its torque reaches the crank.
+        −∂M/∂ω of ``"motor"`` at its own speed, and of ``"crank"``, mean over the revolution [N m s/rad].
+        Negative where a torque grows with the speed it drives. That of the motor holds the gearbox's
+        efficiency, by which its torque reaches the crank.
 
     Raises
     ------
@@ -173,7 +173,7 @@ def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
 
 
 def mechanism_alone(machine: Machine) -> Compiled:
-    """The mechanism without its drive, if its turns can be told.
+    """The mechanism without its drive, if its revolutions can be determined.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def mechanism_alone(machine: Machine) -> Compiled:
     Raises
     ------
     AssemblyError
-        It does not close all round, or does not repeat every turn.
+        It does not close all round, or does not repeat every revolution.
     FindingError
         A load has no value at some angle, or changes with time itself.
     """

@@ -41,7 +41,7 @@ class EngineData(Result):
             "moment of inertia of the disc that stands for a throw",
             "",
             "kg m²",
-            "Mean over the turn of its exact inertia.",
+            "Mean over the revolution of its exact inertia.",
         ),
     ]
     throw_inertia_published: Annotated[float, Shown("the same by paper 3, (7) and (12)", "", "kg m²")]
@@ -56,7 +56,7 @@ class EngineData(Result):
     firing: Annotated[
         dict[str, float], About("Crank angle at which each cylinder fires, by number, in their order [rad].")
     ]
-    speed: Annotated[float, Shown("speed at which the gas is told", "ω", "rad/s")]
+    speed: Annotated[float, Shown("speed at which the gas is reported", "ω", "rad/s")]
     mean_effective_pressure: Annotated[tuple[float, ...], About("Of a sound cylinder of each bank [Pa].")]
     peak_pressure: Annotated[tuple[float, ...], About("Of a sound cylinder of each bank [Pa].")]
 
@@ -91,7 +91,7 @@ def engine_data(engine: ReciprocatingEngine, speed: float) -> EngineData:
     engine : ReciprocatingEngine
         The engine.
     speed : float
-        Of its crank, at which its gas is told [rad/s].
+        Of its crank, at which its gas is reported [rad/s].
 
     Returns
     -------

@@ -34,7 +34,7 @@ class CylinderTorques:
     Attributes
     ----------
     orders : ndarray, shape (orders,)
-        Waves a turn, from 0.
+        Cycles per revolution, from 0.
     firing, motored : ndarray of complex, shape (cylinders, orders, speeds)
         M_ν of each cylinder on its throw, sound and without combustion [N m].
     banks : tuple of GasTorque
@@ -177,7 +177,7 @@ def _moving_parts(engine: ReciprocatingEngine, speeds: Floats, orders: Floats) -
     curves = (throw.inertia_torque(1.0), throw.weight_torque)
     inertia, weight = (np.fft.rfft(curve) * 2 / samples for curve in curves)
     found = np.zeros((len(orders), len(speeds)), complex)
-    # A motion that repeats every turn has whole orders alone.
+    # A motion that repeats every revolution has whole orders alone.
     whole = np.flatnonzero(orders == np.round(orders))
     nu = orders[whole].astype(int)
     found[whole] = inertia[nu, None] * speeds**2 + weight[nu, None]

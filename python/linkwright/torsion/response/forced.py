@@ -1,4 +1,4 @@
-r"""Forced vibration of a train: amplitudes, shaft torques and unevenness at every speed.
+r"""Forced vibration of a train: amplitudes, shaft torques and speed fluctuation at every speed.
 
 At each speed Ω and order ν, with ω = νΩ,
 
@@ -7,9 +7,9 @@ At each speed Ω and order ν, with ω = νΩ,
 is solved directly, not by modes. The torque in a shaft is :math:`(k(1 + i\eta) + i\omega c)\,\Delta_\nu`, of
 which kΔ twists the steel. All orders are added up in phase before their extremes are taken.
 
-The unevenness of rotation of a disc is :math:`\delta = (\omega_{max} - \omega_{min})/\omega_m`. Its motion
-has a part in which the train turns as a whole, :math:`q_r = \sum J q/\sum J`, and the torsional rest; both
-have a δ of their own, and since they are not in phase the two do not add up.
+The speed fluctuation of a disc is :math:`\delta = (\omega_{max} - \omega_{min})/\omega_m`. Its motion
+has a part in which the train rotates as a rigid body, :math:`q_r = \sum J q/\sum J`, and the torsional rest;
+both have a δ of their own, and since they are not in phase the two do not add up.
 
 References
 ----------
@@ -29,26 +29,27 @@ from numpy.typing import NDArray
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import Shown
 from linkwright.machine.machine import Machine
-from linkwright.torsion.response.carried import Carried, carried_by, responses
-from linkwright.torsion.response.excited import Excited, excited
+from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.synthesis import Orders, span
+from linkwright.torsion.response.torsion_response import TorsionResponse, response_by_amplitudes, responses
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
-class ForcedVibration(Carried):
+class ForcedVibration(TorsionResponse):
     """Forced vibration of a train over its speeds, with all that its shafts carry."""
 
     unevenness: Annotated[
-        Floats, Shown("coefficient of unevenness of each disc", "δ", "", shape="(discs, speeds)")
+        Floats, Shown("coefficient of speed fluctuation of each disc", "δ", "", shape="(discs, speeds)")
     ]
     unevenness_rigid: Annotated[
-        Floats, Shown("coefficient of unevenness of the train as a whole", "", "", shape="(discs, speeds)")
+        Floats,
+        Shown("coefficient of speed fluctuation of the train as a whole", "", "", shape="(discs, speeds)"),
     ]
     unevenness_torsional: Annotated[
-        Floats, Shown("coefficient of unevenness of the rest", "", "", shape="(discs, speeds)")
+        Floats, Shown("coefficient of speed fluctuation of the rest", "", "", shape="(discs, speeds)")
     ]
     disc_heat: Annotated[
         Floats, Shown("heat by the damping of each disc", "", "W", "Mean power.", shape="(discs, speeds)")
@@ -61,7 +62,7 @@ class ForcedVibration(Carried):
         Parameters
         ----------
         curves : bool
-            Whether heat, and the parts of the unevenness, are included.
+            Whether heat, and the parts of the speed fluctuation, are included.
 
         Returns
         -------
@@ -117,15 +118,15 @@ def forced_vibration(machine: Machine, speeds: Floats | None = None) -> ForcedVi
     ----------
     .. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963.
     """
-    return responded(excited(machine, speeds))
+    return responded(excited_train(machine, speeds))
 
 
-def responded(at: Excited) -> ForcedVibration:
+def responded(at: ExcitedTrain) -> ForcedVibration:
     """Steady vibration of a train that has been prepared.
 
     Parameters
     ----------
-    at : Excited
+    at : ExcitedTrain
         The train, its torques, and what it is at each speed.
 
     Returns
@@ -134,7 +135,7 @@ def responded(at: Excited) -> ForcedVibration:
         As `forced_vibration`.
     """
     q = responses(at)
-    shafts = carried_by(at, q)
+    shafts = response_by_amplitudes(at, q)
     total, rigid, torsional = _unevenness(at, shafts.together, q)
     omega = shafts.orders[:, None, None] * shafts.speeds
     theta = shafts.amplitudes
@@ -148,7 +149,7 @@ def responded(at: Excited) -> ForcedVibration:
     )
 
 
-def _unevenness(at: Excited, orders: Orders, q: Complexes) -> tuple[Floats, Floats, Floats]:
+def _unevenness(at: ExcitedTrain, orders: Orders, q: Complexes) -> tuple[Floats, Floats, Floats]:
     """δ of every disc: in all, as a whole, and torsional."""
     referred = at.referred
     J = referred.inertia
@@ -181,7 +182,7 @@ def angular_deflection(found: ForcedVibration, disc: str) -> tuple[Floats, Float
     single : ndarray, shape (orders, speeds)
         Amplitude of each order [rad].
     total : ndarray, shape (speeds,)
-        Half of greatest less least angle of all orders [rad].
+        Half the peak-to-peak angle of all orders [rad].
     """
     theta = found.amplitudes[:, found.discs.index(disc)]
     greatest, least = span(found.together, theta)

@@ -1,4 +1,4 @@
-"""What a mechanism does to its drive line: harmonics on the crank, damping, speed of service."""
+"""What a mechanism does to its driveline: harmonics on the crank, damping, speed of service."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def mechanism_sources(
     Parameters
     ----------
     machine : Machine
-        With a drive line that twists.
+        With a torsionally flexible driveline.
     turning : ndarray, shape (discs,)
         Speed of each disc over that of the first.
     place : dict of str to int

@@ -31,9 +31,9 @@ from linkwright.kernel.public import public
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.modes.free import lead_speeds
-from linkwright.torsion.response.carried import Carried, carried
-from linkwright.torsion.response.excited import Excited, excited
+from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.synthesis import span
+from linkwright.torsion.response.torsion_response import TorsionResponse, torsion_response
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -57,7 +57,7 @@ class MeshTorque(Result):
     toothed : tuple of bool
         Whether a stage can lose contact; belts are taken to be tight.
     orders : ndarray, shape (orders,)
-        Waves a turn of the first disc.
+        Cycles per revolution of the first disc.
     torques : ndarray of complex, shape (orders, stages, speeds)
         [N m]; NaN where rigid stages close a loop.
     mean, greatest, least : ndarray, shape (stages, speeds)
@@ -109,18 +109,18 @@ def mesh_torques(machine: Machine, speeds: Floats | None = None) -> MeshTorque:
     InputError
         Nothing excites the train, or it has no speeds.
     """
-    at = excited(machine, speeds)
-    return meshed(at, carried(at))
+    at = excited_train(machine, speeds)
+    return meshed(at, torsion_response(at))
 
 
-def meshed(at: Excited, found: Carried) -> MeshTorque:
+def meshed(at: ExcitedTrain, found: TorsionResponse) -> MeshTorque:
     """Torques of the gear stages of a train of which the vibration is there.
 
     Parameters
     ----------
-    at : Excited
+    at : ExcitedTrain
         The train.
-    found : Carried
+    found : TorsionResponse
         Its vibration.
 
     Returns
@@ -148,7 +148,7 @@ def meshed(at: Excited, found: Carried) -> MeshTorque:
     )
 
 
-def _mean_outside(at: Excited, J: Floats) -> Floats:
+def _mean_outside(at: ExcitedTrain, J: Floats) -> Floats:
     """Mean torques on the discs, less what speeds the train up if they do not balance."""
     mean, n = at.torques.mean, at.referred.speed[:, None]
     if at.referred.is_free:
@@ -156,7 +156,7 @@ def _mean_outside(at: Excited, J: Floats) -> Floats:
     return mean
 
 
-def _stage_torques(at: Excited, outside: Complexes | Floats, shafts: Complexes) -> Complexes:
+def _stage_torques(at: ExcitedTrain, outside: Complexes | Floats, shafts: Complexes) -> Complexes:
     """Torque of each stage at its first disc, (…, stages, speeds)."""
     referred, gears = at.referred, at.train.gears
     flow = lead_speeds(referred)[:, None] * shafts
@@ -178,7 +178,7 @@ def _stage_torques(at: Excited, outside: Complexes | Floats, shafts: Complexes) 
     return found
 
 
-def _passed(at: Excited, rigid: list[str], net: Complexes) -> Complexes:
+def _passed(at: ExcitedTrain, rigid: list[str], net: Complexes) -> Complexes:
     """What rigid stages pass on from what is left over at each disc; NaN in loops."""
     joins = np.zeros((len(at.referred.discs), len(rigid)))
     for g, name in enumerate(rigid):

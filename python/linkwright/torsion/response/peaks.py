@@ -27,7 +27,7 @@ class TorquePeaks(Result):
             "vibratory torque in each shaft",
             "",
             "N m",
-            "Half of greatest less least torque; infinite at a resonance that nothing damps.",
+            "Half the peak-to-peak torque; infinite at a resonance that nothing damps.",
             shape="(shafts,)",
             over="vibratory",
         ),

@@ -11,7 +11,7 @@ in the steel.
 
 References
 ----------
-.. [1] IACS, UR M68, 2021: half of greatest less least stress.
+.. [1] IACS, UR M68, 2021: half the peak-to-peak stress.
 .. [2] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963: stresses in shafts.
 """
 
@@ -34,9 +34,9 @@ from linkwright.torsion.model.shaft_limit import ShaftLimit, StressedSection
 from linkwright.torsion.model.train import Shaft
 from linkwright.torsion.model.train_speeds import speeds as turning
 from linkwright.torsion.modes.free import train_of
-from linkwright.torsion.response.carried import Carried, carried
-from linkwright.torsion.response.excited import excited
+from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.mechanism_torques import steady_speed
+from linkwright.torsion.response.torsion_response import TorsionResponse, torsion_response
 
 Floats = NDArray[np.float64]
 
@@ -74,7 +74,7 @@ class ShaftStress(Result):
     ]
     greatest: Annotated[
         Floats,
-        Shown("greatest stress of each shaft", "", "Pa", "Of the largest torque.", shape="(shafts, speeds)"),
+        Shown("maximum stress of each shaft", "", "Pa", "Of the largest torque.", shape="(shafts, speeds)"),
     ]
     continuous: Annotated[
         Floats,
@@ -106,14 +106,16 @@ class ShaftStress(Result):
 
 
 @public
-def shaft_stress(machine: Machine, found: Carried | None = None, service: float | None = None) -> ShaftStress:
+def shaft_stress(
+    machine: Machine, found: TorsionResponse | None = None, service: float | None = None
+) -> ShaftStress:
     """Stresses in the shafts of a train over its speeds.
 
     Parameters
     ----------
     machine : Machine
         With a [train] that something excites.
-    found : Carried, optional
+    found : TorsionResponse, optional
         What its shafts carry, as `forced_vibration` tells, if that is there already.
     service : float, optional
         Speed of the first disc that λ = 1 stands for; without it that of `service_speed` [rad/s].
@@ -133,7 +135,7 @@ def shaft_stress(machine: Machine, found: Carried | None = None, service: float 
     .. [1] IACS, UR M68, 2021, M68.5.
     """
     in_range(service=(service, positive(SPEED)))
-    found = carried(excited(machine)) if found is None else found
+    found = torsion_response(excited_train(machine)) if found is None else found
     known = stressed(train_of(machine).shafts)
     rows = [found.shafts.index(name) for name in known]
     W = np.array([section.section_modulus for section, _ in known.values()])
@@ -179,14 +181,14 @@ def service_speed(machine: Machine, speeds: Floats) -> float:
     Parameters
     ----------
     machine : Machine
-        With a train, or a drive line that twists.
+        With a train, or a torsionally flexible driveline.
     speeds : ndarray, shape (speeds,)
         At which it is looked at [rad/s].
 
     Returns
     -------
     float
-        Of the first disc: `speed_rated` of [train.run]; of a drive line its steady speed; else the highest
+        Of the first disc: `speed_rated` of [train.run]; of a driveline its steady speed; else the highest
         speed [rad/s].
     """
     if machine.train is None:

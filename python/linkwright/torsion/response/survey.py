@@ -18,9 +18,9 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.limits.criteria import Criterion, criteria
 from linkwright.torsion.limits.exceedance import Exceedance, exceedances, peaks_between
 from linkwright.torsion.modes.resonance import Resonance, resonances
-from linkwright.torsion.response.carried import Carried, carried
-from linkwright.torsion.response.excited import Excited, excited, loaded
+from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, loaded
 from linkwright.torsion.response.stress import service_speed
+from linkwright.torsion.response.torsion_response import TorsionResponse, torsion_response
 
 Floats = NDArray[np.float64]
 Values = TypeVar("Values", NDArray[np.float64], NDArray[np.complex128])
@@ -43,15 +43,15 @@ class Survey:
     ----------
     machine : Machine
         With a train that something excites.
-    at : Excited
+    at : ExcitedTrain
         At the speeds of its run, increasing.
-    found : Carried
+    found : TorsionResponse
         What its shafts carry there.
     """
 
     machine: Machine
-    at: Excited
-    found: Carried
+    at: ExcitedTrain
+    found: TorsionResponse
 
     @cached_property
     def resonances(self) -> tuple[Resonance, ...]:
@@ -127,9 +127,9 @@ class Survey:
             In the same order at any speeds.
         """
         at = between(self.machine, self.at, speeds)
-        return criteria(self.machine, at, carried(at), self.service)
+        return criteria(self.machine, at, torsion_response(at), self.service)
 
-    def carried_at(self, speeds: Floats) -> Carried:
+    def carried_at(self, speeds: Floats) -> TorsionResponse:
         """What the shafts carry at any speeds between the lowest and the highest.
 
         Parameters
@@ -139,10 +139,10 @@ class Survey:
 
         Returns
         -------
-        Carried
+        TorsionResponse
             At these.
         """
-        return carried(between(self.machine, self.at, speeds))
+        return torsion_response(between(self.machine, self.at, speeds))
 
     @cached_property
     def _further(self) -> Floats:
@@ -162,16 +162,16 @@ def _highest(ratio: Floats) -> list[int]:
     return sorted({int(np.argmax(ratio)), *near}) if ratio.max(initial=0.0) > 0 else []
 
 
-def survey(machine: Machine, at: Excited | None = None, found: Carried | None = None) -> Survey:
+def survey(machine: Machine, at: ExcitedTrain | None = None, found: TorsionResponse | None = None) -> Survey:
     """Look at a train closely.
 
     Parameters
     ----------
     machine : Machine
         With a train that something excites, and the speeds at which to look.
-    at : Excited, optional
+    at : ExcitedTrain, optional
         The train at these, if that is there already.
-    found : Carried, optional
+    found : TorsionResponse, optional
         What its shafts carry there, likewise.
 
     Returns
@@ -184,30 +184,30 @@ def survey(machine: Machine, at: Excited | None = None, found: Carried | None = 
     InputError
         Nothing excites the train, or it has no speeds.
     """
-    at = excited(machine) if at is None else at
-    return Survey(machine, at, carried(at) if found is None else found)
+    at = excited_train(machine) if at is None else at
+    return Survey(machine, at, torsion_response(at) if found is None else found)
 
 
-def between(machine: Machine, at: Excited, speeds: Floats) -> Excited:
+def between(machine: Machine, at: ExcitedTrain, speeds: Floats) -> ExcitedTrain:
     """A train at other speeds between those at which it has been prepared.
 
     Parameters
     ----------
     machine : Machine
         With the train.
-    at : Excited
+    at : ExcitedTrain
         Prepared at some speeds, increasing.
     speeds : ndarray, shape (n,)
         Between them [rad/s].
 
     Returns
     -------
-    Excited
+    ExcitedTrain
         At these. Torques of the file itself are exact, as are all where fewer than four speeds are known.
     """
     exact = machine.train is not None and machine.train.engine is None
     if exact or len(at.torques.speeds) < _ABOUT:
-        return excited(machine, speeds)
+        return excited_train(machine, speeds)
     about, weights = _about(at.torques.speeds, speeds)
 
     def there(values: Values) -> Values:

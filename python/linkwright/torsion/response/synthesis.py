@@ -1,8 +1,8 @@
 """What harmonics add up to over time, in phase: waveforms and their extremes.
 
-Orders with a common base, as ½, 1, 1½, … of a four-stroke engine, repeat after as many turns, and their sum
-has exact extremes. Orders without one, as those of a wheel with 37 teeth on one with 13, meet in every phase
-sooner or later: of them the amplitudes add up.
+Orders with a common base, as ½, 1, 1½, … of a four-stroke engine, repeat after as many revolutions, and their
+sum has exact extremes. Orders without one, as those of a wheel with 37 teeth on one with 13, meet in every
+phase sooner or later: of them the amplitudes add up.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Orders:
     Attributes
     ----------
     values : ndarray, shape (orders,)
-        Waves a turn.
+        Cycles per revolution.
     turns : float
         After which those with a common base repeat.
     harmonic : ndarray of int, shape (orders,)
@@ -61,7 +61,7 @@ def orders_together(values: Floats) -> Orders:
     Parameters
     ----------
     values : ndarray, shape (orders,)
-        Waves a turn, above zero.
+        Cycles per revolution, above zero.
     """
     return _together(tuple(values.tolist()))
 
@@ -95,7 +95,7 @@ def _counted(values: Floats, unit: float) -> Orders:
 
 
 def span(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> tuple[Floats, Floats]:
-    """Greatest and least value of what harmonics add up to.
+    """Maximum and minimum value of what harmonics add up to.
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ class Torques:
     speeds : ndarray, shape (speeds,)
         Of the first disc [rad/s].
     orders : ndarray, shape (orders,)
-        Waves a turn of the first disc, increasing.
+        Cycles per revolution of the first disc, increasing.
     harmonics : ndarray of complex, shape (orders, discs, speeds)
         M_ν on each disc [N m].
     mean : ndarray, shape (discs, speeds)
@@ -62,7 +62,7 @@ class Source:
     disc : int
         Place of the disc.
     orders : ndarray, shape (orders,)
-        Waves a turn of the first disc.
+        Cycles per revolution of the first disc.
     harmonics : ndarray of complex, shape (orders, speeds)
         [N m].
     mean : ndarray, shape (speeds,) or None
@@ -101,7 +101,7 @@ def torques_of(
     damping : ndarray, shape (discs, speeds), optional
         Of motor and mechanism [N m s/rad].
     is_free : bool
-        Whether the train can turn as a whole. A held one leaves its mean torque to the ground.
+        Whether the train can rotate as a rigid body. A held one leaves its mean torque to the ground.
     has_engine : bool
         Whether the sources drive.
     loads_follow : bool

@@ -1,4 +1,4 @@
-r"""Unevenness of rotation along the shaft: the measure N over the cylinders, at every disc.
+r"""Speed fluctuation along the shaft: the measure N over the cylinders, at every disc.
 
 From the firing of one cylinder at :math:`\varphi_i` to that of the next at :math:`\varphi_{i+1}` the speed of
 a disc rises and falls by
@@ -9,8 +9,8 @@ a disc rises and falls by
 N is how unevenly the disc turns within the share of a cylinder, on average over all of them; s is how
 differently they work. A healthy engine that fires evenly has one :math:`N_i` for all cylinders as long as it
 is rigid. Torsional vibration makes N another number at every disc, so that cylinders cannot be judged by it
-alone. As δ, N has a part of the train turning as a whole, :math:`q_r = \sum J q/\sum J`, and a torsional
-rest, which do not add up.
+alone. As δ, N has a part of the train rotating as a rigid body, :math:`q_r = \sum J q/\sum J`, and a
+torsional rest, which do not add up.
 
 The diagnostic literature uses N without one definition of it; this one is ours.
 """
@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
-from linkwright.torsion.response.excited import Excited
+from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.forced import ForcedVibration
 
 Floats = NDArray[np.float64]
@@ -44,7 +44,7 @@ _EQUAL = 1e-9
 
 @dataclass(frozen=True)
 class UnevennessAlong(Result):
-    """Unevenness over the cylinders at each disc, at one speed."""
+    """Speed fluctuation over the cylinders at each disc, at one speed."""
 
     speed: Annotated[float, Shown("speed of the first disc", "ω", "rad/s")]
     discs: Annotated[tuple[str, ...], About("As in `ForcedVibration`.")]
@@ -61,12 +61,14 @@ class UnevennessAlong(Result):
     ]
     share: Annotated[
         Floats,
-        Shown("unevenness from each firing to the next", "N_i", "", "In all.", shape="(discs, cylinders)"),
+        Shown(
+            "speed fluctuation from each firing to the next", "N_i", "", "In all.", shape="(discs, cylinders)"
+        ),
     ]
     share_rigid: Annotated[
         Floats,
         Shown(
-            "unevenness from each firing to the next, of the train as a whole",
+            "speed fluctuation from each firing to the next, of the train as a whole",
             "",
             "",
             shape="(discs, cylinders)",
@@ -74,52 +76,56 @@ class UnevennessAlong(Result):
     ]
     share_torsional: Annotated[
         Floats,
-        Shown("unevenness from each firing to the next, of the rest", "", "", shape="(discs, cylinders)"),
+        Shown(
+            "speed fluctuation from each firing to the next, of the rest", "", "", shape="(discs, cylinders)"
+        ),
     ]
 
     @property
     def unevenness(
         self,
-    ) -> Annotated[Floats, Shown("unevenness over the cylinders", "N", "", shape="(discs,)")]:
+    ) -> Annotated[Floats, Shown("speed fluctuation over the cylinders", "N", "", shape="(discs,)")]:
         """N, shape (discs,)."""
         return _mean(self.share)
 
     @property
     def unevenness_rigid(
         self,
-    ) -> Annotated[Floats, Shown("unevenness of the train as a whole", "", "", shape="(discs,)")]:
-        """N of the train turning as a whole, shape (discs,)."""
+    ) -> Annotated[Floats, Shown("speed fluctuation of the train as a whole", "", "", shape="(discs,)")]:
+        """N of the train rotating as a rigid body, shape (discs,)."""
         return _mean(self.share_rigid)
 
     @property
     def unevenness_torsional(
         self,
-    ) -> Annotated[Floats, Shown("unevenness of the rest", "", "", shape="(discs,)")]:
+    ) -> Annotated[Floats, Shown("speed fluctuation of the rest", "", "", shape="(discs,)")]:
         """N of the rest, shape (discs,)."""
         return _mean(self.share_torsional)
 
     @property
-    def spread(self) -> Annotated[Floats, Shown("spread of the unevenness", "s", "", shape="(discs,)")]:
-        """s, largest less least N_i, shape (discs,)."""
+    def spread(
+        self,
+    ) -> Annotated[Floats, Shown("spread of the speed fluctuation", "s", "", shape="(discs,)")]:
+        """s, largest less minimum N_i, shape (discs,)."""
         found: Floats = np.ptp(self.share, axis=1)
         return found
 
 
 def unevenness_along(
-    at: Excited, found: ForcedVibration, firing: Mapping[str, float], turns: int, speed: float
+    at: ExcitedTrain, found: ForcedVibration, firing: Mapping[str, float], turns: int, speed: float
 ) -> UnevennessAlong:
     """N at every disc.
 
     Parameters
     ----------
-    at : Excited
+    at : ExcitedTrain
         The train.
     found : ForcedVibration
         Its vibration.
     firing : mapping of str to float
-        Angle of the first disc at which each cylinder fires, at any turn of the cycle [rad].
+        Angle of the first disc at which each cylinder fires, at any revolution of the cycle [rad].
     turns : int
-        Turns of a cycle: 2 of a four-stroke, 1 of a two-stroke engine.
+        Revolutions of a cycle: 2 of a four-stroke, 1 of a two-stroke engine.
     speed : float
         At which to look; the nearest of those of the vibration is taken [rad/s].
 
@@ -167,7 +173,7 @@ def _fired(firing: Mapping[str, float], turns: int) -> tuple[tuple[str, ...], Fl
     return tuple(names), np.array([angles[name] for name in names])
 
 
-def _as_a_whole(at: Excited, relative: Complexes) -> Complexes:
+def _as_a_whole(at: ExcitedTrain, relative: Complexes) -> Complexes:
     """The same for all discs: mean of the masses by their inertia; nothing for a train that is held."""
     referred = at.referred
     if not referred.is_free:
@@ -178,14 +184,14 @@ def _as_a_whole(at: Excited, relative: Complexes) -> Complexes:
 
 
 def _shares(orders: Floats, waves: Complexes, firing: Floats, turns: int) -> Floats:
-    """Largest less least value in each interval, (discs, cylinders)."""
+    """Largest less minimum value in each interval, (discs, cylinders)."""
     ends = np.append(firing[1:], firing[0] + 2 * np.pi * turns)
     found = [_span(orders, waves, *interval) for interval in zip(firing, ends, strict=True)]
     return np.array(found).reshape(len(firing), -1).T
 
 
 def _span(orders: Floats, waves: Complexes, start: float, end: float) -> Floats:
-    """Largest less least value of sums of harmonics on an interval, ends included, (discs,)."""
+    """Largest less minimum value of sums of harmonics on an interval, ends included, (discs,)."""
     if not len(orders):
         return np.zeros(waves.shape[1])
     points = max(int(np.ceil((end - start) * orders.max() / (2 * np.pi) * _POINTS)), 2) + 1

@@ -32,7 +32,9 @@ def diagnosis_table(read: RecordDiagnosis, level: float) -> Table:
         known = bool(np.isfinite(half[n]))
         numbers = (found.factor[n], half[n], relative[n])
         cells = [f"{value:.3f}" if known else "–" for value in numbers]
-        rows.append((f"cylinder {name}", "", *cells, words.get(name, "" if known else "cannot be told")))
+        rows.append(
+            (f"cylinder {name}", "", *cells, words.get(name, "" if known else "cannot be determined"))
+        )
     title = (
         f"Share of the combustion, from {read.orders} orders of the speed of {read.disc}; crank at "
         f"{read.speed * 30 / np.pi:.5g} rpm"
@@ -73,7 +75,7 @@ def diagnosis_words(read: RecordDiagnosis, level: float) -> str:
             f"No cylinder is weak; {', '.join(f'cylinder {name} is {word}' for name, word in late.items())}."
         )
     if not weak:
-        return f"No cylinder is weak, as far as can be told with {100 * level:.4g} %."
+        return f"No cylinder is weak, as far as can be determined with {100 * level:.4g} %."
     half = found.half_width(level)
     places = map(found.cylinders.index, weak)
     listed = [f"cylinder {found.cylinders[n]} at {found.factor[n]:.3f} ± {half[n]:.3f}" for n in places]

@@ -67,7 +67,7 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
         yield from holzer_tables(each)
 
 
-_STATES = {"ok": "kept", "bar": "bar the speeds", "exceeds": "exceeded"}
+_STATES = {"ok": "within limit", "bar": "barred speed range required", "exceeds": "limit exceeded"}
 
 
 def _judgements(found: Verdict) -> Table:
@@ -106,7 +106,7 @@ def _peak_judgements(moved: TorsionTransient) -> Table:
 def _engine(data: EngineData) -> Table:
     """Discs and stiffness of throws by every formula, and the gas."""
     rows: list[Row] = [
-        ("what turns with a throw", "J_k", with_unit(data.own_inertia, "kg m²"), ""),
+        ("rotating inertia of a throw", "J_k", with_unit(data.own_inertia, "kg m²"), ""),
         ("disc of a throw, mean of the exact inertia", "J", with_unit(data.throw_inertia, "kg m²"), "used"),
         _beside(
             "disc of a throw as printed in paper 3, (7) and (12)",
@@ -132,9 +132,9 @@ def _engine(data: EngineData) -> Table:
         )
         for n, value in enumerate(values)
     ]
-    rows.append(("cylinders fire", "", "-".join(data.firing), ""))
+    rows.append(("firing order", "", "-".join(data.firing), ""))
     steps = sorted({f"{np.degrees(each):.5g}°" for each in data.intervals})
-    rows.append(("one after another by", "", ", ".join(steps) or "a cycle", ""))
+    rows.append(("firing intervals", "", ", ".join(steps) or "a cycle", ""))
     return Table("engine", f"Engine, gas at {_rpm(data.speed)} rpm", ("quantity", "", "value", ""), rows)
 
 
@@ -146,7 +146,7 @@ def _beside(word: str, value: float, used: float, unit: str) -> Row:
 def _shown(value: float, unit: str) -> str:
     """A quantity for people: stresses in MPa."""
     if np.isinf(value):
-        return "no bound"
+        return "unbounded"
     return with_unit(value / 1e6, "MPa") if unit == "Pa" else with_unit(value, unit)
 
 
@@ -159,7 +159,7 @@ def _manoeuvre(moved: TorsionTransient) -> Table:
             moved.shafts, zip(*(each.tolist() for each in columns), strict=True), strict=True
         )
     ]
-    heads = ("shaft", "", "greatest N m", "at s", "least N m", "at s")
+    heads = ("shaft", "", "maximum N m", "at s", "minimum N m", "at s")
     title = f"Manoeuvre of {moved.time[-1]:.4g} s: torques of the shafts"
     return Table("manoeuvre", title, heads, rows)
 
@@ -184,7 +184,9 @@ def _damped(study: TorsionStudy, found: DampedVibration) -> Table:
 
 def _kind(natural: float, damped: float) -> str:
     """What a mode with damping does."""
-    return "turns as a whole" if natural == 0 else "vibrates" if damped > 0 else "creeps back"
+    if natural == 0:
+        return "rigid-body rotation"
+    return "underdamped (oscillatory)" if damped > 0 else "overdamped (aperiodic)"
 
 
 def _critical(found: CampbellDiagram) -> Table:
@@ -233,24 +235,24 @@ def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
         cells = [_finite(value) for value in numbers]
         rows.append((name, "", cells[0], _rpm(float(peaks.speed[s])), *cells[1:]))
     service = _rpm(forced.speeds[at])
-    heads = ("shaft", "", "vibratory", "at rpm", "mean", "vibratory", "greatest", "heat")
+    heads = ("shaft", "", "vibratory", "at rpm", "mean", "vibratory", "maximum", "heat")
     title = f"Torques [N m]: largest over speeds and resonances; then at {service} rpm, with heat [W]"
     return Table("shaft_torques", title, heads, rows)
 
 
 def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
-    """Unevenness along the train in service."""
+    """Speed fluctuation along the train in service."""
     at = service_place(study, forced)
     parts = [forced.unevenness, forced.unevenness_rigid, forced.unevenness_torsional]
     columns = [[_finite(value, 3) for value in part[:, at].tolist()] for part in parts]
-    heads = ["disc", "", "δ", "as a whole", "torsional"]
+    heads = ["disc", "", "δ", "rigid-body", "torsional"]
     if study.along is not None:
         heads += ["N", "spread of N"]
         columns += [
             [_finite(v, 3) for v in each.tolist()] for each in (study.along.unevenness, study.along.spread)
         ]
     rows: list[Row] = [(name, "", *cells) for name, *cells in zip(forced.discs, *columns, strict=True)]
-    title = f"Unevenness of rotation at {_rpm(forced.speeds[at])} rpm"
+    title = f"Speed fluctuation at {_rpm(forced.speeds[at])} rpm"
     return Table("unevenness", title, tuple(heads), rows)
 
 
@@ -267,7 +269,7 @@ def service_place(study: TorsionStudy, forced: ForcedVibration) -> int:
     Returns
     -------
     int
-        Place of the speed next to that of service; of a drive line the middle of its speeds.
+        Place of the speed next to that of service; of a driveline the middle of its speeds.
     """
     run = study.machine.train.run if study.machine.train is not None else None
     if run is None:
@@ -313,7 +315,7 @@ def _frequencies(found: FreeVibration) -> Table:
         )
         for k, f in enumerate(found.natural_frequencies.tolist())
     ]
-    heads = ("most energy in", "", "Hz", "1/min", "nodes")
+    heads = ("dominant strain energy; kinetic energy", "", "Hz", "1/min", "nodes")
     return Table("natural_frequencies", "Natural frequencies", heads, rows)
 
 
@@ -332,7 +334,7 @@ def _energy(found: FreeVibration, k: int) -> str:
     """The shafts that twist most and the discs that swing most."""
     if found.natural_frequencies[k] == 0:
         moving = [name for name, q in zip(found.discs, found.mode_shapes[k], strict=True) if q]
-        return "turns as a whole" if len(moving) > 1 else f"{moving[0]} turns by itself"
+        return "rigid-body rotation" if len(moving) > 1 else f"{moving[0]} rotates alone"
     parts = (
         _most(found.shafts, found.potential_shares[k]),
         _most(found.discs, found.kinetic_shares[k]),

@@ -3,5 +3,5 @@
 | module | |
 | --- | --- |
 | `torque` | Torques on a shaft by its angle: constant, a table, a formula |
-| `turning_moment` | What drives, what resists, and what evenness is asked for |
+| `turning_moment` | What drives, what resists, and what speed fluctuation is asked for |
 """

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.description.formula import NUMBERS, parse
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults
@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 _ROUNDED = 1e-9
 
 
-class ShaftTorque(Checked):
+class ShaftTorque(CheckedDescription):
     """A torque on the shaft, positive against what it stands for: drive or resistance."""
 
     @abstractmethod

@@ -1,4 +1,4 @@
-r"""The turning-moment diagram of a machine file: what drives, what resists, and what evenness is asked for.
+r"""The turning-moment diagram of a machine file: driving and load torques, required speed fluctuation.
 
 Both torques act on one shaft and depend on its angle φ alone, over a cycle of one or two revolutions. Who
 knows one of them leaves the other out: it is then constant, at the mean of the one that is given. Who has
@@ -18,7 +18,7 @@ from typing import Annotated
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import (
     ANGLE,
     COUNT,
@@ -41,8 +41,8 @@ _TURNS_MAX = 24
 _WHOLE = 1e-9
 
 
-class TurningMoment(Checked):
-    """Torques on a shaft over a cycle, and the evenness that a flywheel has to give."""
+class TurningMoment(CheckedDescription):
+    """Torques on a shaft over a cycle, and the speed fluctuation that a flywheel has to give."""
 
     speed: Annotated[float, positive(SPEED)] = Field(
         description="Mean speed of the shaft, the mean of its extremes."
@@ -97,10 +97,10 @@ class TurningMoment(Checked):
             if self.areas:
                 yield fault(key, found="a table", expected="nothing beside areas")
         if self.radius_of_gyration is not None and self.unevenness is None:
-            remedy = "give unevenness, or leave the radius out"
+            remedy = "give speed fluctuation, or leave the radius out"
             found = f"{self.radius_of_gyration:.6g} m"
             yield fault(
-                "radius_of_gyration", found=found, expected="nothing without unevenness", remedy=remedy
+                "radius_of_gyration", found=found, expected="nothing without speed fluctuation", remedy=remedy
             )
 
     def _area_faults(self) -> Iterator[InitErrorDetails]:

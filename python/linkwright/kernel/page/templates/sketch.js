@@ -293,10 +293,10 @@
   const shown = usual / duration;
   const factor = shown > 1.05 ? `${shown.toPrecision(2)} times slower than the machine` : "as fast as the machine";
   document.getElementById("sketch-words").textContent = scene.true_speed
-    ? `Moves with the true uneven speed of steady motion; with the pace in the middle ${factor}. Dots: centres of mass.`
+    ? `Moves with the varying speed of steady motion; at the middle playback speed ${factor}. Dots: centres of mass.`
     : scene.swings
       ? "Does not close all round: swings within the range of crank angles where it does. Dots: centres of mass."
-      : "Turns evenly, for want of a steady motion. Dots: centres of mass.";
+      : "Constant speed: no steady-state solution is available. Dots: centres of mass.";
   draw(0);
   setPlaying(playing);
 })();

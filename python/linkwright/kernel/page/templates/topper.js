@@ -183,7 +183,7 @@
   setPhase(scene.phase);
   const slow = scene.seconds / (last - first);
   document.getElementById("topper-words").textContent =
-    `From above; the machine goes to the right, with the pace in the middle ${slow.toPrecision(2)} times slower than in ` +
+    `From above; the machine goes to the right, at the middle playback speed ${slow.toPrecision(2)} times slower than in ` +
     "the field. Green: haulm; yellow: cut; hatched: left. " + (scene.heads.length > 1
       ? `The head in the middle is the worst one, unless its phase is changed; all stand up to ${(1e3 * scene.offset).toPrecision(3)} mm off the row.`
       : "This head is the worst one.");

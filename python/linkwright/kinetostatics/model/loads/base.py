@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 
 
-class Load(Checked):
+class Load(CheckedDescription):
     """What all loads have in common."""
 
 

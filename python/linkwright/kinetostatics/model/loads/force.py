@@ -38,4 +38,4 @@ class Gravity(Load):
     acceleration: Annotated[float, not_negative(ACCELERATION)] = Field(
         9.81, description="Acceleration of free fall."
     )
-    direction: Angle = Field(-math.pi / 2, description="Where things fall, from the x axis.")
+    direction: Angle = Field(-math.pi / 2, description="Direction of gravity, from the x axis.")

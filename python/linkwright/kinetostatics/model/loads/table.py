@@ -14,7 +14,7 @@ from linkwright.kernel.description.curve import curve_faults
 from linkwright.kernel.units import Angles, Forces, Lengths, Speeds, Torques
 from linkwright.kinetostatics.model.loads.base import Load
 
-# A curve over one turn may close exactly; printed degrees and π are rounded.
+# A curve over one revolution may close exactly; printed degrees and π are rounded.
 _ONE_TURN = 2 * math.pi * (1 + 1e-9)
 
 
@@ -38,24 +38,26 @@ class ForcePosition(Load):
 
 
 class TorqueAngle(Load):
-    """A resisting torque on the crankshaft over one turn, linear between the given angles."""
+    """A load torque on the crankshaft over one revolution, linear between the given angles."""
 
     kind: Literal["torque_angle"]
-    angle: Angles = Field(description="Crank angles, increasing, within one turn.")
+    angle: Angles = Field(description="Crank angles, increasing, within one revolution.")
     torque: Torques = Field(description="Torque at each angle.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from curve_faults(self, "angle", ("torque",))
         span = self.angle[-1] - self.angle[0] if self.angle else 0.0
         if span > _ONE_TURN:
-            yield fault("angle", found=f"{math.degrees(span):.6g} deg", expected="angles within one turn")
+            yield fault(
+                "angle", found=f"{math.degrees(span):.6g} deg", expected="angles within one revolution"
+            )
         elif span >= 2 * math.pi * (1 - 1e-9) and self.torque and self.torque[0] != self.torque[-1]:
-            expected = f"{self.torque[0]:.6g} N m, as at the first angle, one turn before"
+            expected = f"{self.torque[0]:.6g} N m, as at the first angle, one revolution before"
             yield fault("torque", len(self.torque) - 1, found=self.torque[-1], expected=expected)
 
 
 class TorqueSpeed(Load):
-    """A resisting torque on the crankshaft by its speed, linear between the given speeds, end values held."""
+    """A load torque on the crankshaft by its speed, linear between the given speeds, end values held."""
 
     kind: Literal["torque_speed"]
     speed: Speeds = Field(description="Speeds of the crankshaft, increasing.")

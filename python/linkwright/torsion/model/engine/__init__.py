@@ -19,7 +19,7 @@
 | `gas_torque` | The torque of the gas on the crank, and its harmonics |
 | `indicator` | A measured indicator diagram: pressure in the cylinder over the crank angle of a whole cycle |
 | `indicator_faults` | What can be wrong with an indicator diagram |
-| `mean_inertia` | The disc that stands for a throw, exactly: means of J(φ) over a turn |
+| `mean_inertia` | The disc that stands for a throw, exactly: means of J(φ) over one revolution |
 | `pendulum` | Moments of inertia of a rod from how fast it swings on a knife edge |
 | `periodic_cubic` | The periodic monotone cubic through points of a cycle |
 | `polygon` | Closed polygons: area and its moments by Green's theorem, crossings, points inside |

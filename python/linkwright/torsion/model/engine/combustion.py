@@ -77,7 +77,7 @@ class Combustion(Gas):
         None, description="Indicated mean effective pressure, in place of the heat."
     )
     peak_pressure: PositivePressure | None = Field(
-        None, description="Greatest pressure, in place of the heat."
+        None, description="Maximum pressure, in place of the heat."
     )
     releases: tuple[Wiebe, ...] = Field(
         (Wiebe(start=-math.radians(5.0), duration=math.radians(60.0), form_factor=1.0),),

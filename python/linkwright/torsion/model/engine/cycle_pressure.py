@@ -74,12 +74,12 @@ class CyclePressure:
 
     @property
     def peak_pressure(self) -> Array:
-        """Greatest pressure at each speed, shape (n,) [Pa]."""
+        """Maximum pressure at each speed, shape (n,) [Pa]."""
         return np.asarray(peak(self.angle, self.pressure))
 
 
 def peak(angle: Array, pressure: Array) -> Array:
-    """Greatest value of each row, by the parabola through its greatest point and the two beside it.
+    """Maximum value of each row, by the parabola through its maximum point and the two beside it.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def peak(angle: Array, pressure: Array) -> Array:
     Returns
     -------
     ndarray, shape (n,)
-        The greatest values [Pa].
+        The maximum values [Pa].
     """
     top = np.clip(np.argmax(pressure, axis=1), 1, len(angle) - 2)
     row = np.arange(len(pressure))

@@ -5,8 +5,8 @@ compression ratio,
 
 .. math:: V = A (x_\max - x) + V_c, \qquad V_h = A (x_\max - x_\min), \qquad V_c = \frac{V_h}{r_c - 1}
 
-The motion comes as values over one turn, so that any mechanism will do: a plain crank, an offset one, a rod
-on a master rod. Its top dead centre is found, and pressures are counted from there.
+The motion comes as values over one revolution, so that any mechanism will do: a plain crank, an offset one, a
+rod on a master rod. Its top dead centre is found, and pressures are counted from there.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Cylinder:
         if len(self.position) < 8 or size[-2:].max() > _RESOLVED * size[1:].max():
             raise ShapeError(
                 f"{len(self.position)} positions do not describe the motion of a piston: their highest "
-                f"harmonics have not faded; give more positions over the turn"
+                f"harmonics have not faded; give more positions over the revolution"
             )
 
     @cached_property
@@ -153,7 +153,7 @@ class Cylinder:
         angle : ndarray, shape (m,)
             Crank angles from the top dead centre [rad].
         compression_ratio : float
-            r_c, greatest over least volume.
+            r_c, maximum over minimum volume.
 
         Returns
         -------
@@ -166,7 +166,7 @@ class Cylinder:
 
 
 def powers(angle: Array, n: int) -> Complex:
-    """The turns e^{ikφ} for k = 0 … n − 1, shape (n, m).
+    """The revolutions e^{ikφ} for k = 0 … n − 1, shape (n, m).
 
     Parameters
     ----------

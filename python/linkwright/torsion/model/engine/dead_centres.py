@@ -30,11 +30,11 @@ from linkwright.torsion.model.engine.running_gear import RunningGear, throw_moti
 
 Array = NDArray[np.float64]
 
-# Angles of the turn from whose highest and lowest Newton starts, 1.4 degrees apart.
+# Angles of the revolution from whose highest and lowest Newton starts, 1.4 degrees apart.
 _SAMPLES = 256
 # Newton squares the error of 0.01 rad at each step; the rest is for dead centres that are nearly flat.
 _STEPS = 12
-# Greatest speed at a dead centre, over that of the crank pin: rounding of a few operations.
+# Maximum speed at a dead centre, over that of the crank pin: rounding of a few operations.
 _AT_REST = 1e-12
 
 
@@ -44,8 +44,8 @@ class DeadCentres(NamedTuple):
     Attributes
     ----------
     top, bottom : float
-        Crank angles of the throw from the vertical [rad]: top within half a turn of the cylinder's axis,
-        bottom within a turn after it.
+        Crank angles of the throw from the vertical [rad]: top within half a revolution of the cylinder's
+        axis, bottom within a revolution after it.
     highest, lowest : float
         Distance of the piston pin from the axis of the crank there [m].
     """

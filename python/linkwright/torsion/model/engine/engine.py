@@ -13,7 +13,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.limits import THROWS
 from linkwright.kernel.units import INERTIA, MASS, RATIO, Angles, not_negative, positive
 from linkwright.linkages.model.element import PositiveLength
@@ -28,7 +28,7 @@ from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveSti
 _EQUAL = 1e-6
 
 
-class ReciprocatingEngine(Checked):
+class ReciprocatingEngine(CheckedDescription):
     """An engine with one or more banks of cylinders on one crankshaft."""
 
     strokes: Literal[2, 4] = Field(4, description="Of a working cycle.")
@@ -59,7 +59,7 @@ class ReciprocatingEngine(Checked):
     throw: CrankThrow | None = Field(None, description="Geometry of a throw.")
     throw_inertia: Annotated[float, positive(INERTIA)] | None = Field(
         None,
-        description="What turns with the crank, of one throw without rods. Without it, that of the throw.",
+        description="Of the rotating parts of one throw, without rods. Without it, that of the throw.",
     )
     stiffness: PositiveStiffness | None = Field(
         None, description="From throw to throw, measured or computed. Without it, by a formula."
@@ -71,7 +71,7 @@ class ReciprocatingEngine(Checked):
     loss_factor: LossFactor = Field(0.0, description="Hysteresis of the crankshaft.")
     limit: ShaftLimit | None = Field(
         None,
-        description="What the crankshaft bears; without a diameter of its own, at the crank pin.",
+        description="Permitted stresses of the crankshaft; without a diameter of its own, at the crank pin.",
     )
     gas: AnyGas = Field(description="Pressure in the cylinders.")
     factors: dict[str, Annotated[float, not_negative(RATIO)]] = Field(
@@ -112,7 +112,7 @@ class ReciprocatingEngine(Checked):
             for n, angle in enumerate(angles):
                 if abs(angle) > 2 * math.pi + _EQUAL:
                     remedy = f'a number without unit is radians; give degrees as "{angle:.6g} deg"'
-                    yield fault(name, n, found=angle, expected="an angle up to a turn", remedy=remedy)
+                    yield fault(name, n, found=angle, expected="an angle up to a revolution", remedy=remedy)
 
     def _part_faults(self) -> Iterator[InitErrorDetails]:
         """Parts that are missing, or contradict each other."""
@@ -166,7 +166,7 @@ class ReciprocatingEngine(Checked):
         if abs(found - wanted) > _EQUAL:
             yield fault(
                 "firing_order",
-                found=f"an order that comes round after {found / (2 * math.pi):.6g} turns",
+                found=f"an order that repeats after {found / (2 * math.pi):.6g} revolutions",
                 expected=f"one of {wanted / (2 * math.pi):.6g}, a cycle of {self.strokes} strokes",
                 remedy="look at the angles of throws and banks, the sense of rotation, and the numbering",
             )

@@ -1,4 +1,4 @@
-"""The moving parts of an engine: running gears, pistons over the turn, inertia of a throw over its angle."""
+"""Moving parts of an engine: running gears, pistons over a revolution, inertia of a throw over its angle."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from linkwright.torsion.model.engine.throw_reduction import ThrowReduction, thro
 
 Floats = NDArray[np.float64]
 
-# Angles over a turn at which pistons are placed: far beyond the harmonics of any rod that closes with room
-# to spare.
+# Angles over one revolution at which pistons are placed: far beyond the harmonics of any rod that closes with
+# room to spare.
 _SAMPLES = 256
 
 
@@ -52,7 +52,7 @@ def piston_positions(engine: ReciprocatingEngine) -> list[Floats]:
     Returns
     -------
     list of ndarray, shape (n,)
-        At n even angles over a turn of the throw, from where it points along the cylinder [m].
+        At n even angles over one revolution of the throw, from where it points along the cylinder [m].
     """
     turn = 2 * math.pi * np.arange(_SAMPLES) / _SAMPLES
     gears = running_gears(engine)
@@ -89,7 +89,7 @@ def own_inertia(engine: ReciprocatingEngine) -> float:
 
 
 def mean_throw_inertia(engine: ReciprocatingEngine) -> float:
-    """Mean over the turn of the inertia of a throw with its rods and pistons [kg m²]."""
+    """Mean over the revolution of the inertia of a throw with its rods and pistons [kg m²]."""
     return mean_inertia(engine.radius, running_gears(engine), own_inertia(engine)).mean
 
 

@@ -1,7 +1,7 @@
 r"""The disc that stands for a throw, as published.
 
 With the rod as the two masses of (1) and (2), the piston's speed by its first two harmonics (3), and the
-kinetic energy averaged over a turn (4) to (6), the disc has
+kinetic energy averaged over one revolution (4) to (6), the disc has
 
 .. math::
 

@@ -1,9 +1,9 @@
 r"""When each cylinder fires: from the angles of throws and banks and the firing order.
 
 A throw at the angle α behind throw 1, counted in the sense of rotation, points along a cylinder at the angle
-β from the vertical when the crank angle is :math:`\varphi = \beta - \alpha`, once a turn. In which of the
-turns of a cycle a cylinder fires follows from the order: each fires at its first dead centre after the one
-before it, and when the first fires again, just one cycle must have passed.
+β from the vertical when the crank angle is :math:`\varphi = \beta - \alpha`, once per revolution. In which of
+the revolutions of a cycle a cylinder fires follows from the order: each fires at its first dead centre after
+the one before it, and when the first fires again, just one cycle must have passed.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ def firing_angles(
     together = steps.count(0.0)
     turns = round((cycle - sum(steps)) / (2 * math.pi))
     if turns == 1 and together == len(steps):
-        # All fire at once, every turn.
+        # All fire at once, every revolution.
         steps[-1] = 2 * math.pi
     elif together and turns > 0 and turns % together == 0:
         steps = [step or 2 * math.pi * (turns // together) for step in steps]
@@ -96,6 +96,6 @@ def firing_angles(
 
 
 def _turn(angle: float) -> float:
-    """An angle from 0 up to a turn; what is a turn but for rounding is 0."""
+    """An angle from 0 up to a revolution; what is a revolution but for rounding is 0."""
     turned = angle % (2 * math.pi)
     return 0.0 if turned < _EQUAL or 2 * math.pi - turned < _EQUAL else turned

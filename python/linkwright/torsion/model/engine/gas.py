@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked
+from linkwright.kernel.description.base import CheckedDescription
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.units import PRESSURE, RATIO, Bound, Quantity, not_negative
 from linkwright.torsion.model.engine.cycle_pressure import CyclePressure
@@ -25,10 +25,10 @@ CompressionRatio = Annotated[float, Quantity(RATIO, ABOVE_ONE)]
 Exponent = Annotated[float, Quantity(RATIO, ABOVE_ONE)]
 
 
-class Gas(Checked):
+class Gas(CheckedDescription):
     """Pressure in a cylinder over its working cycle, at any speed."""
 
-    compression_ratio: CompressionRatio = Field(description="Greatest over least volume above the piston.")
+    compression_ratio: CompressionRatio = Field(description="Maximum over minimum volume above the piston.")
     crankcase_pressure: Annotated[float, not_negative(PRESSURE)] = Field(
         101325.0, description="Absolute pressure under the pistons."
     )

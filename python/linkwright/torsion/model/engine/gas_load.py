@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.units import PRESSURE, RATIO, SPEED, Pressures, Speeds, not_negative, positive
 
@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 PositivePressure = Annotated[float, positive(PRESSURE)]
 
 
-class GasLoad(Checked):
+class GasLoad(CheckedDescription):
     """Indicated mean effective pressure of all cylinders against the speed."""
 
     @abstractmethod
@@ -51,7 +51,7 @@ class GasLoad(Checked):
     @property
     @abstractmethod
     def rated(self) -> float | None:
-        """Greatest mean effective pressure of the map [Pa]; None where it is that of the gas as described."""
+        """Maximum mean effective pressure of the map [Pa]; None where it is that of the gas as described."""
 
     @property
     def rated_speed(self) -> float:

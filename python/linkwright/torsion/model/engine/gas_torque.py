@@ -8,8 +8,8 @@ whatever the mechanism between them,
     M_ν = \frac{2}{Φ} \int_Φ M e^{-iνφ} dφ, \quad M_0 = \frac1Φ \int_Φ M dφ
 
 with x the distance of the piston from the axis of the crank (x′ < 0 as it descends: pressure drives) and Φ
-the angle of a working cycle. Orders count per turn of the crank: with four strokes they go by halves. The
-integrals are those of the mesh of `CyclePressure`.
+the angle of a working cycle. Orders count per revolution of the crank: with four strokes they go by halves.
+The integrals are those of the mesh of `CyclePressure`.
 
 References
 ----------
@@ -46,7 +46,7 @@ class GasTorque:
     speeds : ndarray, shape (n,)
         Of the crank [rad/s].
     orders : ndarray, shape (o,)
-        Per turn of the crank, from 0.
+        Per revolution of the crank, from 0.
     firing : ndarray, shape (n, o)
         M_ν of a sound cylinder, complex [N m]; φ = 0 is where the crank points along the cylinder, near the
         firing.
@@ -67,7 +67,7 @@ class GasTorque:
 
     @property
     def peak_pressure(self) -> Array:
-        """Greatest pressure of a sound cylinder, shape (n,) [Pa]."""
+        """Maximum pressure of a sound cylinder, shape (n,) [Pa]."""
         return self.pressure.peak_pressure
 
     def of(self, factor: float) -> Complex:
@@ -141,7 +141,7 @@ def gas_torque(pressure: CyclePressure, cylinder: Cylinder, highest: float = 24.
     cylinder : Cylinder
         Its bore, strokes and piston's motion.
     highest : float
-        Last order, per turn of the crank.
+        Last order, per revolution of the crank.
 
     Returns
     -------

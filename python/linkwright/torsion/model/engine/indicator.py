@@ -13,7 +13,7 @@ above this line is the combustion, and fades out while the exhaust blows down. O
 .. math:: p = p_0 + f (p - p_0), \qquad f = \frac{p_i - p_{i,0}}{p_{i,1} - p_{i,0}}
 
 with p_i the mean effective pressure asked for, p_{i,1} that of the diagram and p_{i,0} that of the motored
-line. Between diagrams at several loads the pressure is linear in p_i; below the least and above the greatest
+line. Between diagrams at several loads the pressure is linear in p_i; below the minimum and above the maximum
 of them combustion is scaled.
 
 References
@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.units import ANGLE, Angle, Angles, Pressures, positive
@@ -93,7 +93,7 @@ def default_opening(strokes: int) -> float:
     return math.radians(130.0 if strokes == 4 else 110.0)
 
 
-class Diagram(Checked):
+class Diagram(CheckedDescription):
     """Pressure in a cylinder at crank angles of a whole cycle."""
 
     kind: Literal["table"]

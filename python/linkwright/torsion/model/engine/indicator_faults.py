@@ -23,9 +23,10 @@ _SMALL_STEP = math.radians(2.0)
 _LONGEST = 4 * math.pi
 # Angles are printed to a hundredth of a degree.
 _SAME_ANGLE = math.radians(0.02)
-# Share of the greatest pressure by which two ends at the same angle may differ: drift of a transducer.
+# Share of the maximum pressure by which two ends at the same angle may differ: drift of a transducer.
 _DRIFT = 0.02
-# The least pressures of pressure transducers are near that of the air; engines do not run on peaks below it.
+# The minimum pressures of pressure transducers are near that of the air; engines do not run on peaks below
+# it.
 _ATMOSPHERE = 101325.0
 # No engine reaches 100 MPa.
 _HIGHEST = 1e8
@@ -57,11 +58,11 @@ def diagram_faults(angle: tuple[float, ...], pressure: tuple[float, ...]) -> Ite
             remedy=remedy,
         )
     elif top < _ATMOSPHERE:
-        found = f"a greatest pressure of {top:.6g} Pa, below that of the air"
+        found = f"a maximum pressure of {top:.6g} Pa, below that of the air"
         remedy = 'without a unit a number is in pascals: write "pressure [bar]" in the head of the file'
         yield fault("pressure", found=found, expected="absolute pressures of a cylinder", remedy=remedy)
     elif top > _HIGHEST:
-        found = f"a greatest pressure of {top:.6g} Pa"
+        found = f"a maximum pressure of {top:.6g} Pa"
         yield fault("pressure", found=found, expected=f"less than {_HIGHEST:.0e} Pa", remedy="check the unit")
     if angle[-1] - angle[0] > _LONGEST + _SAME_ANGLE:
         yield _wrong_span(angle, _LONGEST, "more than")
@@ -148,13 +149,13 @@ def _end_faults(pressure: Array, closing: float) -> Iterator[InitErrorDetails]:
 def _peak_faults(
     angle: tuple[float, ...], pressure: tuple[float, ...], cycle: float
 ) -> Iterator[InitErrorDetails]:
-    """A greatest pressure far from the angle that should be the firing dead centre."""
+    """A maximum pressure far from the angle that should be the firing dead centre."""
     at = angle[int(np.argmax(pressure))]
     off = math.remainder(at, cycle)
     if abs(off) > _PEAK_WITHIN:
         yield fault(
             "angle",
-            found=f"the greatest pressure at {math.degrees(at):.6g} deg",
+            found=f"the maximum pressure at {math.degrees(at):.6g} deg",
             expected=f"within {math.degrees(_PEAK_WITHIN):.6g} deg of the top dead centre of firing, angle 0",
             remedy=f"count from there: subtract {180 * round(at / math.pi)} deg from all angles",
         )

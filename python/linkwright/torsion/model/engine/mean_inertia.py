@@ -1,4 +1,4 @@
-r"""The disc that stands for a throw, exactly: means of J(φ) over a turn.
+r"""The disc that stands for a throw, exactly: means of J(φ) over one revolution.
 
 At constant speed the mean energy of a throw is that of a disc with the mean of J(φ) over the crank angle,
 which is then its mean over time: ``mean``. It is what (7) approximates, and what a train of constant inertias
@@ -7,7 +7,7 @@ takes. Other questions lead to other means:
 | mean | is | holds for |
 | --- | --- | --- |
 | ``mean`` | ⟨J⟩ | the mean energy at constant speed; the exact (7) |
-| ``constant_energy`` | ⟨√J⟩² | the time of a turn at constant energy, ω = √(2E/J) |
+| ``constant_energy`` | ⟨√J⟩² | the time of a revolution at constant energy, ω = √(2E/J) |
 | ``harmonic`` | 1/⟨1/J⟩ | the mean speed at constant momentum Jω, as of a twist slow against the turning |
 
 They are power means of the exponents 1, ½, −1, so each is at least the next, and to second order they lie
@@ -20,7 +20,7 @@ var J/(4⟨J⟩) and var J/⟨J⟩ below the first.
     S = \frac{1 - \sqrt{1 - λ^2}}{λ^2} = \frac{1}{1 + \sqrt{1 - λ^2}}
     = \tfrac12 \left( 1 + \tfrac{λ^2}{4} + \tfrac{λ^4}{8} + \tfrac{5 λ^6}{64} + … \right)
 
-the means over the turn are
+the means over the revolution are
 
 .. math::
 
@@ -52,7 +52,7 @@ from linkwright.torsion.model.engine.rod import Rod
 from linkwright.torsion.model.engine.running_gear import RunningGear
 from linkwright.torsion.model.engine.throw_reduction import throw_reduction
 
-# Angles of the first and of the last mesh of a turn.
+# Angles of the first and of the last mesh of a revolution.
 _FIRST, _LAST = 32, 1 << 15
 # Means over even angles of a smooth periodic function converge geometrically: a mesh of twice as many angles
 # has the square of the error. Two meshes that agree so far leave the finer one with rounding alone.
@@ -60,14 +60,14 @@ _AGREE = 1e-9
 
 
 class MeanInertia(NamedTuple):
-    """Means of J(φ) over a turn.
+    """Means of J(φ) over one revolution.
 
     Attributes
     ----------
     mean : float
         ⟨J⟩, of equal energy at constant speed [kg m²].
     constant_energy : float
-        ⟨√J⟩², of equal time of a turn at constant energy [kg m²].
+        ⟨√J⟩², of equal time of a revolution at constant energy [kg m²].
     harmonic : float
         1/⟨1/J⟩, of equal speed at constant momentum [kg m²].
     """
@@ -78,7 +78,7 @@ class MeanInertia(NamedTuple):
 
 
 def mean_inertia(crank_radius: float, gears: Sequence[RunningGear], own_inertia: float = 0.0) -> MeanInertia:
-    """Means over a turn of the inertia of a throw with all its rods and pistons, to rounding.
+    """Means over one revolution of the inertia of a throw with all its rods and pistons, to rounding.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ def _means(crank_radius: float, gears: Sequence[RunningGear], own_inertia: float
 def central_mean_inertia(
     crank_radius: float, rod: Rod, piston_mass: float, own_inertia: float = 0.0
 ) -> float:
-    """Mean over a turn of the inertia of a throw with one rod in a central cylinder, in closed form.
+    """Mean over one revolution of the inertia of a throw with one rod in a central cylinder, in closed form.
 
     Parameters
     ----------

@@ -45,7 +45,7 @@ FREE_FALL = 9.81
 
 
 def swing_period(swings_per_minute: float) -> float:
-    """Time of a full oscillation, to and fro.
+    """Time of a full oscillation, back and forth.
 
     Parameters
     ----------

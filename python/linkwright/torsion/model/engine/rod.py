@@ -32,7 +32,7 @@ from typing import Annotated, NamedTuple
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, fault
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import (
     INERTIA,
     INSIDE_ONE,
@@ -78,7 +78,7 @@ class RodBody(NamedTuple):
     inertia: float
 
 
-class Rod(Checked):
+class Rod(CheckedDescription):
     """A connecting rod on the crank pin: one of two side by side, a fork, a blade, or a master rod."""
 
     length: PositiveLength = Field(description="Between the axes of big and small end.")

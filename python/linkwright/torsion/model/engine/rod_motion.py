@@ -1,7 +1,7 @@
 r"""Motion of a rod and its piston over the crank angle, exact, for pins on a crank and on a master rod.
 
 Points of the plane are complex numbers: the real axis points up the vertical from which cylinders and cranks
-are counted, the imaginary axis a quarter of a turn on in the sense of rotation. The crank pin is
+are counted, the imaginary axis a quarter of a revolution on in the sense of rotation. The crank pin is
 :math:`p = r e^{iφ}`.
 
 In the frame of a cylinder, whose axis is turned by β and runs past the axis of the crank at the offset e in
@@ -51,7 +51,7 @@ class PinMotion:
     Attributes
     ----------
     position : ndarray, shape (...)
-        p, complex, in the shape of the crank angles: up the vertical, and a quarter of a turn on [m].
+        p, complex, in the shape of the crank angles: up the vertical, and a quarter of a revolution on [m].
     d1, d2 : ndarray, shape (...)
         p′, p″ [m/rad, m/rad²].
     """

@@ -26,7 +26,7 @@ class RunningGear:
     rod : Rod
         On the crank pin; an `ArticulatedRod` on its master rod.
     piston_mass : float
-        Of all that moves to and fro with the piston: piston, rings, pin [kg].
+        Of the reciprocating mass with the piston: piston, rings, pin [kg].
     bank_angle : float
         β, from the vertical to the axis of the cylinder, in the sense of rotation [rad].
     offset : float

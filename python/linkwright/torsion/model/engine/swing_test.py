@@ -8,20 +8,20 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, Description, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.units import ACCELERATION, LENGTH, TIME, not_negative, positive
 from linkwright.linkages.model.element import PositiveNumber
 from linkwright.torsion.model.engine.pendulum import FREE_FALL, pendulum_length, swing_period
 
 
-class Swings(Checked):
+class Swings(CheckedDescription):
     """How fast a rod swings in one of its heads."""
 
     swings_per_minute: PositiveNumber | None = Field(
-        None, description="Single swings a minute, from one side to the other."
+        None, description="Single swings per minute, from one side to the other."
     )
     period: Annotated[float, positive(TIME)] | None = Field(
-        None, description="Of a full swing to and fro, in place of the swings a minute."
+        None, description="Of a full swing back and forth, in place of the swings per minute."
     )
     edge: Annotated[float, not_negative(LENGTH)] = Field(
         0.0,

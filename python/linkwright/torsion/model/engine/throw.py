@@ -14,7 +14,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Checked, Description, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.units import INERTIA, LENGTH, MASS, Angle, Length, Lengths, not_negative, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.torsion.model.engine.polygon import Points, first_crossing, holds, signed_area
@@ -26,7 +26,7 @@ STEEL_SHEAR = 79.3e9
 STEEL_ELASTIC = 206e9
 
 
-class Journal(Checked):
+class Journal(CheckedDescription):
     """A main journal of a crankshaft, solid or bored."""
 
     length: PositiveLength = Field(description="Between the webs.")
@@ -54,7 +54,7 @@ class CrankPin(Journal):
             yield fault("bore_offset", found=self.bore_offset, expected=expected)
 
 
-class CrankWeb(Checked):
+class CrankWeb(CheckedDescription):
     """One of the two equal webs of a throw: a plate of a rectangular, round or any other outline."""
 
     thickness: PositiveLength = Field(description="Along the shaft.")
@@ -143,7 +143,7 @@ class Drilling(Description):
     inclination: Angle = Field(0.0, description="Of the hole against the axis of the shaft.")
 
 
-class Counterweight(Checked):
+class Counterweight(CheckedDescription):
     """A counterweight of a throw, by its mass or as the sector of a ring."""
 
     direction: Angle = Field(
@@ -183,7 +183,7 @@ class Counterweight(Checked):
         yield from self._sector_faults()
 
     def _sector_faults(self) -> Iterator[InitErrorDetails]:
-        """A sector of a ring without width, or of more than a turn."""
+        """A sector of a ring without width, or of more than a revolution."""
         if self.outer_radius is not None and (self.inner_radius or 0.0) >= self.outer_radius:
             expected = f"less than the outer radius, {self.outer_radius:.6g} m"
             yield fault("inner_radius", found=self.inner_radius, expected=expected)
@@ -192,7 +192,7 @@ class Counterweight(Checked):
             yield fault("angle", found=found, expected="an angle above 0 and up to 360°")
 
 
-class CrankThrow(Checked):
+class CrankThrow(CheckedDescription):
     """One throw of a crankshaft, from the middle of a main journal to the middle of the next."""
 
     radius: PositiveLength = Field(description="From the axis of the shaft to that of the pin.")

@@ -88,14 +88,14 @@ COMPLIANCE_FORMULAS: Mapping[str, ComplianceFormula] = MappingProxyType(
                 "constrained",
                 throw_formulas.constrained,
                 "formula (17) after Seelmann, bearings in line",
-                "throws between two close bearings with little play",
+                "throws between two close bearings with little clearance",
                 _restraint_remark,
             ),
             ComplianceFormula(
                 "free",
                 throw_formulas.free,
-                "formula (17) after Seelmann, bearings with play",
-                "small amplitudes within the play of the bearings",
+                "formula (17) after Seelmann, bearings with clearance",
+                "small amplitudes within the bearing clearance",
                 _nothing,
             ),
             ComplianceFormula(

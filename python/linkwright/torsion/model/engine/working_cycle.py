@@ -4,8 +4,8 @@ The work of the cycle is linear in the heat as the pressure is, so the heat for 
 
 .. math:: Q = \frac{p_i - p_{i,a}}{p_{i,b}}
 
-with the mean effective pressures of p_a and p_b; for a peak pressure p̂ it is the least (p̂ - p_a)/p_b over the
-cycle.
+with the mean effective pressures of p_a and p_b; for a peak pressure p̂ it is the minimum (p̂ - p_a)/p_b over
+the cycle.
 """
 
 from __future__ import annotations
@@ -157,7 +157,7 @@ class WorkingCycle:
             if wanted <= least:
                 expected = f"more than {least:.6g} Pa, the pressure of compression alone"
                 raise MachineError([Problem("train.engine.gas.peak_pressure", f"{wanted:.6g} Pa", expected)])
-            # The peak lies between points; how far beyond the greatest of them, the last iterate says.
+            # The peak lies between points; how far beyond the maximum of them, the last iterate says.
             beyond = split.last.max(axis=1) / peak(angle, split.last)
             burns = split.per_heat > 0
             _check_work(burns.max(axis=1))

@@ -22,7 +22,7 @@ from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.torsion.core.response import respond, shaft_torques
 from linkwright.torsion.modes.free import lead_speeds
-from linkwright.torsion.response.excited import Excited
+from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.synthesis import Orders, orders_together, span
 
 Floats = NDArray[np.float64]
@@ -30,12 +30,12 @@ Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
-class Carried(Result):
+class TorsionResponse(Result):
     """Vibration of the discs, and what the shafts carry in it."""
 
     speeds: Annotated[Floats, Shown("speed of the first disc", "ω", "rad/s", shape="(speeds,)")]
     orders: Annotated[
-        Floats, Shown("waves in a turn of the first disc", "ν", "", shape="(orders,)", over="orders")
+        Floats, Shown("excitation order of the first disc", "ν", "", shape="(orders,)", over="orders")
     ]
     discs: Annotated[tuple[str, ...], About("As in `FreeVibration`.")]
     shafts: Annotated[tuple[str, ...], About("As in `FreeVibration`.")]
@@ -63,7 +63,7 @@ class Carried(Result):
     torque_greatest: Annotated[
         Floats,
         Shown(
-            "greatest torque of each shaft",
+            "maximum torque of each shaft",
             "",
             "N m",
             "Mean and vibration together.",
@@ -73,7 +73,11 @@ class Carried(Result):
     torque_least: Annotated[
         Floats,
         Shown(
-            "least torque of each shaft", "", "N m", "Mean and vibration together.", shape="(shafts, speeds)"
+            "minimum torque of each shaft",
+            "",
+            "N m",
+            "Mean and vibration together.",
+            shape="(shafts, speeds)",
         ),
     ]
     shaft_heat: Annotated[
@@ -92,7 +96,7 @@ class Carried(Result):
     def shaft_torque_vibratory(
         self,
     ) -> Annotated[Floats, Shown("vibratory torque of each shaft", "", "N m", shape="(shafts, speeds)")]:
-        """Half of greatest less least torque."""
+        """Half the peak-to-peak torque."""
         return 0.5 * (self.torque_greatest - self.torque_least)
 
     @property
@@ -101,28 +105,28 @@ class Carried(Result):
         return orders_together(self.orders)
 
 
-def carried(at: Excited) -> Carried:
+def torsion_response(at: ExcitedTrain) -> TorsionResponse:
     """What the shafts of a train carry.
 
     Parameters
     ----------
-    at : Excited
+    at : ExcitedTrain
         The train, its torques, and what it is at each speed.
 
     Returns
     -------
-    Carried
+    TorsionResponse
         Not finite at a resonance without any damping.
     """
-    return carried_by(at, responses(at))
+    return response_by_amplitudes(at, responses(at))
 
 
-def responses(at: Excited) -> Complexes:
+def responses(at: ExcitedTrain) -> Complexes:
     """Amplitudes of the masses of a train.
 
     Parameters
     ----------
-    at : Excited
+    at : ExcitedTrain
         The train.
 
     Returns
@@ -133,20 +137,20 @@ def responses(at: Excited) -> Complexes:
     return respond(at.referred, at.operating, at.torques.orders, at.referred_harmonics())
 
 
-def carried_by(at: Excited, q: Complexes) -> Carried:
+def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
     """What the shafts carry where the masses swing by some amplitudes.
 
     Parameters
     ----------
-    at : Excited
+    at : ExcitedTrain
         The train.
     q : ndarray of complex, shape (orders, masses, speeds)
         As of `responses` [rad].
 
     Returns
     -------
-    Carried
-        As `carried`.
+    TorsionResponse
+        As `torsion_response`.
     """
     referred, orders, speeds = at.referred, at.torques.orders, at.torques.speeds
     omega = orders[:, None, None] * speeds
@@ -157,7 +161,7 @@ def carried_by(at: Excited, q: Complexes) -> Carried:
     flow = _flow(at, q, k + 1j * imaginary)
     torques = flow / lead
     greatest, least = span(orders_together(orders), torques, at.mean_torques)
-    return Carried(
+    return TorsionResponse(
         speeds=speeds,
         orders=orders,
         discs=referred.discs,
@@ -171,7 +175,7 @@ def carried_by(at: Excited, q: Complexes) -> Carried:
     )
 
 
-def _flow(at: Excited, q: Complexes, stiffness: Complexes) -> Complexes:
+def _flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexes:
     """Torque of each shaft, referred to the first disc, (orders, shafts, speeds)."""
     omega = at.torques.orders[:, None, None] * at.torques.speeds
     outside = at.referred_harmonics()

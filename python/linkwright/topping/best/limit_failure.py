@@ -11,7 +11,7 @@ from linkwright.topping.roots import Roots
 
 
 @dataclass(frozen=True)
-class Failing:
+class LimitFailure:
     """A limit that no knife within the bounds keeps, with all others kept.
 
     Attributes
@@ -30,7 +30,7 @@ class Failing:
     words: str
 
 
-def failing_limit(chosen: Trial, roots: Roots, limits: TopperLimits, length_max: float) -> Failing:
+def failing_limit(chosen: Trial, roots: Roots, limits: TopperLimits, length_max: float) -> LimitFailure:
     """The limit that the knife which comes closest does not keep.
 
     Parameters
@@ -42,7 +42,7 @@ def failing_limit(chosen: Trial, roots: Roots, limits: TopperLimits, length_max:
     limits : TopperLimits
         What it should keep.
     length_max : float
-        Greatest length of the edge [m].
+        Maximum length of the edge [m].
     """
     place = (
         f"α = {math.degrees(chosen.edge_angle):.4g}°, v_h = {chosen.knife_speed:.4g} m/s, "
@@ -53,7 +53,7 @@ def failing_limit(chosen: Trial, roots: Roots, limits: TopperLimits, length_max:
             "within the bounds of angle and knife speed all edges run backwards at times: lower angle_min or "
             "knife_speed_min"
         )
-        return Failing("angle_min", limits.angle_min, math.nan, words)
+        return LimitFailure("angle_min", limits.angle_min, math.nan, words)
     wanted = limits.slicing_min or 0.0
     if chosen.slicing < wanted:
         words = (
@@ -61,17 +61,17 @@ def failing_limit(chosen: Trial, roots: Roots, limits: TopperLimits, length_max:
             f"{chosen.slicing:.4g}, {wanted - chosen.slicing:.4g} too little, at {place}; raise angle_max or "
             "knife_speed_max"
         )
-        return Failing("slicing_min", wanted, chosen.slicing, words)
+        return LimitFailure("slicing_min", wanted, chosen.slicing, words)
     if math.isinf(chosen.length):
         return _missed(roots, limits)
     words = (
         f"length_max = {length_max:.4g} m is too short: the shortest edge that keeps the other limits has "
         f"{chosen.length:.4g} m, {chosen.length - length_max:.4g} m more, at {place}"
     )
-    return Failing("length_max", length_max, chosen.length, words)
+    return LimitFailure("length_max", length_max, chosen.length, words)
 
 
-def _missed(roots: Roots, limits: TopperLimits) -> Failing:
+def _missed(roots: Roots, limits: TopperLimits) -> LimitFailure:
     """Heads above which the knife passes let no length keep a limit."""
     missed = float(roots.is_missed.mean())
     because = f"the knife passes above {100 * missed:.3g} % of the heads: cut deeper"
@@ -80,10 +80,10 @@ def _missed(roots: Roots, limits: TopperLimits) -> Failing:
             f"complete_min = {100 * limits.complete_min:.4g} % cannot be kept with any edge: at most "
             f"{100 * (1 - missed):.4g} % of the heads can be cut right through, as {because}"
         )
-        return Failing("complete_min", limits.complete_min, 1 - missed, words)
+        return LimitFailure("complete_min", limits.complete_min, 1 - missed, words)
     wanted = limits.haulm_max or 0.0
     words = (
         f"haulm_max = {100 * wanted:.4g} % cannot be kept with any edge: at least {100 * missed:.4g} % is "
         f"left, as {because}"
     )
-    return Failing("haulm_max", wanted, missed, words)
+    return LimitFailure("haulm_max", wanted, missed, words)

@@ -28,7 +28,7 @@ from linkwright.torsion.response.torques import Source, Torques, torques_of
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
-# Speeds of a drive line over its steady speed, and how many: where a motor works, not where it runs up.
+# Speeds of a driveline over its steady speed, and how many: where a motor works, not where it runs up.
 _ABOUT = (0.8, 1.2)
 _POINTS = 200
 
@@ -37,7 +37,7 @@ _ROUNDING = 1e-11
 
 
 @dataclass(frozen=True)
-class Excited:
+class ExcitedTrain:
     """A train with its torques at some speeds.
 
     Attributes
@@ -72,7 +72,7 @@ class Excited:
         return _onto_masses(self.referred, self.torques.harmonics)
 
 
-def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
+def excited_train(machine: Machine, speeds: Floats | None = None) -> ExcitedTrain:
     """Make a train ready for forced vibration.
 
     Parameters
@@ -84,7 +84,7 @@ def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
 
     Returns
     -------
-    Excited
+    ExcitedTrain
         All that the response needs.
 
     Raises
@@ -99,19 +99,19 @@ def excited(machine: Machine, speeds: Floats | None = None) -> Excited:
     return at
 
 
-def prepared(machine: Machine, speeds: Floats | None = None) -> Excited:
-    """As `excited`, also for a train that nothing excites.
+def prepared(machine: Machine, speeds: Floats | None = None) -> ExcitedTrain:
+    """As `excited_train`, also for a train that nothing excites.
 
     Parameters
     ----------
     machine : Machine
-        With a [train], or with a drive line that twists.
+        With a [train], or with a torsionally flexible driveline.
     speeds : ndarray, shape (speeds,), optional
         Of the first disc; without them those of `[train.run]` [rad/s].
 
     Returns
     -------
-    Excited
+    ExcitedTrain
         What the train is at each speed.
 
     Raises
@@ -136,7 +136,7 @@ def under(
     damping: Floats | None = None,
     *,
     loads_follow: bool | None = None,
-) -> Excited:
+) -> ExcitedTrain:
     """A train under torques of its engine or mechanism, and those of its file.
 
     Parameters
@@ -158,7 +158,7 @@ def under(
 
     Returns
     -------
-    Excited
+    ExcitedTrain
         What the train is under each column of torques; couplings have the slope at the mean torque.
     """
     run = None if machine.train is None else machine.train.run
@@ -186,7 +186,7 @@ def _require_room(train: Train, sources: Sequence[Source], speeds: int) -> None:
     require_within(RESPONSE, orders * len(train.discs) * speeds, "train", remedy)
 
 
-def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Torques) -> Excited:
+def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Torques) -> ExcitedTrain:
     """A train under torques: mean torques of its shafts, stiffness and damping.
 
     Parameters
@@ -202,11 +202,11 @@ def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Tor
 
     Returns
     -------
-    Excited
+    ExcitedTrain
         At the speeds of the torques.
     """
     mean = _mean_torques(referred, torques.mean)
-    return Excited(train, referred, torques, mean, _operating(machine.train, referred, torques, mean))
+    return ExcitedTrain(train, referred, torques, mean, _operating(machine.train, referred, torques, mean))
 
 
 def is_excited(machine: Machine) -> bool:
@@ -259,7 +259,7 @@ def _sources(
 
 
 def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:
-    """Those at which the file looks at its train; of a drive line those about its steady speed."""
+    """Those at which the file looks at its train; of a driveline those about its steady speed."""
     if machine.train is None:
         of_crank: Floats = np.linspace(*_ABOUT, _POINTS) * steady_speed(machine)
         return of_crank / float(turning[place[CRANK]])
@@ -288,7 +288,7 @@ def _mean_torques(referred: ReferredTrain, mean: Floats) -> Floats:
     k = np.where(referred.stiffness > 0, referred.stiffness, referred.stiffness.max(initial=0.0) or 1.0)
     tree = tree_of(referred)
     if tree is None:
-        # Of all torques that balance those of least energy, Σ T²/k: so ways in parallel share by stiffness.
+        # Of all torques that balance those of minimum energy, Σ T²/k: so ways in parallel share by stiffness.
         scale = np.sqrt(k)[:, None]
         carried: Floats = scale * (np.linalg.pinv((scale * referred.joins).T, rcond=1e-13) @ M)
     else:

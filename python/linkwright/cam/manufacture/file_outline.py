@@ -1,4 +1,4 @@
-"""An outline as it was found in a file."""
+"""An outline as a file holds it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 from linkwright.cam.manufacture.deviation import Path
 
 
-class Found(NamedTuple):
+class FileOutline(NamedTuple):
     """An outline of a file.
 
     Attributes

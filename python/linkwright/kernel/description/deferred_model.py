@@ -11,7 +11,7 @@ from pydantic_core import CoreSchema, SchemaValidator, core_schema
 
 
 @dataclass(frozen=True)
-class Elsewhere:
+class DeferredModel:
     """Mark of an entry that a model in another room describes.
 
     Attributes
@@ -54,6 +54,6 @@ class Elsewhere:
         return checked
 
 
-def elsewhere(module: str, name: str) -> Any:
+def deferred_model(module: str, name: str) -> Any:
     """The type of an entry that the model ``name`` of a module below the package describes."""
-    return Annotated[Any, Elsewhere(module, name)]
+    return Annotated[Any, DeferredModel(module, name)]

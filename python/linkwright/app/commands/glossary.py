@@ -1,0 +1,51 @@
+"""``linkwright glossary``: the field's words, with their definitions, symbols and sources."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.common import Json
+
+if TYPE_CHECKING:
+    from linkwright.kernel.page.glossary import Term
+
+Word = Annotated[
+    str,
+    typer.Argument(metavar="[WORD]", help="A term, a symbol, a key or an older word; without it, all terms."),
+]
+
+
+def glossary(word: Word = "", json: Json = False) -> None:
+    """Define the terms of tables, messages and reports.
+
+    Each with its symbol, its unit, its source and its key in files and results.
+    """
+    from linkwright.kernel.errors import InputError
+    from linkwright.kernel.page.glossary import glossary as terms
+    from linkwright.kernel.page.glossary import matching
+
+    chosen = matching(word) if word else terms()
+    if not chosen:
+        raise InputError(f'the glossary has no term "{word}"; linkwright glossary lists all terms')
+    answer = Answer(
+        machine=None,
+        results=lambda _: {term.key: _plain(term) for term in chosen},
+        head=lambda: "\n\n".join(map(_words, chosen)),
+    )
+    hand_over(answer, json=json)
+
+
+def _plain(term: Term) -> dict[str, object]:
+    """A term for programs."""
+    return {name: value for name, value in term._asdict().items() if name not in ("key", "retired")}
+
+
+def _words(term: Term) -> str:
+    """A term as a paragraph."""
+    unit = f" [{term.unit}]" if term.unit else ""
+    keys = f" Key: {', '.join(term.names)}." if term.names else ""
+    source = term.source.replace("*", "")
+    return f"{f'{term.term} {term.symbol}'.rstrip()}{unit}\n  {term.definition}\n  Source: {source}.{keys}"

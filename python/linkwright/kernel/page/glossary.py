@@ -1,0 +1,113 @@
+"""The field's words: terms with their definitions, symbols and sources, and the words that they replace.
+
+They are data (`glossary.toml`), so that pages, the command line and the test of the texts have the same ones.
+A language is a table of a term and a definition beside the English one.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from functools import cache
+from importlib.resources import files
+from typing import NamedTuple
+
+
+class Term(NamedTuple):
+    """A term of the field.
+
+    Attributes
+    ----------
+    key : str
+        Name of the term for programs.
+    term, definition : str
+        The term and one sentence that defines it, in the language asked for.
+    subject : str
+        The heading that it stands under.
+    source : str
+        The standard or the handbook that it is taken from.
+    symbol, unit : str
+        As formulas write it, and its SI unit; empty where there is none.
+    names : tuple of str
+        Keys of files and attributes of results that mean the same.
+    retired : tuple of str
+        Regular expressions of words that texts use no longer for it.
+    """
+
+    key: str
+    term: str
+    definition: str
+    subject: str
+    source: str
+    symbol: str = ""
+    unit: str = ""
+    names: tuple[str, ...] = ()
+    retired: tuple[str, ...] = ()
+
+
+@cache
+def _data() -> dict[str, dict[str, list[str]]]:
+    """The file as it is."""
+    return tomllib.loads((files(__package__) / "glossary.toml").read_text(encoding="utf-8"))
+
+
+@cache
+def glossary(language: str = "en") -> tuple[Term, ...]:
+    """All terms that have words in a language.
+
+    Parameters
+    ----------
+    language : str
+        Code of a language that the file has.
+
+    Returns
+    -------
+    tuple of Term
+        In the order of the file: by subject.
+    """
+    rest = ("subject", "source", "symbol", "unit")
+    return tuple(
+        Term(
+            key,
+            **entry[language],  # type: ignore[arg-type]
+            **{name: entry[name] for name in rest if name in entry},  # type: ignore[arg-type]
+            names=tuple(entry.get("names", ())),
+            retired=tuple(entry["retired"]),
+        )
+        for key, entry in _data().items()
+        if language in entry
+    )
+
+
+def allowed() -> tuple[str, ...]:
+    """Regular expressions of phrases in which a retired word is right, as "at least"."""
+    return tuple(_data()["allowed"]["phrases"])
+
+
+def matching(word: str, language: str = "en") -> tuple[Term, ...]:
+    """Terms in which a word occurs: in the term, among its names, as its symbol, or as a word it replaces.
+
+    Parameters
+    ----------
+    word : str
+        What is looked for, in upper or lower case.
+    language : str
+        Code of a language that the file has.
+
+    Returns
+    -------
+    tuple of Term
+        Terms that have the word in them; empty if there is none.
+    """
+    wanted = word.casefold()
+
+    def meant(term: Term) -> bool:
+        """Whether the word is one of those that lead to a term."""
+        words = (term.term.casefold(), *(name.casefold() for name in term.names))
+        return (
+            any(wanted in each for each in words)
+            or word == term.symbol
+            or any(re.fullmatch(each, word, re.IGNORECASE) for each in term.retired)
+        )
+
+    return tuple(term for term in glossary(language) if meant(term))
