@@ -30,7 +30,7 @@ impl Status {
             }
             Status::NoSteadyMotion => "no steady motion: the drive cannot keep the machine turning",
             Status::Inaccurate => "the accuracy was not reached",
-            Status::TwoTurns => "the motion repeats only after two turns of the crank",
+            Status::TwoTurns => "the motion repeats only after two revolutions of the crank",
         }
     }
 }

@@ -47,7 +47,7 @@ def undecided_error(name: str, point: _core.InLine) -> AssemblyError:
 def in_line(
     plan: _core.Plan, parameters: Floats, slots: NDArray[np.int32], values: Floats, element: int
 ) -> list[list[_core.InLine]]:
-    """Where the links of an element come into line over the turn, by crank angle, in each machine.
+    """Where the links of an element come into line over the revolution, by crank angle, in each machine.
 
     Parameters
     ----------
@@ -89,7 +89,8 @@ def undecided(points: list[_core.InLine], sign: float) -> _core.InLine | None:
     for k, point in enumerate(points):
         if not point.series:
             return point
-        # The sign of the root after the point; an odd number of points brings the other in the next turn.
+        # The sign of the root after the point; an odd number of points brings the other in the next
+        # revolution.
         after = sign * np.prod(np.sin((point.crank_angle - np.delete(angles, k)) / 2))
         lost = any(point.lost) if len(points) % 2 else point.lost[0 if after > 0 else 1]
         if lost:

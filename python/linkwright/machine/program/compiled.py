@@ -58,7 +58,7 @@ class Compiled:
     gear_factors : tuple of float
         Ratio, and the factor on torque times ratio while the motor drives and while the load does.
     speed_tables : tuple
-        Tables of resisting torque over crank speed.
+        Tables of load torque over crank speed.
     has_laws : bool
         Whether loads depend on both angle and speed in their own way, or on time.
     resisting : _core.Plan
@@ -282,8 +282,8 @@ def _not_usable(machine: Machine, reason: str) -> MachineError:
     return MachineError(wrong or [Problem("", "entries that cannot be computed with", reason)])
 
 
-# Elements whose motion may take several turns or never repeat: sums over the crank angle and links, groups,
-# laws.
+# Elements whose motion may take several revolutions or never repeat: sums over the crank angle and links,
+# groups, laws.
 _RUNNING = (Element.Turn, Element.Runner, Element.Group, Element.Law)
 
 # Entries beyond this size, or below its reciprocal, are named when a machine cannot be computed.

@@ -23,7 +23,7 @@ _SPEED_UNKNOWN = 10.0
 
 
 def drive_of(machine: Machine, program: MechanismProgram, *, motor: bool) -> _core.Drive:
-    """The drive line.
+    """The driveline.
 
     Parameters
     ----------

@@ -250,6 +250,6 @@ def gas_column(spring: GasSpring) -> Any:
 
 
 def _one_turn(angles: Sequence[float], torques: Sequence[float]) -> tuple[Sequence[float], Sequence[float]]:
-    """A table without the repetition of its first point at the end of the turn."""
+    """A table without the repetition of its first point at the end of the revolution."""
     closes = angles[-1] - angles[0] >= 2 * np.pi * (1 - 1e-9)
     return (angles[:-1], torques[:-1]) if closes else (angles, torques)

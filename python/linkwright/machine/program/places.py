@@ -120,7 +120,7 @@ class Places(Numbers):
         return self.slides[name] if name in self.slides else self._angle_near(link, name, 0.0)
 
     def _angle_near(self, link: str, name: str, near: Any) -> int:
-        """A slide with the continuous angle of a link, in the turn in which it starts nearest to an angle."""
+        """A slide with the continuous angle of a link, starting in the revolution nearest to an angle."""
         angle = _core.Element.AngleOf(
             link=self.links[link], slide=self._slide(name), winding=self.slot(0.0), centre=self.slot(0.0)
         )

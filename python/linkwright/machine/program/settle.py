@@ -235,7 +235,7 @@ class Settled:
     # -- groups ------------------------------------------------------------------------------------------
 
     def _follow(self, each: Solved) -> None:
-        """Follows a group over the turn from where it is assembled."""
+        """Follows a group over the revolution from where it is assembled."""
         joints = [self.program.mechanism.joints[name] for name in each.names]
         near = np.array([_first(value) for joint in joints for value in (joint.x, joint.y)])
         path = _core.follow_group(self.plan, self.parameters, each.element, self.assembled_at, near)

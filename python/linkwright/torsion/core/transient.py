@@ -282,7 +282,7 @@ class MovingTrain:
         found = self.system.follow(at, turning, sampled, start, end, accuracy, method, steps_max)
         samples = found.samples
         n, m = self.masses, len(self.shafts)
-        return Moved(
+        return TrainMotion(
             end=found.end,
             method=found.method,
             steps=found.steps,

@@ -340,7 +340,7 @@ def _times(duration: float, sample_time: float | None) -> Floats:
     return np.linspace(0.0, duration, samples + 1)
 
 
-def _given_up(train: MovingTrain, moved: Moved, accuracy: float) -> str:
+def _given_up(train: MovingTrain, moved: TrainMotion, accuracy: float) -> str:
     """One sentence: when, why, and what to do."""
     if moved.end == "rounded":
         shaft = int(np.argmax(train.stiffness))
@@ -357,7 +357,7 @@ def _given_up(train: MovingTrain, moved: Moved, accuracy: float) -> str:
     if moved.method == "explicit":
         remedy = 'take method "implicit", or take it together with its neighbour as one disc'
     else:
-        remedy = "ask for less accuracy, or look for a torque that jumps to and fro"
+        remedy = "ask for less accuracy, or look for a torque that jumps back and forth"
     many = moved.end == "too many steps"
     why = "that many are allowed" if many else f"no step keeps the accuracy {accuracy:g}"
     return f"{when}: {why}, and {stiff}; {remedy}"
