@@ -10,7 +10,7 @@ TURNS = np.linspace(0, 55, 221)
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Height and lift a revolution over their closed forms, h = √(l² − x²); the travel of the nut."""
+    """Height and lift per revolution over their closed forms, h = √(l² − x²); the travel of the nut."""
     motion = lw.kinematics(machine, 2 * np.pi * TURNS)
     nut, table = motion.slides["nut"], motion.slides["post"]
     height = np.sqrt(0.6**2 - nut.position**2)

@@ -110,6 +110,21 @@ def test_an_angle_or_a_speed_needs_its_unit(words: str, remedy: str) -> None:
     assert remedy in done.stderr
 
 
+def test_an_option_says_what_the_file_says_of_a_unit() -> None:
+    comma = run("synthesise", "line", "--kind", "hoeken", "--length", "0,2 m").stderr
+    assert "decimal point" in comma
+    assert "or a number in metres" in comma
+    angle = run("motion", TWO_CARTS, "--at", "30,5 deg").stderr
+    assert "decimal point" in angle
+    assert "or a number in" not in angle
+
+
+def test_an_unknown_size_of_a_cam_is_named_with_what_may_be_meant() -> None:
+    cam = TWO_CARTS.parent / "roller_cam.toml"
+    done = run("cam", "search", cam, "--vary", "base_radiu=0.2:0.3:3")
+    assert 'expected a size of the cam; did you mean "base_radius"' in done.stderr
+
+
 def test_in_a_file_and_after_set_bare_numbers_are_si() -> None:
     done = run("motion", TWO_CARTS, "--set", "drive.speed=9", "--at", "0", "--json")
     assert json.loads(done.stdout)["results"]["pose"]["speed"] == 9

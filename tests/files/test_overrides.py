@@ -75,6 +75,11 @@ def test_the_override_is_the_place_of_its_problem(override: str, key: str) -> No
     assert problem.line is None
 
 
+def test_the_words_of_a_key_in_another_order() -> None:
+    with pytest.raises(MachineFileError, match='did you mean "torque_rated"'):
+        read(TWO_CARTS, ["drive.motor.rated_torque=4 N m"])
+
+
 def test_a_way_through_a_value() -> None:
     with pytest.raises(InputError, match="expected: a table"):
         read(TWO_CARTS, ["name.x=1"])

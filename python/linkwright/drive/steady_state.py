@@ -31,7 +31,7 @@ from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyMotion
 
 Floats = NDArray[np.float64]
 
-# Speeds of a turn at which the motor's torque is looked at for its extremes, and how often between the
+# Speeds of a revolution at which the motor's torque is looked at for its extremes, and how often between the
 # neighbours of the best: an interval is a 32nd of that before.
 _SPEEDS_IN_TURN, _ZOOMS = 65, 7
 

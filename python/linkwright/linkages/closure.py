@@ -51,7 +51,8 @@ _ANGLES = 1440
 _BESIDE = 1e-5
 _JUMP = 1e-3
 
-# Difference in what the crank feels from one revolution to the next, over its size, that counts as rounding.
+# Difference of inertia or load on the crank from one revolution to the next, over its size, that counts as
+# rounding.
 _SAME = 1e-7
 
 # Doublings of the revolutions looked at in a motion that never repeats: some 8000 turns either way.

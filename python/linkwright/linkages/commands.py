@@ -120,7 +120,7 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
     lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad, {speed}"]
     lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
     lines += [
-        f"{name + ' ' + what:<24}" + "".join(f"{value:>16.8g}" for value in numbers)
+        f"{name + ' ' + what:<24}" + "".join(f"{value + 0.0:>16.8g}" for value in numbers)
         for name, what, numbers in rows
     ]
     if found.near_limit:

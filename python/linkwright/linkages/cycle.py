@@ -90,7 +90,7 @@ class ElementMotion:
 
     @property
     def transmission_angle_worst(self) -> float | None:
-        """Acute angle between the two links where it is minimum [rad]: μ or π − μ."""
+        """Acute angle between the two links where it is smallest [rad]: μ or π − μ."""
         low, high = self.transmission_angle_min, self.transmission_angle_max
         return None if low is None or high is None else min(low, math.pi - high)
 

@@ -42,11 +42,11 @@ def unit_template(designation: str | None = None, hole: int | None = None) -> st
     number = 1 if hole is None else hole
     stroke = float(found.unit(number).stroke)
     return f"""\
-# Beam pumping unit {found.designation}: dimensions by the letters of API Spec 11E, crank pin in hole
-# {number}.
+# Beam pumping unit {found.designation}, crank pin in hole {number}.
+# Dimensions by the letters of API Spec 11E.
 #
-# The stroke of the mechanism is {stroke:.4f} m; the longest by the designation is {found.rating.stroke:.4f}
-# m.
+# The stroke of the mechanism is {stroke:.4f} m;
+# the longest by the designation is {found.rating.stroke:.4f} m.
 format = 1
 name = "Pumping unit {found.designation}, hole {number}"
 source = "Guo, Lyons, Ghalambor, Petroleum Production Engineering, 2007, table 12.1"

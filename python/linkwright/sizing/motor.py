@@ -155,7 +155,7 @@ class MotorChoice:
         return f"{self.chosen.type}, {power:.4g} kW, is the smallest motor of the catalogue that {rule}"
 
     def _shortfall(self) -> str:
-        """What the minimum bad candidate lacks."""
+        """What the best of the candidates that fail lacks."""
         need = self.required.power * self.reserve
         suited = [each for each in self.candidates if each.checks[0].passed]
         if not suited:

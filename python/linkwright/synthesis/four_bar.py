@@ -186,7 +186,7 @@ def turn_spare(frame: Floats, crank: Floats, coupler: Floats, rocker: Floats) ->
 def worst_transmission(frame: Floats, crank: Floats, coupler: Floats, rocker: Floats) -> Floats:
     """Minimum transmission angle in a full revolution of the crank, (n,) [rad]; NaN where it does not turn.
 
-    It is minimum where the crank is in line with the frame: d = g − r or d = g + r.
+    It is smallest where the crank is in line with the frame: d = g − r or d = g + r.
     """
     product = 2 * coupler * rocker
     cosines = [(coupler**2 + rocker**2 - (frame + sign * crank) ** 2) / product for sign in (-1, 1)]

@@ -1,7 +1,7 @@
 """The linkages that come nearest to more points of a function than a four-bar can meet.
 
 Linkages of all proportions and those of Freudenstein's equation are refined until the sum of squares of the
-structural error at the points is minimum, within the limits of the task (`function_refine`); from the minimum
+structural error at the points is smallest, within the limits of the task (`function_refine`); from the best
 minima the largest error over the range is minimised. Minima of the equation's residual are not those of the
 error: they may lie in a valley of ever longer links.
 """

@@ -55,7 +55,7 @@ class FunctionGenerator(TransmissionResult):
     angle_error_max, angle_error_rms : float
         Structural error of the rocker angle over the range [rad].
     function_error_max : float
-        The maximum one in the unit of y.
+        The maximum in the unit of y.
     angle_error_points : float
         Error of the rocker angle at the worst of the points [rad].
     transmission_angle_min : float

@@ -132,7 +132,7 @@ def centre(places: Complexes, point: MovingPoint, key: str) -> complex:
     places : ndarray, shape (n,)
         Two or three places [m].
     point : MovingPoint
-        The point; its revolution chooses the centre of two places.
+        The point; the rotation of its link chooses the centre of two places.
     key : str
         Its key, for messages.
 

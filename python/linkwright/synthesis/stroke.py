@@ -1,7 +1,7 @@
 """Dead-centre design of a slider-crank: a wanted stroke and time ratio, by the triangle of `dead_centre`.
 
 The chord h is the stroke, and the guide passes the crank's pivot at the height of the triangle, e = p q |sin
-δ|/h. The transmission angle between the rod and the normal of the guide is minimum where the pin is farthest
+δ|/h. The transmission angle between the rod and the normal of the guide is smallest where the pin is farthest
 from the guide, cos μ = (r + e)/c.
 
 Source: VDI 2130; Volmer, Getriebetechnik: Koppelgetriebe.

@@ -108,7 +108,7 @@ class PoseTask(Task):
             yield from self._turn_faults(key, needed=n == 2 and key in turning)
 
     def _turn_faults(self, key: str, *, needed: bool) -> Iterator[InitErrorDetails]:
-        """An angle of revolution that is missing, or has no meaning."""
+        """An angle of rotation that is missing, or has no meaning."""
         point: MovingPoint | None = getattr(self, key)
         if point is None:
             return

@@ -33,7 +33,7 @@ class Worst:
     Attributes
     ----------
     value : float
-        What is maximum there.
+        The maximum, found there.
     phase, offset : float
         Of that head [rad, m].
     edge : Edge
@@ -52,7 +52,7 @@ def worst_head(
     phase: float | None,
     measure: Measure,
 ) -> Worst:
-    """The head at which something is maximum, over offsets up to Δ on both sides and over all phases.
+    """The head at which a measure has its maximum, over offsets up to Δ on both sides and over all phases.
 
     Parameters
     ----------

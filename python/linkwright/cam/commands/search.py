@@ -131,7 +131,8 @@ def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
     kinds = {"face_tilt": ANGLE, "lift_factor": RATIO}
     parts = [part.strip().strip('"') for part in values.split(":")]
     if name not in ENTRIES or name == "distance":
-        raise InputError(f'--vary {text}: found "{name}", expected {suggestion(name, ENTRIES)}')
+        known = suggestion(name, (each for each in ENTRIES if each != "distance"))
+        raise InputError(f'--vary {text}: found "{name}", expected a size of the cam; {known}')
     if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
         remedy = "such as base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
         raise InputError(f'--vary {text}: found "{values}", expected LOW:HIGH:N; {remedy}')

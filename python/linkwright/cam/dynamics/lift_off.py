@@ -10,7 +10,7 @@ at
 .. math:: \omega = \min_{s'' < 0} \sqrt{\frac{ks + F_0 + F_\mathrm{load}}{-m s''}}
 
 That minimum is found with the exact extremes of F, a law in pieces like the lift: from the speed at which
-F is zero at one angle, go to the angle at which F is minimum at that speed, and so on. Every step lowers the
+F is zero at one angle, go to the angle at which F is smallest at that speed, and so on. Every step lowers the
 speed, as in the method of Dinkelbach for ratios, and the last one changes nothing but rounding.
 
 Source: R. L. Norton, *Design of Machinery*, McGraw-Hill, chapter 15, on follower jump; W. Dinkelbach, *On
@@ -95,7 +95,7 @@ def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = N
     if low.value <= 0:
         raise FindingError(
             f"at rest the follower is not held on the cam at {np.degrees(low.at):.4g}°: spring and load "
-            f"press with {low.value:.4g} N; {-low.value:.4g} N more preload are the minimum that can hold it"
+            f"press with {low.value:.4g} N; {-low.value:.4g} N more preload is the minimum that can hold it"
         )
     _no_drop(lift, "there the follower leaves the cam at any speed")
     return _least(lift, follower, held)

@@ -45,7 +45,7 @@ _CHUNK = 256
 
 
 class Quiet(NamedTuple):
-    """A rise after which minimum vibration is left.
+    """A rise after which the vibration that is left is smallest.
 
     Attributes
     ----------

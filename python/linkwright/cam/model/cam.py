@@ -5,7 +5,7 @@ r"""A cam on the crankshaft and the follower that it moves.
 | translating | along a line, to the left of the cam's centre by the offset | a point on a slide |
 | oscillating | about its own pivot | a link with a point at its end |
 
-Its sections say how it moves over one revolution. Where the lift is minimum, the contact lies on the base
+Its sections say how it moves over one revolution. Where the lift is smallest, the contact lies on the base
 circle, r_0 from the cam's centre; a roller's centre then lies on the prime circle, r_0 + r_r. Two followers
 that touch one cam on opposite sides have their distance, the breadth, instead: b = 2 (r_0 + r_r) + lift.
 
@@ -102,7 +102,7 @@ class Cam(CheckedDescription):
         None, description="Fixed point that the cam turns about. Without it, the origin."
     )
     base_radius: PositiveLength | None = Field(
-        None, description="Of the cam where the lift is minimum. Without it, from the breadth."
+        None, description="Of the cam where the lift is smallest. Without it, from the breadth."
     )
     breadth: PositiveLength | None = Field(
         None,

@@ -125,12 +125,12 @@ def _size_rows(profile: CamProfile) -> Iterator[Row]:
 
 
 def size_table(sizes: LeastSizes) -> Table:
-    """How small a cam might be.
+    """Minimum dimensions of a cam, other parameters fixed.
 
     Parameters
     ----------
     sizes : LeastSizes
-        Its minimum sizes.
+        Its minimum dimensions.
 
     Returns
     -------

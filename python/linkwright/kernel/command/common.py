@@ -100,21 +100,24 @@ def option_value(option: str, text: str, kind: Kind) -> float:
     """
     from linkwright.kernel.units import ANGLE, SPEED, parse
 
-    if _is_number(text) and float(text) != 0:
-        # On a command line people mean degrees as often as radians; zero is the same in both.
-        for each, units in ((ANGLE, ("deg", "rad")), (SPEED, ("rpm", "rad/s"))):
-            if kind.dimension == each.dimension:
-                one, other = (f'"{text} {unit}"' for unit in units)
-                before = "" if "=" in option else f"{option} "
-                raise InputError(
-                    f"{option}: found {text}, which may be {units[0]} or {units[1]}; give its unit, "
-                    f"{before}{one} or {before}{other}"
-                )
+    # On a command line people mean degrees as often as radians; zero is the same in both.
+    choices = {ANGLE.dimension: ("deg", "rad"), SPEED.dimension: ("rpm", "rad/s")}
+    units = choices.get(kind.dimension)
+    if units and _is_number(text) and float(text) != 0:
+        one, other = (f'"{text} {unit}"' for unit in units)
+        before = "" if "=" in option else f"{option} "
+        raise InputError(
+            f"{option}: found {text}, which may be {units[0]} or {units[1]}; give its unit, "
+            f"{before}{one} or {before}{other}"
+        )
     try:
         return parse(float(text) if _is_number(text) else text, kind)
     except UnitError as error:
         problem = error.problem
-        raise InputError(f"{option}: found {problem.found}, expected {problem.expected}") from None
+        # The file takes a bare number there, the command line does not.
+        expected = problem.expected.partition(" or a number in ")[0] if units else problem.expected
+        remedy = f"; {problem.remedy}" if problem.remedy else ""
+        raise InputError(f"{option}: found {problem.found}, expected {expected}{remedy}") from None
 
 
 def _is_number(text: str) -> bool:

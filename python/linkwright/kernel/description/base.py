@@ -101,10 +101,13 @@ class CheckedDescription(Description):
 
 
 def close_match(name: str, known: Iterable[str]) -> str:
-    """The question whether a similar name was meant; empty if none is similar."""
+    """The question whether a similar name was meant, or its words in another order; empty if none was."""
     from difflib import get_close_matches
 
-    close = get_close_matches(name, list(known), n=3, cutoff=0.6)
+    names = list(known)
+    words = sorted(name.split("_"))
+    reordered = [each for each in names if sorted(each.split("_")) == words]
+    close = reordered or get_close_matches(name, names, n=3, cutoff=0.6)
     return "did you mean " + " or ".join(f'"{each}"' for each in close) + "?" if close else ""
 
 

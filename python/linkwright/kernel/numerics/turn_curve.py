@@ -144,7 +144,7 @@ class TurnCurve:
         return half
 
     def _candidates(self, sign: int, k: int) -> tuple[Floats, Floats]:
-        """Values times the sign, and angles, that may be maximum: ends of pieces and zeros of slopes."""
+        """Values times the sign, and angles, that may be the maximum: ends of pieces and zeros of slopes."""
         series = sign * self.series[:, k]
         low, high = chebyshev.chebval(-1.0, series.T), series.sum(axis=1)
         values, angles = [low, high], [self.ends[:-1], self.ends[1:]]

@@ -89,7 +89,7 @@ class KnifeGrid:
         return [[self._at(angle, speed, forward_speed) for speed in axes[1]] for angle in axes[0]]
 
     def shortest(self, forward_speed: float, first: Sequence[Trial] | None = None) -> Trial:
-        """The knife of the shortest edge; the one that lacks minimum if all lack draw-cut.
+        """The knife of the shortest edge; the one nearest to the draw-cut asked for if all lack it.
 
         Parameters
         ----------

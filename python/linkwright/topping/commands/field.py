@@ -116,7 +116,7 @@ def _axis(text: str) -> tuple[str, Any]:
     name, _, values = text.partition("=")
     parts = [part.strip().strip("\"'") for part in values.split(":")]
     if name not in ENTRIES:
-        expected = "expected an entry of the knife, "
+        expected = "expected an entry of the knife; "
         raise InputError(f'--over {text}: found "{name}", {expected}{suggestion(name, ENTRIES)}')
     if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
         remedy = "such as edge_length=0.1:0.3:21 for 21 values from 0.1 to 0.3 m"

@@ -76,7 +76,7 @@ def _lengths(found: TopperStudy, described: Topper) -> Table:
         ("printed in paper 5", "(10)", found.length_published, "compares times, not what is covered"),
         ("what its condition (4) gives", "(4)", found.length_consistent, "step from (4) to (5) put right"),
         ("knife at rest", "v_h = 0", found.length_at_rest, "(d + 2Δ)/cos α"),
-        ("exact at constant speed", "", steady, "no revolution over a head, worse direction"),
+        ("exact at constant speed", "", steady, "no reversal over a head, worse direction"),
         *(() if found.obstacle else _moved(found, described)),
     ]
     rows: list[Row] = [

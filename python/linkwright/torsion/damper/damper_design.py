@@ -6,7 +6,7 @@ In a mode with the shape θ the train is one mass at the disc that carries the d
 
 and `damper_rules` says which c and k are best for it. The other modes give a little, and the ring changes the
 shape; so the same is sought for the train as a whole, with all its modes: the pair of c and k for which the
-largest twist of the shaft that the mode twists most is minimum (`ring_on_train`).
+largest twist of the shaft that the mode twists most is smallest (`ring_on_train`).
 What else damps the train is left out, so that it does with less than is found here.
 
 References

@@ -61,7 +61,7 @@ class DamperRule:
     loss_factor : float
         η of the spring.
     magnification : float
-        Of the static deflection at the fixed points: the minimum that the largest can be, to a few percent.
+        Of the static deflection at the fixed points: the smallest possible maximum, to a few percent.
     fixed_points : tuple of float
         Their frequencies over that of the mass.
     """

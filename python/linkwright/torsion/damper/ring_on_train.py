@@ -122,7 +122,7 @@ def best_holding(train: RingOnTrain, first: RingSupport, *, free_loss: bool) -> 
 
 
 def _least(value: Callable[[float], float], reach: float) -> float:
-    """Where a function is minimum between −reach and reach: the best of some samples, then golden section."""
+    """Where a function is smallest from −reach to reach: the best of some samples, then golden section."""
     samples = np.linspace(-reach, reach, 17)
     n = int(np.argmin([value(float(x)) for x in samples]))
     low, high = float(samples[max(n - 1, 0)]), float(samples[min(n + 1, 16)])

@@ -106,7 +106,7 @@ class UnevennessAlong(Result):
     def spread(
         self,
     ) -> Annotated[Floats, Shown("spread of the speed fluctuation", "s", "", shape="(discs,)")]:
-        """s, largest less minimum N_i, shape (discs,)."""
+        """s, largest minus smallest N_i, shape (discs,)."""
         found: Floats = np.ptp(self.share, axis=1)
         return found
 

@@ -166,7 +166,7 @@ class Cylinder:
 
 
 def powers(angle: Array, n: int) -> Complex:
-    """The revolutions e^{ikφ} for k = 0 … n − 1, shape (n, m).
+    """The rotations e^{ikφ} for k = 0 … n − 1, shape (n, m).
 
     Parameters
     ----------
