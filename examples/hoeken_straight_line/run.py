@@ -13,7 +13,7 @@ ANGLES = np.radians(np.linspace(-90, 90, 361))
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """Length and straightness of the line over half a revolution, and the speed fluctuation of its speed."""
+    """Length and straightness of the line over half a revolution, and how much its speed fluctuates."""
     point = lw.kinematics(machine, ANGLES).points["P"]
     speed = np.hypot(*point.d1.T)
     return {

@@ -42,7 +42,7 @@ _WHOLE = 1e-9
 
 
 class TurningMoment(CheckedDescription):
-    """Torques on a shaft over a cycle, and the speed fluctuation that a flywheel has to give."""
+    """Torques on a shaft over a cycle, and the speed fluctuation that a flywheel is to keep."""
 
     speed: Annotated[float, positive(SPEED)] = Field(
         description="Mean speed of the shaft, the mean of its extremes."
@@ -97,10 +97,10 @@ class TurningMoment(CheckedDescription):
             if self.areas:
                 yield fault(key, found="a table", expected="nothing beside areas")
         if self.radius_of_gyration is not None and self.unevenness is None:
-            remedy = "give speed fluctuation, or leave the radius out"
+            remedy = "give unevenness, or leave the radius out"
             found = f"{self.radius_of_gyration:.6g} m"
             yield fault(
-                "radius_of_gyration", found=found, expected="nothing without speed fluctuation", remedy=remedy
+                "radius_of_gyration", found=found, expected="nothing without unevenness", remedy=remedy
             )
 
     def _area_faults(self) -> Iterator[InitErrorDetails]:
