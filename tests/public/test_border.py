@@ -101,7 +101,7 @@ def test_tables_and_laws_that_make_no_sense_are_refused() -> None:
     with pytest.raises(ValueError, match="knots must be finite and increase"):
         _core.Table([0.0, 0.0], [1.0, 2.0])
     half = _core.Piece(start=0.0, length=3.0, polynomial=[1.0], harmonics=[])
-    with pytest.raises(ValueError, match="must follow one another for a turn"):
+    with pytest.raises(ValueError, match="must follow one another over one revolution"):
         _core.MotionLaw([half])
     with pytest.raises(ValueError, match="no such instruction"):
         _core.Formula([("sine", None)])

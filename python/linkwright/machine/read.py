@@ -69,7 +69,7 @@ def read(path: str | os.PathLike[str], overrides: Overrides = (), *, allow_outsi
 def _of_library(path: Path) -> Path:
     """The file of a machine of the library that is named; the path itself if a file is meant."""
     is_name = not path.suffix and len(path.parts) == 1
-    return library_path(path.name) if is_name and not path.exists() and path.name in library() else path
+    return library_path(path.name) if is_name and path.name in library() and not path.exists() else path
 
 
 def read_as(

@@ -66,7 +66,7 @@ def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
     twisting = [f for f in study.free.natural_frequencies.tolist() if f > 0]
     if twisting:
         yield "lowest natural frequency", number(twisting[0], 4), "Hz"
-        yield "which is a speed of", number(60 * twisting[0], 4), "1/min"
+        yield "critical speed of order 1", number(60 * twisting[0], 4), "1/min"
     forced = study.forced
     if forced is not None:
         if study.peaks is not None and forced.shafts:
@@ -80,7 +80,7 @@ def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
     moved = () if study.transient is None else study.transient.judgements
     if steady or moved:
         state = "ok" if study.verdict is None else study.verdict.state
-        words = {"ok": "all limits kept", "bar": "barred speed ranges", "exceeds": "limits exceeded"}
+        words = {"ok": "all within limits", "bar": "barred speed ranges", "exceeds": "limits exceeded"}
         yield "verdict", words["exceeds" if study.findings else state], ""
 
 
