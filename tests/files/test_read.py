@@ -71,6 +71,10 @@ def test_a_misspelt_file_name_is_recognised(tmp_path: Path) -> None:
     assert 'did you mean "press.toml"?' in _message(tmp_path / "pres.toml")
 
 
+def test_a_misspelt_machine_of_the_library_is_recognised() -> None:
+    assert 'did you mean "roller_two_carts"' in _message(Path("roller_two_cart"))
+
+
 def test_a_path_that_no_system_takes() -> None:
     for path in ("a\0b", "x" * 5000):
         with pytest.raises(InputError):

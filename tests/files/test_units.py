@@ -209,6 +209,12 @@ def test_a_comma_that_may_be_decimal_is_no_list(text: str) -> None:
     assert units.parse_list("0,100,200 mm", units.LENGTH) == [0.0, 0.1, 0.2]
 
 
+@pytest.mark.parametrize("text", ["0,2 m", "1,000.5 m", "1.000,5 m", "1.000.000,5 m", "-1.000,5 m"])
+def test_a_comma_in_a_number_is_named(text: str) -> None:
+    with pytest.raises(UnitError, match="decimal point"):
+        units.parse(text, units.LENGTH)
+
+
 def test_common_spellings_do_not_load_pint() -> None:
     code = (
         "import sys\nfrom linkwright.kernel import units\n"

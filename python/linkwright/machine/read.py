@@ -68,8 +68,13 @@ def read(path: str | os.PathLike[str], overrides: Overrides = (), *, allow_outsi
 
 def _of_library(path: Path) -> Path:
     """The file of a machine of the library that is named; the path itself if a file is meant."""
-    is_name = not path.suffix and len(path.parts) == 1
-    return library_path(path.name) if is_name and path.name in library() and not path.exists() else path
+    is_known = _is_bare_name(path) and path.name in library()
+    return library_path(path.name) if is_known and not path.exists() else path
+
+
+def _is_bare_name(path: Path) -> bool:
+    """Whether a path is a name alone, as a machine of the library has."""
+    return not path.suffix and len(path.parts) == 1
 
 
 def read_as(
@@ -205,7 +210,7 @@ def _unreadable(
 
 
 def _similar(path: Path) -> str:
-    """A file beside a missing one with a similar name."""
+    """A file beside a missing one with a similar name; for a bare name, a machine of the library too."""
     from linkwright.kernel.description.base import close_match
 
     try:
@@ -214,7 +219,7 @@ def _similar(path: Path) -> str:
         names = [each.name for each in path.parent.glob("*.toml")]
     except OSError:
         return ""
-    return close_match(path.name, names)
+    return close_match(path.name, [*names, *(library() if _is_bare_name(path) else ())])
 
 
 def _tables(text: str, path: str) -> dict[str, Any]:

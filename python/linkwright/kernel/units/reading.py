@@ -20,8 +20,10 @@ _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 NUMBER = re.compile(_NUMBER, re.ASCII)
 _VALUE = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
 _VALUES = re.compile(rf"({_NUMBER}(?:[\s,;]+{_NUMBER})*)\s*(.*)", re.DOTALL)
-# 0,5 kN; 1,000.5 mm: what a comma means there depends on the country.
-_DECIMAL_COMMA = re.compile(r"[+-]?\d+(?:,\d+)+(?:\.\d*)?(?:[eE][+-]?\d+)?(?:\s*[^\d\s,;].*)?", re.DOTALL)
+# 0,5 kN; 1,000.5 mm; 1.000,5 mm: what a comma means there depends on the country.
+_DECIMAL_COMMA = re.compile(
+    r"[+-]?(?:\d+(?:,\d+)+(?:\.\d*)?|\d+(?:\.\d+)+,\d+)(?:[eE][+-]?\d+)?(?:\s*[^\d\s,;].*)?", re.DOTALL
+)
 # In a list: beside semicolons or commas with spaces, or as its one comma.
 _COMMA_IN_LIST = re.compile(r"(?=.*\d,\d)(?=.*(?:;|,\s)).*|[+-]?\d+,\d+(?:\s*[^\d\s,;].*)?", re.DOTALL)
 
