@@ -154,6 +154,8 @@ class Condition:
     class Distance(Condition):
         """Two points at a distance."""
 
+        __match_args__: Final = ("start", "end", "length")
+
         def __new__(cls, *, start: int, end: int, length: int) -> Condition.Distance: ...
         start: Final[int]
         end: Final[int]
@@ -163,6 +165,8 @@ class Condition:
     class OnLine(Condition):
         """A point on a guide of a link that is placed before."""
 
+        __match_args__: Final = ("point", "line", "slide")
+
         def __new__(cls, *, point: int, line: Line, slide: int) -> Condition.OnLine: ...
         point: Final[int]
         line: Final[Line]
@@ -171,6 +175,8 @@ class Condition:
     @final
     class OnBar(Condition):
         """A point on a guide fixed to a bar of the group."""
+
+        __match_args__: Final = ("point", "line", "slide", "bar")
 
         def __new__(cls, *, point: int, line: Line, slide: int, bar: Bar) -> Condition.OnBar: ...
         point: Final[int]
@@ -208,6 +214,8 @@ class Element:
     class Crank(Element):
         """A crank that turns with φ + phase about a point of the ground; cos and sin of the phase."""
 
+        __match_args__: Final = ("pin", "link", "pivot", "radius", "cos", "sin")
+
         def __new__(
             cls, *, pin: int, link: int, pivot: int, radius: int, cos: int, sin: int
         ) -> Element.Crank: ...
@@ -221,6 +229,21 @@ class Element:
     @final
     class SliderRod(Element):
         """A rod from a pin to a slider on a fixed guide with direction `cos`, `sin`: the dyad RRP."""
+
+        __match_args__: Final = (
+            "point",
+            "link",
+            "slide",
+            "dyad",
+            "pin",
+            "through",
+            "rod",
+            "inverse_rod",
+            "offset",
+            "cos",
+            "sin",
+            "sign",
+        )
 
         def __new__(
             cls,
@@ -255,6 +278,21 @@ class Element:
     class Rocker(Element):
         """A coupler from a pin and a rocker from a pivot, joined: the dyad RRR, and its change points."""
 
+        __match_args__: Final = (
+            "joint",
+            "coupler_link",
+            "rocker_link",
+            "dyad",
+            "pin",
+            "pivot",
+            "coupler",
+            "rocker",
+            "inverse_coupler",
+            "inverse_rocker",
+            "sign",
+            "change_points",
+        )
+
         def __new__(
             cls,
             *,
@@ -288,6 +326,8 @@ class Element:
     class RigidPoint(Element):
         """A point fixed on a link, `along` it from its start and `across` to the left."""
 
+        __match_args__: Final = ("point", "link", "origin", "along", "across")
+
         def __new__(
             cls, *, point: int, link: int, origin: int, along: int, across: int
         ) -> Element.RigidPoint: ...
@@ -300,6 +340,19 @@ class Element:
     @final
     class GuidedRod(Element):
         """A rod from a pin to a slider on any guide: the dyad RRP, and its change points."""
+
+        __match_args__: Final = (
+            "point",
+            "link",
+            "slide",
+            "dyad",
+            "pin",
+            "line",
+            "rod",
+            "inverse_rod",
+            "sign",
+            "change_points",
+        )
 
         def __new__(
             cls,
@@ -330,6 +383,8 @@ class Element:
     class SlottedLever(Element):
         """A lever about a pivot whose slot, `offset` to the left, is moved by a pin: the dyad RPR."""
 
+        __match_args__: Final = ("link", "slide", "dyad", "pin", "pivot", "offset", "sign")
+
         def __new__(
             cls, *, link: int, slide: int, dyad: int, pin: int, pivot: int, offset: int, sign: int
         ) -> Element.SlottedLever: ...
@@ -345,6 +400,8 @@ class Element:
     class Crossing(Element):
         """Where two guides cross: the dyads PRP and RPP."""
 
+        __match_args__: Final = ("point", "slides", "dyad", "lines")
+
         def __new__(
             cls, *, point: int, slides: Sequence[int], dyad: int, lines: Sequence[Line]
         ) -> Element.Crossing: ...
@@ -357,6 +414,8 @@ class Element:
     class Turn(Element):
         """A link whose angle, kept as a slide, is a sum of other coordinates."""
 
+        __match_args__: Final = ("link", "slide", "angle")
+
         def __new__(cls, *, link: int, slide: int, angle: Sum) -> Element.Turn: ...
         link: Final[int]
         slide: Final[int]
@@ -365,6 +424,8 @@ class Element:
     @final
     class Runner(Element):
         """A point on a guide whose coordinate is a sum of others."""
+
+        __match_args__: Final = ("point", "slide", "line", "place")
 
         def __new__(cls, *, point: int, slide: int, line: Line, place: Sum) -> Element.Runner: ...
         point: Final[int]
@@ -376,6 +437,8 @@ class Element:
     class AngleOf(Element):
         """The continuous angle of a link, within half a turn of winding·φ + centre."""
 
+        __match_args__: Final = ("link", "slide", "winding", "centre")
+
         def __new__(cls, *, link: int, slide: int, winding: int, centre: int) -> Element.AngleOf: ...
         link: Final[int]
         slide: Final[int]
@@ -385,6 +448,17 @@ class Element:
     @final
     class Group(Element):
         """Joints that are found together from starts, x and y of each over φ·inverse_turns."""
+
+        __match_args__: Final = (
+            "dyad",
+            "unknowns",
+            "carried",
+            "bars",
+            "conditions",
+            "starts",
+            "inverse_turns",
+            "repeats",
+        )
 
         def __new__(
             cls,
@@ -411,12 +485,16 @@ class Element:
     class Link(Element):
         """A link between two points that are placed already."""
 
+        __match_args__: Final = ("bar",)
+
         def __new__(cls, *, bar: Bar) -> Element.Link: ...
         bar: Final[Bar]
 
     @final
     class Law(Element):
         """A coordinate by a formula of the crank angle."""
+
+        __match_args__: Final = ("slide", "formula")
 
         def __new__(cls, *, slide: int, formula: Formula) -> Element.Law: ...
         slide: Final[int]
@@ -425,6 +503,8 @@ class Element:
     @final
     class Programme(Element):
         """A coordinate that follows a motion law from crank angle `phase` on."""
+
+        __match_args__: Final = ("slide", "phase", "law")
 
         def __new__(cls, *, slide: int, phase: int, law: MotionLaw) -> Element.Programme: ...
         slide: Final[int]
@@ -438,6 +518,8 @@ class Body:
     class Point(Body):
         """A mass [kg]."""
 
+        __match_args__: Final = ("point", "mass")
+
         def __new__(cls, *, point: int, mass: int) -> Body.Point: ...
         point: Final[int]
         mass: Final[int]
@@ -445,6 +527,8 @@ class Body:
     @final
     class Link(Body):
         """A link: centre from its start, mass [kg], inertia about the centre [kg m²]."""
+
+        __match_args__: Final = ("link", "origin", "along", "across", "mass", "inertia")
 
         def __new__(
             cls, *, link: int, origin: int, along: int, across: int, mass: int, inertia: int
@@ -463,6 +547,8 @@ class Load:
     class DrySlide(Load):
         """A constant force against the motion along a guide."""
 
+        __match_args__: Final = ("slide", "force")
+
         def __new__(cls, *, slide: int, force: int) -> Load.DrySlide: ...
         slide: Final[int]
         force: Final[int]
@@ -470,6 +556,8 @@ class Load:
     @final
     class DryPoint(Load):
         """A constant force against the motion of a point."""
+
+        __match_args__: Final = ("point", "force")
 
         def __new__(cls, *, point: int, force: int) -> Load.DryPoint: ...
         point: Final[int]
@@ -479,6 +567,8 @@ class Load:
     class DryLink(Load):
         """A constant torque against the turning of a link."""
 
+        __match_args__: Final = ("link", "torque")
+
         def __new__(cls, *, link: int, torque: int) -> Load.DryLink: ...
         link: Final[int]
         torque: Final[int]
@@ -487,12 +577,16 @@ class Load:
     class DryCrank(Load):
         """A constant torque against the turning of the crankshaft."""
 
+        __match_args__: Final = ("torque",)
+
         def __new__(cls, *, torque: int) -> Load.DryCrank: ...
         torque: Final[int]
 
     @final
     class ViscousSlide(Load):
         """A force in proportion to the speed along a guide."""
+
+        __match_args__: Final = ("slide", "damping")
 
         def __new__(cls, *, slide: int, damping: int) -> Load.ViscousSlide: ...
         slide: Final[int]
@@ -502,6 +596,8 @@ class Load:
     class ViscousPoint(Load):
         """A force in proportion to the speed of a point."""
 
+        __match_args__: Final = ("point", "damping")
+
         def __new__(cls, *, point: int, damping: int) -> Load.ViscousPoint: ...
         point: Final[int]
         damping: Final[int]
@@ -510,6 +606,8 @@ class Load:
     class ViscousLink(Load):
         """A torque in proportion to the speed of a link."""
 
+        __match_args__: Final = ("link", "damping")
+
         def __new__(cls, *, link: int, damping: int) -> Load.ViscousLink: ...
         link: Final[int]
         damping: Final[int]
@@ -517,6 +615,8 @@ class Load:
     @final
     class Force(Load):
         """A force that keeps its direction."""
+
+        __match_args__: Final = ("point", "x", "y")
 
         def __new__(cls, *, point: int, x: int, y: int) -> Load.Force: ...
         point: Final[int]
@@ -527,6 +627,8 @@ class Load:
     class Torque(Load):
         """A torque on a link, counter-clockwise."""
 
+        __match_args__: Final = ("link", "torque")
+
         def __new__(cls, *, link: int, torque: int) -> Load.Torque: ...
         link: Final[int]
         torque: Final[int]
@@ -535,6 +637,8 @@ class Load:
     class Gravity(Load):
         """The weight of every body."""
 
+        __match_args__: Final = ("x", "y")
+
         def __new__(cls, *, x: int, y: int) -> Load.Gravity: ...
         x: Final[int]
         y: Final[int]
@@ -542,6 +646,8 @@ class Load:
     @final
     class Spring(Load):
         """A spring between two points; `preload` is its pull at the free length."""
+
+        __match_args__: Final = ("start", "end", "stiffness", "free_length", "preload")
 
         def __new__(
             cls, *, start: int, end: int, stiffness: int, free_length: int, preload: int
@@ -556,6 +662,8 @@ class Load:
     class ForcePosition(Load):
         """A force over the position on a guide, against the motion to and fro."""
 
+        __match_args__: Final = ("slide", "forward", "back")
+
         def __new__(cls, *, slide: int, forward: Table, back: Table) -> Load.ForcePosition: ...
         slide: Final[int]
         forward: Final[Table]
@@ -565,6 +673,8 @@ class Load:
     class TorqueAngle(Load):
         """A torque over the crank angle, against positive turning."""
 
+        __match_args__: Final = ("table",)
+
         def __new__(cls, *, table: Table) -> Load.TorqueAngle: ...
         table: Final[Table]
 
@@ -572,12 +682,16 @@ class Load:
     class TorqueSpeed(Load):
         """A torque over the speed of the crank, against it."""
 
+        __match_args__: Final = ("table",)
+
         def __new__(cls, *, table: Table) -> Load.TorqueSpeed: ...
         table: Final[Table]
 
     @final
     class Follow(Load):
         """A force that turns with a link."""
+
+        __match_args__: Final = ("point", "link", "along", "across")
 
         def __new__(cls, *, point: int, link: int, along: int, across: int) -> Load.Follow: ...
         point: Final[int]
@@ -589,6 +703,8 @@ class Load:
     class Damper(Load):
         """A damper between two points."""
 
+        __match_args__: Final = ("start", "end", "damping")
+
         def __new__(cls, *, start: int, end: int, damping: int) -> Load.Damper: ...
         start: Final[int]
         end: Final[int]
@@ -597,6 +713,8 @@ class Load:
     @final
     class DamperTable(Load):
         """A damper by a table over the speed at which two points part."""
+
+        __match_args__: Final = ("start", "end", "table")
 
         def __new__(cls, *, start: int, end: int, table: Table) -> Load.DamperTable: ...
         start: Final[int]
@@ -607,6 +725,8 @@ class Load:
     class SpringTable(Load):
         """A spring by a table over its length."""
 
+        __match_args__: Final = ("start", "end", "table")
+
         def __new__(cls, *, start: int, end: int, table: Table) -> Load.SpringTable: ...
         start: Final[int]
         end: Final[int]
@@ -615,6 +735,8 @@ class Load:
     @final
     class TorsionSpring(Load):
         """A spring between a link and another, or the frame; cos and sin of its free angle."""
+
+        __match_args__: Final = ("link", "other", "stiffness", "cos", "sin")
 
         def __new__(
             cls, *, link: int, other: int | None, stiffness: int, cos: int, sin: int
@@ -629,6 +751,8 @@ class Load:
     class TorsionDamper(Load):
         """A damper between a link and another, or the frame."""
 
+        __match_args__: Final = ("link", "other", "damping")
+
         def __new__(cls, *, link: int, other: int | None, damping: int) -> Load.TorsionDamper: ...
         link: Final[int]
         other: Final[int | None]
@@ -637,6 +761,8 @@ class Load:
     @final
     class GasSpring(Load):
         """A gas spring: push at its extended length, that length, length of its gas, exponent."""
+
+        __match_args__: Final = ("start", "end", "force", "length", "column", "exponent")
 
         def __new__(
             cls, *, start: int, end: int, force: int, length: int, column: int, exponent: int
@@ -652,6 +778,8 @@ class Load:
     class FormulaOnSlide(Load):
         """A formula along a guide, of the point that slides."""
 
+        __match_args__: Final = ("formula", "slide", "point")
+
         def __new__(cls, *, formula: Formula, slide: int, point: int) -> Load.FormulaOnSlide: ...
         formula: Final[Formula]
         slide: Final[int]
@@ -660,6 +788,8 @@ class Load:
     @final
     class FormulaOnPoint(Load):
         """A formula on a point in a fixed direction."""
+
+        __match_args__: Final = ("formula", "point", "cos", "sin")
 
         def __new__(cls, *, formula: Formula, point: int, cos: int, sin: int) -> Load.FormulaOnPoint: ...
         formula: Final[Formula]
@@ -670,6 +800,8 @@ class Load:
     @final
     class FormulaAlong(Load):
         """A formula on a point in a direction that turns with a link."""
+
+        __match_args__: Final = ("formula", "point", "link", "cos", "sin")
 
         def __new__(
             cls, *, formula: Formula, point: int, link: int, cos: int, sin: int
@@ -683,6 +815,8 @@ class Load:
     @final
     class FormulaOnLink(Load):
         """A formula on a link, counter-clockwise."""
+
+        __match_args__: Final = ("formula", "link")
 
         def __new__(cls, *, formula: Formula, link: int) -> Load.FormulaOnLink: ...
         formula: Final[Formula]
@@ -707,12 +841,16 @@ class Motor:
     class Constant(Motor):
         """The same at any speed."""
 
+        __match_args__: Final = ("torque",)
+
         def __new__(cls, *, torque: int) -> Motor.Constant: ...
         torque: Final[int]
 
     @final
     class Line(Motor):
         """A straight line from standstill to the speed without load."""
+
+        __match_args__: Final = ("torque", "inverse_speed")
 
         def __new__(cls, *, torque: int, inverse_speed: int) -> Motor.Line: ...
         torque: Final[int]
@@ -721,6 +859,8 @@ class Motor:
     @final
     class Induction(Motor):
         """An induction motor after Kloss, below breakdown by spans."""
+
+        __match_args__: Final = ("inverse_synchronous", "torque", "slip", "resistance", "spans")
 
         def __new__(
             cls, *, inverse_synchronous: int, torque: int, slip: int, resistance: int, spans: Sequence[Span]
@@ -734,6 +874,8 @@ class Motor:
     @final
     class Table(Motor):
         """Straight lines between points."""
+
+        __match_args__: Final = ("table",)
 
         def __new__(cls, *, table: Table) -> Motor.Table: ...
         table: Final[Table]
