@@ -12,13 +12,13 @@ from linkwright.kernel.command.common import Json
 if TYPE_CHECKING:
     from linkwright.kernel.page.glossary import Term
 
-Word = Annotated[
-    str,
-    typer.Argument(metavar="[WORD]", help="A term, a symbol, a key or an older word; without it, all terms."),
+Words = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="[WORD]...", help="A term, a symbol, a key or an older word; without it, all terms."),
 ]
 
 
-def glossary(word: Word = "", json: Json = False) -> None:
+def glossary(words: Words = None, json: Json = False) -> None:
     """Define the terms of tables, messages and reports.
 
     Each with its symbol, its unit, its source and its key in files and results.
@@ -27,6 +27,7 @@ def glossary(word: Word = "", json: Json = False) -> None:
     from linkwright.kernel.page.glossary import glossary as terms
     from linkwright.kernel.page.glossary import matching
 
+    word = " ".join(words or ())
     chosen = matching(word) if word else terms()
     if not chosen:
         raise InputError(f'the glossary has no term "{word}"; linkwright glossary lists all terms')
