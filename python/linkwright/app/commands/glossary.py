@@ -14,7 +14,9 @@ if TYPE_CHECKING:
 
 Words = Annotated[
     list[str] | None,
-    typer.Argument(metavar="[WORD]...", help="A term, a symbol, a key or an older word; without it, all terms."),
+    typer.Argument(
+        metavar="[WORD]...", help="A term, a symbol, a key or an older word; without it, all terms."
+    ),
 ]
 
 
