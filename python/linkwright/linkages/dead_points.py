@@ -34,7 +34,7 @@ class DeadPoint(NamedTuple):
     element : str
         Name of the dyad, or of the link or slide that turns back.
     kind : str
-        ``"limit of the crank"``, ``"change point passed"``, ``"change point not passed"`` (both links in
+        ``"limit of crank rotation"``, ``"change point passed"``, ``"change point not passed"`` (both links in
         line, their rates not determined) or ``"dead centre of the output"``.
     multiplicity : int
         Of the zero: 1 where a sign changes, 2 where a radicand touches zero.
