@@ -54,7 +54,7 @@ def read(path: str | os.PathLike[str], overrides: Overrides = (), *, allow_outsi
     Returns
     -------
     Machine
-        CheckedDescription, in SI.
+        Checked, in SI.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def read_as(
     Returns
     -------
     Model
-        CheckedDescription, in SI.
+        Checked, in SI.
 
     Raises
     ------
@@ -130,7 +130,7 @@ def loads(text: str, overrides: Overrides = (), *, path: str = "", allow_outside
     Returns
     -------
     Machine
-        CheckedDescription, in SI.
+        Checked, in SI.
 
     Raises
     ------
@@ -168,7 +168,7 @@ def loads_as(
     Returns
     -------
     Model
-        CheckedDescription, in SI.
+        Checked, in SI.
 
     Raises
     ------

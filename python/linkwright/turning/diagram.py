@@ -25,7 +25,8 @@ from typing import Annotated, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.errors import FindingError, InputError, require_within
+from linkwright.kernel.limits import ROWS_OUT
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
@@ -220,8 +221,7 @@ def turning_moment(machine: Machine, *, n: int = 720) -> TurningMomentDiagram:
     described = machine.turning_moment
     if described is None:
         raise InputError("turning_moment: the machine has no table of this name")
-    if not 1 <= n <= 100_000:
-        raise InputError(f"n: found {n}, expected 1 to 100000")
+    require_within(ROWS_OUT, n, f"n = {n}", "take fewer intervals")
     return _of_areas(described) if described.areas else _of_curves(described, n)
 
 
@@ -262,6 +262,7 @@ def _of_curves(described: TurningMoment, n: int) -> TurningMomentDiagram:
     change = most - least
     evened = _evened(described, change)
     phi = np.linspace(0.0, cycle, n + 1)
+    _, T, M = curves.at(phi)
     E = energy.at(phi)[0]
     work = float(driver) * cycle
     highest, at_highest = curves.extreme(+1, _DRIVER)
@@ -288,8 +289,8 @@ def _of_curves(described: TurningMoment, n: int) -> TurningMomentDiagram:
         accuracy=float(curves.error[_EXCESS] / change) if change else 0.0,
         areas=_areas(curves, energy, cycle),
         crank_angle=phi,
-        torque_driver=curves.at(phi)[_DRIVER],
-        torque_load=curves.at(phi)[_LOAD],
+        torque_driver=T,
+        torque_load=M,
         energy=E,
         speed=_speed(E - least, evened, len(phi)),
     )

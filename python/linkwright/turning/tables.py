@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
-from linkwright.kernel.page.formulas import Formula, formula
+from linkwright.kernel.page.formulas import formula
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kernel.page.table import Row, Table, known_rows, with_unit
 from linkwright.kernel.quantities import in_table
@@ -12,22 +12,18 @@ from linkwright.turning.diagram import TurningMomentDiagram
 
 _SOURCE = "Rattan, Theory of Machines, chapter 13"
 
+# Of the diagram, with their sources.
 FORMULAS = (
     formula("Energy that the shaft has taken up", "E = ∫ ( T − M ) d φ , Δ E = E_max − E_min", _SOURCE),
     formula("Coefficient of speed fluctuation", "δ = frac(ω_max − ω_min|ω) = frac(Δ E|J ω^2)", _SOURCE),
 )
 
-
+# What is taken for granted, in sentences.
 ASSUMPTIONS = (
     "Torques of driver and load depend on the shaft's angle alone, not on its speed.",
     "The moment of inertia of the shaft does not change with the angle; the shaft is rigid.",
     "The mean speed is the mean of the extreme speeds.",
 )
-
-
-def turning_formulas() -> list[Formula]:
-    """Formulas of the diagram with their sources."""
-    return list(FORMULAS)
 
 
 def turning_headline(found: TurningMomentDiagram) -> Iterator[tuple[str, str, str]]:

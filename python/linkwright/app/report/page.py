@@ -102,9 +102,9 @@ def _topper_formulas(study: Study) -> list[Formula]:
 def _turning_formulas(study: Study) -> list[Formula]:
     if study.turning_moment is None:
         return []
-    from linkwright.turning.tables import turning_formulas
+    from linkwright.turning.tables import FORMULAS
 
-    return turning_formulas()
+    return list(FORMULAS)
 
 
 def _turning_headline(study: Study) -> Iterator[tuple[str, str, str]]:
