@@ -25,18 +25,7 @@ Ints = NDArray[np.int32]
 
 
 def encoded(train: MovingTrain) -> _core.TorsionSystem:
-    """A train in motion as the core takes it.
-
-    Parameters
-    ----------
-    train : MovingTrain
-        In terms of discs.
-
-    Returns
-    -------
-    TorsionSystem
-        In terms of masses.
-    """
+    """A train in motion as the core takes it."""
     n = train.speed
     tables: list[PeriodicTable] = []
     curves: list[Curve] = []

@@ -20,16 +20,8 @@ _POINTS = 4001
 def motor_curve(motor: InductionMotor | DcMotor | TableMotor | ConstantTorqueMotor) -> Curve:
     """Torque of a motor over its speed.
 
-    Parameters
-    ----------
-    motor : InductionMotor, DcMotor, TableMotor or ConstantTorqueMotor
-        The motor.
-
-    Returns
-    -------
-    Curve
-        Torque [N m] over speed [rad/s]. That of an induction motor is held below rest and beyond twice its
-        synchronous speed.
+    Torque [N m] over speed [rad/s]. That of an induction motor is held below rest and beyond twice its
+    synchronous speed.
     """
     match motor:
         case ConstantTorqueMotor():

@@ -25,32 +25,17 @@ _BLOCK = 2_000_000
 
 @dataclass(frozen=True)
 class Tree:
-    """Masses in an order in which each hangs on an earlier one.
+    """Masses in an order in which each hangs on an earlier one."""
 
-    Attributes
-    ----------
-    order : ndarray of int, shape (masses,)
-        The masses.
-    parent : ndarray of int, shape (masses,)
-        Place in the order of the mass that each hangs on; of the first, its own.
-    row : ndarray of int, shape (shafts,)
-        Place in the order of the mass that each shaft holds; the number of masses if it joins one with
-        itself.
-    """
-
-    order: Ints
-    parent: Ints
+    order: Ints  # (masses,) the masses
+    parent: Ints  # (masses,) place in the order of the mass that each hangs on; of the first, its own
+    # (shafts,) place in the order of the mass that each shaft holds; the number of masses if it joins one
+    # with itself.
     row: Ints
 
 
 def tree_of(referred: ReferredTrain) -> Tree | None:
-    """The masses as a tree, shafts in parallel taken together; None if there are loops.
-
-    Parameters
-    ----------
-    referred : ReferredTrain
-        The train; fluids count as shafts.
-    """
+    """The masses as a tree, shafts in parallel taken together; None if there are loops."""
     ends = [tuple(sorted(pair)) for pair in referred.ends.tolist()]
     about: dict[int, list[int]] = {n: [] for n in range(HELD, len(referred.inertia))}
     for a, b in dict.fromkeys(ends):
@@ -75,41 +60,18 @@ def tree_of(referred: ReferredTrain) -> Tree | None:
 
 @dataclass(frozen=True)
 class Operating:
-    """What a train is at some speeds, referred to that of its first disc.
+    """What a train is at some speeds, referred to that of its first disc."""
 
-    Attributes
-    ----------
-    speeds : ndarray, shape (speeds,)
-        Ω of the first disc [rad/s].
-    stiffness : ndarray, shape (shafts, speeds)
-        About the mean torque [N m/rad].
-    disc_damping : ndarray, shape (masses, speeds)
-        Viscous, against the ground, with that of loads [N m s/rad].
-    """
-
-    speeds: Floats
-    stiffness: Floats
-    disc_damping: Floats
+    speeds: Floats  # (speeds,) Ω of the first disc [rad/s]
+    stiffness: Floats  # (shafts, speeds) about the mean torque [N m/rad]
+    disc_damping: Floats  # (masses, speeds) Viscous, against the ground, with that of loads [N m s/rad]
 
 
 def respond(referred: ReferredTrain, at: Operating, orders: Floats, torques: Complexes) -> Complexes:
-    """Amplitudes of the masses.
+    """Amplitudes of the masses, (orders, masses, speeds).
 
-    Parameters
-    ----------
-    referred : ReferredTrain
-        The train.
-    at : Operating
-        Speeds, and what depends on them.
-    orders : ndarray, shape (orders,)
-        Cycles per revolution of the first disc.
-    torques : ndarray of complex, shape (orders, masses, speeds)
-        Referred [N m].
-
-    Returns
-    -------
-    ndarray of complex, shape (orders, masses, speeds)
-        q [rad]; not finite at a resonance without any damping.
+    q [rad]; not finite at a resonance without any damping. `orders`: (orders,) cycles per revolution of the
+    first disc; `torques`: (orders, masses, speeds) referred [N m].
     """
     tree = tree_of(referred)
     if tree is None:
@@ -139,23 +101,10 @@ def shaft_torques(
     Rounding of the amplitudes times the stiffness is a torque, and so is that of the forces on one side of
     the shaft. Of both ways the one is taken that has less of it.
 
-    Parameters
-    ----------
-    referred : ReferredTrain
-        The train.
-    stiffness : ndarray of complex, shape (orders, shafts, speeds)
-        k(1 + iη) + iωc [N m/rad].
-    q : ndarray of complex, shape (orders, masses, speeds)
-        Amplitudes [rad].
-    forces : ndarray of complex, shape (orders, masses, speeds)
-        On each mass from outside, with those of its inertia and its damping: what its shafts carry on [N m].
-    size : ndarray, shape (orders, masses, speeds)
-        Sum of the sizes of their parts [N m].
-
-    Returns
-    -------
-    ndarray of complex, shape (orders, shafts, speeds)
-        Positive if the first end drives the second, referred [N m].
+    (orders, shafts, speeds): Positive if the first end drives the second, referred [N m]. `stiffness`:
+    (orders, shafts, speeds) k(1 + iη) + iωc [N m/rad]; `q`: (orders, masses, speeds) amplitudes [rad];
+    `forces`: (orders, masses, speeds) [N m]; `size`: (orders, masses, speeds) sum of the sizes of their parts
+    [N m].
     """
     first, second = referred.ends.T
     held = np.concatenate([q, np.zeros_like(q[:, :1])], axis=1)
@@ -174,21 +123,9 @@ def shaft_torques(
 def by_equilibrium(referred: ReferredTrain, tree: Tree, stiffness: Complexes, forces: Complexes) -> Complexes:
     """Torques of the shafts of a tree from what acts on one side of each; parallel ones share by stiffness.
 
-    Parameters
-    ----------
-    referred : ReferredTrain
-        The train.
-    tree : Tree
-        Its masses.
-    stiffness : ndarray of complex, shape (orders, shafts, speeds)
-        By which shafts between the same two masses share [N m/rad].
-    forces : ndarray of complex, shape (orders, masses, speeds)
-        On each mass but for its shafts [N m].
-
-    Returns
-    -------
-    ndarray of complex, shape (orders, shafts, speeds)
-        Positive if the first end drives the second, referred [N m].
+    (orders, shafts, speeds): Positive if the first end drives the second, referred [N m]. `stiffness`:
+    (orders, shafts, speeds) [N m/rad]; `forces`: (orders, masses, speeds) on each mass but for its shafts
+    [N m].
     """
     n = len(tree.order)
     below = np.take(forces, tree.order, axis=1)
@@ -236,17 +173,10 @@ def _solved(matrix: Complexes, torque: Complexes) -> Complexes:
 
 
 def extremes(coefficients: Complexes) -> Floats:
-    """Maximum value, its place, minimum value, its place of sums of harmonics.
+    """Maximum value, its place, minimum value, its place of sums of harmonics, (4, ...).
 
-    Parameters
-    ----------
-    coefficients : ndarray of complex, shape (harmonics, ...)
-        c_h of Σ Re c_h e^{ihτ}, from h = 0 on.
-
-    Returns
-    -------
-    ndarray, shape (4, ...)
-        Places as τ, 0 to 2π; NaN of a wave that is not finite.
+    Places as τ, 0 to 2π; NaN of a wave that is not finite. `coefficients`: (harmonics, ...) c_h of Σ Re c_h
+    e^{ihτ}, from h = 0 on.
     """
     flat = np.ascontiguousarray(coefficients, complex).reshape(-1)
     waves = coefficients[0].size

@@ -32,69 +32,38 @@ from linkwright.kernel.core.periodic_table import PeriodicTable
 
 @dataclass(frozen=True)
 class Power:
-    """A power of the speed.
+    """A power of the speed."""
 
-    Attributes
-    ----------
-    speed : float
-        ω₀, at which the law is 1 [rad/s].
-    exponent : float
-        p.
-    is_even : bool
-        (ω/ω₀)ᵖ the same in both senses, or with the sign of the speed, as resistance has it.
-    """
-
-    speed: float
-    exponent: float
+    speed: float  # ω₀, at which the law is 1 [rad/s]
+    exponent: float  # p
+    # (ω/ω₀)ᵖ the same in both senses, or with the sign of the speed, as resistance has it.
     is_even: bool = False
 
 
 @dataclass(frozen=True)
 class OverSpeed:
-    """A curve over the speed of the disc, such as a motor's characteristic.
+    """A curve over the speed of the disc, such as a motor's characteristic."""
 
-    Attributes
-    ----------
-    curve : Curve
-        Torque [N m] over speed [rad/s].
-    """
-
-    curve: Curve
+    curve: Curve  # torque [N m] over speed [rad/s]
 
 
 @dataclass(frozen=True)
 class GovernorTorque:
-    """A torque in proportion to what is missing in speed: a governor, or a test bench that leads the speed.
+    """A torque in proportion to the missing speed: a governor, or a test bench that leads the speed."""
 
-    Attributes
-    ----------
-    gain : float
-        [N m s/rad].
-    curve : Curve
-        Speed wanted [rad/s] over time [s].
-    """
-
-    gain: float
-    curve: Curve
+    gain: float  # [N m s/rad]
+    curve: Curve  # speed wanted [rad/s] over time [s]
 
 
 @dataclass(frozen=True)
 class DecayingTorque:
-    """A sine that decays.
+    """A sine that decays."""
 
-    Attributes
-    ----------
-    start, end : float
-        Between these times [s].
-    rate : float
-        Of the decay, one over its time constant [1/s].
-    speed, phase : float
-        Angular frequency [rad/s] and phase [rad] of the sine.
-    """
-
+    # `start`, `end`: between these times [s].
     start: float
     end: float
-    rate: float
+    rate: float  # of the decay, one over its time constant [1/s]
+    # `speed`, `phase`: angular frequency [rad/s] and phase [rad] of the sine.
     speed: float
     phase: float = 0.0
 
@@ -104,48 +73,21 @@ Law = Power | OverSpeed | GovernorTorque | DecayingTorque
 
 @dataclass(frozen=True)
 class TrainTorque:
-    """A torque on a disc, positive if it drives.
+    """A torque on a disc, positive if it drives."""
 
-    Attributes
-    ----------
-    name : str
-        By which events and results speak of it.
-    on : int
-        Disc.
-    scale : float
-        Torque where the law and the shape are 1 [N m].
-    law : Power, OverSpeed, GovernorTorque, DecayingTorque or None
-        How it depends on speed or time; None for not at all.
-    shape : PeriodicTable or None
-        How it depends on the angle; None for not at all.
-    pitch, phase : float
-        Angle of the table over that of the disc, and angle of the table where that of the disc is zero [rad].
-    weight : Curve or None
-        Factor over time; None for 1.
-    """
-
-    name: str
-    on: int
-    scale: float = 1.0
-    law: Law | None = None
-    shape: PeriodicTable | None = None
+    name: str  # by which events and results speak of it
+    on: int  # disc
+    scale: float = 1.0  # torque where the law and the shape are 1 [N m]
+    law: Law | None = None  # how it depends on speed or time; None for not at all
+    shape: PeriodicTable | None = None  # how it depends on the angle; None for not at all
+    # `pitch`, `phase`: angle of the table over that of the disc, and angle of the table where that of the
+    # disc is zero [rad].
     pitch: float = 1.0
     phase: float = 0.0
-    weight: Curve | None = None
+    weight: Curve | None = None  # factor over time; None for 1
 
     def weighted(self, weight: Curve) -> TrainTorque:
-        """The same torque with a factor over time.
-
-        Parameters
-        ----------
-        weight : Curve
-            In place of the one it has.
-
-        Returns
-        -------
-        TrainTorque
-            A copy.
-        """
+        """The same torque with a factor over time."""
         return replace(self, weight=weight)
 
 
@@ -163,34 +105,10 @@ def short_circuit(
 ) -> tuple[TrainTorque, ...]:
     """Torque of a generator whose terminals are short-circuited.
 
-    Parameters
-    ----------
-    name : str
-        Of the event.
-    on : int
-        Disc of the generator.
-    torque : float
-        Apparent power over its speed [N m].
-    reactance : float
-        Subtransient, per unit [–].
-    speed : float
-        Angular frequency of the current: pole pairs times the speed of the rotor [rad/s].
-    decay : float
-        Time constant of the torque [s].
-    phases : int
-        Two or three.
-    start, end : float
-        When it begins and is cleared [s].
-
-    Returns
-    -------
-    tuple of TrainTorque
-        One for three phases; two, of the simple and of the double frequency, for two.
-
-    Notes
-    -----
-    All of the torque decays with one time constant, that of its part of mains frequency; the part of double
-    frequency lasts longer in truth, but passes most trains unfelt.
+    One for three phases; two, of the simple and of the double frequency, for two. `torque`: apparent power
+    over its speed [N m]; `speed`: [rad/s]; `decay`: time constant of the torque [s]; `start`, `end`: when it
+    begins and is cleared [s]. All of the torque decays with one time constant, that of its part of mains
+    frequency; the part of double frequency lasts longer in truth, but passes most trains unfelt.
     """
     size = -torque / reactance
     first = DecayingTorque(start, end, 1.0 / decay, speed)

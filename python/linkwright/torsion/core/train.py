@@ -34,45 +34,19 @@ HELD = -1
 
 @dataclass(frozen=True)
 class ReferredTrain:
-    """A train referred to the speed of its first disc.
+    """A train referred to the speed of its first disc."""
 
-    Attributes
-    ----------
-    discs : tuple of str
-        In the order of the file.
-    shafts : tuple of str
-        What twists: shafts, then elastic meshes, in the order of the file.
-    speed : ndarray, shape (discs,)
-        n, speed of each disc over that of the first, without its sense.
-    mass : ndarray of int, shape (discs,)
-        Mass that each disc belongs to.
-    ends : ndarray of int, shape (shafts, 2)
-        Masses that each shaft joins; `HELD` for the ground.
-    tip : ndarray of int, shape (shafts, 2)
-        Discs that each shaft joins, likewise.
-    inertia : ndarray, shape (masses,)
-        Referred [kg m²].
-    stiffness : ndarray, shape (shafts,)
-        Referred; zero for a fluid [N m/rad].
-    disc_damping : ndarray, shape (masses,)
-        Viscous, against the ground, referred [N m s/rad].
-    damping : ndarray, shape (shafts,)
-        Viscous, referred [N m s/rad].
-    loss_factor : ndarray, shape (shafts,)
-        η of the complex stiffness k (1 + iη).
-    """
-
-    discs: tuple[str, ...]
-    shafts: tuple[str, ...]
-    speed: Floats
-    mass: Ints
-    ends: Ints
-    tip: Ints
-    inertia: Floats
-    stiffness: Floats
-    disc_damping: Floats
-    damping: Floats
-    loss_factor: Floats
+    discs: tuple[str, ...]  # in the order of the file
+    shafts: tuple[str, ...]  # what twists: shafts, then elastic meshes, in the order of the file
+    speed: Floats  # (discs,) n, speed of each disc over that of the first, without its sense
+    mass: Ints  # (discs,) mass that each disc belongs to
+    ends: Ints  # (shafts, 2) masses that each shaft joins; `HELD` for the ground
+    tip: Ints  # (shafts, 2) discs that each shaft joins, likewise
+    inertia: Floats  # (masses,) referred [kg m²]
+    stiffness: Floats  # (shafts,) Referred; zero for a fluid [N m/rad]
+    disc_damping: Floats  # (masses,) Viscous, against the ground, referred [N m s/rad]
+    damping: Floats  # (shafts,) Viscous, referred [N m s/rad]
+    loss_factor: Floats  # (shafts,) η of the complex stiffness k (1 + iη)
 
     @property
     def is_free(self) -> bool:
@@ -147,18 +121,7 @@ class ReferredTrain:
 
 
 def refer(train: Train) -> ReferredTrain:
-    """A train referred to the speed of its first disc.
-
-    Parameters
-    ----------
-    train : Train
-        Checked: it is connected, and its loops can turn. Couplings and dampers count as discs and shafts.
-
-    Raises
-    ------
-    MachineError
-        An entry that was exchanged unchecked is no number above zero.
-    """
+    """A train referred to the speed of its first disc."""
     _require_numbers(train)
     train = whole_train(train)
     n = {name: abs(speed) for name, speed in speeds(train)[0].items()}

@@ -43,21 +43,11 @@ _SLOPES_AGREE = 1e-3
 
 @dataclass(frozen=True)
 class VariableInertia:
-    """An inertia that changes with the angle of its disc.
+    """An inertia that changes with the angle of its disc."""
 
-    Attributes
-    ----------
-    on : int
-        Disc.
-    table : PeriodicTable
-        [kg m²].
-    phase : float
-        Angle of the table where that of the disc is zero [rad].
-    """
-
-    on: int
-    table: PeriodicTable
-    phase: float = 0.0
+    on: int  # disc
+    table: PeriodicTable  # [kg m²]
+    phase: float = 0.0  # angle of the table where that of the disc is zero [rad]
 
 
 def variable_inertia(
@@ -65,28 +55,8 @@ def variable_inertia(
 ) -> VariableInertia:
     """An inertia from even samples over one revolution.
 
-    Parameters
-    ----------
-    on : int
-        Disc.
-    inertia : array_like, shape (samples,)
-        From angle zero on, without the repetition at the end of the revolution [kg m²].
-    slope : array_like, shape (samples,), optional
-        Its derivative by the angle, to check that the samples tell all of it [kg m²/rad].
-    phase : float
-        Angle of the table where that of the disc is zero [rad].
-
-    Returns
-    -------
-    VariableInertia
-        By the trigonometric polynomial through the samples.
-
-    Raises
-    ------
-    InputError
-        A sample is no positive number, or the slopes are not those of the samples.
-    ShapeError
-        There are not as many slopes as samples.
+    By the trigonometric polynomial through the samples. `inertia`: (samples,) [kg m²]; `slope`: (samples,)
+    [kg m²/rad]; `phase`: [rad].
     """
     J = np.asarray(inertia, dtype=float)
     if not len(J) or not (np.isfinite(J).all() and (J > 0).all()):
@@ -107,96 +77,53 @@ def variable_inertia(
 
 @dataclass(frozen=True)
 class TrainMotion:
-    """A motion as the core gives it, in terms of masses.
+    """A motion as the core gives it, in terms of masses."""
 
-    Attributes
-    ----------
-    end : str
-        "time" when it is over; "too many steps", "inaccurate" where no step keeps the accuracy, "not finite".
-    method : str
-        That was used.
-    steps, rejected, evaluations : int
-        Work done.
-    time : float
-        Reached [s].
-    fastest : float
-        Bound of the fastest swing at the start [rad/s].
-    energies : tuple of float
-        Kinetic and potential at the start, and at the end [J].
-    angle, speed : ndarray, shape (masses, times)
-        Of the masses, at the speed of the first disc [rad, rad/s].
-    torque : ndarray, shape (shafts, times)
-        At the speed of each shaft [N m].
-    kinetic, potential : ndarray, shape (times,)
-        Energy [J].
-    extremes : ndarray, shape (shafts + masses, 4)
-        Largest value, its time, minimum value, its time, of torques and speeds.
-    work : ndarray, shape (torques + shafts + masses,)
-        Of torques, and lost in shafts and at masses [J].
-    """
-
+    # "time" when it is over; "too many steps", "inaccurate" where no step keeps the accuracy, "not finite".
     end: str
-    method: str
+    method: str  # that was used
+    # `steps`, `rejected`, `evaluations`: work done.
     steps: int
     rejected: int
     evaluations: int
-    time: float
-    fastest: float
-    energies: tuple[float, float, float, float]
+    time: float  # reached [s]
+    fastest: float  # bound of the fastest swing at the start [rad/s]
+    energies: tuple[float, float, float, float]  # kinetic and potential at the start, and at the end [J]
+    # `angle`, `speed`: (masses, times) of the masses, at the speed of the first disc [rad, rad/s].
     angle: Floats
     speed: Floats
-    torque: Floats
+    torque: Floats  # (shafts, times) at the speed of each shaft [N m]
+    # `kinetic`, `potential`: (times,) energy [J].
     kinetic: Floats
     potential: Floats
+    # (shafts + masses, 4) largest value, its time, minimum value, its time, of torques and speeds.
     extremes: Floats
-    work: Floats
+    work: Floats  # (torques + shafts + masses,) of torques, and lost in shafts and at masses [J]
 
 
 @dataclass(frozen=True)
 class MovingTrain:
-    """Discs, shafts and torques of a train that moves in time.
+    """Discs, shafts and torques of a train that moves in time."""
 
-    Attributes
-    ----------
-    discs : tuple of str
-        Names.
-    speed : ndarray, shape (discs,)
-        n, speed of each disc over that of the first, without its sense.
-    mass : ndarray of int, shape (discs,)
-        Discs of one number move as one.
-    inertia, damping, swing_damping : ndarray, shape (discs,)
-        Constant part of the inertia [kg m²], damping against the ground, and damping that resists only what
-        goes beyond the speed of the train as a whole [N m s/rad].
-    shafts : tuple of str
-        Names of what twists.
-    tip : ndarray of int, shape (shafts, 2)
-        Discs that each joins; `HELD` for the ground.
-    stiffness, shaft_damping : ndarray, shape (shafts,)
-        At the first end that is a disc [N m/rad, N m s/rad].
-    curves : tuple of Curve or None
-        Torque over twist of each shaft, in addition to its stiffness [N m, rad].
-    inertias : tuple of VariableInertia
-        In addition to the constant ones.
-    torques : tuple of TrainTorque
-        From outside.
-    notes : tuple of str
-        What was assumed.
-    """
-
-    discs: tuple[str, ...]
-    speed: Floats
-    mass: Ints
+    discs: tuple[str, ...]  # names
+    speed: Floats  # (discs,) n, speed of each disc over that of the first, without its sense
+    mass: Ints  # (discs,) discs of one number move as one
+    # `inertia`, `damping`, `swing_damping`: (discs,) constant part of the inertia [kg m²], damping against
+    # the ground, and damping that resists only what goes beyond the speed of the train as a whole [N m
+    # s/rad].
     inertia: Floats
     damping: Floats
     swing_damping: Floats
-    shafts: tuple[str, ...]
-    tip: Ints
+    shafts: tuple[str, ...]  # names of what twists
+    tip: Ints  # (shafts, 2) discs that each joins; `HELD` for the ground
+    # `stiffness`, `shaft_damping`: (shafts,) at the first end that is a disc [N m/rad, N m s/rad].
     stiffness: Floats
     shaft_damping: Floats
+    # Torque over twist of each shaft, in addition to its stiffness [N m, rad].
     curves: tuple[Curve | None, ...]
-    inertias: tuple[VariableInertia, ...] = ()
-    torques: tuple[TrainTorque, ...] = ()
-    notes: tuple[str, ...] = field(default=())
+    inertias: tuple[VariableInertia, ...] = ()  # in addition to the constant ones
+    torques: tuple[TrainTorque, ...] = ()  # from outside
+    notes: tuple[str, ...] = field(default=())  # what was assumed
 
     @property
     def masses(self) -> int:
@@ -223,21 +150,10 @@ class MovingTrain:
         return encoded(self)
 
     def net_torques(self, time: float, angle: ArrayLike, speed: ArrayLike) -> tuple[Floats, Floats]:
-        """Sum of all torques on each mass, and its inertia.
+        """Sum of all torques on each mass, and its inertia, (rows, masses).
 
-        Parameters
-        ----------
-        time : float
-            [s].
-        angle : array_like, shape (rows, masses)
-            At the speed of the first disc [rad].
-        speed : array_like, shape (masses,)
-            Likewise [rad/s].
-
-        Returns
-        -------
-        tuple of ndarray, shape (rows, masses)
-            Torques, less ½ J′ω² [N m], and inertias [kg m²].
+        Torques, less ½ J′ω² [N m], and inertias [kg m²]. `time`: [s]; `angle`: (rows, masses) [rad]; `speed`:
+        (masses,) [rad/s].
         """
         rows = np.ascontiguousarray(angle, dtype=np.float64)
         return self.system.net_torques(time, rows, np.ascontiguousarray(speed, dtype=np.float64))
@@ -255,25 +171,8 @@ class MovingTrain:
     ) -> TrainMotion:
         """The motion from given angles and speeds.
 
-        Parameters
-        ----------
-        angle, speed : array_like, shape (masses,)
-            At the start, at the speed of the first disc [rad, rad/s].
-        times : array_like, shape (times,)
-            To sample at, from zero to the end [s].
-        accuracy : float
-            Relative, of a step, at its end and on the way there.
-        start : float
-            When the motion begins, zero or before; it is recorded from zero on [s].
-        method : str
-            "auto", "explicit" or "implicit".
-        steps_max : int
-            Steps after which it is given up.
-
-        Returns
-        -------
-        TrainMotion
-            Samples beyond the time reached are NaN.
+        Samples beyond the time reached are NaN. `angle`, `speed`: (masses,) [rad, rad/s]; `times`: (times,)
+        to sample at, from zero to the end [s]; `start`: [s].
         """
         at, turning, sampled = (
             np.ascontiguousarray(each, dtype=np.float64) for each in (angle, speed, times)
@@ -315,31 +214,8 @@ def moving(
 ) -> MovingTrain:
     """A train in motion from the train for vibration.
 
-    Parameters
-    ----------
-    referred : ReferredTrain
-        Its discs and shafts.
-    inertia : array_like, shape (discs,)
-        Constant part, at the speed of each disc [kg m²].
-    damping : array_like, shape (discs,)
-        Against the ground [N m s/rad].
-    swing_damping : array_like, shape (discs,)
-        Against what goes beyond the speed of the train as a whole [N m s/rad].
-    shaft_damping : array_like, shape (shafts,)
-        At the first end of each that is a disc [N m s/rad].
-    curves : sequence of Curve or None, optional
-        Of shafts with a torque that is no straight line over the twist: in place of their stiffness.
-    inertias : iterable of VariableInertia
-        In addition to the constant ones.
-    torques : iterable of TrainTorque
-        From outside.
-    notes : iterable of str
-        What was assumed.
-
-    Returns
-    -------
-    MovingTrain
-        Ready to be followed.
+    `inertia`: (discs,) constant part, at the speed of each disc [kg m²]; `damping`: (discs,) against the
+    ground [N m s/rad]; `swing_damping`: (discs,) [N m s/rad]; `shaft_damping`: (shafts,) [N m s/rad].
     """
     n, m = len(referred.discs), len(referred.shafts)
     shapes = tuple(curves) if curves is not None else (None,) * m
@@ -367,19 +243,7 @@ def moving(
 def viscous(stiffness: ArrayLike, loss_factor: ArrayLike, omega: ArrayLike) -> Floats:
     """Viscous damping that loses as much at one frequency as hysteresis does: c = ηk/ω.
 
-    Parameters
-    ----------
-    stiffness : array_like, any shape
-        k, of any shape [N m/rad].
-    loss_factor : array_like, any shape
-        η, of the same shape [–].
-    omega : array_like
-        The frequency, of the same shape or one for all [rad/s].
-
-    Returns
-    -------
-    ndarray
-        Of the same shape [N m s/rad].
+    Of the same shape [N m s/rad]. `stiffness`: k, of any shape [N m/rad]; `loss_factor`: η; `omega`: [rad/s].
     """
     k, eta = np.asarray(stiffness, dtype=float), np.asarray(loss_factor, dtype=float)
     damping: Floats = k * eta / np.asarray(omega, dtype=float)

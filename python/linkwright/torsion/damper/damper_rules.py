@@ -48,82 +48,26 @@ Complex = NDArray[np.complexfloating[Any, Any]]
 
 @dataclass(frozen=True)
 class DamperRule:
-    """A damper of one mass on a spring, by its ratios.
+    """A damper of one mass on a spring, by its ratios."""
 
-    Attributes
-    ----------
-    mass_ratio : float
-        μ, inertia of the ring over that of the mass.
-    tuning : float
-        f, frequency of the ring on its spring over that of the mass; 0 without a spring.
-    damping_ratio : float
-        ζ, over twice the ring's inertia times the frequency of the mass.
-    loss_factor : float
-        η of the spring.
-    magnification : float
-        Of the static deflection at the fixed points: the smallest possible maximum, to a few percent.
-    fixed_points : tuple of float
-        Their frequencies over that of the mass.
-    """
-
-    mass_ratio: float
-    tuning: float
-    damping_ratio: float
-    loss_factor: float
+    mass_ratio: float  # μ, inertia of the ring over that of the mass
+    tuning: float  # f, frequency of the ring on its spring over that of the mass; 0 without a spring
+    damping_ratio: float  # ζ, over twice the ring's inertia times the frequency of the mass
+    loss_factor: float  # η of the spring
+    # Of the static deflection at the fixed points: the smallest possible maximum, to a few percent.
     magnification: float
-    fixed_points: tuple[float, ...]
+    fixed_points: tuple[float, ...]  # their frequencies over that of the mass
 
 
 def viscous_rule(mass_ratio: float) -> DamperRule:
-    """The best damper of a fluid alone, Lanchester's or Houde's.
-
-    Parameters
-    ----------
-    mass_ratio : float
-        μ.
-
-    Returns
-    -------
-    DamperRule
-        Exact.
-
-    Raises
-    ------
-    InputError
-        The ratio is not greater than 0.
-
-    References
-    ----------
-    .. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 3.3.
-    """
+    """The best damper of a fluid alone, Lanchester's or Houde's. Exact. `mass_ratio`: μ."""
     mu = _positive(mass_ratio)
     damping = 1 / math.sqrt(2 * (1 + mu) * (2 + mu))
     return DamperRule(mu, 0.0, damping, 0.0, 1 + 2 / mu, (math.sqrt(2 / (2 + mu)),))
 
 
 def tuned_rule(mass_ratio: float) -> DamperRule:
-    """The best damper of a spring and a fluid.
-
-    Parameters
-    ----------
-    mass_ratio : float
-        μ.
-
-    Returns
-    -------
-    DamperRule
-        By the fixed points.
-
-    Raises
-    ------
-    InputError
-        The ratio is not greater than 0.
-
-    References
-    ----------
-    .. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 3.3.
-    .. [2] Brock, J. Appl. Mech. 13 (1946) A-284.
-    """
+    """The best damper of a spring and a fluid. By the fixed points. `mass_ratio`: μ."""
     mu = _positive(mass_ratio)
     return _tuned(mu, damping=math.sqrt(3 * mu / (8 * (1 + mu) ** 3)), loss=0.0)
 
@@ -131,43 +75,17 @@ def tuned_rule(mass_ratio: float) -> DamperRule:
 def rubber_rule(mass_ratio: float) -> DamperRule:
     """The best damper of rubber, whose loss does not depend on the frequency.
 
-    Parameters
-    ----------
-    mass_ratio : float
-        μ.
-
-    Returns
-    -------
-    DamperRule
-        By the fixed points.
-
-    Raises
-    ------
-    InputError
-        The ratio is not greater than 0.
-
-    Notes
-    -----
-    Rubber in torsional dampers has η of 0.1 to 0.3, much less than this asks for with a heavy ring.
+    By the fixed points. `mass_ratio`: μ. Rubber in torsional dampers has η of 0.1 to 0.3, much less than this
+    asks for with a heavy ring.
     """
     mu = _positive(mass_ratio)
     return _tuned(mu, damping=0.0, loss=math.sqrt(mu * (3 + 2 * mu) / (2 + mu)))
 
 
 def magnification(rule: DamperRule, frequency: ArrayLike) -> Floats:
-    """Deflection of the mass over that under the same torque at rest.
+    """Deflection of the mass over that under the same torque at rest, (n,).
 
-    Parameters
-    ----------
-    rule : DamperRule
-        Its ratios; the magnification in it does not count.
-    frequency : array_like, shape (n,)
-        g, over that of the mass alone.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Infinite at a resonance without damping.
+    Infinite at a resonance without damping. `frequency`: (n,) g, over that of the mass alone.
     """
     g = np.atleast_1d(np.asarray(frequency, dtype=np.float64))
     mu = rule.mass_ratio
@@ -178,19 +96,10 @@ def magnification(rule: DamperRule, frequency: ArrayLike) -> Floats:
 
 
 def ring_stiffness(held: Complex, carried: Floats) -> Complex:
-    """Dynamic stiffness that a ring adds to its disc.
+    """Dynamic stiffness that a ring adds to its disc, (n,).
 
-    Parameters
-    ----------
-    held : ndarray of complex, shape (n,)
-        What joins it to the disc, k(1 + iη) + iωc [N m/rad].
-    carried : ndarray, shape (n,)
-        Its inertia times ω² [N m/rad].
-
-    Returns
-    -------
-    ndarray of complex, shape (n,)
-        Torque on the disc against its angle, per angle [N m/rad].
+    Torque on the disc against its angle, per angle [N m/rad]. `held`: (n,) [N m/rad]; `carried`: (n,) its
+    inertia times ω² [N m/rad].
     """
     found: Complex = -held * carried / (held - carried)
     return found
@@ -199,19 +108,8 @@ def ring_stiffness(held: Complex, carried: Floats) -> Complex:
 def viscous_heat(damping: float, omega: ArrayLike, twist: ArrayLike) -> float:
     r"""Heat of a fluid between ring and disc, :math:`\tfrac12 c\,\sum\omega^2|\Delta|^2`.
 
-    Parameters
-    ----------
-    damping : float
-        c [N m s/rad].
-    omega : array_like, shape (n,)
-        Angular frequency of each order [rad/s].
-    twist : array_like, shape (n,)
-        Amplitude of the angle between ring and disc in each order, real or complex [rad].
-
-    Returns
-    -------
-    float
-        Mean over time [W].
+    Mean over time [W]. `damping`: c [N m s/rad]; `omega`: (n,) angular frequency of each order [rad/s];
+    `twist`: (n,) [rad].
     """
     return float(0.5 * damping * np.sum(np.asarray(omega) ** 2 * np.abs(twist) ** 2))
 
@@ -219,21 +117,8 @@ def viscous_heat(damping: float, omega: ArrayLike, twist: ArrayLike) -> float:
 def hysteretic_heat(stiffness: float, loss_factor: float, omega: ArrayLike, twist: ArrayLike) -> float:
     r"""Heat of rubber between ring and disc, :math:`\tfrac12\eta k\,\sum\omega|\Delta|^2`.
 
-    Parameters
-    ----------
-    stiffness : float
-        k [N m/rad].
-    loss_factor : float
-        η.
-    omega : array_like, shape (n,)
-        Angular frequency of each order [rad/s].
-    twist : array_like, shape (n,)
-        Amplitude of the angle between ring and disc in each order, real or complex [rad].
-
-    Returns
-    -------
-    float
-        Mean over time: a cycle of ω loses πηk|Δ|² [W].
+    Mean over time: a cycle of ω loses πηk|Δ|² [W]. `stiffness`: k [N m/rad]; `loss_factor`: η; `omega`: (n,)
+    angular frequency of each order [rad/s]; `twist`: (n,) [rad].
     """
     return float(0.5 * loss_factor * stiffness * np.sum(np.asarray(omega) * np.abs(twist) ** 2))
 

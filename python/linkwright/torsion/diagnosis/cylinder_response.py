@@ -16,27 +16,7 @@ Complexes = NDArray[np.complex128]
 
 
 def disc_speed(at: ExcitedTrain, disc: str, *, rigid: bool = False) -> Complexes:
-    """Harmonics of the speed of a disc under the torques of its train.
-
-    Parameters
-    ----------
-    at : ExcitedTrain
-        The train.
-    disc : str
-        The disc.
-    rigid : bool
-        Whether the train is taken as rigid.
-
-    Returns
-    -------
-    ndarray of complex, shape (speeds, orders)
-        [rad/s].
-
-    Raises
-    ------
-    InputError
-        There is no such disc, or the train is held and cannot rotate as a rigid body.
-    """
+    """Harmonics of the speed of a disc under the torques of its train, (speeds, orders) [rad/s]."""
     place = _place(at.referred, disc)
     if rigid:
         torques = at.referred_harmonics()
@@ -49,28 +29,9 @@ def disc_speed(at: ExcitedTrain, disc: str, *, rigid: bool = False) -> Complexes
 
 
 def cylinder_response(at: ExcitedTrain, sources: Complexes, disc: str, *, rigid: bool = False) -> Complexes:
-    """Harmonics of the speed of a disc under torques one by one.
+    """Harmonics of the speed of a disc under torques one by one, (sources, orders) [rad/s].
 
-    Parameters
-    ----------
-    at : ExcitedTrain
-        The train, at one speed.
-    sources : ndarray of complex, shape (sources, orders, discs)
-        Torques at the orders of the train's torques [N m].
-    disc : str
-        The disc.
-    rigid : bool
-        Whether the train is taken as rigid.
-
-    Returns
-    -------
-    ndarray of complex, shape (sources, orders)
-        [rad/s].
-
-    Raises
-    ------
-    InputError
-        There is no such disc, or the train is held and cannot rotate as a rigid body.
+    `sources`: (sources, orders, discs) [N m].
     """
     referred, many, orders = at.referred, len(sources), at.torques.orders
     place = _place(referred, disc)

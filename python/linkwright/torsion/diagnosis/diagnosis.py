@@ -59,39 +59,7 @@ def diagnosis(
     *,
     rigid: bool = False,
 ) -> Diagnosis:
-    """Factors of the cylinders from a measured speed.
-
-    Parameters
-    ----------
-    at : ExcitedTrain
-        The train at the speed of the measurement, all cylinders healthy.
-    sources : ndarray of complex, shape (cylinders, orders, discs)
-        Torque that the firing of each healthy cylinder adds, at the orders of the train's torques, which hold
-        it [N m].
-    measured : MeasuredSpeed
-        At one disc.
-    cylinders : sequence of str, optional
-        Their names; without them "1", "2", …
-    rigid : bool
-        Whether the train is taken as rigid, to see what that costs.
-
-    Returns
-    -------
-    Diagnosis
-        Factors with their uncertainty.
-
-    Raises
-    ------
-    ShapeError
-        Arrays do not fit together.
-    InputError
-        The train is at several speeds, a disc or order is not there, a held train taken as rigid, or too few
-        orders.
-
-    References
-    ----------
-    .. [1] Taraza, Henein and others, Diesel engine diagnosis, SAE, 1998.
-    """
+    """Factors of the cylinders from a measured speed. `sources`: (cylinders, orders, discs) [N m]."""
     names = _names(at, sources, cylinders)
     rest = at.torques.harmonics[:, :, 0] - sources.sum(axis=0)
     every = cylinder_response(at, np.concatenate([sources, rest[None]]), measured.disc, rigid=rigid)
@@ -103,19 +71,9 @@ def diagnosis(
 
 
 def equations(harmonics: Complexes, measured: MeasuredSpeed) -> Floats:
-    """Real and imaginary parts over their noise.
+    """Real and imaginary parts over their noise, (..., 2 orders).
 
-    Parameters
-    ----------
-    harmonics : ndarray of complex, shape (..., orders)
-        Speeds at the orders measured [rad/s].
-    measured : MeasuredSpeed
-        With the noise; without one it is taken as 1 rad/s.
-
-    Returns
-    -------
-    ndarray, shape (..., 2 orders)
-        Equations for least squares.
+    Equations for least squares. `harmonics`: (..., orders) speeds at the orders measured [rad/s].
     """
     scaled = harmonics if measured.noise is None else harmonics / measured.noise
     found: Floats = np.concatenate([scaled.real, scaled.imag], axis=-1)
@@ -123,30 +81,7 @@ def equations(harmonics: Complexes, measured: MeasuredSpeed) -> Floats:
 
 
 def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpeed) -> Diagnosis:
-    """What a fit says of the cylinders.
-
-    Parameters
-    ----------
-    fit : Fit
-        How far the factors are from 1; behind them, where they are fitted, delays and how far the compression
-        is from 1.
-    A : ndarray, shape (equations, parameters)
-        Its equations.
-    names : tuple of str
-        Of the cylinders.
-    measured : MeasuredSpeed
-        What was fitted.
-
-    Returns
-    -------
-    Diagnosis
-        Factors with their uncertainty.
-
-    Raises
-    ------
-    InputError
-        Noise is neither known nor left over.
-    """
+    """What a fit says of the cylinders. `A`: (equations, parameters) its equations."""
     is_known = measured.noise is not None
     if not is_known and fit.freedom < 1:
         remedy = f"measure more than {len(names) / 2:.4g} orders, or give the noise"
@@ -221,25 +156,7 @@ def _names(at: ExcitedTrain, sources: Complexes, cylinders: Sequence[str] | None
 
 
 def places(orders: Floats, measured: MeasuredSpeed) -> NDArray[np.intp]:
-    """Where the measured orders stand among others.
-
-    Parameters
-    ----------
-    orders : ndarray, shape (orders,)
-        Of the torques of a train.
-    measured : MeasuredSpeed
-        Of one of its discs.
-
-    Returns
-    -------
-    ndarray of int
-        One for each measured order.
-
-    Raises
-    ------
-    InputError
-        The train has not got one of them.
-    """
+    """Where the measured orders stand among others. One for each measured order. `orders`: (orders,)."""
     place = np.abs(orders[:, None] - measured.orders).argmin(axis=0)
     apart = np.abs(orders[place] - measured.orders) > _EQUAL * measured.orders
     if apart.any():

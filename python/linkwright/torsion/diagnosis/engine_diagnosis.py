@@ -82,27 +82,7 @@ def engine_diagnosis(
 
 
 def fitted(model: EngineSpeed, measured: MeasuredSpeed) -> Diagnosis:
-    """Factors whose speed is closest to a measured one.
-
-    Parameters
-    ----------
-    model : EngineSpeed
-        The engine, made ready once for any number of measurements.
-    measured : MeasuredSpeed
-        At its disc.
-
-    Returns
-    -------
-    Diagnosis
-        As `engine_diagnosis`.
-
-    Raises
-    ------
-    InputError
-        The measurement does not fit the train.
-    ConvergenceError
-        No factors belong to their own operating point.
-    """
+    """Factors whose speed is closest to a measured one."""
     names = tuple(str(n + 1) for n in range(model.engine.n_cylinders))
     healthy = np.zeros(len(names))
     if model.rigid:

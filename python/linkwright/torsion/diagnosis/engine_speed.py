@@ -28,24 +28,7 @@ _STEP = 1e-4
 
 
 class EngineSpeed:
-    """Speed of one disc of an engine at one speed of its crank.
-
-    Parameters
-    ----------
-    machine : Machine
-        With a [train.engine].
-    speed : float
-        Mean speed of the crank [rad/s].
-    disc : str
-        The disc.
-    rigid : bool
-        Whether the train is taken as rigid.
-
-    Raises
-    ------
-    InputError
-        The machine has no engine.
-    """
+    """Speed of one disc of an engine at one speed of its crank. `speed`: mean speed of the crank [rad/s]."""
 
     def __init__(self, machine: Machine, speed: float, disc: str, *, rigid: bool = False) -> None:
         train = machine.train
@@ -61,16 +44,7 @@ class EngineSpeed:
     def states(self, values: Floats) -> ExcitedTrain:
         """The train in some states of its cylinders.
 
-        Parameters
-        ----------
-        values : ndarray, shape (kinds · cylinders, states)
-            What each cylinder is off a healthy one: its share of the combustion, and where there are more
-            rows, its delay [rad] and its compression.
-
-        Returns
-        -------
-        ExcitedTrain
-            A column for each state, all at the same speed.
+        A column for each state, all at the same speed. `values`: (kinds · cylinders, states) [rad].
         """
         speeds = np.repeat(self.gas.banks[0].speeds, values.shape[1])
         combustion, *further = np.split(values, len(values) // self.engine.n_cylinders)
@@ -83,17 +57,8 @@ class EngineSpeed:
     def harmonics(self, values: Floats) -> tuple[Floats, Complexes]:
         """Speed of the disc in some states of the cylinders.
 
-        Parameters
-        ----------
-        values : ndarray, shape (kinds · cylinders, states)
-            As of `states`.
-
-        Returns
-        -------
-        orders : ndarray, shape (orders,)
-            Cycles per revolution of the first disc.
-        harmonics : ndarray of complex, shape (states, orders)
-            [rad/s].
+        Gives `orders`: (orders,) cycles per revolution of the first disc; `harmonics`: (states, orders)
+        [rad/s]. `values`: (kinds · cylinders, states) as of `states`.
         """
         at = self.states(values)
         return at.torques.orders, disc_speed(at, self.disc, rigid=self.rigid)
@@ -101,19 +66,9 @@ class EngineSpeed:
     def about(self, values: Floats) -> tuple[Floats, Complexes, Complexes]:
         """Speed of the disc in one state, and what a change of each value makes of it.
 
-        Parameters
-        ----------
-        values : ndarray, shape (kinds · cylinders,)
-            As of `states`.
-
-        Returns
-        -------
-        orders : ndarray, shape (orders,)
-            Cycles per revolution of the first disc.
-        harmonics : ndarray of complex, shape (orders,)
-            [rad/s].
-        derivatives : ndarray of complex, shape (kinds · cylinders, orders)
-            By each value, with what loads and couplings do at the other operating point [rad/s].
+        Gives `orders`: (orders,) cycles per revolution of the first disc; `harmonics`: (orders,) [rad/s];
+        `derivatives`: (kinds · cylinders, orders) by each value, with what loads and couplings do at the
+        other operating point [rad/s]. `values`: (kinds · cylinders,) as of `states`.
         """
         beside = values[:, None] + _STEP * np.eye(len(values))
         orders, found = self.harmonics(np.column_stack([values, beside]))

@@ -24,21 +24,11 @@ _FEWEST = 8
 
 @dataclass(frozen=True)
 class RecordedSpeed:
-    """Speed of a disc at even steps of the crank angle.
+    """Speed of a disc at even steps of the crank angle."""
 
-    Attributes
-    ----------
-    start : float
-        Crank angle of the first sample [rad].
-    samples : ndarray, shape (n,)
-        [rad/s].
-    turns : int
-        Of the crank that they span.
-    """
-
-    start: float
-    samples: Floats
-    turns: int
+    start: float  # crank angle of the first sample [rad]
+    samples: Floats  # (n,) [rad/s]
+    turns: int  # of the crank that they span
 
     @property
     def mean(self) -> float:
@@ -48,15 +38,8 @@ class RecordedSpeed:
     def orders(self, orders: Floats) -> Floats:
         """Those of some orders that the record can tell.
 
-        Parameters
-        ----------
-        orders : ndarray, shape (orders,)
-            Cycles per revolution.
-
-        Returns
-        -------
-        ndarray
-            Orders that repeat in the revolutions of the record, with more than two samples a wave.
+        Orders that repeat in the revolutions of the record, with more than two samples a wave. `orders`:
+        (orders,) cycles per revolution.
         """
         waves = orders * self.turns
         whole = np.abs(waves - np.rint(waves)) <= 1e-9 * np.maximum(waves, 1.0)
@@ -66,19 +49,8 @@ class RecordedSpeed:
     def harmonics(self, disc: str, orders: Floats, noise: float | None = None) -> MeasuredSpeed:
         """Its harmonics over the crank angle.
 
-        Parameters
-        ----------
-        disc : str
-            Where it was measured.
-        orders : ndarray, shape (orders,)
-            Those wanted.
-        noise : float, optional
-            Standard deviation of a sample [rad/s].
-
-        Returns
-        -------
-        MeasuredSpeed
-            With angle 0 where the crank angle is 0.
+        With angle 0 where the crank angle is 0. `orders`: (orders,); `noise`: standard deviation of a sample
+        [rad/s].
         """
         found = measured_speed(disc, self.samples, self.turns, orders, noise)
         turned = found.harmonics * np.exp(-1j * found.orders * self.start)
@@ -88,26 +60,8 @@ class RecordedSpeed:
 def recorded_speed(angle: ArrayLike, speed: ArrayLike, turns: int) -> RecordedSpeed:
     """A record over one or more whole cycles.
 
-    Parameters
-    ----------
-    angle : array_like, shape (n,)
-        Crank angles, increasing by even steps [rad].
-    speed : array_like, shape (n,)
-        At each [rad/s].
-    turns : int
-        Of a cycle.
-
-    Returns
-    -------
-    RecordedSpeed
-        A last sample that stands where the first does a cycle later is left out.
-
-    Raises
-    ------
-    ShapeError
-        Lists of different length, or too few samples.
-    InputError
-        Steps that are not even, or no whole number of cycles.
+    A last sample that stands where the first does a cycle later is left out. `angle`: (n,) crank angles,
+    increasing by even steps [rad]; `speed`: (n,) [rad/s].
     """
     phi, omega = np.asarray(angle, float), np.asarray(speed, float)
     if phi.shape != omega.shape or phi.ndim != 1:

@@ -37,18 +37,8 @@ _APART = 0.035
 def campbell_figure(diagram: CampbellDiagram, running: tuple[float, float] | None = None) -> Figure:
     """Draw natural frequencies, the rays of the orders, and critical speeds.
 
-    Parameters
-    ----------
-    diagram : CampbellDiagram
-        What to draw.
-    running : tuple of float, optional
-        Lowest and highest speed of the first disc at which the machine runs [rad/s].
-
-    Returns
-    -------
-    Figure
-        Points are as large as their mode swings: at resonance where damping is known, else if the torque
-        acted slowly; without torques all are alike.
+    Points are as large as their mode swings: at resonance where damping is known, else if the torque acted
+    slowly; without torques all are alike. `running`: [rad/s].
     """
     from matplotlib.figure import Figure
 

@@ -33,18 +33,7 @@ _TURNING = 0.02
 
 
 def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
-    """The figures that a study has results for.
-
-    Parameters
-    ----------
-    study : TorsionStudy
-        What to draw.
-
-    Yields
-    ------
-    Captioned
-        In the order of the page.
-    """
+    """The figures that a study has results for."""
     caption = "Discs with the height of their inertia, shafts with the length of their compliance."
     yield Captioned("scheme", "Equivalent scheme", caption, scheme_figure(study.scheme))
     caption = "Amplitudes of the lowest modes that twist the train; the largest is one."
@@ -114,20 +103,7 @@ def _of_the_worst_shaft(study: TorsionStudy, forced: ForcedVibration) -> Caption
 
 
 def worst_shaft(forced: ForcedVibration, stress: ShaftStress | None) -> int:
-    """The shaft that is nearest to its limit of stress; where none has one, that which is twisted most.
-
-    Parameters
-    ----------
-    forced : ForcedVibration
-        Of a train with shafts.
-    stress : ShaftStress or None
-        Of those with known sections.
-
-    Returns
-    -------
-    int
-        Its place.
-    """
+    """The shaft that is nearest to its limit of stress; where none has one, that which is twisted most."""
     if stress is not None:
         # Limits may say nothing at some speeds.
         used = np.nan_to_num(stress.utilisation, posinf=np.inf).max(axis=1)

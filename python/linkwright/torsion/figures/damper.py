@@ -17,18 +17,7 @@ _TOP = 3.0
 
 @styled
 def damper_figure(found: DamperDesign) -> Figure:
-    """Draw the twist of the watched shaft over the frequency, without damper and with it.
-
-    Parameters
-    ----------
-    found : DamperDesign
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        One panel.
-    """
+    """Draw the twist of the watched shaft over the frequency, without damper and with it."""
     figure, (axes,) = panels(1, height=3.2)
     lines = (
         (found.response_bare, SOFT, "without damper"),

@@ -55,18 +55,7 @@ def _over_speed(axes: Axes, speeds: Floats, label: str) -> None:
 
 @styled
 def shaft_torques_figure(found: ForcedVibration) -> Figure:
-    """Draw the vibratory torque of the shafts over the speed.
-
-    Parameters
-    ----------
-    found : ForcedVibration
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        The shafts with the largest torques.
-    """
+    """Draw the vibratory torque of the shafts over the speed. The shafts with the largest torques."""
     figure, (axes,) = panels(1, height=_HEIGHT)
     size = found.shaft_torque_vibratory
     for s, colour in zip(_largest(size), LINES, strict=False):
@@ -81,17 +70,7 @@ def shaft_torques_figure(found: ForcedVibration) -> Figure:
 def stress_figure(stress: ShaftStress, barred: Sequence[BarredRange] = ()) -> Figure:
     """Draw the vibratory stress of the shafts over the speed, and what they bear.
 
-    Parameters
-    ----------
-    stress : ShaftStress
-        What to draw.
-    barred : sequence of BarredRange
-        Barred speed ranges, which are shaded.
-
-    Returns
-    -------
-    Figure
-        Shafts of one limit share a panel; at most four panels.
+    Shafts of one limit share a panel; at most four panels.
     """
     groups: dict[bytes, list[int]] = {}
     for s in _largest(stress.vibratory, len(stress.shafts)):
@@ -136,23 +115,8 @@ def orders_figure(
 ) -> Figure:
     """Draw a vibration over the speed, order by order and all together.
 
-    Parameters
-    ----------
-    found : ForcedVibration
-        Its speeds and orders.
-    single : ndarray, shape (orders, speeds)
-        Amplitude of each order.
-    total : ndarray, shape (speeds,)
-        All orders in phase.
-    label : str
-        What is drawn, with its unit.
-    factor : float
-        From SI to that unit.
-
-    Returns
-    -------
-    Figure
-        The largest orders by name, the others faint.
+    The largest orders by name, the others faint. `single`: (orders, speeds) amplitude of each order; `total`:
+    (speeds,) all orders in phase.
     """
     figure, (axes,) = panels(1, height=_HEIGHT + 0.2)
     rpm = _rpm(found.speeds)
@@ -173,19 +137,7 @@ def orders_figure(
 def torsion_unevenness_figure(found: ForcedVibration, row: list[int], speed: float) -> Figure:
     """Draw the speed fluctuation along the train, and over the speed.
 
-    Parameters
-    ----------
-    found : ForcedVibration
-        What to draw.
-    row : list of int
-        Places of the discs, as they stand beside each other.
-    speed : float
-        Of the first disc, at which to look along the train [rad/s].
-
-    Returns
-    -------
-    Figure
-        Above along the train: all, as a whole, torsional; below over the speed at a few discs.
+    Above along the train: all, as a whole, torsional; below over the speed at a few discs. `speed`: [rad/s].
     """
     figure, (along, over) = panels(2, height=5.0, shared=False)
     at = int(np.argmin(np.abs(found.speeds - speed)))
@@ -215,20 +167,7 @@ def torsion_unevenness_figure(found: ForcedVibration, row: list[int], speed: flo
 
 @styled
 def heat_figure(found: ForcedVibration, parts: list[str]) -> Figure:
-    """Draw the heat of dampers and couplings over the speed.
-
-    Parameters
-    ----------
-    found : ForcedVibration
-        What to draw.
-    parts : list of str
-        Shafts to draw, six at most.
-
-    Returns
-    -------
-    Figure
-        A line each.
-    """
+    """Draw the heat of dampers and couplings over the speed."""
     figure, (axes,) = panels(1, height=_HEIGHT)
     for name, colour in zip(parts, LINES, strict=False):
         axes.plot(

@@ -21,20 +21,7 @@ _PANEL = 1.35
 
 @styled
 def modes_figure(found: FreeVibration, modes: int = 4) -> Figure:
-    """Draw the amplitudes of the discs in the lowest modes that twist the train.
-
-    Parameters
-    ----------
-    found : FreeVibration
-        What to draw.
-    modes : int
-        How many at most, up to six.
-
-    Returns
-    -------
-    Figure
-        A panel for each mode.
-    """
+    """Draw the amplitudes of the discs in the lowest modes that twist the train."""
     twisting = [k for k, f in enumerate(found.natural_frequencies) if f > 0] or [0]
     shown = twisting[: max(1, min(modes, _MODES_MAX))]
     figure, axes = panels(len(shown), height=0.9 + _PANEL * len(shown))

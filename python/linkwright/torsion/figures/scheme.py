@@ -26,18 +26,7 @@ _COLOURS = {"shaft": BLUE, "coupling": BLUE, "mesh": RED, "gears": RED, "damper"
 
 @styled
 def scheme_figure(found: Scheme) -> Figure:
-    """Draw the equivalent scheme of a train.
-
-    Parameters
-    ----------
-    found : Scheme
-        The train.
-
-    Returns
-    -------
-    Figure
-        As large as the train asks for.
-    """
+    """Draw the equivalent scheme of a train."""
     from matplotlib.figure import Figure
 
     laid = page(found, turned=False)

@@ -55,17 +55,11 @@ class Bridge(NamedTuple):
 
 @dataclass
 class Layout:
-    """Places of all parts.
+    """Places of all parts."""
 
-    Attributes
-    ----------
-    discs : dict of str to (float, int)
-        x [inch] and row of each disc; rows count downwards from the highest.
-    spans, risers, bridges : list
-        What joins them.
-    """
-
+    # x [inch] and row of each disc; rows count downwards from the highest.
     discs: dict[str, tuple[float, int]] = field(default_factory=dict)
+    # `spans`, `risers`, `bridges`: what joins them.
     spans: list[Span] = field(default_factory=list)
     risers: list[Riser] = field(default_factory=list)
     bridges: list[Bridge] = field(default_factory=list)
@@ -96,21 +90,7 @@ def layout(
 ) -> Layout:
     """Place the parts of a train.
 
-    Parameters
-    ----------
-    discs : sequence of str
-        Names; the first stands where the drawing begins.
-    parts : sequence of Connection
-        What joins them.
-    lengths : mapping of str to float
-        Drawn length of each part that lies in a row, by name [inch].
-    room : float
-        What a disc needs to either side [inch].
-
-    Returns
-    -------
-    Layout
-        Rows from 0 downwards, x from 0.
+    Rows from 0 downwards, x from 0. `lengths`: [inch]; `room`: what a disc needs to either side [inch].
     """
     return _Placing(discs, parts, lengths, room).run()
 

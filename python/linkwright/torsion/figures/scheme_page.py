@@ -31,28 +31,15 @@ _PAGE = (7.0, 9.0)
 
 @dataclass(frozen=True)
 class Page:
-    """A scheme with its words and places, in inches.
+    """A scheme with its words and places, in inches."""
 
-    Attributes
-    ----------
-    found : Scheme
-        The train.
-    discs, parts : dict of str to Words
-        What is written beside each disc, and each connection.
-    places : Layout
-        Where all is.
-    broken : frozenset of str
-        Shafts that are drawn shorter than their compliance.
-    turned : bool
-        Whether words are written upwards.
-    """
-
-    found: Scheme
+    found: Scheme  # the train
+    # `discs`, `parts`: what is written beside each disc, and each connection.
     discs: dict[str, Words]
     parts: dict[str, Words]
-    places: Layout
-    broken: frozenset[str]
-    turned: bool
+    places: Layout  # where all is
+    broken: frozenset[str]  # shafts that are drawn shorter than their compliance
+    turned: bool  # whether words are written upwards
 
     @property
     def left(self) -> float:
@@ -151,20 +138,7 @@ class Page:
 
 
 def page(found: Scheme, *, turned: bool) -> Page:
-    """Lay a scheme out.
-
-    Parameters
-    ----------
-    found : Scheme
-        The train.
-    turned : bool
-        Whether words are written upwards, which takes less width.
-
-    Returns
-    -------
-    Page
-        Ready to be drawn.
-    """
+    """Lay a scheme out."""
     discs = {name: disc_words(found, n) for n, name in enumerate(found.discs)}
     parts = {each.name: connection_words(each) for each in found.connections}
     lengths, broken = _lengths(found, discs, parts, turned)

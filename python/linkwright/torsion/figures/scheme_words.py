@@ -19,14 +19,9 @@ _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""))
 
 @dataclass(frozen=True)
 class Words:
-    """Lines above and below a part.
+    """Lines above and below a part."""
 
-    Attributes
-    ----------
-    above, below : tuple of str
-        From top to bottom.
-    """
-
+    # `above`, `below`: from top to bottom.
     above: tuple[str, ...]
     below: tuple[str, ...]
 
@@ -42,28 +37,14 @@ def wide(line: str) -> float:
 
 
 def disc_words(found: Scheme, n: int) -> Words:
-    """Name, inertia, and where the speed is another one, the referred inertia in brackets.
-
-    Parameters
-    ----------
-    found : Scheme
-        The train.
-    n : int
-        Place of the disc.
-    """
+    """Name, inertia, and where the speed is another one, the referred inertia in brackets."""
     own = f"{found.inertia[n]:.4g} kg m²"
     referred = () if _same(found.speed[n]) else (f"({found.inertia_referred[n]:.4g})",)
     return Words((found.discs[n],), (own, *referred))
 
 
 def connection_words(each: Connection) -> Words:
-    """Name and stiffness; the referred stiffness in brackets, and the equivalent length.
-
-    Parameters
-    ----------
-    each : Connection
-        What joins two discs.
-    """
+    """Name and stiffness; the referred stiffness in brackets, and the equivalent length."""
     if each.kind == "gears":
         return Words((), (f"{each.name} i = {each.ratio:.4g}",))
     if each.stiffness is None or each.stiffness_referred is None:

@@ -6,20 +6,7 @@ from collections.abc import Mapping, Sequence
 
 
 def in_a_row(discs: Sequence[str], joined: Sequence[tuple[str, str]]) -> list[int]:
-    """Places of the discs along a chain, from the end that is nearer to the first.
-
-    Parameters
-    ----------
-    discs : sequence of str
-        In the order of the file.
-    joined : sequence of tuple of str
-        The two ends of every shaft and gear stage; what is no disc is the ground.
-
-    Returns
-    -------
-    list of int
-        As in the file where the train branches or closes a loop.
-    """
+    """Places of the discs along a chain, from the end that is nearer to the first."""
     about: dict[str, list[str]] = {name: [] for name in discs}
     for a, b in joined:
         if a in about and b in about and b not in about[a]:

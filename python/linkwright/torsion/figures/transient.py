@@ -43,21 +43,7 @@ def transient_figure(
 ) -> Figure:
     """Draw the speeds of discs and the torques in shafts over time.
 
-    Parameters
-    ----------
-    found : TorsionTransient
-        What to draw.
-    shafts : sequence of str, optional
-        Without it, the four whose torque swings most.
-    discs : sequence of str, optional
-        Without it, the first and the last.
-    marks : sequence of tuple
-        Times [s] with words, such as those of events.
-
-    Returns
-    -------
-    Figure
-        A panel for the speeds, and one for each shaft.
+    `marks`: times [s] with words, such as those of events.
     """
     shown = _known(shafts, found.shafts, "shafts") if shafts is not None else _loaded(found)
     turning = _known(discs, found.discs, "discs") if discs is not None else [0, len(found.discs) - 1]
@@ -91,19 +77,7 @@ def waterfall_figure(
 ) -> Figure:
     """Draw amplitudes over speed and order.
 
-    Parameters
-    ----------
-    found : Waterfall
-        What to draw.
-    quantity : str
-        What the amplitudes are, with its unit.
-    frequencies : sequence of float
-        Natural frequencies, which become curves of constant frequency [Hz].
-
-    Returns
-    -------
-    Figure
-        Orders across, speeds up; where the speed comes and goes, time up.
+    Orders across, speeds up; where the speed comes and goes, time up. `frequencies`: [Hz].
     """
     from matplotlib.colors import LogNorm
 
@@ -138,22 +112,7 @@ def waterfall_figure(
 
 @styled
 def orders_figure(found: Waterfall, orders: Sequence[float], *, quantity: str = "amplitude") -> Figure:
-    """Draw the amplitudes of some orders over the speed.
-
-    Parameters
-    ----------
-    found : Waterfall
-        What to draw.
-    orders : sequence of float
-        Up to six.
-    quantity : str
-        What the amplitudes are, with its unit.
-
-    Returns
-    -------
-    Figure
-        A line for each order.
-    """
+    """Draw the amplitudes of some orders over the speed. A line for each order."""
     figure, (axes,) = panels(1, height=3.0)
     for order, colour in zip(orders, LINES, strict=False):
         axes.plot(_RPM * found.speed, found.order(order), color=colour, label=f"order {order:g}")

@@ -36,21 +36,9 @@ _ROUNDING = 1e-12
 
 
 def mean_torques(train: MovingTrain, speed: float, angle: float = 0.0) -> Floats:
-    """Mean torque on each mass over two revolutions of the first disc, without twist.
+    """Mean torque on each mass over two revolutions of the first disc, without twist, (masses,).
 
-    Parameters
-    ----------
-    train : MovingTrain
-        The train.
-    speed : float
-        Of its first disc [rad/s].
-    angle : float
-        Of its first disc where the two revolutions begin [rad].
-
-    Returns
-    -------
-    ndarray, shape (masses,)
-        At the speed of the first disc, at the start of the motion [N m].
+    At the speed of the first disc, at the start of the motion [N m]. `speed`: [rad/s]; `angle`: [rad].
     """
     turns = angle + 4 * np.pi * np.arange(_MEAN_ANGLES) / _MEAN_ANGLES
     n = train.masses
@@ -65,23 +53,8 @@ def balanced_start(
 ) -> tuple[MovingTrain, float, str]:
     """A train whose mean torques balance at the start, if they shall.
 
-    Parameters
-    ----------
-    found : MovingTrain
-        Ready for the manoeuvre.
-    train : Train
-        Of the machine file.
-    manoeuvre : TrainTransient
-        Its speed is that of the first disc.
-
-    Returns
-    -------
-    train : MovingTrain
-        With a drive, with another combustion, or with other loads where that is asked for.
-    speed : float
-        At the start [rad/s].
-    told : str
-        What was changed, in words; empty where nothing was.
+    Gives `train`: with a drive, with another combustion, or with other loads where that is asked for;
+    `speed`: at the start [rad/s]; `told`: what was changed, in words; empty where nothing was.
     """
     speed, is_free = manoeuvre.speed, not (found.tip < 0).any()
     if not (manoeuvre.balanced and speed and is_free):

@@ -39,24 +39,9 @@ _LEFT, _ROUNDING = 1e-9, 1e-14
 
 
 def loaded_angles(train: MovingTrain, angle: Floats, speed: Floats) -> Floats:
-    """Angles of the masses under mean torques.
+    """Angles of the masses under mean torques, (masses,).
 
-    Parameters
-    ----------
-    train : MovingTrain
-        The train, at the start of its motion.
-    angle, speed : ndarray, shape (masses,)
-        About which it is twisted, at the speed of the first disc [rad, rad/s].
-
-    Returns
-    -------
-    ndarray, shape (masses,)
-        The first mass of a free train stays where it is [rad].
-
-    Raises
-    ------
-    ConvergenceError
-        No twist carries the mean torques.
+    The first mass of a free train stays where it is [rad]. `angle`, `speed`: (masses,) [rad, rad/s].
     """
     is_free = not (train.tip < 0).any()
     # A train that is held does not turn: its torques are those at its angles.

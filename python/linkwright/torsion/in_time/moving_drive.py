@@ -46,26 +46,8 @@ _AT_REST = 1e-3
 def moving_drive(machine: Machine, manoeuvre: TrainTransient) -> tuple[MovingTrain, TrainTransient]:
     """A driveline ready for a manoeuvre.
 
-    Parameters
-    ----------
-    machine : Machine
-        With a mechanism, and a [drive] of which something twists.
-    manoeuvre : TrainTransient
-        Its speed is that of the first disc; ``"motor"`` is the motor's name in its events.
-
-    Returns
-    -------
-    train : MovingTrain
-        With all torques.
-    manoeuvre : TrainTransient
-        The same, with the motor, and without a balance at the start: the characteristic decides.
-
-    Raises
-    ------
-    InputError
-        Nothing of the drive twists, or the motor is one of constant speed.
-    AssemblyError
-        The mechanism does not close all round.
+    Gives `train`: with all torques; `manoeuvre`: the same, with the motor, and without a balance at the
+    start: the characteristic decides.
     """
     train = drive_line(machine)
     drive = machine.drive

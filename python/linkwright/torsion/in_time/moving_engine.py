@@ -36,18 +36,7 @@ _SAMPLES = 256
 
 
 def throw_inertias(engine: ReciprocatingEngine) -> list[VariableInertia]:
-    """Inertia of each throw with its rods and pistons over the angle.
-
-    Parameters
-    ----------
-    engine : ReciprocatingEngine
-        The engine; its throws are the first discs of the train.
-
-    Returns
-    -------
-    list of VariableInertia
-        In the order of the throws.
-    """
+    """Inertia of each throw with its rods and pistons over the angle."""
     phi = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
     reduced = reduced_throw(engine, phi)
     first = variable_inertia(0, reduced.inertia_reduced, reduced.inertia_reduced_d1)
@@ -59,22 +48,8 @@ def engine_motion_torques(
 ) -> list[TrainTorque]:
     """Torques of gas and weight on the throws.
 
-    Parameters
-    ----------
-    engine : ReciprocatingEngine
-        The engine.
-    manoeuvre : TrainTransient
-        Which cylinders burn when.
-    speed : float
-        At which the gas torques are taken [rad/s].
-    highest : float
-        Last order of the gas torques.
-
-    Returns
-    -------
-    list of TrainTorque
-        ``"gas_N"`` of each cylinder without combustion, ``"combustion_N"`` on top of it, ``"weight_N"`` of
-        each throw.
+    ``"gas_N"`` of each cylinder without combustion, ``"combustion_N"`` on top of it, ``"weight_N"`` of each
+    throw. `speed`: [rad/s].
     """
     fires, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
     motored, added = _gas_tables(engine, speed, highest)
@@ -96,20 +71,7 @@ def engine_motion_torques(
 
 
 def combustion_weight(manoeuvre: TrainTransient, cylinder: int) -> Curve | None:
-    """Share of the combustion in a cylinder over time.
-
-    Parameters
-    ----------
-    manoeuvre : TrainTransient
-        Fuel switched, cylinders that misfire.
-    cylinder : int
-        Its number.
-
-    Returns
-    -------
-    Curve or None
-        None if it burns all the time.
-    """
+    """Share of the combustion in a cylinder over time. None if it burns all the time."""
     fuel = [
         (each.time, float(each.kind == "fuel_on"), each.over)
         for each in manoeuvre.events

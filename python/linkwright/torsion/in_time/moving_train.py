@@ -47,27 +47,7 @@ _TURNS_MAX = 8
 
 
 def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
-    """A train ready for a manoeuvre.
-
-    Parameters
-    ----------
-    train : Train
-        That of a machine file.
-    manoeuvre : TrainTransient
-        What happens.
-
-    Returns
-    -------
-    MovingTrain
-        With all torques; its notes say what was assumed.
-
-    Raises
-    ------
-    MachineError
-        The manoeuvre speaks of parts that are not there.
-    InputError
-        There is no speed to take gas torques at, or a load grows beyond bounds at rest.
-    """
+    """A train ready for a manoeuvre. With all torques; its notes say what was assumed."""
     whole, referred = whole_train(train), refer(train)
     _require_fit(train, manoeuvre, tuple(whole.discs))
     place = {name: k for k, name in enumerate(whole.discs)}

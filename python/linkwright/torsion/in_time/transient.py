@@ -158,18 +158,7 @@ class TorsionTransient(Result):
         return [f"{each.words}." for each in self.judgements if not each.is_kept]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Extremes by name of shaft and disc; with ``curves`` also the samples.
-
-        Parameters
-        ----------
-        curves : bool
-            Whether samples are included.
-
-        Returns
-        -------
-        dict
-            Plain numbers, texts and lists, ready for JSON.
-        """
+        """Extremes by name of shaft and disc; with ``curves`` also the samples."""
         found = super().to_dict(curves=curves) | {"work": self.work, "loss": self.loss}
         found["judgements"] = [each.to_dict() for each in self.judgements]
         for names, kind in ((self.shafts, "torque"), (self.discs, "speed")):
@@ -247,41 +236,8 @@ def follow_train(
 ) -> TorsionTransient:
     """Follow any train in time.
 
-    Parameters
-    ----------
-    train : MovingTrain
-        Its parts and torques.
-    duration : float
-        Time that is followed [s].
-    speed, angle : array_like, shape () or (masses,)
-        At the start, at the speed of the first disc [rad/s, rad].
-    loaded : bool
-        Whether shafts are twisted by the mean torques at the start, in addition to the angles given.
-    settle : float
-        Time before the start in which it swings in, unrecorded: laws over time hold what they are at zero
-        [s].
-    sample_time : float, optional
-        Between samples [s].
-    accuracy : float
-        Relative, of a step, at its end and on the way there.
-    method : str
-        "explicit" steps of order 8 follow every swing; "implicit" ones of order 5 let die out those faster
-        than a step; "auto" takes these where stability would ask the others for more than 200 000 steps, and
-        where a shaft is so stiff that its twist is lost in the rounding of the angles.
-    steps_max : int
-        Steps after which it is given up.
-
-    Returns
-    -------
-    TorsionTransient
-        The motion.
-
-    Raises
-    ------
-    InputError
-        A number makes no sense, or an inertia is not positive.
-    ConvergenceError
-        The accuracy cannot be kept, or needs too many steps.
+    `duration`: time that is followed [s]; `speed`, `angle`: () or (masses,) [rad/s, rad]; `settle`: [s];
+    `sample_time`: between samples [s].
     """
     _require(duration, accuracy, sample_time, settle)
     _require_inertia(train)

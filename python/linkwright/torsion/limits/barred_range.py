@@ -170,18 +170,7 @@ def barred_ranges(machine: Machine) -> tuple[BarredRange, ...]:
 
 
 def surveyed_ranges(seen: Survey) -> tuple[BarredRange, ...]:
-    """Barred ranges of a train that has been looked at.
-
-    Parameters
-    ----------
-    seen : Survey
-        The train.
-
-    Returns
-    -------
-    tuple of BarredRange
-        As `barred_ranges`.
-    """
+    """Barred ranges of a train that has been looked at."""
     rows = [(each.part, each.what) for each in seen.criteria]
     above = [each for each in seen.exceeded if rows[each.row][1] == VIBRATORY_STRESS]
     if not above:
@@ -199,15 +188,7 @@ def surveyed_ranges(seen: Survey) -> tuple[BarredRange, ...]:
 def together(ranges: Iterable[BarredRange]) -> list[tuple[float, float]]:
     """Barred speed ranges for all shafts, ranges that meet taken as one.
 
-    Parameters
-    ----------
-    ranges : iterable of BarredRange
-        Of any shafts.
-
-    Returns
-    -------
-    list of tuple of float
-        Lowest and highest of each, by speed [rad/s].
+    Lowest and highest of each, by speed [rad/s].
     """
     found: list[tuple[float, float]] = []
     for low, high in sorted(each.barred for each in ranges):

@@ -35,27 +35,13 @@ CONTACT = "drop of torque below its mean"
 
 
 class Criterion(NamedTuple):
-    """One thing that a part bears, over the speeds.
+    """One thing that a part bears, over the speeds."""
 
-    Attributes
-    ----------
-    part : str
-        Name of the shaft, coupling, damper or gear stage.
-    what : str
-        In words.
-    kind : Kind
-        The quantity.
-    found : ndarray, shape (speeds,)
-        SI.
-    permitted : ndarray, shape (speeds,)
-        SI; NaN where nothing is said.
-    """
-
-    part: str
-    what: str
-    kind: Kind
-    found: Floats
-    permitted: Floats
+    part: str  # name of the shaft, coupling, damper or gear stage
+    what: str  # in words
+    kind: Kind  # the quantity
+    found: Floats  # (speeds,) SI
+    permitted: Floats  # (speeds,) SI; NaN where nothing is said
 
     @property
     def ratio(self) -> Floats:
@@ -71,21 +57,7 @@ def criteria(
 ) -> list[Criterion]:
     """All that limits of a train ask for.
 
-    Parameters
-    ----------
-    machine : Machine
-        With a train that something excites.
-    at : ExcitedTrain
-        The train under its torques, at some speeds.
-    found : TorsionResponse
-        What its shafts carry there.
-    service : float, optional
-        Speed of the first disc that λ = 1 stands for, as of `service_speed` [rad/s].
-
-    Returns
-    -------
-    list of Criterion
-        Shafts, couplings, dampers, gear stages; the same in number and order at any speeds.
+    Shafts, couplings, dampers, gear stages; the same in number and order at any speeds. `service`: [rad/s].
     """
     shafts = at.train.shafts
     stress = shaft_stress(machine, found, service)

@@ -27,44 +27,22 @@ _PEAK_ROUNDS = 12
 
 
 class Exceedance(NamedTuple):
-    """A range of speeds in which a curve lies above 1.
+    """A range of speeds in which a curve lies above 1."""
 
-    Attributes
-    ----------
-    row : int
-        Of the curve.
-    low, high : float
-        Bounds [rad/s].
-    open_low, open_high : bool
-        Whether it goes on beyond the speeds looked at.
-    peak : float
-        Speed of its highest value [rad/s].
-    """
-
-    row: int
+    row: int  # of the curve
+    # `low`, `high`: bounds [rad/s].
     low: float
     high: float
+    # `open_low`, `open_high`: whether it goes on beyond the speeds looked at.
     open_low: bool
     open_high: bool
-    peak: float
+    peak: float  # speed of its highest value [rad/s]
 
 
 def exceedances(curves: Curves, speeds: Floats, values: Floats) -> list[Exceedance]:
     """Ranges in which curves lie above 1.
 
-    Parameters
-    ----------
-    curves : callable
-        Speeds, (n,), to values, (rows, n); NaN counts as below.
-    speeds : ndarray, shape (n,)
-        Increasing, close enough that each peak shows at one of them [rad/s].
-    values : ndarray, shape (rows, n)
-        Of the curves there.
-
-    Returns
-    -------
-    list of Exceedance
-        By row, then by speed.
+    By row, then by speed. `speeds`: (n,) [rad/s]; `values`: (rows, n).
     """
     runs = [(row, *run) for row, above in enumerate(values > 1) for run in _runs(above)]
     last = len(speeds) - 1
@@ -122,21 +100,9 @@ def _bounds(curves: Curves, edges: list[tuple[int, float, float]]) -> list[float
 def peaks_between(
     curves: Curves, between: list[tuple[int, float, float]], known: list[tuple[float, float]]
 ) -> list[float]:
-    """Speeds of the highest values of curves between two speeds, all at once.
+    """Speeds of the highest values of curves between two speeds, all at once [rad/s].
 
-    Parameters
-    ----------
-    curves : callable
-        Speeds, (n,), to values, (rows, n); NaN counts as below.
-    between : list of tuple
-        Row, lowest and highest speed of each peak [rad/s].
-    known : list of tuple of float
-        A speed between these and its value, for each; no lower one is returned [rad/s].
-
-    Returns
-    -------
-    list of float
-        [rad/s].
+    `between`: [rad/s]; `known`: [rad/s].
     """
     if not between:
         return []

@@ -84,20 +84,7 @@ class PeakJudgement:
 
 
 def judged(machine: Machine, moved: TorsionTransient) -> tuple[PeakJudgement, ...]:
-    """Limits of a train against a manoeuvre.
-
-    Parameters
-    ----------
-    machine : Machine
-        With a train, or a torsionally flexible driveline.
-    moved : TorsionTransient
-        The manoeuvre.
-
-    Returns
-    -------
-    tuple of PeakJudgement
-        Shafts, then couplings; empty where nothing is limited.
-    """
+    """Limits of a train against a manoeuvre. Shafts, then couplings; empty where nothing is limited."""
     return (*_torques(machine, moved), *_stresses(machine, moved))
 
 

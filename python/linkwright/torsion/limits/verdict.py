@@ -108,18 +108,7 @@ class Verdict(Result):
         return tuple(row.words for row in rows)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Judgements and barred ranges as tables.
-
-        Parameters
-        ----------
-        curves : bool
-            Nothing more is there.
-
-        Returns
-        -------
-        dict
-            Plain numbers, texts and lists, ready for JSON.
-        """
+        """Judgements and barred ranges as tables."""
         keys = ("part", "what", "found", "permitted", "speed", "state", "reason", "words")
         rows = [
             {key: getattr(row, key) for key in keys} | {"unit": row.kind.unit, "ranges": _lists(row.ranges)}
@@ -132,23 +121,8 @@ class Verdict(Result):
 def verdict(machine: Machine, seen: Survey | None = None) -> Verdict:
     """Whether a train bears its vibration.
 
-    Parameters
-    ----------
-    machine : Machine
-        With a train that something excites, and speeds at which to look.
-    seen : Survey, optional
-        The train looked at closely, if that is there already.
-
-    Returns
-    -------
-    Verdict
-        Empty where nothing is limited and no teeth mesh. Looked at are the speeds of the run and all
-        resonances between them.
-
-    Raises
-    ------
-    InputError
-        Nothing excites the train, or it has no speeds.
+    Empty where nothing is limited and no teeth mesh. Looked at are the speeds of the run and all resonances
+    between them.
     """
     seen = survey(machine) if seen is None else seen
     barred = surveyed_ranges(seen)

@@ -72,15 +72,8 @@ class Coupling(CheckedDescription):
     def slope(self, torque: Floats | float = 0.0) -> Floats:
         """Stiffness at a mean torque.
 
-        Parameters
-        ----------
-        torque : ndarray, any shape, or float
-            Mean torque that it carries [N m].
-
-        Returns
-        -------
-        ndarray, of the shape of the torque
-            dM/dΔ of the smooth curve through its points; beyond the last, that at the last [N m/rad].
+        dM/dΔ of the smooth curve through its points; beyond the last, that at the last [N m/rad]. `torque`:
+        mean torque that it carries [N m].
         """
         if self.stiffness is not None:
             return np.full_like(np.asarray(torque, float), self.stiffness)
@@ -100,13 +93,10 @@ class Coupling(CheckedDescription):
         return found
 
     def curve(self) -> tuple[Floats, Floats, Floats]:
-        """Twists, torques and slopes at the points of its curve, from zero upwards.
+        """Twists, torques and slopes at the points of its curve, from zero upwards, (points,).
 
-        Returns
-        -------
-        tuple of ndarray, each of shape (points,)
-            [rad], [N m], [N m/rad]; between the points it is a cubic with these slopes, which rises
-            everywhere (Fritsch and Butland 1984).
+        [rad], [N m], [N m/rad]; between the points it is a cubic with these slopes, which rises everywhere
+        (Fritsch and Butland 1984).
         """
         assert self.twist is not None
         assert self.torque is not None

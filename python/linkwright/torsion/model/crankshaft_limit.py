@@ -44,25 +44,10 @@ STRENGTH_COUNTED = {"carbon": 590e6, "alloy": 835e6}
 
 
 def crank_stress(speed_ratio: Floats, firing: Firing, strength: float | None = None) -> Floats:
-    """τ₁ and, above the highest speed, τ₃.
+    """τ₁ and, above the highest speed, τ₃, (n,).
 
-    Parameters
-    ----------
-    speed_ratio : ndarray, shape (n,)
-        λ.
-    firing : {"even", "other"}
-        "even" of four-stroke engines in line and V engines that fire every 45° or 60°.
-    strength : float, optional
-        σ_B as it counts [Pa].
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Amplitude of the nominal shear stress [Pa]; NaN above λ = 1.15, where nothing is said.
-
-    References
-    ----------
-    .. [1] Korean Register, part 5, chapter 4, 201, 1, 3 and 4.
+    Amplitude of the nominal shear stress [Pa]; NaN above λ = 1.15, where nothing is said. `speed_ratio`: (n,)
+    λ; `strength`: σ_B as it counts [Pa].
     """
     ratio = np.asarray(speed_ratio, float)
     below = 45 - _FALL[firing] * ratio**2
@@ -75,21 +60,9 @@ def crank_stress(speed_ratio: Floats, firing: Firing, strength: float | None = N
 def crank_transient_stress(
     speed_ratio: Floats, firing: Firing, yield_strength: float | None = None
 ) -> Floats:
-    """τ₂, in transient passage.
+    """τ₂, in transient passage, (n,).
 
-    Parameters
-    ----------
-    speed_ratio : ndarray, shape (n,)
-        λ.
-    firing : {"even", "other"}
-        As of `crank_stress`.
-    yield_strength : float, optional
-        σ_Y [Pa].
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        [Pa]; NaN above λ = 0.8, where none is permitted.
+    [Pa]; NaN above λ = 0.8, where none is permitted. `speed_ratio`: (n,) λ; `yield_strength`: σ_Y [Pa].
     """
     ratio = np.asarray(speed_ratio, float)
     factor = 1.0 if yield_strength is None else max(yield_strength / _YIELD, 1.0)

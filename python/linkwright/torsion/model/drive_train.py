@@ -47,25 +47,7 @@ _REMEDY = "give it, however small, or leave out the stiffness of one of the two 
 
 
 def drive_train(drive: Drive, inertia: float) -> Train:
-    """Discs, shafts and gears of a driveline.
-
-    Parameters
-    ----------
-    drive : Drive
-        One that twists.
-    inertia : float
-        Of the mechanism at the crank [kg m²].
-
-    Returns
-    -------
-    Train
-        From the motor to the crank.
-
-    Raises
-    ------
-    MachineError
-        A disc has no inertia, or an entry that was exchanged unchecked is no number above zero.
-    """
+    """Discs, shafts and gears of a driveline. From the motor to the crank. `inertia`: [kg m²]."""
     _require_numbers(drive)
     at = _places(drive)
     discs: dict[str, float] = {}
@@ -82,17 +64,7 @@ def drive_train(drive: Drive, inertia: float) -> Train:
 def station_inertias(drive: Drive, inertia: float) -> dict[str, float]:
     """Inertia of each station at its own speed.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    inertia : float
-        Of the mechanism at the crank [kg m²].
-
-    Returns
-    -------
-    dict of str to float
-        Together, at the crank, those of the rigid drive and the mechanism [kg m²].
+    Together, at the crank, those of the rigid drive and the mechanism [kg m²]. `inertia`: [kg m²].
     """
     share = _share_of_wheel(drive)
     J = {
@@ -111,18 +83,7 @@ def station_inertias(drive: Drive, inertia: float) -> dict[str, float]:
 
 
 def two_trains(machine: object) -> Iterator[InitErrorDetails]:
-    """The fault of a file that describes a train beside a torsionally flexible driveline.
-
-    Parameters
-    ----------
-    machine : object
-        A `Machine`, or the raw table of a file.
-
-    Yields
-    ------
-    InitErrorDetails
-        With its keys from the machine down.
-    """
+    """The fault of a file that describes a train beside a torsionally flexible driveline."""
     drive = look(machine, "drive")
     if look(machine, "train") is None:
         return

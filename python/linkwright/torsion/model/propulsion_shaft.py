@@ -79,47 +79,21 @@ _MM = 1e-3
 def counted_strength(tensile_strength: float, steel: Steel, design: Design) -> float:
     """Tensile strength as far as it counts.
 
-    Parameters
-    ----------
-    tensile_strength : float
-        Minimum that the material is specified to have [Pa].
-    steel : {"carbon", "alloy"}
-        Carbon and carbon-manganese steel, or alloy steel.
-    design : str
-        A key of `DESIGN_FACTORS`.
-
-    Returns
-    -------
-    float
-        At most 600 MPa; of alloy steel outside propeller shafts at most 800 MPa [Pa].
+    At most 600 MPa; of alloy steel outside propeller shafts at most 800 MPa [Pa]. `tensile_strength`: [Pa].
     """
     highest = _STRENGTH_MAX_PROPELLER if design in _PROPELLER else _STRENGTH_MAX[steel]
     return min(tensile_strength, highest)
 
 
 def size_factor(diameter: float) -> float:
-    """C_D.
-
-    Parameters
-    ----------
-    diameter : float
-        Outside [m].
-    """
+    """C_D. `diameter`: outside [m]."""
     return float(0.35 + 0.93 * (diameter / _MM) ** -0.2)
 
 
 def speed_factor(speed_ratio: Floats) -> Floats:
-    """C_λ.
+    """C_λ, (n,).
 
-    Parameters
-    ----------
-    speed_ratio : ndarray, shape (n,)
-        λ, speed over that at rated power.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        NaN above λ = 1.05, where nothing is said.
+    NaN above λ = 1.05, where nothing is said. `speed_ratio`: (n,) λ, speed over that at rated power.
     """
     ratio = np.asarray(speed_ratio, float)
     below = np.where(ratio < 0.9, 3 - 2 * ratio**2, 1.38)
@@ -127,27 +101,10 @@ def speed_factor(speed_ratio: Floats) -> Floats:
 
 
 def continuous_stress(strength: float, diameter: float, design_factor: float, speed_ratio: Floats) -> Floats:
-    """τ_C, permitted in continuous operation.
+    """τ_C, permitted in continuous operation, (n,).
 
-    Parameters
-    ----------
-    strength : float
-        σ_B as it counts [Pa].
-    diameter : float
-        Outside [m].
-    design_factor : float
-        C_K.
-    speed_ratio : ndarray, shape (n,)
-        λ.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Amplitude of the nominal shear stress [Pa]; NaN where nothing is said.
-
-    References
-    ----------
-    .. [1] IACS UR M68.5.
+    Amplitude of the nominal shear stress [Pa]; NaN where nothing is said. `strength`: σ_B as it counts [Pa];
+    `diameter`: outside [m]; `design_factor`: C_K; `speed_ratio`: (n,) λ.
     """
     factors = design_factor * size_factor(diameter) * speed_factor(speed_ratio)
     found: Floats = (strength / _MPA + 160) / 18 * factors * _MPA
@@ -155,19 +112,9 @@ def continuous_stress(strength: float, diameter: float, design_factor: float, sp
 
 
 def transient_stress(continuous: Floats, design_factor: float) -> Floats:
-    """τ_T, permitted while barred speed ranges are passed.
+    """τ_T, permitted while barred speed ranges are passed, (n,) [Pa].
 
-    Parameters
-    ----------
-    continuous : ndarray, shape (n,)
-        τ_C [Pa].
-    design_factor : float
-        C_K.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        [Pa].
+    `continuous`: (n,) τ_C [Pa]; `design_factor`: C_K.
     """
     found: Floats = 1.7 * continuous / np.sqrt(design_factor)
     return found
@@ -176,15 +123,8 @@ def transient_stress(continuous: Floats, design_factor: float) -> Floats:
 def barred_speeds(critical_speed: float, rated_speed: float) -> tuple[float, float]:
     """Barred speed ranges about a critical one by the formula.
 
-    Parameters
-    ----------
-    critical_speed, rated_speed : float
-        n_c, and speed at rated power [rad/s].
-
-    Returns
-    -------
-    tuple of float
-        Lowest and highest, in the unit of n_c.
+    Lowest and highest, in the unit of n_c. `critical_speed`, `rated_speed`: n_c, and speed at rated power
+    [rad/s].
     """
     left = 18 - critical_speed / rated_speed
     return 16 * critical_speed / left, left * critical_speed / 16

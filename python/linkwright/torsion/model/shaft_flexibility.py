@@ -33,13 +33,7 @@ _DEEPEST = 48
 
 
 def polar_moment(diameter: float, bore: float = 0.0) -> float:
-    """Polar second moment of area of a circle or ring [m⁴].
-
-    Parameters
-    ----------
-    diameter, bore : float
-        Outside and inside [m].
-    """
+    """Polar second moment of area of a circle or ring [m⁴]. `diameter`, `bore`: outside and inside [m]."""
     # Written as a product, so that thin tubes lose no digits.
     return math.pi / 32 * (diameter - bore) * (diameter + bore) * (diameter**2 + bore**2)
 
@@ -49,12 +43,7 @@ def cone_integral(
 ) -> float:
     """The integral of dx/I_p over a cone, solid or hollow [1/m³].
 
-    Parameters
-    ----------
-    length : float
-        Of the cone [m].
-    diameters, bores : tuple of float
-        Outside and inside, at its two ends [m]; between them in proportion.
+    `length`: [m]; `diameters`, `bores`: [m].
     """
     if bores == (0.0, 0.0):
         a, b = diameters
@@ -67,12 +56,7 @@ def cone_place(
 ) -> float:
     """Share of the length of a cone over which a share of its twist lies.
 
-    Parameters
-    ----------
-    share : float
-        Of the twist, 0 to 1, from the first end.
-    diameters, bores : tuple of float
-        Outside and inside, at its two ends [m].
+    `diameters`, `bores`: outside and inside, at its two ends [m].
     """
     whole = cone_integral(1.0, diameters, bores)
 

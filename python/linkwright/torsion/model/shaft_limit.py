@@ -56,18 +56,10 @@ _STRESSES = ("stress_permitted", "stress_transient", "stress_greatest")
 
 
 class StressedSection(NamedTuple):
-    """Where the stress of a shaft counts.
+    """Where the stress of a shaft counts."""
 
-    Attributes
-    ----------
-    section_modulus : float
-        Torque per nominal shear stress [m³].
-    diameter : float or None
-        Outside [m].
-    """
-
-    section_modulus: float
-    diameter: float | None
+    section_modulus: float  # torque per nominal shear stress [m³]
+    diameter: float | None  # outside [m]
 
 
 class ShaftLimit(CheckedDescription):
@@ -188,17 +180,8 @@ class ShaftLimit(CheckedDescription):
     def permitted_stress(self, speed_ratio: Floats, diameter: float | None) -> tuple[Floats, Floats]:
         """Permitted amplitudes of the vibratory stress in continuous operation and in transient passage.
 
-        Parameters
-        ----------
-        speed_ratio : ndarray, shape (n,)
-            λ, speed over that of service.
-        diameter : float or None
-            Outside, where the stress counts [m].
-
-        Returns
-        -------
-        continuous, transient : ndarray, shape (n,)
-            [Pa]; NaN where nothing is said.
+        Gives `continuous`, `transient`: (n,) [Pa]; NaN where nothing is said. `speed_ratio`: (n,) λ, speed
+        over that of service; `diameter`: Outside, where the stress counts [m].
         """
         if self.kind == "iacs_m68":
             assert self.counted_strength is not None
@@ -227,15 +210,7 @@ class ShaftLimit(CheckedDescription):
     def section(self, sections: Sequence[ShaftSection] | None) -> StressedSection | None:
         """Where the stress counts: as given, else where it comes closest to what is permitted.
 
-        Parameters
-        ----------
-        sections : sequence of ShaftSection or None
-            Of the shaft.
-
-        Returns
-        -------
-        StressedSection or None
-            None if no section is known.
+        None if no section is known.
         """
         if self.section_modulus is not None:
             return StressedSection(self.section_modulus, None)

@@ -31,15 +31,7 @@ def _step(first: ShaftSection, second: ShaftSection) -> tuple[float, float]:
 def flexibilities(sections: Sequence[ShaftSection]) -> tuple[float, ...]:
     """Twist per torque of sections in a row, times the shear modulus; steps count with the thinner ones.
 
-    Parameters
-    ----------
-    sections : sequence of ShaftSection
-        In order.
-
-    Returns
-    -------
-    tuple of float
-        Of each section [1/m³].
+    Of each section [1/m³].
     """
     found = [each.flexibility for each in sections]
     for n, pair in enumerate(pairwise(sections)):
@@ -52,15 +44,7 @@ def flexibilities(sections: Sequence[ShaftSection]) -> tuple[float, ...]:
 def fillet_faults(sections: Sequence[ShaftSection]) -> Iterator[InitErrorDetails]:
     """Fillets that lie at no step between cylinders or tapers, or do not fit into theirs.
 
-    Parameters
-    ----------
-    sections : sequence of ShaftSection
-        In order.
-
-    Yields
-    ------
-    InitErrorDetails
-        Each with the number of its section and the key.
+    Each with the number of its section and the key.
     """
     for n, each in enumerate(sections):
         if each.fillet is None or each.kind == "flange":
@@ -89,17 +73,7 @@ def end_inertias(sections: Sequence[ShaftSection], density: float) -> tuple[floa
     Each section's is shared by the twist on both sides of its middle, as a lever shares a weight. A plain
     cylinder gives half to each end.
 
-    Parameters
-    ----------
-    sections : sequence of ShaftSection
-        In order.
-    density : float
-        Of the material [kg/m³].
-
-    Returns
-    -------
-    tuple of float
-        At the first end and at the second.
+    At the first end and at the second. `density`: [kg/m³].
     """
     parts = flexibilities(sections)
     whole, before, first, second = math.fsum(parts), 0.0, 0.0, 0.0
@@ -111,15 +85,7 @@ def end_inertias(sections: Sequence[ShaftSection], density: float) -> tuple[floa
 
 
 def place(sections: Sequence[ShaftSection], share: float) -> float:
-    """How far from the first end a share of the twist of all sections lies [m].
-
-    Parameters
-    ----------
-    sections : sequence of ShaftSection
-        In order.
-    share : float
-        From 0 to 1.
-    """
+    """How far from the first end a share of the twist of all sections lies [m]."""
     parts = flexibilities(sections)
     left, along = share * math.fsum(parts), 0.0
     for section, part in zip(sections, parts, strict=True):

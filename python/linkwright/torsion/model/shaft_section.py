@@ -231,10 +231,7 @@ class ShaftSection(CheckedDescription):
     def inertia(self, density: float) -> float:
         """Moment of inertia about the axis [kg m²]; of a flange out to its circle of bolts.
 
-        Parameters
-        ----------
-        density : float
-            Of the material [kg/m³].
+        `density`: [kg/m³].
         """
         (a, b), (p, q) = self.diameters, self.bores
         if self.kind == "spline":
@@ -245,13 +242,7 @@ class ShaftSection(CheckedDescription):
         return density * self.length * math.pi / 32 * (_mean_fourth(a, b) - _mean_fourth(p, q))
 
     def place(self, share: float) -> float:
-        """How far from where it begins a share of its twist lies [m].
-
-        Parameters
-        ----------
-        share : float
-            From 0 to 1.
-        """
+        """How far from where it begins a share of its twist lies [m]."""
         if self.kind == "taper":
             return self.length * cone_place(share, self.diameters, self.bores)
         return self.length * share

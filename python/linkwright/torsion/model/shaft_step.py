@@ -24,14 +24,7 @@ from __future__ import annotations
 def step_length(thin: float, thick: float, fillet: float = 0.0, bore: float = 0.0) -> float:
     """Length of the thinner side that a step adds [m].
 
-    Parameters
-    ----------
-    thin, thick : float
-        Diameters on its two sides [m].
-    fillet : float
-        Radius in the corner [m]; it fits into the step, so at most (thick − thin)/2.
-    bore : float
-        Of the thinner side [m].
+    `thin`, `thick`: diameters on its two sides [m]; `fillet`: [m]; `bore`: [m].
     """
     x = thin / thick
     w = 1 - x**3

@@ -24,18 +24,7 @@ _ON = ("dampers", "loads", "excitations")
 
 
 def train_faults(train: object) -> Iterator[InitErrorDetails]:
-    """Faults between the parts of a train.
-
-    Parameters
-    ----------
-    train : object
-        A `Train`, or the raw table of a file; None for a machine without a train.
-
-    Yields
-    ------
-    InitErrorDetails
-        Each with its keys from the machine down.
-    """
+    """Faults between the parts of a train. Each with its keys from the machine down."""
     if train is None:
         return
     own = keys(look(train, "discs")) if isinstance(look(train, "discs"), dict) else ()

@@ -14,57 +14,31 @@ _EQUAL = 1e-9
 
 
 class Contradiction(NamedTuple):
-    """A connection whose discs turn otherwise than it asks.
+    """A connection whose discs turn otherwise than it asks."""
 
-    Attributes
-    ----------
-    table, name : str
-        Of the connection.
-    wanted, found : float
-        Speed of its first disc over that of its second: by itself, and by the way around the loop.
-    """
-
+    # `table`, `name`: of the connection.
     table: str
     name: str
+    # `wanted`, `found`: speed of its first disc over that of its second: by itself, and by the way around the
+    # loop.
     wanted: float
     found: float
 
 
 class Joint(NamedTuple):
-    """A connection of two discs.
+    """A connection of two discs."""
 
-    Attributes
-    ----------
-    table, name : str
-        Where it is described.
-    first, second : str
-        The discs.
-    ratio : float
-        Speed of the first over that of the second.
-    """
-
+    # `table`, `name`: where it is described.
     table: str
     name: str
+    # `first`, `second`: the discs.
     first: str
     second: str
-    ratio: float
+    ratio: float  # speed of the first over that of the second
 
 
 def parts_of(names: Iterable[Node], pairs: Iterable[tuple[Node, Node]]) -> list[list[Node]]:
-    """The connected parts of a graph.
-
-    Parameters
-    ----------
-    names : iterable of str or int
-        The nodes.
-    pairs : iterable of tuple
-        The edges between them.
-
-    Returns
-    -------
-    list of list of str or int
-        Each part in the order of its names.
-    """
+    """The connected parts of a graph. Each part in the order of its names."""
     part = {name: [name] for name in names}
     for a, b in pairs:
         one, other = part[a], part[b]
@@ -89,17 +63,8 @@ def joints(train: Train) -> Iterator[Joint]:
 def speeds(train: Train) -> tuple[dict[str, float], list[Contradiction]]:
     """Speeds of the discs when the train rotates as a rigid body.
 
-    Parameters
-    ----------
-    train : Train
-        Its names refer to something.
-
-    Returns
-    -------
-    speeds : dict of str to float
-        Over that of the first disc of its part, with the sense; as far as they are known.
-    contradictions : list of Contradiction
-        Connections that close a loop and ask for another ratio.
+    Gives `speeds`: over that of the first disc of its part, with the sense; as far as they are known;
+    `contradictions`: connections that close a loop and ask for another ratio.
     """
     listed = list(joints(train))
     about: dict[str, list[tuple[str, float]]] = {name: [] for name in train.discs}

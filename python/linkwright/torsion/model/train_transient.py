@@ -114,17 +114,7 @@ class TrainTransient(CheckedDescription):
 def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitErrorDetails]:
     """Faults between a manoeuvre and its train: names that mean nothing.
 
-    Parameters
-    ----------
-    train : Train
-        With a manoeuvre.
-    discs : tuple of str
-        Names of its discs, those of an engine and of dampers as well.
-
-    Yields
-    ------
-    InitErrorDetails
-        Each with its keys from the machine down.
+    Each with its keys from the machine down.
     """
     manoeuvre = train.transient
     if manoeuvre is None:

@@ -22,16 +22,7 @@ from linkwright.torsion.model.train import Disc, Shaft, Train
 def whole_train(train: Train) -> Train:
     """A train of discs, shafts and gears alone.
 
-    Parameters
-    ----------
-    train : Train
-        With couplings and dampers.
-
-    Returns
-    -------
-    Train
-        Of the same vibration: discs, then rings of dampers; shafts, then couplings, then what holds the
-        rings.
+    Of the same vibration: discs, then rings of dampers; shafts, then couplings, then what holds the rings.
     """
     heavy = any(each.density is not None for each in train.shafts.values())
     if not (train.couplings or train.dampers or train.engine or heavy):

@@ -124,18 +124,7 @@ class CampbellDiagram(Result):
     critical: Annotated[tuple[CriticalSpeed, ...], About("Critical speeds in the range, by speed.")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Critical speeds by name, with ``curves`` also the arrays as lists.
-
-        Parameters
-        ----------
-        curves : bool
-            Whether arrays are included.
-
-        Returns
-        -------
-        dict
-            Plain numbers, texts and lists, ready for JSON.
-        """
+        """Critical speeds by name, with ``curves`` also the arrays as lists."""
         found = super().to_dict(curves=curves)
         return found | {"critical": [each._asdict() for each in self.critical]}
 

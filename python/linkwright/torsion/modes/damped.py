@@ -137,18 +137,7 @@ class DampedVibration(Result):
         return np.angle(self.mode_shapes)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Scalars and tables by name, with ``curves`` also the arrays as lists; complex ones as their parts.
-
-        Parameters
-        ----------
-        curves : bool
-            Whether arrays are included.
-
-        Returns
-        -------
-        dict
-            Plain numbers, texts and lists, ready for JSON.
-        """
+        """Scalars and tables by name, with ``curves`` also arrays as lists; complex ones as their parts."""
         found = super().to_dict(curves=curves)
         return {name: each for name, each in found.items() if name not in ("eigenvalues", "mode_shapes")}
 

@@ -27,17 +27,8 @@ _UNDAMPED = 1e-12
 def damped_modes(referred: ReferredTrain) -> tuple[Complexes, Complexes]:
     """Eigenvalues and shapes of a train with damping.
 
-    Parameters
-    ----------
-    referred : ReferredTrain
-        The train.
-
-    Returns
-    -------
-    eigenvalues : ndarray of complex, shape (modes,)
-        By their size; of pairs the one with a positive imaginary part [1/s].
-    shapes : ndarray of complex, shape (modes, masses)
-        Of the masses, of no particular size.
+    Gives `eigenvalues`: (modes,) by their size; of pairs the one with a positive imaginary part [1/s];
+    `shapes`: (modes, masses) of the masses, of no particular size.
     """
     omega, undamped = referred.modes()
     # The motions without stiffness, those come first: damped ones apart from the others.

@@ -190,42 +190,14 @@ def free_vibration(machine: Machine) -> FreeVibration:
 
 
 def train_of(machine: Machine) -> Train:
-    """The train of a machine, as discs, shafts and gears: that of its file, or that of its driveline.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    Train
-        Its train, with couplings and dampers as discs and shafts.
-
-    Raises
-    ------
-    InputError
-        It has none, and its driveline does not twist.
-    AssemblyError
-        The mechanism behind the driveline does not close all round.
-    """
+    """The train of a machine, as discs, shafts and gears: that of its file, or that of its driveline."""
     return whole_train(drive_line(machine) if machine.train is None else machine.train)
 
 
 def twists_of(referred: ReferredTrain, amplitudes: Floats) -> Floats:
-    """Twist of each shaft, counted at its first end, from the amplitudes of the discs.
+    """Twist of each shaft, counted at its first end, from the amplitudes of the discs, (n, shafts).
 
-    Parameters
-    ----------
-    referred : ReferredTrain
-        The train.
-    amplitudes : ndarray, shape (n, discs)
-        Angles of the discs [rad].
-
-    Returns
-    -------
-    ndarray, shape (n, shafts)
-        Angle of the first end less that of the second [rad].
+    Angle of the first end less that of the second [rad]. `amplitudes`: (n, discs) angles of the discs [rad].
     """
     first, second = _at_ends(referred, amplitudes)
     twists: Floats = first - second
@@ -233,35 +205,16 @@ def twists_of(referred: ReferredTrain, amplitudes: Floats) -> Floats:
 
 
 def own_stiffness(referred: ReferredTrain) -> Floats:
-    """Stiffness of each shaft at its own speed, of a mesh at its first disc.
+    """Stiffness of each shaft at its own speed, of a mesh at its first disc, (shafts,).
 
-    Parameters
-    ----------
-    referred : ReferredTrain
-        The train.
-
-    Returns
-    -------
-    ndarray, shape (shafts,)
-        As in the file [N m/rad].
+    As in the file [N m/rad].
     """
     own: Floats = referred.stiffness / lead_speeds(referred) ** 2
     return own
 
 
 def lead_speeds(referred: ReferredTrain) -> Floats:
-    """Speed of the end of each shaft where its twist counts.
-
-    Parameters
-    ----------
-    referred : ReferredTrain
-        The train.
-
-    Returns
-    -------
-    ndarray, shape (shafts,)
-        Over that of the first disc.
-    """
+    """Speed of the end of each shaft where its twist counts, (shafts,). Over that of the first disc."""
     first, second = referred.tip.T
     speed: Floats = referred.speed[np.where(first == HELD, second, first)]
     return speed

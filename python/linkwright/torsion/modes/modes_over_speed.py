@@ -25,24 +25,12 @@ _EQUAL = 1e-9
 
 @dataclass(frozen=True)
 class Shapes:
-    """Modes, each at a speed of its own.
+    """Modes, each at a speed of its own."""
 
-    Attributes
-    ----------
-    omega : ndarray, shape (n,)
-        ω [rad/s].
-    shapes : ndarray, shape (n, discs)
-        θ, the largest 1 or −1.
-    stiffness : ndarray, shape (n,)
-        ω² Σ J θ² [N m/rad].
-    damping_ratios : ndarray, shape (n,), or None
-        ζ of light damping; None where damping is not known.
-    """
-
-    omega: Floats
-    shapes: Floats
-    stiffness: Floats
-    damping_ratios: Floats | None
+    omega: Floats  # (n,) ω [rad/s]
+    shapes: Floats  # (n, discs) θ, the largest 1 or −1
+    stiffness: Floats  # (n,) ω² Σ J θ² [N m/rad]
+    damping_ratios: Floats | None  # (n,) ζ of light damping; None where damping is not known
 
 
 class ModesAt(ABC):
@@ -75,24 +63,12 @@ class ModesAt(ABC):
 
 
 def constant(free: FreeVibration) -> ModesAt:
-    """The same modes at all speeds.
-
-    Parameters
-    ----------
-    free : FreeVibration
-        The modes.
-    """
+    """The same modes at all speeds."""
     return _Constant(free)
 
 
 def over_speed(machine: Machine) -> ModesAt:
-    """Modes of a machine.
-
-    Parameters
-    ----------
-    machine : Machine
-        With a [train], or a [drive] that twists.
-    """
+    """Modes of a machine."""
     return _OfMachine(machine)
 
 

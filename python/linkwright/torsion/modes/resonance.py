@@ -17,36 +17,17 @@ _FREE = 1e-13
 
 
 class Resonance(NamedTuple):
-    """A speed at which an order meets a natural frequency.
+    """A speed at which an order meets a natural frequency."""
 
-    Attributes
-    ----------
-    speed : float
-        Of the first disc [rad/s].
-    order : float
-        Cycles per revolution of the first disc.
-    mode : int
-        Of the natural frequencies in increasing order, from 0.
-    """
-
-    speed: float
-    order: float
-    mode: int
+    speed: float  # of the first disc [rad/s]
+    order: float  # cycles per revolution of the first disc
+    mode: int  # of the natural frequencies in increasing order, from 0
 
 
 def resonances(at: ExcitedTrain) -> tuple[Resonance, ...]:
     """Resonances between the lowest and the highest speed, by speed.
 
-    Parameters
-    ----------
-    at : ExcitedTrain
-        A train with the orders of its torques; natural frequencies are those of couplings under their mean
-        torque.
-
-    Returns
-    -------
-    tuple of Resonance
-        Without damping, of all orders, however small their torque.
+    Without damping, of all orders, however small their torque.
     """
     speeds = np.sort(at.torques.speeds)
     omega = _frequencies(at)[np.argsort(at.torques.speeds)]

@@ -89,18 +89,7 @@ class Scheme(Result):
     diameter: Annotated[float, Shown("diameter of the solid steel shaft of the equivalent lengths", "", "m")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """As of any result, each connection by the names of its entries.
-
-        Parameters
-        ----------
-        curves : bool
-            Whether arrays are included.
-
-        Returns
-        -------
-        dict
-            Plain numbers, texts and lists, ready for JSON.
-        """
+        """As of any result, each connection by the names of its entries."""
         found = super().to_dict(curves=curves)
         return found | {"connections": [each._asdict() for each in self.connections]}
 

@@ -77,20 +77,7 @@ def drive_line(machine: Machine) -> Train:
 def mean_inertia(machine: Machine) -> float:
     """Mean over the revolution of the mechanism's reduced inertia, without that of the drive.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    float
-        At the crank [kg m²].
-
-    Raises
-    ------
-    AssemblyError
-        The mechanism does not close all round.
+    At the crank [kg m²].
     """
     compiled = mechanism_alone(machine)
     turn = turn_curve(lambda phi: compiled.reductions(phi)[:1], compiled.kinks(), "reduced inertia")
@@ -173,25 +160,7 @@ def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
 
 
 def mechanism_alone(machine: Machine) -> Compiled:
-    """The mechanism without its drive, if its revolutions can be determined.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    Compiled
-        In the core's terms.
-
-    Raises
-    ------
-    AssemblyError
-        It does not close all round, or does not repeat every revolution.
-    FindingError
-        A load has no value at some angle, or changes with time itself.
-    """
+    """The mechanism without its drive, if its revolutions can be determined. In the core's terms."""
     alone = machine.with_entries({"drive": None})
     compiled = compile_machine(alone)
     require_same_turns(alone)

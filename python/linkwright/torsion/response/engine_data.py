@@ -66,18 +66,7 @@ class EngineData(Result):
         return tuple(np.diff(list(self.firing.values())).tolist())
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """All of it.
-
-        Parameters
-        ----------
-        curves : bool
-            Nothing more is there.
-
-        Returns
-        -------
-        dict
-            Plain numbers, texts and tables, ready for JSON.
-        """
+        """All of it."""
         tables = {"stiffness_formulas": self.stiffness_formulas, "firing": self.firing}
         return super().to_dict(curves=curves) | tables
 

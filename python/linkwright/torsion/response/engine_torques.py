@@ -29,22 +29,14 @@ Complexes = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class CylinderTorques:
-    """Gas torques of all cylinders.
+    """Gas torques of all cylinders."""
 
-    Attributes
-    ----------
-    orders : ndarray, shape (orders,)
-        Cycles per revolution, from 0.
-    firing, motored : ndarray of complex, shape (cylinders, orders, speeds)
-        M_ν of each cylinder on its throw, sound and without combustion [N m].
-    banks : tuple of GasTorque
-        Of one sound cylinder of each bank, before its phase.
-    """
-
-    orders: Floats
+    orders: Floats  # (orders,) cycles per revolution, from 0
+    # `firing`, `motored`: (cylinders, orders, speeds) M_ν of each cylinder on its throw, sound and without
+    # combustion [N m].
     firing: Complexes
     motored: Complexes
-    banks: tuple[GasTorque, ...]
+    banks: tuple[GasTorque, ...]  # of one sound cylinder of each bank, before its phase
 
 
 @dataclass(frozen=True)
@@ -53,34 +45,15 @@ class CylinderStates:
 
     .. math:: M_\nu = \kappa M_\nu^\mathrm{motored}
         + x\,e^{-i\nu\delta}\left(M_\nu^\mathrm{firing} - M_\nu^\mathrm{motored}\right)
-
-    Attributes
-    ----------
-    combustion : ndarray, shape (cylinders, states)
-        x: 1 healthy, 0 without combustion.
-    delay : ndarray, shape (cylinders, states), or float
-        δ, crank angle by which the torque of the combustion is late [rad].
-    compression : ndarray, shape (cylinders, states), or float
-        κ: 1 tight, less where the cylinder leaks.
     """
 
-    combustion: Floats
+    combustion: Floats  # (cylinders, states) x: 1 healthy, 0 without combustion
+    # (cylinders, states) δ, crank angle by which the torque of the combustion is late [rad].
     delay: Floats | float = 0.0
-    compression: Floats | float = 1.0
+    compression: Floats | float = 1.0  # (cylinders, states) κ: 1 tight, less where the cylinder leaks
 
     def torque(self, gas: CylinderTorques) -> Complexes:
-        """Gas torques of the cylinders.
-
-        Parameters
-        ----------
-        gas : CylinderTorques
-            Of healthy cylinders.
-
-        Returns
-        -------
-        ndarray of complex, shape (cylinders, orders, states)
-            M_ν [N m].
-        """
+        """Gas torques of the cylinders, (cylinders, orders, states). M_ν [N m]."""
         combustion, delay, compression = (
             each[:, None]
             for each in np.broadcast_arrays(self.combustion, np.asarray(self.delay), self.compression)
@@ -91,22 +64,7 @@ class CylinderStates:
 
 
 def cylinder_torques(engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0) -> CylinderTorques:
-    """Gas torques of the cylinders of an engine, each with its phase.
-
-    Parameters
-    ----------
-    engine : ReciprocatingEngine
-        The engine.
-    speeds : ndarray, shape (speeds,)
-        Of its crank [rad/s].
-    highest : float
-        Last order.
-
-    Returns
-    -------
-    CylinderTorques
-        By number of the cylinder.
-    """
+    """Gas torques of the cylinders of an engine, each with its phase. `speeds`: (speeds,) [rad/s]."""
     banks = []
     for positions in piston_positions(engine):
         cylinder = Cylinder(engine.bore, engine.strokes, positions)
@@ -123,19 +81,7 @@ def cylinder_torques(engine: ReciprocatingEngine, speeds: Floats, highest: float
 def engine_sources(engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0) -> list[Source]:
     """Torques on the throws of an engine, with their mean.
 
-    Parameters
-    ----------
-    engine : ReciprocatingEngine
-        The engine.
-    speeds : ndarray, shape (speeds,)
-        Of its crank, which is the first disc of the train [rad/s].
-    highest : float
-        Last order.
-
-    Returns
-    -------
-    list of Source
-        One a throw, in order.
+    One a throw, in order. `speeds`: (speeds,) [rad/s].
     """
     factors = np.array([engine.factor(n + 1) for n in range(engine.n_cylinders)])
     return throw_sources(engine, cylinder_torques(engine, speeds, highest), CylinderStates(factors[:, None]))
@@ -144,20 +90,7 @@ def engine_sources(engine: ReciprocatingEngine, speeds: Floats, highest: float =
 def throw_sources(engine: ReciprocatingEngine, gas: CylinderTorques, states: CylinderStates) -> list[Source]:
     """Torques on the throws of an engine whose cylinders work more or less.
 
-    Parameters
-    ----------
-    engine : ReciprocatingEngine
-        The engine.
-    gas : CylinderTorques
-        Of its cylinders, at some speeds.
-    states : CylinderStates
-        Of the cylinders at each speed; one column stands for all speeds, and many columns with one speed of
-        the gas are as many states of the engine at that speed.
-
-    Returns
-    -------
-    list of Source
-        One a throw, in order, with a column for each speed or state.
+    One a throw, in order, with a column for each speed or state.
     """
     torque = states.torque(gas)
     moving = _moving_parts(engine, gas.banks[0].speeds, gas.orders)

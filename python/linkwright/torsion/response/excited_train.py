@@ -38,27 +38,13 @@ _ROUNDING = 1e-11
 
 @dataclass(frozen=True)
 class ExcitedTrain:
-    """A train with its torques at some speeds.
+    """A train with its torques at some speeds."""
 
-    Attributes
-    ----------
-    train : Train
-        Of discs, shafts and gears.
-    referred : ReferredTrain
-        The same, referred to its first disc.
-    torques : Torques
-        On the discs.
-    mean_torques : ndarray, shape (shafts, speeds)
-        In the shafts at their own speed [N m].
-    operating : Operating
-        Stiffness and damping at each speed.
-    """
-
-    train: Train
-    referred: ReferredTrain
-    torques: Torques
-    mean_torques: Floats
-    operating: Operating
+    train: Train  # of discs, shafts and gears
+    referred: ReferredTrain  # the same, referred to its first disc
+    torques: Torques  # on the discs
+    mean_torques: Floats  # (shafts, speeds) in the shafts at their own speed [N m]
+    operating: Operating  # stiffness and damping at each speed
 
     @cached_property
     def disc_damping(self) -> Floats:
@@ -73,25 +59,7 @@ class ExcitedTrain:
 
 
 def excited_train(machine: Machine, speeds: Floats | None = None) -> ExcitedTrain:
-    """Make a train ready for forced vibration.
-
-    Parameters
-    ----------
-    machine : Machine
-        With a [train] that something excites.
-    speeds : ndarray, shape (speeds,), optional
-        Of the first disc; without them those of `[train.run]` [rad/s].
-
-    Returns
-    -------
-    ExcitedTrain
-        All that the response needs.
-
-    Raises
-    ------
-    InputError
-        Nothing excites the train, or it has no speeds.
-    """
+    """Make a train ready for forced vibration. `speeds`: (speeds,) [rad/s]."""
     at = prepared(machine, speeds)
     if not len(at.torques.orders):
         remedy = "give [train.excitations], harmonics of [train.loads], or a [train.engine]"
@@ -102,22 +70,7 @@ def excited_train(machine: Machine, speeds: Floats | None = None) -> ExcitedTrai
 def prepared(machine: Machine, speeds: Floats | None = None) -> ExcitedTrain:
     """As `excited_train`, also for a train that nothing excites.
 
-    Parameters
-    ----------
-    machine : Machine
-        With a [train], or with a torsionally flexible driveline.
-    speeds : ndarray, shape (speeds,), optional
-        Of the first disc; without them those of `[train.run]` [rad/s].
-
-    Returns
-    -------
-    ExcitedTrain
-        What the train is at each speed.
-
-    Raises
-    ------
-    InputError
-        The machine has no train, or the train no speeds.
+    What the train is at each speed. `speeds`: (speeds,) [rad/s].
     """
     train = train_of(machine)
     referred = refer(train)
@@ -139,27 +92,8 @@ def under(
 ) -> ExcitedTrain:
     """A train under torques of its engine or mechanism, and those of its file.
 
-    Parameters
-    ----------
-    machine : Machine
-        That has the train.
-    train : Train
-        Of discs, shafts and gears.
-    referred : ReferredTrain
-        The same, referred to its first disc.
-    speeds : ndarray, shape (speeds,)
-        Of the first disc; a speed may stand there more than once, with other torques [rad/s].
-    sources : iterable of Source
-        Torques of the engine or of the mechanism, with their mean.
-    damping : ndarray, shape (discs, speeds), optional
-        Of motor and mechanism [N m s/rad].
-    loads_follow : bool, optional
-        Whether loads are scaled to what the engine gives; without it, as `[train.run]` says.
-
-    Returns
-    -------
-    ExcitedTrain
-        What the train is under each column of torques; couplings have the slope at the mean torque.
+    What the train is under each column of torques; couplings have the slope at the mean torque. `speeds`:
+    (speeds,) [rad/s]; `damping`: (discs, speeds) [N m s/rad].
     """
     run = None if machine.train is None else machine.train.run
     follow = (run is not None and run.loads_follow) if loads_follow is None else loads_follow
@@ -189,34 +123,14 @@ def _require_room(train: Train, sources: Sequence[Source], speeds: int) -> None:
 def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Torques) -> ExcitedTrain:
     """A train under torques: mean torques of its shafts, stiffness and damping.
 
-    Parameters
-    ----------
-    machine : Machine
-        That has the train.
-    train : Train
-        Of discs, shafts and gears.
-    referred : ReferredTrain
-        The same, referred to its first disc.
-    torques : Torques
-        On the discs.
-
-    Returns
-    -------
-    ExcitedTrain
-        At the speeds of the torques.
+    At the speeds of the torques.
     """
     mean = _mean_torques(referred, torques.mean)
     return ExcitedTrain(train, referred, torques, mean, _operating(machine.train, referred, torques, mean))
 
 
 def is_excited(machine: Machine) -> bool:
-    """Whether a machine has a train with something that excites it, and the speeds at which to look.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    """
+    """Whether a machine has a train with something that excites it, and the speeds at which to look."""
     train = machine.train
     if train is None:
         drive = machine.drive
@@ -225,25 +139,13 @@ def is_excited(machine: Machine) -> bool:
 
 
 def pulsates(train: Train) -> bool:
-    """Whether a train has torques that pulsate.
-
-    Parameters
-    ----------
-    train : Train
-        As its file describes it.
-    """
+    """Whether a train has torques that pulsate."""
     waves = any(each.harmonics for each in train.loads.values())
     return bool(train.excitations) or waves or train.engine is not None
 
 
 def highest_order(train: Train) -> float:
-    """Last order of an engine's torques.
-
-    Parameters
-    ----------
-    train : Train
-        As its file describes it.
-    """
+    """Last order of an engine's torques."""
     return float(TrainRun.model_fields["orders_max"].default if train.run is None else train.run.orders_max)
 
 

@@ -57,18 +57,7 @@ class ForcedVibration(TorsionResponse):
     power: Annotated[Floats, Shown("mean power of the pulsating torques", "", "W", "The sum of all heat.")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Curves over the speeds by name of shaft and disc.
-
-        Parameters
-        ----------
-        curves : bool
-            Whether heat, and the parts of the speed fluctuation, are included.
-
-        Returns
-        -------
-        dict
-            Plain numbers, texts and lists, ready for JSON.
-        """
+        """Curves over the speeds by name of shaft and disc."""
         shafts: dict[str, Floats] = {
             "shaft_torque_max": self.shaft_torque_max,
             "shaft_torque_vibratory": self.shaft_torque_vibratory,
@@ -122,18 +111,7 @@ def forced_vibration(machine: Machine, speeds: Floats | None = None) -> ForcedVi
 
 
 def responded(at: ExcitedTrain) -> ForcedVibration:
-    """Steady vibration of a train that has been prepared.
-
-    Parameters
-    ----------
-    at : ExcitedTrain
-        The train, its torques, and what it is at each speed.
-
-    Returns
-    -------
-    ForcedVibration
-        As `forced_vibration`.
-    """
+    """Steady vibration of a train that has been prepared."""
     q = responses(at)
     shafts = response_by_amplitudes(at, q)
     total, rigid, torsional = _unevenness(at, shafts.together, q)
@@ -170,19 +148,8 @@ def _unevenness(at: ExcitedTrain, orders: Orders, q: Complexes) -> tuple[Floats,
 def angular_deflection(found: ForcedVibration, disc: str) -> tuple[Floats, Floats]:
     """Vibration of a disc at every speed, each order and all together.
 
-    Parameters
-    ----------
-    found : ForcedVibration
-        The result.
-    disc : str
-        Name of the disc.
-
-    Returns
-    -------
-    single : ndarray, shape (orders, speeds)
-        Amplitude of each order [rad].
-    total : ndarray, shape (speeds,)
-        Half the peak-to-peak angle of all orders [rad].
+    Gives `single`: (orders, speeds) amplitude of each order [rad]; `total`: (speeds,) half the peak-to-peak
+    angle of all orders [rad].
     """
     theta = found.amplitudes[:, found.discs.index(disc)]
     greatest, least = span(found.together, theta)

@@ -23,24 +23,9 @@ def mechanism_sources(
 ) -> tuple[list[Source], Floats]:
     """Torque of a mechanism on its crank at constant speed.
 
-    Parameters
-    ----------
-    machine : Machine
-        With a torsionally flexible driveline.
-    turning : ndarray, shape (discs,)
-        Speed of each disc over that of the first.
-    place : dict of str to int
-        Place of each disc.
-    speeds : ndarray, shape (speeds,)
-        Of the first disc [rad/s].
-
-    Returns
-    -------
-    sources : list of Source
-        On the crank.
-    damping : ndarray, shape (discs, speeds)
-        Of motor and mechanism where their torques fall or rise with the speed; none where they would excite
-        [N m s/rad].
+    Gives `sources`: on the crank; `damping`: (discs, speeds) of motor and mechanism where their torques fall
+    or rise with the speed; none where they would excite [N m s/rad]. `turning`: (discs,) speed of each disc
+    over that of the first; `speeds`: (speeds,) [rad/s].
     """
     n = turning[place[CRANK]]
     of_crank = np.arange(_ORDERS + 1.0)
@@ -55,13 +40,7 @@ def mechanism_sources(
 
 
 def steady_speed(machine: Machine) -> float:
-    """Mean speed of the crank in rigid steady motion; without a motor its design speed [rad/s].
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    """
+    """Mean speed of the crank in rigid steady motion; without a motor its design speed [rad/s]."""
     drive = machine.drive
     if drive is not None and drive.motor is None and drive.speed is not None:
         return drive.speed

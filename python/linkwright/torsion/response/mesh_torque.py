@@ -114,20 +114,7 @@ def mesh_torques(machine: Machine, speeds: Floats | None = None) -> MeshTorque:
 
 
 def meshed(at: ExcitedTrain, found: TorsionResponse) -> MeshTorque:
-    """Torques of the gear stages of a train of which the vibration is there.
-
-    Parameters
-    ----------
-    at : ExcitedTrain
-        The train.
-    found : TorsionResponse
-        Its vibration.
-
-    Returns
-    -------
-    MeshTorque
-        As `mesh_torques`.
-    """
+    """Torques of the gear stages of a train of which the vibration is there."""
     gears = at.train.gears
     omega = found.orders[:, None, None] * found.speeds
     J = np.array([disc.inertia for disc in at.train.discs.values()])[:, None]

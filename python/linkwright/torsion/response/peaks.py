@@ -40,15 +40,7 @@ class TorquePeaks(Result):
 def torque_peaks(seen: Survey) -> TorquePeaks:
     """Largest vibratory torques over the speeds of a run and all resonances between them.
 
-    Parameters
-    ----------
-    seen : Survey
-        The train looked at closely.
-
-    Returns
-    -------
-    TorquePeaks
-        The highest of all speeds and resonances, sought between its neighbours as well.
+    The highest of all speeds and resonances, sought between its neighbours as well.
     """
     resonant = np.setdiff1d([each.speed for each in seen.resonances], seen.at.torques.speeds)
     every, vibratory = seen.at.torques.speeds, seen.found.shaft_torque_vibratory

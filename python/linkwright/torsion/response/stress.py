@@ -160,15 +160,7 @@ def shaft_stress(
 def stressed(shafts: dict[str, Shaft]) -> dict[str, tuple[StressedSection, ShaftLimit]]:
     """Where the stress of each shaft counts, and what it bears, for shafts of which a section is known.
 
-    Parameters
-    ----------
-    shafts : dict of str to Shaft
-        Of a train.
-
-    Returns
-    -------
-    dict of str to tuple
-        Section and limit; a limit without entries where the file has none.
+    Section and limit; a limit without entries where the file has none.
     """
     limits = {name: shaft.limit or ShaftLimit() for name, shaft in shafts.items()}
     sections = {name: limits[name].section(shaft.sections) for name, shaft in shafts.items()}
@@ -178,18 +170,8 @@ def stressed(shafts: dict[str, Shaft]) -> dict[str, tuple[StressedSection, Shaft
 def service_speed(machine: Machine, speeds: Floats) -> float:
     """The speed that λ = 1 stands for.
 
-    Parameters
-    ----------
-    machine : Machine
-        With a train, or a torsionally flexible driveline.
-    speeds : ndarray, shape (speeds,)
-        At which it is looked at [rad/s].
-
-    Returns
-    -------
-    float
-        Of the first disc: `speed_rated` of [train.run]; of a driveline its steady speed; else the highest
-        speed [rad/s].
+    Of the first disc: `speed_rated` of [train.run]; of a driveline its steady speed; else the highest speed
+    [rad/s]. `speeds`: (speeds,) [rad/s].
     """
     if machine.train is None:
         train = train_of(machine)

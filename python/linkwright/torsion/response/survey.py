@@ -37,21 +37,11 @@ _ABOUT = 4
 
 @dataclass(frozen=True)
 class Survey:
-    """A train at its speeds and between them.
+    """A train at its speeds and between them."""
 
-    Attributes
-    ----------
-    machine : Machine
-        With a train that something excites.
-    at : ExcitedTrain
-        At the speeds of its run, increasing.
-    found : TorsionResponse
-        What its shafts carry there.
-    """
-
-    machine: Machine
-    at: ExcitedTrain
-    found: TorsionResponse
+    machine: Machine  # with a train that something excites
+    at: ExcitedTrain  # at the speeds of its run, increasing
+    found: TorsionResponse  # what its shafts carry there
 
     @cached_property
     def resonances(self) -> tuple[Resonance, ...]:
@@ -116,15 +106,7 @@ class Survey:
     def criteria_at(self, speeds: Floats) -> list[Criterion]:
         """All limits at any speeds between the lowest and the highest.
 
-        Parameters
-        ----------
-        speeds : ndarray, shape (n,)
-            Of the first disc [rad/s].
-
-        Returns
-        -------
-        list of Criterion
-            In the same order at any speeds.
+        In the same order at any speeds. `speeds`: (n,) [rad/s].
         """
         at = between(self.machine, self.at, speeds)
         return criteria(self.machine, at, torsion_response(at), self.service)
@@ -132,15 +114,7 @@ class Survey:
     def carried_at(self, speeds: Floats) -> TorsionResponse:
         """What the shafts carry at any speeds between the lowest and the highest.
 
-        Parameters
-        ----------
-        speeds : ndarray, shape (n,)
-            Of the first disc [rad/s].
-
-        Returns
-        -------
-        TorsionResponse
-            At these.
+        At these. `speeds`: (n,) [rad/s].
         """
         return torsion_response(between(self.machine, self.at, speeds))
 
@@ -163,27 +137,7 @@ def _highest(ratio: Floats) -> list[int]:
 
 
 def survey(machine: Machine, at: ExcitedTrain | None = None, found: TorsionResponse | None = None) -> Survey:
-    """Look at a train closely.
-
-    Parameters
-    ----------
-    machine : Machine
-        With a train that something excites, and the speeds at which to look.
-    at : ExcitedTrain, optional
-        The train at these, if that is there already.
-    found : TorsionResponse, optional
-        What its shafts carry there, likewise.
-
-    Returns
-    -------
-    Survey
-        Nothing of it is computed before it is asked for.
-
-    Raises
-    ------
-    InputError
-        Nothing excites the train, or it has no speeds.
-    """
+    """Look at a train closely. Nothing of it is computed before it is asked for."""
     at = excited_train(machine) if at is None else at
     return Survey(machine, at, torsion_response(at) if found is None else found)
 
@@ -191,19 +145,8 @@ def survey(machine: Machine, at: ExcitedTrain | None = None, found: TorsionRespo
 def between(machine: Machine, at: ExcitedTrain, speeds: Floats) -> ExcitedTrain:
     """A train at other speeds between those at which it has been prepared.
 
-    Parameters
-    ----------
-    machine : Machine
-        With the train.
-    at : ExcitedTrain
-        Prepared at some speeds, increasing.
-    speeds : ndarray, shape (n,)
-        Between them [rad/s].
-
-    Returns
-    -------
-    ExcitedTrain
-        At these. Torques of the file itself are exact, as are all where fewer than four speeds are known.
+    At these. Torques of the file itself are exact, as are all where fewer than four speeds are known.
+    `speeds`: (n,) between them [rad/s].
     """
     exact = machine.train is not None and machine.train.engine is None
     if exact or len(at.torques.speeds) < _ABOUT:

@@ -33,20 +33,11 @@ _EQUAL = 1e-9
 
 @dataclass(frozen=True)
 class Orders:
-    """How orders go together.
+    """How orders go together."""
 
-    Attributes
-    ----------
-    values : ndarray, shape (orders,)
-        Cycles per revolution.
-    turns : float
-        After which those with a common base repeat.
-    harmonic : ndarray of int, shape (orders,)
-        Waves of each in that time; 0 of one that has no common base with the others.
-    """
-
-    values: Floats
-    turns: float
+    values: Floats  # (orders,) cycles per revolution
+    turns: float  # after which those with a common base repeat
+    # (orders,) waves of each in that time; 0 of one that has no common base with the others.
     harmonic: NDArray[np.int64]
 
     @cached_property
@@ -58,10 +49,7 @@ class Orders:
 def orders_together(values: Floats) -> Orders:
     """Find the common base of orders, of as many of them as have one.
 
-    Parameters
-    ----------
-    values : ndarray, shape (orders,)
-        Cycles per revolution, above zero.
+    `values`: (orders,) cycles per revolution, above zero.
     """
     return _together(tuple(values.tolist()))
 
@@ -97,19 +85,8 @@ def _counted(values: Floats, unit: float) -> Orders:
 def span(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> tuple[Floats, Floats]:
     """Maximum and minimum value of what harmonics add up to.
 
-    Parameters
-    ----------
-    orders : Orders
-        How they go together.
-    amplitudes : ndarray of complex, shape (orders, ...)
-        Of Σ Re a e^{iνφ}.
-    mean : ndarray, shape (...), or float
-        Added to the sum.
-
-    Returns
-    -------
-    greatest, least : ndarray, shape (...)
-        With the amplitudes of orders without a common base added to both sides.
+    Gives `greatest`, `least`: with the amplitudes of orders without a common base added to both sides.
+    `amplitudes`: (orders, ...).
     """
     top, _, bottom, _ = extremes(coefficients(orders, amplitudes, mean))
     rest = np.abs(amplitudes[~orders.together]).sum(axis=0)
@@ -117,20 +94,9 @@ def span(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> t
 
 
 def coefficients(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> Complexes:
-    """Harmonics 0, 1, 2, … of the time in which the orders repeat.
+    """Harmonics 0, 1, 2, … of the time in which the orders repeat, (harmonics, ...).
 
-    Parameters
-    ----------
-    orders : Orders
-        How they go together; those without a common base are left out.
-    amplitudes : ndarray of complex, shape (orders, ...)
-        Of each order.
-    mean : ndarray, shape (...), or float
-        The harmonic 0.
-
-    Returns
-    -------
-    ndarray of complex, shape (harmonics, ...)
+    `amplitudes`: (orders, ...).
     """
     count = int(orders.harmonic.max(initial=0)) + 1
     remedy = "lower the highest order, or train.run.points"
@@ -142,23 +108,9 @@ def coefficients(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0
 
 
 def waveform(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0, points: int = 1440) -> Floats:
-    """The sum of harmonics over the time in which they repeat.
+    """The sum of harmonics over the time in which they repeat, (points, ...).
 
-    Parameters
-    ----------
-    orders : Orders
-        How they go together.
-    amplitudes : ndarray of complex, shape (orders, ...)
-        Of each order.
-    mean : ndarray, shape (...), or float
-        Added to the sum.
-    points : int
-        How many values, evenly spaced from angle 0 on.
-
-    Returns
-    -------
-    ndarray, shape (points, ...)
-        Over `Orders.turns` turns.
+    Over `Orders.turns` turns. `amplitudes`: (orders, ...).
     """
     harmonic = coefficients(orders, amplitudes, mean)
     phase = 2j * np.pi * np.outer(np.arange(points) / points, np.arange(len(harmonic)))

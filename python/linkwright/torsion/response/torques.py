@@ -24,55 +24,27 @@ _EQUAL = 1e-9
 
 @dataclass(frozen=True)
 class Torques:
-    """Torques on the discs.
+    """Torques on the discs."""
 
-    Attributes
-    ----------
-    speeds : ndarray, shape (speeds,)
-        Of the first disc [rad/s].
-    orders : ndarray, shape (orders,)
-        Cycles per revolution of the first disc, increasing.
-    harmonics : ndarray of complex, shape (orders, discs, speeds)
-        M_ν on each disc [N m].
-    mean : ndarray, shape (discs, speeds)
-        Driving positive; they balance unless nothing takes them off [N m].
-    damping : ndarray, shape (discs, speeds)
-        Of the loads [N m s/rad].
-    load_factor : ndarray, shape (speeds,)
-        Loads as they count over those given: not 1 where they follow an engine.
-    surplus : ndarray, shape (speeds,)
-        Mean torque at the first disc beyond what the loads take off, which accelerates a free train [N m].
-    """
-
-    speeds: Floats
-    orders: Floats
-    harmonics: Complexes
-    mean: Floats
-    damping: Floats
-    load_factor: Floats
+    speeds: Floats  # (speeds,) of the first disc [rad/s]
+    orders: Floats  # (orders,) cycles per revolution of the first disc, increasing
+    harmonics: Complexes  # (orders, discs, speeds) M_ν on each disc [N m]
+    mean: Floats  # (discs, speeds) driving positive; they balance unless nothing takes them off [N m]
+    damping: Floats  # (discs, speeds) of the loads [N m s/rad]
+    load_factor: Floats  # (speeds,) loads as they count over those given: not 1 where they follow an engine
+    # (speeds,) mean torque at the first disc beyond what the loads take off, which accelerates a free train
+    # [N m].
     surplus: Floats
 
 
 @dataclass(frozen=True)
 class Source:
-    """Harmonics of one origin.
+    """Harmonics of one origin."""
 
-    Attributes
-    ----------
-    disc : int
-        Place of the disc.
-    orders : ndarray, shape (orders,)
-        Cycles per revolution of the first disc.
-    harmonics : ndarray of complex, shape (orders, speeds)
-        [N m].
-    mean : ndarray, shape (speeds,) or None
-        Driving positive [N m].
-    """
-
-    disc: int
-    orders: Floats
-    harmonics: Complexes
-    mean: Floats | None = None
+    disc: int  # place of the disc
+    orders: Floats  # (orders,) cycles per revolution of the first disc
+    harmonics: Complexes  # (orders, speeds) [N m]
+    mean: Floats | None = None  # (speeds,) driving positive [N m]
 
 
 def torques_of(
@@ -88,31 +60,10 @@ def torques_of(
 ) -> Torques:
     """All torques on the discs of a train.
 
-    Parameters
-    ----------
-    train : Train
-        Of discs, shafts and gears, with its loads and excitations.
-    turning : ndarray, shape (discs,)
-        Speed of each disc over that of the first.
-    speeds : ndarray, shape (speeds,)
-        Of the first disc [rad/s].
-    sources : iterable of Source
-        Torques of an engine or of a mechanism, with their mean.
-    damping : ndarray, shape (discs, speeds), optional
-        Of motor and mechanism [N m s/rad].
-    is_free : bool
-        Whether the train can rotate as a rigid body. A held one leaves its mean torque to the ground.
-    has_engine : bool
-        Whether the sources drive.
-    loads_follow : bool
-        Whether the loads are scaled to what an engine gives.
-
-    Returns
-    -------
-    Torques
-        Without an engine the mean torques of a free train balance: the driver gives what the loads need. What
-        an engine gives beyond its loads accelerates the train, unless the loads follow: then they take off
-        what it gives, in proportion to their laws.
+    Without an engine the mean torques of a free train balance: the driver gives what the loads need. What an
+    engine gives beyond its loads accelerates the train, unless the loads follow: then they take off what it
+    gives, in proportion to their laws. `turning`: (discs,) speed of each disc over that of the first;
+    `speeds`: (speeds,) [rad/s]; `damping`: (discs, speeds) [N m s/rad].
     """
     place = {name: k for k, name in enumerate(train.discs)}
     found = [*sources, *_excitations(train, place, turning, speeds)]

@@ -106,51 +106,19 @@ class TorsionResponse(Result):
 
 
 def torsion_response(at: ExcitedTrain) -> TorsionResponse:
-    """What the shafts of a train carry.
-
-    Parameters
-    ----------
-    at : ExcitedTrain
-        The train, its torques, and what it is at each speed.
-
-    Returns
-    -------
-    TorsionResponse
-        Not finite at a resonance without any damping.
-    """
+    """What the shafts of a train carry. Not finite at a resonance without any damping."""
     return response_by_amplitudes(at, responses(at))
 
 
 def responses(at: ExcitedTrain) -> Complexes:
-    """Amplitudes of the masses of a train.
-
-    Parameters
-    ----------
-    at : ExcitedTrain
-        The train.
-
-    Returns
-    -------
-    ndarray of complex, shape (orders, masses, speeds)
-        q, referred to the first disc [rad].
-    """
+    """Amplitudes of the masses of a train, (orders, masses, speeds). q, referred to the first disc [rad]."""
     return respond(at.referred, at.operating, at.torques.orders, at.referred_harmonics())
 
 
 def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
     """What the shafts carry where the masses swing by some amplitudes.
 
-    Parameters
-    ----------
-    at : ExcitedTrain
-        The train.
-    q : ndarray of complex, shape (orders, masses, speeds)
-        As of `responses` [rad].
-
-    Returns
-    -------
-    TorsionResponse
-        As `torsion_response`.
+    `q`: (orders, masses, speeds) as of `responses` [rad].
     """
     referred, orders, speeds = at.referred, at.torques.orders, at.torques.speeds
     omega = orders[:, None, None] * speeds

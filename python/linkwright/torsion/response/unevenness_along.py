@@ -116,28 +116,7 @@ def unevenness_along(
 ) -> UnevennessAlong:
     """N at every disc.
 
-    Parameters
-    ----------
-    at : ExcitedTrain
-        The train.
-    found : ForcedVibration
-        Its vibration.
-    firing : mapping of str to float
-        Angle of the first disc at which each cylinder fires, at any revolution of the cycle [rad].
-    turns : int
-        Revolutions of a cycle: 2 of a four-stroke, 1 of a two-stroke engine.
-    speed : float
-        At which to look; the nearest of those of the vibration is taken [rad/s].
-
-    Returns
-    -------
-    UnevennessAlong
-        Of the orders that repeat with the cycle; others have no place in it.
-
-    Raises
-    ------
-    InputError
-        Two cylinders fire at once, or there are none.
+    Of the orders that repeat with the cycle; others have no place in it. `firing`: [rad]; `speed`: [rad/s].
     """
     names, angles = _fired(firing, turns)
     column = int(np.argmin(np.abs(found.speeds - speed)))

@@ -7,18 +7,7 @@ from linkwright.torsion.damper.damper_design import DamperDesign
 
 
 def damper_table(found: DamperDesign) -> Table:
-    """The damper by the mode alone and the best for the train, side by side.
-
-    Parameters
-    ----------
-    found : DamperDesign
-        What to write.
-
-    Returns
-    -------
-    Table
-        For terminal and report.
-    """
+    """The damper by the mode alone and the best for the train, side by side."""
     values = (
         ("damping", "c [N m s/rad]", found.damping, found.damping_best),
         ("stiffness", "k [N m/rad]", found.stiffness, found.stiffness_best),
@@ -36,18 +25,7 @@ def damper_table(found: DamperDesign) -> Table:
 
 
 def damper_lines(found: DamperDesign) -> str:
-    """The best damper as a table of a machine file.
-
-    Parameters
-    ----------
-    found : DamperDesign
-        What to write.
-
-    Returns
-    -------
-    str
-        TOML.
-    """
+    """The best damper as a table of a machine file. TOML."""
     entries = [f'on = "{found.on}"', f'kind = "{"viscous" if found.kind == "viscous" else "tuned"}"']
     entries.append(f"ring_inertia = {found.ring_inertia!r}")
     best = {

@@ -11,20 +11,7 @@ from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis
 
 
 def diagnosis_table(read: RecordDiagnosis, level: float) -> Table:
-    """Each cylinder with its factor.
-
-    Parameters
-    ----------
-    read : RecordDiagnosis
-        What to write.
-    level : float
-        Probability that an interval holds the truth.
-
-    Returns
-    -------
-    Table
-        For terminal and report.
-    """
+    """Each cylinder with its factor."""
     found, words = read.found, dict(_verdicts(read, level))
     half, relative = found.half_width(level), found.relative
     rows: list[Row] = []
@@ -58,15 +45,7 @@ def _verdicts(read: RecordDiagnosis, level: float) -> Iterator[tuple[str, str]]:
 
 
 def diagnosis_words(read: RecordDiagnosis, level: float) -> str:
-    """Which cylinders are weak, in a sentence.
-
-    Parameters
-    ----------
-    read : RecordDiagnosis
-        What to tell.
-    level : float
-        Probability that a sound engine has none named.
-    """
+    """Which cylinders are weak, in a sentence."""
     found, weak = read.found, read.weak(level)
     if not read.is_plausible:
         return "No cylinder is judged."

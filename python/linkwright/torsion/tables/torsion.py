@@ -35,18 +35,7 @@ _SHAPES = 5
 
 
 def study_tables(study: TorsionStudy) -> Iterator[Table]:
-    """All tables of a study of torsional vibration.
-
-    Parameters
-    ----------
-    study : TorsionStudy
-        What to write.
-
-    Yields
-    ------
-    Table
-        For terminal and report.
-    """
+    """All tables of a study of torsional vibration."""
     if study.verdict is not None and study.verdict.judgements:
         yield _judgements(study.verdict)
     if study.transient is not None and study.transient.judgements:
@@ -259,17 +248,7 @@ def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
 def service_place(study: TorsionStudy, forced: ForcedVibration) -> int:
     """Where tables and figures look at the train in service.
 
-    Parameters
-    ----------
-    study : TorsionStudy
-        The study.
-    forced : ForcedVibration
-        Its vibration.
-
-    Returns
-    -------
-    int
-        Place of the speed next to that of service; of a driveline the middle of its speeds.
+    Place of the speed next to that of service; of a driveline the middle of its speeds.
     """
     run = study.machine.train.run if study.machine.train is not None else None
     if run is None:
@@ -287,18 +266,7 @@ def _finite(value: float, digits: int = 4) -> str:
 
 
 def torsion_tables(found: FreeVibration) -> Iterator[Table]:
-    """Frequencies with nodes and energy; then the shapes.
-
-    Parameters
-    ----------
-    found : FreeVibration
-        What to write.
-
-    Yields
-    ------
-    Table
-        For terminal and report.
-    """
+    """Frequencies with nodes and energy; then the shapes."""
     yield _frequencies(found)
     for start in range(0, len(found.natural_frequencies), _SHAPES):
         yield _shapes(found, range(start, min(start + _SHAPES, len(found.natural_frequencies))))
@@ -356,18 +324,7 @@ def _shapes(found: FreeVibration, modes: range) -> Table:
 
 
 def holzer_tables(found: HolzerTable) -> Iterator[Table]:
-    """Holzer's table: discs, then shafts.
-
-    Parameters
-    ----------
-    found : HolzerTable
-        What to write.
-
-    Yields
-    ------
-    Table
-        For terminal and report.
-    """
+    """Holzer's table: discs, then shafts."""
     columns = (found.inertia, found.inertia_squared, found.amplitude, found.torque)
     rows: list[Row] = [
         (name, "", *(f"{column[n]:.6g}" for column in columns)) for n, name in enumerate(found.discs)

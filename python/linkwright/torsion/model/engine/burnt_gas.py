@@ -70,17 +70,10 @@ GAS_CONSTANT = 8314.462618 / (_AIR_MASS / _MOLES)
 
 
 def burnable(mass_times_constant: Array) -> Array:
-    """Heat that the oxygen of a charge of air can release, of the shape given [J].
+    """Heat that the oxygen of a charge of air can release, of the shape given [J], (n, 1).
 
-    Parameters
-    ----------
-    mass_times_constant : ndarray, shape (n, 1)
-        mR = pV/T of the charge [J/K].
-
-    Returns
-    -------
-    ndarray, shape (n, 1)
-        Heating value of the fuel for which the air just suffices.
+    Heating value of the fuel for which the air just suffices. `mass_times_constant`: (n, 1) mR = pV/T of the
+    charge [J/K].
     """
     return np.asarray(mass_times_constant / GAS_CONSTANT / STOICHIOMETRIC * HEATING_VALUE)
 
@@ -88,17 +81,7 @@ def burnable(mass_times_constant: Array) -> Array:
 def heat_ratio(temperature: Array, used: Array) -> Array:
     """Ratio of the specific heats γ, shape (n, m).
 
-    Parameters
-    ----------
-    temperature : ndarray, shape (n, m)
-        Of the gas [K]; beyond 200 to 3500 K the ends hold.
-    used : ndarray, shape (n, m)
-        Share b of the oxygen that is used, 0 to 1.
-
-    Returns
-    -------
-    ndarray, shape (n, m)
-        γ = c_p/c_v.
+    γ = c_p/c_v. `temperature`: (n, m) [K]; `used`: (n, m) share b of the oxygen that is used, 0 to 1.
     """
     T = np.clip(temperature, _COLD, _HOT)
     hot = T > _MIDDLE

@@ -41,47 +41,27 @@ _FIRST = 1.35
 
 @dataclass(frozen=True, eq=False)
 class ClosedGas:
-    """The task: the closed gas at n loads and m crank angles.
+    """The task: the closed gas at n loads and m crank angles."""
 
-    Attributes
-    ----------
-    mesh : CycleMesh
-        Crank angles from closing to opening.
-    volume, volume_d1 : ndarray, shape (m,)
-        V [m³], V′ [m³/rad].
-    released, release : ndarray, shape (m,)
-        Share x of the fuel that is burnt, and its derivative x′ [1/rad].
-    kept : float
-        Share of the heat that stays in the gas as it is released.
-    bore, swept_volume, volume_closing : float
-        Of the cylinder [m], [m³], and its volume at closing [m³].
-    pressure_closing : ndarray, shape (n, 1)
-        p_r [Pa].
-    temperature_closing : float
-        T_r [K].
-    speed, piston_speed : ndarray, shape (n, 1)
-        ω [rad/s], and mean speed of the piston [m/s].
-    exponent : float or None
-        γ; None for that of air and burnt gas.
-    wall : WallHeat or None
-        Loss by convection.
-    """
-
-    mesh: CycleMesh
+    mesh: CycleMesh  # crank angles from closing to opening
+    # `volume`, `volume_d1`: (m,) V [m³], V′ [m³/rad].
     volume: Array
     volume_d1: Array
+    # `released`, `release`: (m,) share x of the fuel that is burnt, and its derivative x′ [1/rad].
     released: Array
     release: Array
-    kept: float
+    kept: float  # share of the heat that stays in the gas as it is released
+    # `bore`, `swept_volume`, `volume_closing`: of the cylinder [m], [m³], and its volume at closing [m³].
     bore: float
     swept_volume: float
     volume_closing: float
-    pressure_closing: Array
-    temperature_closing: float
+    pressure_closing: Array  # (n, 1) p_r [Pa]
+    temperature_closing: float  # T_r [K]
+    # `speed`, `piston_speed`: (n, 1) ω [rad/s], and mean speed of the piston [m/s].
     speed: Array
     piston_speed: Array
-    exponent: float | None
-    wall: WallHeat | None
+    exponent: float | None  # γ; None for that of air and burnt gas
+    wall: WallHeat | None  # loss by convection
 
     @property
     def charge(self) -> Array:
@@ -91,82 +71,40 @@ class ClosedGas:
 
 @dataclass(frozen=True, eq=False)
 class ClosedTrace:
-    """The closed gas, as it follows from a rule for the heat.
+    """The closed gas, as it follows from a rule for the heat."""
 
-    Attributes
-    ----------
-    pressure, temperature : ndarray, shape (n, m)
-        p [Pa], T [K].
-    opening : ndarray, shape (n, 1)
-        Pressure as the exhaust opens [Pa].
-    heat, wall_heat : ndarray, shape (n, 1)
-        Heat Q of a cycle, and what of it goes to the walls [J].
-    """
-
+    # `pressure`, `temperature`: (n, m) p [Pa], T [K].
     pressure: Array
     temperature: Array
-    opening: Array
+    opening: Array  # (n, 1) pressure as the exhaust opens [Pa]
+    # `heat`, `wall_heat`: (n, 1) heat Q of a cycle, and what of it goes to the walls [J].
     heat: Array
     wall_heat: Array
 
 
 @dataclass(frozen=True, eq=False)
 class Split:
-    """Pressure as a linear function of the heat, p_a + Q p_b.
+    """Pressure as a linear function of the heat, p_a + Q p_b."""
 
-    Attributes
-    ----------
-    without, per_heat : ndarray, shape (n, m)
-        p_a [Pa], p_b [Pa/J].
-    opening_without, opening_per_heat : ndarray, shape (n, 1)
-        The same as the exhaust opens.
-    last : ndarray, shape (n, m)
-        Pressure of the last iterate [Pa].
-    """
-
+    # `without`, `per_heat`: (n, m) p_a [Pa], p_b [Pa/J].
     without: Array
     per_heat: Array
+    # `opening_without`, `opening_per_heat`: (n, 1) the same as the exhaust opens.
     opening_without: Array
     opening_per_heat: Array
-    last: Array
+    last: Array  # (n, m) pressure of the last iterate [Pa]
 
 
 Rule = Callable[[Split], Array]
 
 
 def no_heat(split: Split) -> Array:
-    """The motored cylinder: no heat at any load, shape (n, 1) [J].
-
-    Parameters
-    ----------
-    split : Split
-        Pressure as a function of the heat.
-    """
+    """The motored cylinder: no heat at any load, shape (n, 1) [J]."""
     return np.zeros_like(split.opening_without)
 
 
 def closed_trace(gas: ClosedGas, rule: Rule, motored: Array | None = None) -> ClosedTrace:
-    """Pressure from closing to opening.
-
-    Parameters
-    ----------
-    gas : ClosedGas
-        The closed gas.
-    rule : callable
-        The heat of a cycle from a `Split`, shape (n, 1) [J].
-    motored : ndarray, shape (n, m), optional
-        Pressure of the motored cylinder [Pa], which Woschni's coefficient refers to.
-
-    Returns
-    -------
-    ClosedTrace
-        At each load.
-
-    Raises
-    ------
-    ConvergenceError
-        The iterates do not settle.
-    """
+    """Pressure from closing to opening. `rule`: [J]; `motored`: (n, m) [Pa]."""
     p = gas.pressure_closing * (gas.volume_closing / gas.volume) ** _FIRST
     change, Q = np.inf, np.zeros_like(gas.pressure_closing)
     for _ in range(_ITERATIONS):

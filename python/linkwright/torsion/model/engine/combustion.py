@@ -153,18 +153,8 @@ class Combustion(Gas):
     def operating_points(self, cylinder: Cylinder, speeds: Array) -> tuple[WorkingCycle, Array | None]:
         """The cycle at given speeds, computed for each.
 
-        Parameters
-        ----------
-        cylinder : Cylinder
-            Its bore, strokes and piston's motion.
-        speeds : ndarray, shape (n,)
-            Of the crank [rad/s].
-
-        Returns
-        -------
-        tuple
-            The cycle, and the mean effective pressure that the load map asks for, shape (n, 1) [Pa]; None
-            without one.
+        The cycle, and the mean effective pressure that the load map asks for, shape (n, 1) [Pa]; None without
+        one. `speeds`: (n,) [rad/s].
         """
         charge = np.full((len(speeds), 1), self.charge_pressure)
         if self.load is None:

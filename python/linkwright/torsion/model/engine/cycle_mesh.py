@@ -24,34 +24,16 @@ _OPEN = math.radians(10.0)
 
 @dataclass(frozen=True, eq=False)
 class CycleMesh:
-    """Crank angles and what they count in integrals.
+    """Crank angles and what they count in integrals."""
 
-    Attributes
-    ----------
-    angle : ndarray, shape (m,)
-        Increasing [rad].
-    weight : ndarray, shape (m,)
-        What each counts in an integral [rad].
-    half_width : ndarray, shape (m/6,)
-        Of the panels [rad].
-    """
-
-    angle: Array
-    weight: Array
-    half_width: Array
+    angle: Array  # (m,) increasing [rad]
+    weight: Array  # (m,) what each counts in an integral [rad]
+    half_width: Array  # (m/6,) of the panels [rad]
 
     def integrals(self, values: Array) -> Array:
-        """Integrals from the start to every angle.
+        """Integrals from the start to every angle, (n, m).
 
-        Parameters
-        ----------
-        values : ndarray, shape (n, m)
-            Rows of values.
-
-        Returns
-        -------
-        ndarray, shape (n, m)
-            Integrals of the polynomials through the points of each panel.
+        Integrals of the polynomials through the points of each panel. `values`: (n, m) rows of values.
         """
         _, w, S = _gauss()
         panels = values.reshape(*values.shape[:-1], -1, _POINTS) * self.half_width[:, None]
@@ -74,15 +56,7 @@ def _gauss() -> tuple[Array, Array, Array]:
 def mesh(edges: Array) -> CycleMesh:
     """Gauss points between given edges.
 
-    Parameters
-    ----------
-    edges : ndarray, shape (k,)
-        Ends of panels, increasing [rad].
-
-    Returns
-    -------
-    CycleMesh
-        Six points a panel.
+    Six points a panel. `edges`: (k,) ends of panels, increasing [rad].
     """
     x, w, _ = _gauss()
     half, middle = np.diff(edges) / 2, (edges[1:] + edges[:-1]) / 2
@@ -90,20 +64,9 @@ def mesh(edges: Array) -> CycleMesh:
 
 
 def closed_edges(start: float, end: float, releases: list[tuple[float, float]]) -> Array:
-    """Ends of panels between closing and opening.
+    """Ends of panels between closing and opening, (k,).
 
-    Parameters
-    ----------
-    start, end : float
-        Crank angles of closing and of opening [rad].
-    releases : list of tuple
-        Start and duration of each release of heat [rad]. Its panels grow from its start with the square,
-        since the release begins with any power of the angle.
-
-    Returns
-    -------
-    ndarray, shape (k,)
-        Increasing [rad].
+    Increasing [rad]. `start`, `end`: crank angles of closing and of opening [rad]; `releases`: [rad].
     """
     marks = [_even(start, end, _CLOSED)]
     for begin, duration in releases:
@@ -114,19 +77,10 @@ def closed_edges(start: float, end: float, releases: list[tuple[float, float]]) 
 
 
 def open_edges(start: float, end: float, corners: tuple[float, ...]) -> Array:
-    """Ends of panels between opening and closing.
+    """Ends of panels between opening and closing, (k,).
 
-    Parameters
-    ----------
-    start, end : float
-        Crank angles of opening and of closing [rad].
-    corners : tuple of float
-        Where the pressure has corners [rad].
-
-    Returns
-    -------
-    ndarray, shape (k,)
-        Increasing [rad].
+    Increasing [rad]. `start`, `end`: crank angles of opening and of closing [rad]; `corners`: where the
+    pressure has corners [rad].
     """
     ends = sorted({start, end, *(each for each in corners if start < each < end)})
     return np.unique(np.concatenate([_even(a, b, _OPEN) for a, b in pairwise(ends)]))

@@ -18,32 +18,15 @@ class CyclePressure:
     """Pressures at n speeds as sums of a few traces over m crank angles.
 
     Torque is linear in the pressure, so its harmonics are found for the traces alone and then summed.
-
-    Attributes
-    ----------
-    speeds : ndarray, shape (n,)
-        Of the crank [rad/s].
-    angle : ndarray, shape (m,)
-        Crank angles from the top dead centre of firing, increasing over one cycle [rad].
-    weight : ndarray, shape (m,)
-        What each angle counts in an integral over the cycle [rad].
-    traces : ndarray, shape (k, m)
-        Absolute pressures [Pa].
-    firing : ndarray, shape (n, k)
-        Share of each trace in the pressure at each speed.
-    motored : ndarray, shape (n, k)
-        The same without combustion.
-    crankcase_pressure : float
-        Under the piston [Pa].
     """
 
-    speeds: Array
-    angle: Array
-    weight: Array
-    traces: Array
-    firing: Array
-    motored: Array
-    crankcase_pressure: float
+    speeds: Array  # (n,) of the crank [rad/s]
+    angle: Array  # (m,) crank angles from the top dead centre of firing, increasing over one cycle [rad]
+    weight: Array  # (m,) what each angle counts in an integral over the cycle [rad]
+    traces: Array  # (k, m) absolute pressures [Pa]
+    firing: Array  # (n, k) share of each trace in the pressure at each speed
+    motored: Array  # (n, k) the same without combustion
+    crankcase_pressure: float  # under the piston [Pa]
 
     @cached_property
     def pressure(self) -> Array:
@@ -58,15 +41,7 @@ class CyclePressure:
     def at(self, angle: Array) -> tuple[Array, Array]:
         """Pressure at any crank angles, by the monotone cubic through the points.
 
-        Parameters
-        ----------
-        angle : ndarray, shape (j,)
-            Crank angles from the top dead centre of firing [rad].
-
-        Returns
-        -------
-        tuple of ndarray
-            Absolute pressure with combustion and without, shape (n, j) each [Pa].
+        Absolute pressure with combustion and without, shape (n, j) each [Pa]. `angle`: (j,) [rad].
         """
         cycle = float(self.weight.sum())
         traces = np.array([periodic_cubic(self.angle, each, cycle, angle) for each in self.traces])
@@ -79,19 +54,9 @@ class CyclePressure:
 
 
 def peak(angle: Array, pressure: Array) -> Array:
-    """Maximum value of each row, by the parabola through its maximum point and the two beside it.
+    """Maximum value of each row, by the parabola through its maximum point and the two beside it, (n,).
 
-    Parameters
-    ----------
-    angle : ndarray, shape (m,)
-        Crank angles [rad].
-    pressure : ndarray, shape (n, m)
-        Rows of pressures [Pa].
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        The maximum values [Pa].
+    The maximum values [Pa]. `angle`: (m,) crank angles [rad]; `pressure`: (n, m) rows of pressures [Pa].
     """
     top = np.clip(np.argmax(pressure, axis=1), 1, len(angle) - 2)
     row = np.arange(len(pressure))

@@ -31,26 +31,12 @@ _RESOLVED = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Cylinder:
-    """A cylinder whose piston moves as given.
+    """A cylinder whose piston moves as given."""
 
-    Attributes
-    ----------
-    bore : float
-        Diameter [m].
-    strokes : int
-        Of a working cycle, 2 or 4.
-    position : ndarray, shape (n,)
-        Distance x of the piston from the axis of the crank [m], along the cylinder, at n crank angles 2πi/n
-        from where the crank points along the cylinder.
-
-    Raises
-    ------
-    ShapeError
-        The positions are too few to describe the motion.
-    """
-
-    bore: float
-    strokes: int
+    bore: float  # diameter [m]
+    strokes: int  # of a working cycle, 2 or 4
+    # (n,) distance x of the piston from the axis of the crank [m], along the cylinder, at n crank angles
+    # 2πi/n from where the crank points along the cylinder.
     position: Array
 
     def __post_init__(self) -> None:
@@ -78,15 +64,7 @@ class Cylinder:
     def motion(self, crank_angle: Array) -> tuple[Array, Array]:
         """Position of the piston [m] and its derivative by the crank angle [m/rad].
 
-        Parameters
-        ----------
-        crank_angle : ndarray, shape (m,)
-            Crank angles φ [rad].
-
-        Returns
-        -------
-        tuple of ndarray
-            x and x′, shape (m,) each.
+        x and x′, shape (m,) each. `crank_angle`: (m,) crank angles φ [rad].
         """
         c = self._series
         turn = np.exp(1j * crank_angle)
@@ -148,17 +126,8 @@ class Cylinder:
     def volume(self, angle: Array, compression_ratio: float) -> tuple[Array, Array]:
         """Volume above the piston and its derivative.
 
-        Parameters
-        ----------
-        angle : ndarray, shape (m,)
-            Crank angles from the top dead centre [rad].
-        compression_ratio : float
-            r_c, maximum over minimum volume.
-
-        Returns
-        -------
-        tuple of ndarray
-            V [m³] and V′ [m³/rad], shape (m,) each.
+        V [m³] and V′ [m³/rad], shape (m,) each. `angle`: (m,) crank angles from the top dead centre [rad];
+        `compression_ratio`: r_c.
         """
         x, x_d1 = self.motion(angle + self.top)
         clearance = self.swept_volume / (compression_ratio - 1)
@@ -168,18 +137,8 @@ class Cylinder:
 def powers(angle: Array, n: int) -> Complex:
     """The rotations e^{ikφ} for k = 0 … n − 1, shape (n, m).
 
-    Parameters
-    ----------
-    angle : ndarray, shape (m,)
-        Angles φ [rad].
-    n : int
-        How many.
-
-    Returns
-    -------
-    ndarray, shape (n, m)
-        Each the product of the one before with e^{iφ}, which costs a tenth of as many exponentials and
-        loses n units in the last place.
+    Each the product of the one before with e^{iφ}, which costs a tenth of as many exponentials and loses n
+    units in the last place. `angle`: (m,) angles φ [rad].
     """
     turns = np.empty((n, len(angle)), dtype=np.complex128)
     turns[0] = 1.0

@@ -39,19 +39,13 @@ _AT_REST = 1e-12
 
 
 class DeadCentres(NamedTuple):
-    """Where a piston turns back.
+    """Where a piston turns back."""
 
-    Attributes
-    ----------
-    top, bottom : float
-        Crank angles of the throw from the vertical [rad]: top within half a revolution of the cylinder's
-        axis, bottom within a revolution after it.
-    highest, lowest : float
-        Distance of the piston pin from the axis of the crank there [m].
-    """
-
+    # `top`, `bottom`: crank angles of the throw from the vertical [rad]: top within half a revolution of the
+    # cylinder's axis, bottom within a revolution after it.
     top: float
     bottom: float
+    # `highest`, `lowest`: distance of the piston pin from the axis of the crank there [m].
     highest: float
     lowest: float
 
@@ -62,29 +56,7 @@ class DeadCentres(NamedTuple):
 
 
 def dead_centres(crank_radius: float, gears: Sequence[RunningGear]) -> tuple[DeadCentres, ...]:
-    """Dead centres of all pistons of one throw, to rounding.
-
-    Parameters
-    ----------
-    crank_radius : float
-        r [m].
-    gears : sequence of RunningGear
-        Of the cylinders on this throw.
-
-    Returns
-    -------
-    tuple of DeadCentres
-        In the order of the gears.
-
-    Raises
-    ------
-    InputError
-        An articulated rod names no master rod.
-    AssemblyError
-        A rod does not reach its piston, at the first such crank angle.
-    ConvergenceError
-        A piston does not turn back in any one place.
-    """
+    """Dead centres of all pistons of one throw, to rounding. `crank_radius`: r [m]."""
     if not gears:
         return ()
     phi = np.linspace(0.0, 2.0 * math.pi, _SAMPLES, endpoint=False)

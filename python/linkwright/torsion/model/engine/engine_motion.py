@@ -22,18 +22,7 @@ _SAMPLES = 256
 
 
 def running_gears(engine: ReciprocatingEngine) -> tuple[RunningGear, ...]:
-    """Rod and piston of each bank, as they stand on one throw.
-
-    Parameters
-    ----------
-    engine : ReciprocatingEngine
-        The engine.
-
-    Returns
-    -------
-    tuple of RunningGear
-        In the order of the banks.
-    """
+    """Rod and piston of each bank, as they stand on one throw."""
     rods = [engine.rod] + [engine.articulated or engine.rod] * (len(engine.banks) - 1)
     return tuple(
         RunningGear(rod, engine.piston_mass, bank, name=f"bank {n + 1}")
@@ -42,17 +31,9 @@ def running_gears(engine: ReciprocatingEngine) -> tuple[RunningGear, ...]:
 
 
 def piston_positions(engine: ReciprocatingEngine) -> list[Floats]:
-    """Distance of the pistons of each bank from the axis of the crankshaft.
+    """Distance of the pistons of each bank from the axis of the crankshaft, (n,).
 
-    Parameters
-    ----------
-    engine : ReciprocatingEngine
-        The engine.
-
-    Returns
-    -------
-    list of ndarray, shape (n,)
-        At n even angles over one revolution of the throw, from where it points along the cylinder [m].
+    At n even angles over one revolution of the throw, from where it points along the cylinder [m].
     """
     turn = 2 * math.pi * np.arange(_SAMPLES) / _SAMPLES
     gears = running_gears(engine)
@@ -62,17 +43,8 @@ def piston_positions(engine: ReciprocatingEngine) -> list[Floats]:
 def reduced_throw(engine: ReciprocatingEngine, crank_angle: Floats) -> ThrowReduction:
     """A throw with its rods and pistons, reduced to the crank.
 
-    Parameters
-    ----------
-    engine : ReciprocatingEngine
-        The engine.
-    crank_angle : ndarray, shape (n,)
-        Of the throw, from the vertical [rad].
-
-    Returns
-    -------
-    ThrowReduction
-        Inertia, its derivative, torque of the weights; that of the crank itself where its geometry is known.
+    Inertia, its derivative, torque of the weights; that of the crank itself where its geometry is known.
+    `crank_angle`: (n,) [rad].
     """
     moment = (0.0, 0.0) if engine.throw is None else throw_inertia(engine.throw).static_moment
     return throw_reduction(

@@ -44,19 +44,8 @@ def published_piston_speed(
 ) -> Array:
     """Speed of the piston by its first two harmonics, (3).
 
-    Parameters
-    ----------
-    crank_radius, rod_length : float
-        r, l [m].
-    speed : float
-        ω of the crank [rad/s].
-    crank_angle : array_like, shape (...)
-        From the axis of the cylinder, of any shape [rad].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        v, positive towards the crank [m/s].
+    v, positive towards the crank [m/s]. `crank_radius`, `rod_length`: r, l [m]; `speed`: ω of the crank
+    [rad/s]; `crank_angle`: [rad].
     """
     phi = np.asarray(crank_angle, dtype=np.float64)
     v: Array = speed * crank_radius * (np.sin(phi) + 0.5 * crank_radius / rod_length * np.sin(2.0 * phi))
@@ -66,17 +55,7 @@ def published_piston_speed(
 def articulated_inertia(moment_small_end: float, mass: float, mass_articulated: float) -> float:
     """J_a of an articulated rod from that of its master rod, (12).
 
-    Parameters
-    ----------
-    moment_small_end : float
-        J_w of the master rod about its small end [kg m²].
-    mass, mass_articulated : float
-        Of the master rod and of the articulated rod [kg]; weights do as well.
-
-    Returns
-    -------
-    float
-        J_a = J_w m_a/m [kg m²].
+    J_a = J_w m_a/m [kg m²]. `moment_small_end`: [kg m²]; `mass`, `mass_articulated`: [kg].
     """
     return moment_small_end * mass_articulated / mass
 
@@ -90,19 +69,8 @@ def disc_by_two_masses(
 ) -> float:
     """The disc of a throw with one rod on its pin, (7).
 
-    Parameters
-    ----------
-    crank_radius, rod_length : float
-        r, l [m].
-    masses : tuple of float
-        m_1 at the crank pin, m_2 at the piston pin, m_3 of the piston [kg].
-    own_inertia, articulated_inertia : float
-        J_k of all that turns with the shaft, J_a [kg m²].
-
-    Returns
-    -------
-    float
-        J [kg m²].
+    J [kg m²]. `crank_radius`, `rod_length`: r, l [m]; `masses`: [kg]; `own_inertia`, `articulated_inertia`:
+    [kg m²].
     """
     m_1, m_2, m_3 = masses
     second = 1.0 + (crank_radius / rod_length) ** 2 / 4.0
@@ -119,21 +87,8 @@ def disc_by_distribution(
 ) -> float:
     """The disc of a throw by the coefficient of the mass distribution, (9) in SI.
 
-    Parameters
-    ----------
-    crank_radius : float
-        r [m].
-    distribution : float
-        k.
-    mass, piston_mass : float
-        m of the rod, m_3 of the piston [kg].
-    own_inertia, articulated_inertia : float
-        J_k of all that turns with the shaft, J_a [kg m²].
-
-    Returns
-    -------
-    float
-        J [kg m²].
+    J [kg m²]. `crank_radius`: r [m]; `distribution`: k; `mass`, `piston_mass`: m of the rod, m_3 of the
+    piston [kg]; `own_inertia`, `articulated_inertia`: [kg m²].
     """
     moving = (1.0 + distribution) * mass + piston_mass
     return own_inertia + articulated_inertia + 0.5 * crank_radius**2 * moving
@@ -149,21 +104,8 @@ def printed_disc(
 ) -> float:
     """The disc of a throw by (9) as printed, with 0.00051.
 
-    Parameters
-    ----------
-    crank_radius : float
-        R [cm].
-    distribution : float
-        k.
-    rod_weight, piston_weight : float
-        G of the rod, G_p of the piston [kgf].
-    own_inertia, articulated_inertia : float
-        I_k, I_a [kgf cm s²].
-
-    Returns
-    -------
-    float
-        I [kgf cm s²].
+    I [kgf cm s²]. `crank_radius`: R [cm]; `distribution`: k; `rod_weight`, `piston_weight`: G of the rod, G_p
+    of the piston [kgf]; `own_inertia`, `articulated_inertia`: I_k, I_a [kgf cm s²].
     """
     moving = (1.0 + distribution) * rod_weight + piston_weight
     return own_inertia + articulated_inertia + PRINTED_FACTOR * crank_radius**2 * moving
@@ -174,20 +116,9 @@ def published_throw_inertia(
 ) -> float:
     """The disc of a throw with all its cylinders by (7) and (12).
 
-    Parameters
-    ----------
-    crank_radius : float
-        r [m].
-    gears : sequence of RunningGear
-        Of the cylinders on this throw.
-    own_inertia : float
-        J_k of all that turns with the shaft [kg m²].
-
-    Returns
-    -------
-    float
-        J [kg m²]: of each rod on the crank pin the bracket of (7), of each articulated rod J_a by (12), and
-        of its piston the share that a piston has in (7).
+    J [kg m²]: of each rod on the crank pin the bracket of (7), of each articulated rod J_a by (12), and of
+    its piston the share that a piston has in (7). `crank_radius`: r [m]; `own_inertia`: J_k of all that turns
+    with the shaft [kg m²].
     """
     total = own_inertia
     for gear in gears:

@@ -17,39 +17,18 @@ _EQUAL = 1e-6
 
 
 class CylinderPlace(NamedTuple):
-    """Where a cylinder is.
+    """Where a cylinder is."""
 
-    Attributes
-    ----------
-    throw, bank : int
-        Counted from 0.
-    along : float
-        Crank angle at which its throw points along it, 0 to 2π [rad].
-    """
-
+    # `throw`, `bank`: counted from 0.
     throw: int
     bank: int
-    along: float
+    along: float  # crank angle at which its throw points along it, 0 to 2π [rad]
 
 
 def cylinder_places(
     throws: Sequence[float], banks: Sequence[float], numbering: str = "by_bank"
 ) -> list[CylinderPlace]:
-    """All cylinders in the order of their numbers.
-
-    Parameters
-    ----------
-    throws : sequence of float
-        Angle of each throw behind the first, in the sense of rotation [rad].
-    banks : sequence of float
-        Angle of the cylinders of each bank from the vertical, in the sense of rotation [rad].
-    numbering : str
-        "by_bank", first all of the first bank; or "by_throw", first all of the first throw.
-
-    Returns
-    -------
-    list of CylinderPlace
-    """
+    """All cylinders in the order of their numbers. `throws`: [rad]; `banks`: [rad]."""
     if numbering == "by_throw":
         pairs = [(t, b) for t in range(len(throws)) for b in range(len(banks))]
     else:
@@ -62,21 +41,8 @@ def firing_angles(
 ) -> tuple[list[float], float]:
     """Crank angle at which each cylinder fires, as near as its throw points along it.
 
-    Parameters
-    ----------
-    places : sequence of CylinderPlace
-        The cylinders by number.
-    order : sequence of int
-        Their numbers, from 1, as they fire.
-    cycle : float
-        Crank angle of a working cycle [rad].
-
-    Returns
-    -------
-    angles : list of float
-        By number, of the first in the order 0 to 2π [rad].
-    found : float
-        After which the first fires again; the order fits if it is the cycle [rad].
+    Gives `angles`: by number, of the first in the order 0 to 2π [rad]; `found`: after which the first fires
+    again; the order fits if it is the cycle [rad]. `cycle`: crank angle of a working cycle [rad].
     """
     along = [places[number - 1].along for number in order]
     steps = [_turn(after - here) for here, after in zip(along, [*along[1:], along[0]], strict=True)]

@@ -38,64 +38,22 @@ class Gas(CheckedDescription):
 
     @abstractmethod
     def cycle_faults(self, strokes: int) -> Iterator[InitErrorDetails]:
-        """What does not go with the strokes of the engine.
-
-        Parameters
-        ----------
-        strokes : int
-            Of a working cycle, 2 or 4.
-        """
+        """What does not go with the strokes of the engine."""
 
     @abstractmethod
     def cycle_pressure(self, cylinder: Cylinder, speeds: Array) -> CyclePressure:
-        """Pressure in a cylinder over the cycle.
-
-        Parameters
-        ----------
-        cylinder : Cylinder
-            Its bore, strokes and piston's motion.
-        speeds : ndarray, shape (n,)
-            Of the crank [rad/s].
-
-        Returns
-        -------
-        CyclePressure
-            At each speed.
-
-        Raises
-        ------
-        MachineError
-            The load map asks for what combustion cannot give.
-        """
+        """Pressure in a cylinder over the cycle. `speeds`: (n,) [rad/s]."""
 
 
 def below(found: InitErrorDetails, *place: str | int) -> InitErrorDetails:
-    """The same fault, told by a description further up.
-
-    Parameters
-    ----------
-    found : InitErrorDetails
-        A fault.
-    *place : str or int
-        Keys down to the description that found it.
-    """
+    """The same fault, told by a description further up."""
     return InitErrorDetails(type=found["type"], loc=(*place, *found.get("loc", ())), input=found["input"])
 
 
 def check_reach(wanted: Array, motored: Array, speeds: Array) -> None:
     """Refuse mean effective pressures below that of the motored cylinder.
 
-    Parameters
-    ----------
-    wanted, motored : ndarray, shape (n,)
-        Mean effective pressures [Pa].
-    speeds : ndarray, shape (n,)
-        Of the crank, for the message [rad/s].
-
-    Raises
-    ------
-    MachineError
-        Combustion would have to take heat away.
+    `wanted`, `motored`: (n,) mean effective pressures [Pa]; `speeds`: (n,) [rad/s].
     """
     short = np.flatnonzero(wanted < motored - 1e-9 * np.abs(motored))
     if len(short):

@@ -33,19 +33,9 @@ class GasLoad(CheckedDescription):
 
     @abstractmethod
     def mean_effective(self, speeds: Array, rated: float) -> Array:
-        """Mean effective pressure at each speed.
+        """Mean effective pressure at each speed, (n,).
 
-        Parameters
-        ----------
-        speeds : ndarray, shape (n,)
-            Of the crank [rad/s].
-        rated : float
-            That of the gas as described [Pa].
-
-        Returns
-        -------
-        ndarray, shape (n,)
-            p_i [Pa].
+        p_i [Pa]. `speeds`: (n,) [rad/s]; `rated`: that of the gas as described [Pa].
         """
 
     @property
@@ -61,10 +51,7 @@ class GasLoad(CheckedDescription):
     def charge(self, speeds: Array) -> Array | None:
         """Charge pressure at each speed, shape (n,) [Pa]; None where the map does not say.
 
-        Parameters
-        ----------
-        speeds : ndarray, shape (n,)
-            Of the crank [rad/s].
+        `speeds`: (n,) [rad/s].
         """
         return None
 

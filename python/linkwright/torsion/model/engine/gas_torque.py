@@ -39,31 +39,17 @@ _HIGHEST = 48.0
 
 @dataclass(frozen=True, eq=False)
 class GasTorque:
-    """Harmonics of the gas torque of one cylinder at n speeds, for o orders.
+    """Harmonics of the gas torque of one cylinder at n speeds, for o orders."""
 
-    Attributes
-    ----------
-    speeds : ndarray, shape (n,)
-        Of the crank [rad/s].
-    orders : ndarray, shape (o,)
-        Per revolution of the crank, from 0.
-    firing : ndarray, shape (n, o)
-        M_ν of a sound cylinder, complex [N m]; φ = 0 is where the crank points along the cylinder, near the
-        firing.
-    motored : ndarray, shape (n, o)
-        The same of a cylinder that misfires: it compresses and expands without combustion.
-    mean_effective_pressure : ndarray, shape (n,)
-        Indicated, of a sound cylinder [Pa].
-    pressure : CyclePressure
-        What it is from.
-    """
-
-    speeds: Array
-    orders: Array
+    speeds: Array  # (n,) of the crank [rad/s]
+    orders: Array  # (o,) per revolution of the crank, from 0
+    # (n, o) M_ν of a sound cylinder, complex [N m]; φ = 0 is where the crank points along the cylinder, near
+    # the firing.
     firing: Complex
+    # (n, o) the same of a cylinder that misfires: it compresses and expands without combustion.
     motored: Complex
-    mean_effective_pressure: Array
-    pressure: CyclePressure
+    mean_effective_pressure: Array  # (n,) Indicated, of a sound cylinder [Pa]
+    pressure: CyclePressure  # what it is from
 
     @property
     def peak_pressure(self) -> Array:
@@ -71,59 +57,20 @@ class GasTorque:
         return self.pressure.peak_pressure
 
     def of(self, factor: float) -> Complex:
-        """Harmonics of a cylinder whose combustion is weaker or stronger.
-
-        Parameters
-        ----------
-        factor : float
-            Share of the pressure of combustion: 1 sound, 0 misfires.
-
-        Returns
-        -------
-        ndarray, shape (n, o)
-            M_ν, complex [N m].
-        """
+        """Harmonics of a cylinder whose combustion is weaker or stronger, (n, o). M_ν, complex [N m]."""
         return self.motored + factor * (self.firing - self.motored)
 
     def waveform(self, crank_angle: Array, factor: float = 1.0) -> Array:
-        """Torque over the crank angle, summed from the harmonics.
+        """Torque over the crank angle, summed from the harmonics, (n, m).
 
-        Parameters
-        ----------
-        crank_angle : ndarray, shape (m,)
-            φ [rad].
-        factor : float
-            As in `of`.
-
-        Returns
-        -------
-        ndarray, shape (n, m)
-            M [N m].
+        M [N m]. `crank_angle`: (m,) φ [rad].
         """
         turns = np.exp(1j * self.orders[:, None] * np.asarray(crank_angle))
         return np.asarray((self.of(factor) @ turns).real)
 
 
 def torque_orders(strokes: int, highest: float = 24.0) -> Array:
-    """Orders of a cylinder's torque, shape (o,).
-
-    Parameters
-    ----------
-    strokes : int
-        Of a working cycle, 2 or 4.
-    highest : float
-        Last order.
-
-    Returns
-    -------
-    ndarray, shape (o,)
-        From 0, in steps of ½ with four strokes, of 1 with two.
-
-    Raises
-    ------
-    MachineError
-        The last order is beyond what the mesh of the cycle resolves.
-    """
+    """Orders of a cylinder's torque, shape (o,). From 0, in steps of ½ with four strokes, of 1 with two."""
     if not 0 <= highest <= _HIGHEST:
         expected = f"a number from 0 to {_HIGHEST:.6g}"
         raise MachineError([Problem("train.run.orders_max", f"{highest:.6g}", expected)])
@@ -132,22 +79,7 @@ def torque_orders(strokes: int, highest: float = 24.0) -> Array:
 
 
 def gas_torque(pressure: CyclePressure, cylinder: Cylinder, highest: float = 24.0) -> GasTorque:
-    """Torque of the gas of one cylinder.
-
-    Parameters
-    ----------
-    pressure : CyclePressure
-        In the cylinder, at n speeds.
-    cylinder : Cylinder
-        Its bore, strokes and piston's motion.
-    highest : float
-        Last order, per revolution of the crank.
-
-    Returns
-    -------
-    GasTorque
-        Harmonics at each speed.
-    """
+    """Torque of the gas of one cylinder. Harmonics at each speed."""
     orders = torque_orders(cylinder.strokes, highest)
     phi = pressure.angle + cylinder.top
     _, x_d1 = cylinder.motion(phi)

@@ -82,13 +82,7 @@ def _check_combustion(fired: Array, motored: Array, peak: float) -> None:
 
 
 def default_opening(strokes: int) -> float:
-    """Crank angle at which the exhaust opens where none is given [rad].
-
-    Parameters
-    ----------
-    strokes : int
-        Of a working cycle, 2 or 4.
-    """
+    """Crank angle at which the exhaust opens where none is given [rad]."""
     # Usual timing: 50 deg before the bottom with four strokes; ports a fifth of the stroke high with two.
     return math.radians(130.0 if strokes == 4 else 110.0)
 
@@ -116,19 +110,9 @@ class Diagram(CheckedDescription):
         yield from wrong or diagram_faults(self.angle, self.pressure)
 
     def over(self, angle: Array, cycle: float) -> Array:
-        """Pressure at any angles of the cycle.
+        """Pressure at any angles of the cycle, (m,).
 
-        Parameters
-        ----------
-        angle : ndarray, shape (m,)
-            Crank angles from the top dead centre of firing [rad].
-        cycle : float
-            Crank angle of a working cycle [rad].
-
-        Returns
-        -------
-        ndarray, shape (m,)
-            Absolute pressure [Pa].
+        Absolute pressure [Pa]. `angle`: (m,) [rad]; `cycle`: crank angle of a working cycle [rad].
         """
         return periodic_cubic(np.asarray(self.angle), np.asarray(self.pressure), cycle, angle)
 

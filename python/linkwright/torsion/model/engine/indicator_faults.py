@@ -37,15 +37,8 @@ _PEAK_WITHIN = math.radians(60.0)
 def diagram_faults(angle: tuple[float, ...], pressure: tuple[float, ...]) -> Iterator[InitErrorDetails]:
     """What is wrong with a diagram that is complete in itself, whatever its cycle.
 
-    Parameters
-    ----------
-    angle, pressure : tuple of float
-        Crank angles, increasing [rad], and as many pressures [Pa].
-
-    Yields
-    ------
-    InitErrorDetails
-        Pressures that are not absolute or not in their unit, a hole between two angles.
+    Pressures that are not absolute or not in their unit, a hole between two angles. `angle`, `pressure`:
+    [Pa].
     """
     lowest, top = min(pressure), max(pressure)
     if lowest <= 0:
@@ -94,18 +87,8 @@ def whole_cycle_faults(
 ) -> Iterator[InitErrorDetails]:
     """What is wrong with a diagram as that of one working cycle.
 
-    Parameters
-    ----------
-    angle, pressure : tuple of float
-        Crank angles, increasing [rad], and as many pressures [Pa].
-    cycle : float
-        Crank angle of the working cycle [rad].
-
-    Yields
-    ------
-    InitErrorDetails
-        A cycle that is not covered or more than covered, ends that do not meet, a peak far from the dead
-        centre.
+    A cycle that is not covered or more than covered, ends that do not meet, a peak far from the dead centre.
+    `angle`, `pressure`: [Pa]; `cycle`: crank angle of the working cycle [rad].
     """
     span = angle[-1] - angle[0]
     if span > cycle + _SAME_ANGLE:

@@ -60,48 +60,18 @@ _AGREE = 1e-9
 
 
 class MeanInertia(NamedTuple):
-    """Means of J(φ) over one revolution.
+    """Means of J(φ) over one revolution."""
 
-    Attributes
-    ----------
-    mean : float
-        ⟨J⟩, of equal energy at constant speed [kg m²].
-    constant_energy : float
-        ⟨√J⟩², of equal time of a revolution at constant energy [kg m²].
-    harmonic : float
-        1/⟨1/J⟩, of equal speed at constant momentum [kg m²].
-    """
-
-    mean: float
-    constant_energy: float
-    harmonic: float
+    mean: float  # ⟨J⟩, of equal energy at constant speed [kg m²]
+    constant_energy: float  # ⟨√J⟩², of equal time of a revolution at constant energy [kg m²]
+    harmonic: float  # 1/⟨1/J⟩, of equal speed at constant momentum [kg m²]
 
 
 def mean_inertia(crank_radius: float, gears: Sequence[RunningGear], own_inertia: float = 0.0) -> MeanInertia:
     """Means over one revolution of the inertia of a throw with all its rods and pistons, to rounding.
 
-    Parameters
-    ----------
-    crank_radius : float
-        r [m].
-    gears : sequence of RunningGear
-        Of the cylinders on this throw: side by side, fork and blade, master and articulated.
-    own_inertia : float
-        J_k of all that turns with the shaft [kg m²].
-
-    Returns
-    -------
-    MeanInertia
-        ``mean`` is the disc of equal energy.
-
-    Raises
-    ------
-    InputError
-        An articulated rod names no master rod.
-    AssemblyError
-        A rod does not reach its piston, at the first such crank angle.
-    ConvergenceError
-        A rod passes so close to a right angle to its cylinder that its speed has no mean to rounding.
+    ``mean`` is the disc of equal energy. `crank_radius`: r [m]; `own_inertia`: J_k of all that turns with the
+    shaft [kg m²].
     """
     n, before = _FIRST, _means(crank_radius, gears, own_inertia, _FIRST)
     while n < _LAST:
@@ -131,26 +101,8 @@ def central_mean_inertia(
 ) -> float:
     """Mean over one revolution of the inertia of a throw with one rod in a central cylinder, in closed form.
 
-    Parameters
-    ----------
-    crank_radius : float
-        r [m].
-    rod : Rod
-        On the crank pin.
-    piston_mass : float
-        m_3 [kg].
-    own_inertia : float
-        J_k of all that turns with the shaft [kg m²].
-
-    Returns
-    -------
-    float
-        ⟨J⟩ [kg m²].
-
-    Raises
-    ------
-    AssemblyError
-        The rod is not longer than the crank.
+    ⟨J⟩ [kg m²]. `crank_radius`: r [m]; `piston_mass`: m_3 [kg]; `own_inertia`: J_k of all that turns with the
+    shaft [kg m²].
     """
     ratio = crank_radius / rod.length
     if ratio >= 1.0:

@@ -45,35 +45,15 @@ FREE_FALL = 9.81
 
 
 def swing_period(swings_per_minute: float) -> float:
-    """Time of a full oscillation, back and forth.
-
-    Parameters
-    ----------
-    swings_per_minute : float
-        Single swings n, from one side to the other.
-
-    Returns
-    -------
-    float
-        T = 120/n [s].
-    """
+    """Time of a full oscillation, back and forth. T = 120/n [s]."""
     return 120.0 / swings_per_minute
 
 
 def pendulum_length(period: float, gravity: float = FREE_FALL) -> float:
     """Length of the thread pendulum that swings as fast.
 
-    Parameters
-    ----------
-    period : float
-        T of a full oscillation of small amplitude [s].
-    gravity : float
-        Free fall at the place of the test [m/s²].
-
-    Returns
-    -------
-    float
-        A = g T²/4π² [m].
+    A = g T²/4π² [m]. `period`: T of a full oscillation of small amplitude [s]; `gravity`: free fall at the
+    place of the test [m/s²].
     """
     return gravity * (period / (2.0 * math.pi)) ** 2
 
@@ -81,19 +61,8 @@ def pendulum_length(period: float, gravity: float = FREE_FALL) -> float:
 def inertia_about_edge(mass: float, edge: float, length: float) -> float:
     """Moment of inertia about the knife edge, (13).
 
-    Parameters
-    ----------
-    mass : float
-        Of the body [kg].
-    edge : float
-        b, from the centre of mass to the edge [m].
-    length : float
-        A of the pendulum [m].
-
-    Returns
-    -------
-    float
-        J_e = m b A [kg m²].
+    J_e = m b A [kg m²]. `mass`: [kg]; `edge`: b, from the centre of mass to the edge [m]; `length`: A of the
+    pendulum [m].
     """
     return mass * edge * length
 
@@ -101,15 +70,7 @@ def inertia_about_edge(mass: float, edge: float, length: float) -> float:
 def inertia_about_centre(mass: float, edge: float, length: float) -> float:
     """Moment of inertia about the centre of mass, (14).
 
-    Parameters
-    ----------
-    mass, edge, length : float
-        As in `inertia_about_edge`.
-
-    Returns
-    -------
-    float
-        J_S = m b (A − b) [kg m²]; negative if no body swings like that.
+    J_S = m b (A − b) [kg m²]; negative if no body swings like that.
     """
     return mass * edge * (length - edge)
 
@@ -117,17 +78,7 @@ def inertia_about_centre(mass: float, edge: float, length: float) -> float:
 def inertia_about_axis(mass: float, edge: float, length: float, axis: float) -> float:
     """Moment of inertia about an axis below the edge, such as that of the small end, (15).
 
-    Parameters
-    ----------
-    mass, edge, length : float
-        As in `inertia_about_edge`.
-    axis : float
-        c, from the edge to the axis, counted towards the centre of mass [m].
-
-    Returns
-    -------
-    float
-        J_w = m (A b − 2 b c + c²) [kg m²].
+    J_w = m (A b − 2 b c + c²) [kg m²]. `axis`: [m].
     """
     return mass * (length * edge - 2.0 * edge * axis + axis**2)
 
@@ -135,22 +86,8 @@ def inertia_about_axis(mass: float, edge: float, length: float, axis: float) -> 
 def two_point_centre(length_big_end: float, length_small_end: float, distance: float) -> float:
     """Place of the centre of mass from swings about both heads.
 
-    Parameters
-    ----------
-    length_big_end, length_small_end : float
-        A₁, A₂ of the pendulums on the edges of big and small end [m].
-    distance : float
-        l₁ between the edges [m].
-
-    Returns
-    -------
-    float
-        b, from the edge of the small end to the centre of mass [m].
-
-    Raises
-    ------
-    InputError
-        Both pendulums are as long as the edges are apart, on average: any centre of mass would do.
+    b, from the edge of the small end to the centre of mass [m]. `length_big_end`, `length_small_end`: [m];
+    `distance`: l₁ between the edges [m].
     """
     excess = length_big_end + length_small_end - 2.0 * distance
     if excess == 0.0:
@@ -163,55 +100,19 @@ def two_point_centre(length_big_end: float, length_small_end: float, distance: f
 
 
 def printed_inertia_about_edge(weight: float, edge: float, swings_per_minute: float) -> float:
-    """The paper's (13), with 358 000.
+    """The paper's (13), with 358 000 [kgf cm s²].
 
-    Parameters
-    ----------
-    weight : float
-        G [kgf].
-    edge : float
-        b, from the centre of mass to the edge [cm].
-    swings_per_minute : float
-        Single swings n.
-
-    Returns
-    -------
-    float
-        [kgf cm s²].
+    `weight`: G [kgf]; `edge`: b, from the centre of mass to the edge [cm].
     """
     return weight / PRINTED_GRAVITY * edge * PRINTED_LENGTH / swings_per_minute**2
 
 
 def printed_inertia_about_centre(weight: float, edge: float, swings_per_minute: float) -> float:
-    """The paper's (14), with 358 000.
-
-    Parameters
-    ----------
-    weight, edge, swings_per_minute : float
-        As in `printed_inertia_about_edge`.
-
-    Returns
-    -------
-    float
-        [kgf cm s²].
-    """
+    """The paper's (14), with 358 000 [kgf cm s²]."""
     return weight / PRINTED_GRAVITY * edge * (PRINTED_LENGTH / swings_per_minute**2 - edge)
 
 
 def printed_inertia_about_axis(weight: float, edge: float, swings_per_minute: float, axis: float) -> float:
-    """The paper's (15), with 358 000.
-
-    Parameters
-    ----------
-    weight, edge, swings_per_minute : float
-        As in `printed_inertia_about_edge`.
-    axis : float
-        c, from the edge to the axis [cm].
-
-    Returns
-    -------
-    float
-        [kgf cm s²].
-    """
+    """The paper's (15), with 358 000 [kgf cm s²]. `axis`: c, from the edge to the axis [cm]."""
     swung = PRINTED_LENGTH * edge / swings_per_minute**2
     return weight / PRINTED_GRAVITY * (swung - 2.0 * edge * axis + axis**2)

@@ -20,24 +20,9 @@ Array = NDArray[np.float64]
 
 
 def periodic_cubic(knots: Array, values: Array, period: float, at: Array) -> Array:
-    """Value of the monotone cubic through points of one period.
+    """Value of the monotone cubic through points of one period, (m,).
 
-    Parameters
-    ----------
-    knots : ndarray, shape (k,)
-        Arguments, increasing, over at most one period. One that is a whole period after the first counts as
-        the first, and the mean of both values is taken.
-    values : ndarray, shape (k,)
-        Value at each.
-    period : float
-        After which all is repeated.
-    at : ndarray, shape (m,)
-        Arguments of any size.
-
-    Returns
-    -------
-    ndarray, shape (m,)
-        Values there.
+    Values there. `knots`: (k,); `values`: (k,) value at each; `at`: (m,) arguments of any size.
     """
     x, y = _one_period(knots, values, period)
     h = np.diff(x)

@@ -22,21 +22,11 @@ Points = tuple[Point, ...]
 
 
 class AreaMoments(NamedTuple):
-    """What an area weighs.
+    """What an area weighs."""
 
-    Attributes
-    ----------
-    area : float
-        Its size [m²].
-    centroid : tuple of float
-        Along and across [m].
-    polar : float
-        Polar second moment about the centroid [m⁴].
-    """
-
-    area: float
-    centroid: Point
-    polar: float
+    area: float  # its size [m²]
+    centroid: Point  # along and across [m]
+    polar: float  # polar second moment about the centroid [m⁴]
 
 
 def sides(corners: Points) -> Iterator[tuple[Point, Point]]:
@@ -56,15 +46,7 @@ def signed_area(corners: Points) -> float:
 def area_moments(corners: Points) -> AreaMoments:
     """Area, centroid and polar second moment of a polygon that does not cross itself.
 
-    Parameters
-    ----------
-    corners : tuple of tuple of float
-        In order, either way round, along and across [m].
-
-    Returns
-    -------
-    AreaMoments
-        About the centroid; the area is positive.
+    About the centroid; the area is positive. `corners`: in order, either way round, along and across [m].
     """
     # Counted from a corner, so that a polygon far from the origin loses no digits.
     x_0, y_0 = corners[0]
@@ -108,15 +90,7 @@ def _folds(before: Point, corner: Point, after: Point) -> bool:
 def first_crossing(corners: Points) -> tuple[int, int] | None:
     """The first two sides of a polygon that meet elsewhere than in the corner they share.
 
-    Parameters
-    ----------
-    corners : tuple of tuple of float
-        In order, at least three [m].
-
-    Returns
-    -------
-    tuple of int or None
-        Numbers of the sides from 0; None if the outline is simple.
+    Numbers of the sides from 0; None if the outline is simple. `corners`: in order, at least three [m].
     """
     listed, n = list(sides(corners)), len(corners)
     for i, j in combinations(range(n), 2):
@@ -133,12 +107,7 @@ def first_crossing(corners: Points) -> tuple[int, int] | None:
 def holds(corners: Points, point: Point) -> bool:
     """Whether a point lies inside a polygon that does not cross itself.
 
-    Parameters
-    ----------
-    corners : tuple of tuple of float
-        In order [m].
-    point : tuple of float
-        Along and across [m].
+    `corners`: in order [m]; `point`: along and across [m].
     """
     inside = False
     for a, b in sides(corners):

@@ -61,21 +61,11 @@ _TELLING = 0.01
 
 
 class RodBody(NamedTuple):
-    """A rod as a rigid body.
+    """A rod as a rigid body."""
 
-    Attributes
-    ----------
-    mass : float
-        m [kg].
-    centre : float
-        c of the centre of mass, from the axis of the big end towards the small end [m].
-    inertia : float
-        J_S, about the centre of mass [kg m²].
-    """
-
-    mass: float
-    centre: float
-    inertia: float
+    mass: float  # m [kg]
+    centre: float  # c of the centre of mass, from the axis of the big end towards the small end [m]
+    inertia: float  # J_S, about the centre of mass [kg m²]
 
 
 class Rod(CheckedDescription):

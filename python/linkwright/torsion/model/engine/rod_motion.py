@@ -46,67 +46,36 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PinMotion:
-    """A pin in the plane of the engine over the crank angle.
+    """A pin in the plane of the engine over the crank angle."""
 
-    Attributes
-    ----------
-    position : ndarray, shape (...)
-        p, complex, in the shape of the crank angles: up the vertical, and a quarter of a revolution on [m].
-    d1, d2 : ndarray, shape (...)
-        p′, p″ [m/rad, m/rad²].
-    """
-
+    # p, complex, in the shape of the crank angles: up the vertical, and a quarter of a revolution on [m].
     position: Complex
+    # `d1`, `d2`: p′, p″ [m/rad, m/rad²].
     d1: Complex
     d2: Complex
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RodMotion:
-    """A rod and its piston over the crank angle.
+    """A rod and its piston over the crank angle."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (...)
-        φ of the throw, from the vertical [rad].
-    pin : PinMotion
-        The pin of the big end.
-    bank_angle : float
-        β, from the vertical to the axis of the cylinder [rad].
-    piston, piston_d1, piston_d2 : ndarray, shape (...)
-        x of the piston pin from the axis of the crank, along the cylinder, x′ and x″ [m, m/rad, m/rad²].
-    direction : ndarray, shape (...)
-        Unit vector from big to small end, complex as the pins: :math:`e^{i(β + ψ)}`.
-    angle, angle_d1, angle_d2 : ndarray, shape (...)
-        ψ of the rod from the axis of the cylinder in the sense of rotation, ψ′, ψ″ [rad, –, 1/rad].
-    """
-
-    crank_angle: Array
-    pin: PinMotion
-    bank_angle: float
+    crank_angle: Array  # φ of the throw, from the vertical [rad]
+    pin: PinMotion  # the pin of the big end
+    bank_angle: float  # β, from the vertical to the axis of the cylinder [rad]
+    # `piston`, `piston_d1`, `piston_d2`: x of the piston pin from the axis of the crank, along the cylinder,
+    # x′ and x″ [m, m/rad, m/rad²].
     piston: Array
     piston_d1: Array
     piston_d2: Array
-    direction: Complex
+    direction: Complex  # unit vector from big to small end, complex as the pins: :math:`e^{i(β + ψ)}`
+    # `angle`, `angle_d1`, `angle_d2`: ψ of the rod from the axis of the cylinder in the sense of rotation,
+    # ψ′, ψ″ [rad, –, 1/rad].
     angle: Array
     angle_d1: Array
     angle_d2: Array
 
     def point(self, along: float, across: float = 0.0) -> PinMotion:
-        """Motion of a point of the rod.
-
-        Parameters
-        ----------
-        along : float
-            From the axis of the big end towards the small end [m].
-        across : float
-            From the axis of the rod in the sense of rotation [m].
-
-        Returns
-        -------
-        PinMotion
-            The point, complex as the pins.
-        """
+        """Motion of a point of the rod. The point, complex as the pins. `along`: [m]; `across`: [m]."""
         arm = (along + 1j * across) * self.direction
         d1, d2 = self.angle_d1, self.angle_d2
         return PinMotion(
@@ -119,17 +88,7 @@ class RodMotion:
 def crank_pin(crank_radius: float, crank_angle: ArrayLike) -> PinMotion:
     """Motion of the crank pin.
 
-    Parameters
-    ----------
-    crank_radius : float
-        r [m].
-    crank_angle : array_like, shape (...)
-        φ of this throw, from the vertical, of any shape [rad].
-
-    Returns
-    -------
-    PinMotion
-        In the shape of the crank angles.
+    In the shape of the crank angles. `crank_radius`: r [m]; `crank_angle`: [rad].
     """
     p = crank_radius * np.exp(1j * np.asarray(crank_angle, dtype=np.float64))
     return PinMotion(p, 1j * p, -p)
@@ -138,19 +97,7 @@ def crank_pin(crank_radius: float, crank_angle: ArrayLike) -> PinMotion:
 def articulated_pin(master: RodMotion, pin_radius: float, pin_angle: float) -> PinMotion:
     """Motion of an articulated pin on a master rod.
 
-    Parameters
-    ----------
-    master : RodMotion
-        The master rod.
-    pin_radius : float
-        ρ, from the axis of its big end to the pin [m].
-    pin_angle : float
-        γ, from the axis of the master rod to the pin, in the sense of rotation [rad].
-
-    Returns
-    -------
-    PinMotion
-        The pin.
+    The pin. `pin_radius`: ρ, from the axis of its big end to the pin [m]; `pin_angle`: [rad].
     """
     return master.point(pin_radius * np.cos(pin_angle), pin_radius * np.sin(pin_angle))
 
@@ -165,30 +112,8 @@ def rod_motion(
 ) -> RodMotion:
     """Motion of a rod on a pin that moves as given, and of its piston.
 
-    Parameters
-    ----------
-    pin : PinMotion
-        The pin of the big end.
-    crank_angle : array_like, shape (...)
-        φ at which it stands so, in its shape [rad].
-    rod_length : float
-        l [m].
-    bank_angle : float
-        β, from the vertical to the axis of the cylinder, in the sense of rotation [rad].
-    offset : float
-        e of the axis of the cylinder from that of the crank, in the sense of rotation [m].
-    name : str
-        What the cylinder is called in messages.
-
-    Returns
-    -------
-    RodMotion
-        In the shape of the crank angles.
-
-    Raises
-    ------
-    AssemblyError
-        The rod does not reach its piston, at the first such crank angle.
+    In the shape of the crank angles. `crank_angle`: φ at which it stands so, in its shape [rad];
+    `rod_length`: l [m]; `bank_angle`: [rad]; `offset`: [m].
     """
     phi = np.asarray(crank_angle, dtype=np.float64)
     turn = np.exp(-1j * bank_angle)
@@ -218,24 +143,8 @@ def slider_crank(
 ) -> RodMotion:
     """Motion of a rod on the crank pin, in a cylinder along the vertical.
 
-    Parameters
-    ----------
-    crank_radius, rod_length : float
-        r, l [m].
-    crank_angle : array_like, shape (...)
-        φ from the axis of the cylinder, of any shape [rad].
-    offset : float
-        e of the axis of the cylinder from that of the crank, in the sense of rotation [m].
-
-    Returns
-    -------
-    RodMotion
-        In the shape of the crank angles.
-
-    Raises
-    ------
-    AssemblyError
-        The rod is too short.
+    In the shape of the crank angles. `crank_radius`, `rod_length`: r, l [m]; `crank_angle`: [rad]; `offset`:
+    [m].
     """
     return rod_motion(crank_pin(crank_radius, crank_angle), crank_angle, rod_length, 0.0, offset)
 

@@ -19,30 +19,15 @@ from linkwright.torsion.model.engine.rod_motion import RodMotion, articulated_pi
 
 @dataclass(frozen=True, slots=True)
 class RunningGear:
-    """Rod and piston of one cylinder.
+    """Rod and piston of one cylinder."""
 
-    Attributes
-    ----------
-    rod : Rod
-        On the crank pin; an `ArticulatedRod` on its master rod.
-    piston_mass : float
-        Of the reciprocating mass with the piston: piston, rings, pin [kg].
-    bank_angle : float
-        β, from the vertical to the axis of the cylinder, in the sense of rotation [rad].
-    offset : float
-        e of that axis from the axis of the crank, in the sense of rotation [m].
-    master : int
-        Of an articulated rod: the place of its master rod among the gears of the throw, from 0.
-    name : str
-        What the cylinder is called in messages.
-    """
-
-    rod: Rod
-    piston_mass: float
+    rod: Rod  # on the crank pin; an `ArticulatedRod` on its master rod
+    piston_mass: float  # of the reciprocating mass with the piston: piston, rings, pin [kg]
+    # β, from the vertical to the axis of the cylinder, in the sense of rotation [rad].
     bank_angle: float = 0.0
-    offset: float = 0.0
-    master: int = 0
-    name: str = "the cylinder"
+    offset: float = 0.0  # e of that axis from the axis of the crank, in the sense of rotation [m]
+    master: int = 0  # of an articulated rod: the place of its master rod among the gears of the throw, from 0
+    name: str = "the cylinder"  # what the cylinder is called in messages
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.piston_mass) and self.piston_mass >= 0):
@@ -57,29 +42,7 @@ class RunningGear:
 def throw_motion(
     crank_radius: float, gears: Sequence[RunningGear], crank_angle: ArrayLike
 ) -> tuple[RodMotion, ...]:
-    """Motion of all rods and pistons of one throw.
-
-    Parameters
-    ----------
-    crank_radius : float
-        r [m].
-    gears : sequence of RunningGear
-        Of the cylinders on this throw.
-    crank_angle : array_like, shape (...)
-        φ of this throw, from the vertical, of any shape [rad].
-
-    Returns
-    -------
-    tuple of RodMotion
-        In the order of the gears.
-
-    Raises
-    ------
-    InputError
-        An articulated rod names no master rod.
-    AssemblyError
-        A rod does not reach its piston, at the first such crank angle.
-    """
+    """Motion of all rods and pistons of one throw. `crank_radius`: r [m]; `crank_angle`: [rad]."""
     pin = crank_pin(crank_radius, crank_angle)
     found: dict[int, RodMotion] = {}
     # Master rods come first, wherever they stand.

@@ -29,17 +29,8 @@ _AMONG = 4
 def speed_points(speeds: Array, kinks: tuple[float, ...]) -> tuple[Array, Array]:
     """Speeds to compute at, and how the others follow from them.
 
-    Parameters
-    ----------
-    speeds : ndarray, shape (n,)
-        What is asked for [rad/s].
-    kinks : tuple of float
-        Where the load map has corners [rad/s].
-
-    Returns
-    -------
-    tuple of ndarray
-        Speeds, shape (k,), and the share of each in what is asked for, shape (n, k); rows sum to one.
+    Speeds, shape (k,), and the share of each in what is asked for, shape (n, k); rows sum to one. `speeds`:
+    (n,) what is asked for [rad/s]; `kinks`: where the load map has corners [rad/s].
     """
     ends = np.unique([speeds.min(), *(x for x in kinks if speeds.min() < x < speeds.max()), speeds.max()])
     each = _ALONE if len(ends) == 2 else _AMONG

@@ -28,26 +28,13 @@ DEFAULT_FORMULA = "constrained"
 
 @dataclass(frozen=True, slots=True)
 class ComplianceFormula:
-    """One way to the compliance of a throw.
+    """One way to the compliance of a throw."""
 
-    Attributes
-    ----------
-    name : str
-        As it is chosen by.
-    compliance : callable
-        Of a `CrankThrow` [rad/(N m)].
-    source : str
-        Where it comes from.
-    meant_for : str
-        Which crankshafts it is meant for.
-    remark : callable
-        What is out of its range for a `CrankThrow`, in words; empty if nothing is.
-    """
-
-    name: str
-    compliance: Callable[[CrankThrow], float]
-    source: str
-    meant_for: str
+    name: str  # as it is chosen by
+    compliance: Callable[[CrankThrow], float]  # of a `CrankThrow` [rad/(N m)]
+    source: str  # where it comes from
+    meant_for: str  # which crankshafts it is meant for
+    # What is out of its range for a `CrankThrow`, in words; empty if nothing is.
     remark: Callable[[CrankThrow], str]
 
 
@@ -125,23 +112,7 @@ COMPLIANCE_FORMULAS: Mapping[str, ComplianceFormula] = MappingProxyType(
 
 
 def compliance_formula(name: str) -> ComplianceFormula:
-    """The formula of a name.
-
-    Parameters
-    ----------
-    name : str
-        One of `COMPLIANCE_FORMULAS`.
-
-    Returns
-    -------
-    ComplianceFormula
-        With its source.
-
-    Raises
-    ------
-    InputError
-        There is no formula of this name.
-    """
+    """The formula of a name. With its source."""
     if name not in COMPLIANCE_FORMULAS:
         remedy = suggestion(name, COMPLIANCE_FORMULAS)
         raise InputError(f'compliance of a throw: found "{name}", expected the name of a formula; {remedy}')
@@ -151,22 +122,7 @@ def compliance_formula(name: str) -> ComplianceFormula:
 def compliance(throw: CrankThrow, formula: str = DEFAULT_FORMULA) -> float:
     """Twist of a throw per torque, from the middle of a journal to the middle of the next [rad/(N m)].
 
-    Parameters
-    ----------
-    throw : CrankThrow
-        Its geometry.
-    formula : str
-        One of `COMPLIANCE_FORMULAS`.
-
-    Returns
-    -------
-    float
-        Greater than 0.
-
-    Raises
-    ------
-    InputError
-        There is no such formula, or the geometry is so far out of its range that nothing positive is left.
+    Greater than 0.
     """
     chosen = compliance_formula(formula)
     found = chosen.compliance(throw)
@@ -181,15 +137,7 @@ def compliance(throw: CrankThrow, formula: str = DEFAULT_FORMULA) -> float:
 def compliances(throw: CrankThrow) -> dict[str, float]:
     """Twist of a throw per torque by every formula, for their spread [rad/(N m)].
 
-    Parameters
-    ----------
-    throw : CrankThrow
-        Its geometry.
-
-    Returns
-    -------
-    dict of str to float
-        By name of the formula; a formula that gives nothing positive is left out.
+    By name of the formula; a formula that gives nothing positive is left out.
     """
     found = {name: each.compliance(throw) for name, each in COMPLIANCE_FORMULAS.items()}
     return {name: value for name, value in found.items() if value > 0}
@@ -198,15 +146,7 @@ def compliances(throw: CrankThrow) -> dict[str, float]:
 def compliance_remarks(throw: CrankThrow) -> dict[str, str]:
     """What is out of the range of a formula, in words.
 
-    Parameters
-    ----------
-    throw : CrankThrow
-        Its geometry.
-
-    Returns
-    -------
-    dict of str to str
-        By name of the formula; without those that have nothing to remark.
+    By name of the formula; without those that have nothing to remark.
     """
     remarks = ((name, each.remark(throw)) for name, each in COMPLIANCE_FORMULAS.items())
     return {name: text for name, text in remarks if text}

@@ -60,15 +60,7 @@ def restraint_length(throw: CrankThrow) -> float:
 
     with $C_2 = G I_2$, $C_3 = G B^3 h^3/(3.6 (B^2 + h^2))$, $B_1 = E I_2/2$, $B_w = E I_3$.
 
-    Parameters
-    ----------
-    throw : CrankThrow
-        Its geometry; a given `restraint_length` is not looked at.
-
-    Returns
-    -------
-    float
-        The length, always greater than two thirds of the crank radius.
+    The length, always greater than two thirds of the crank radius.
     """
     R, pin, G, E = throw.radius, throw.pin, throw.shear_modulus, throw.elastic_modulus
     L, h, B = pin.length, throw.web.thickness, throw.web.breadth
@@ -92,24 +84,12 @@ def _restrained(throw: CrankThrow, k: float) -> float:
 
 
 def constrained(throw: CrankThrow) -> float:
-    """Compliance by formula (17) with bearings that hold the journals in line [rad/(N m)].
-
-    Parameters
-    ----------
-    throw : CrankThrow
-        Its `restraint_length` counts if given, else that of `restraint_length`.
-    """
+    """Compliance by formula (17) with bearings that hold the journals in line [rad/(N m)]."""
     return _restrained(throw, throw.restraint_length or restraint_length(throw))
 
 
 def free(throw: CrankThrow) -> float:
-    """Compliance by formula (17) with bearings that give no force, k → ∞ [rad/(N m)].
-
-    Parameters
-    ----------
-    throw : CrankThrow
-        Its geometry.
-    """
+    """Compliance by formula (17) with bearings that give no force, k → ∞ [rad/(N m)]."""
     return _restrained(throw, math.inf)
 
 
@@ -121,26 +101,14 @@ def _fourths(throw: CrankThrow) -> tuple[float, float, float]:
 
 
 def carter(throw: CrankThrow) -> float:
-    """Compliance by Carter's formula [rad/(N m)].
-
-    Parameters
-    ----------
-    throw : CrankThrow
-        Its geometry.
-    """
+    """Compliance by Carter's formula [rad/(N m)]."""
     journal, pin, web = _fourths(throw)
     shaft = (throw.journal.length + 0.8 * throw.web.thickness) / journal + 0.75 * throw.pin.length / pin
     return 32 / (math.pi * throw.shear_modulus) * (shaft + 1.5 * throw.radius / web)
 
 
 def ker_wilson(throw: CrankThrow) -> float:
-    """Compliance by Ker Wilson's formula [rad/(N m)].
-
-    Parameters
-    ----------
-    throw : CrankThrow
-        Its geometry.
-    """
+    """Compliance by Ker Wilson's formula [rad/(N m)]."""
     journal, pin, web = _fourths(throw)
     D_1, D_2 = throw.journal.diameter, throw.pin.diameter
     shaft = (throw.journal.length + 0.4 * D_1) / journal + (throw.pin.length + 0.4 * D_2) / pin
@@ -148,13 +116,7 @@ def ker_wilson(throw: CrankThrow) -> float:
 
 
 def zimanenko(throw: CrankThrow) -> float:
-    """Compliance by Zimanenko's formula [rad/(N m)].
-
-    Parameters
-    ----------
-    throw : CrankThrow
-        Its geometry.
-    """
+    """Compliance by Zimanenko's formula [rad/(N m)]."""
     journal, pin, web = _fourths(throw)
     R, L_1, D_1 = throw.radius, throw.journal.length, throw.journal.diameter
     first = L_1 + 0.6 * throw.web.thickness * D_1 / L_1

@@ -41,26 +41,12 @@ _WEBS = 2
 
 @dataclass(frozen=True, slots=True)
 class ThrowPart:
-    """One part of what turns with a throw; holes have negative mass.
+    """One part of what turns with a throw; holes have negative mass."""
 
-    Attributes
-    ----------
-    name : str
-        What it is, such as ``pin`` or ``drillings.0``.
-    mass : float
-        Its mass [kg].
-    centre : tuple of float
-        Its centre of mass, along the crank and across [m].
-    own_inertia : float
-        About its own centre, axis along the shaft [kg m²].
-    inertia : float
-        About the axis of the shaft [kg m²].
-    """
-
-    name: str
-    mass: float
-    centre: Point
-    own_inertia: float
+    name: str  # what it is, such as ``pin`` or ``drillings.0``
+    mass: float  # its mass [kg]
+    centre: Point  # its centre of mass, along the crank and across [m]
+    own_inertia: float  # about its own centre, axis along the shaft [kg m²]
 
     @property
     def inertia(self) -> float:
@@ -70,26 +56,12 @@ class ThrowPart:
 
 @dataclass(frozen=True, slots=True)
 class ThrowInertia:
-    """What turns with a throw, as a whole and in parts.
+    """What turns with a throw, as a whole and in parts."""
 
-    Attributes
-    ----------
-    parts : tuple of ThrowPart
-        All parts, holes among them.
-    mass : float
-        Of the throw [kg].
-    static_moment : tuple of float
-        Mass times distance of its centre from the axis, along the crank and across [kg m].
-    inertia : float
-        About the axis of the shaft [kg m²].
-    unbalance : float
-        Size of the static moment [kg m].
-    """
-
-    parts: tuple[ThrowPart, ...]
-    mass: float
-    static_moment: Point
-    inertia: float
+    parts: tuple[ThrowPart, ...]  # all parts, holes among them
+    mass: float  # of the throw [kg]
+    static_moment: Point  # mass times distance of its centre from the axis, along the crank and across [kg m]
+    inertia: float  # about the axis of the shaft [kg m²]
 
     @property
     def unbalance(self) -> float:
@@ -100,20 +72,7 @@ class ThrowInertia:
 def throw_inertia(throw: CrankThrow) -> ThrowInertia:
     """Mass, static moment and inertia of what turns with a throw.
 
-    Parameters
-    ----------
-    throw : CrankThrow
-        Its geometry.
-
-    Returns
-    -------
-    ThrowInertia
-        Exact for the shapes as described; nothing is known of fillets and chamfers.
-
-    Raises
-    ------
-    InputError
-        The holes take more than there is.
+    Exact for the shapes as described; nothing is known of fillets and chamfers.
     """
     parts = tuple(_parts(throw))
     mass, inertia = math.fsum(each.mass for each in parts), math.fsum(each.inertia for each in parts)
@@ -198,20 +157,7 @@ def _sector(weight: Counterweight, density: float) -> tuple[float, float, float]
 def published_inertia(throw: CrankThrow) -> float:
     """Inertia by the published formula (16): disc webs, drillings parallel to the shaft [kg m²].
 
-    Parameters
-    ----------
-    throw : CrankThrow
-        With webs of disc outline. Counterweights, which the formula does not know, are left out.
-
-    Returns
-    -------
-    float
-        About the axis of the shaft.
-
-    Raises
-    ------
-    InputError
-        The webs are no discs.
+    About the axis of the shaft.
     """
     web, pin, journal, R = throw.web, throw.pin, throw.journal, throw.radius
     if web.outline != "disc":

@@ -33,35 +33,18 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ThrowReduction:
-    """A throw reduced to its crank, over the crank angle.
+    """A throw reduced to its crank, over the crank angle."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray, shape (...)
-        φ of this throw, from the vertical [rad].
-    inertia_reduced, inertia_reduced_d1 : ndarray, shape (...)
-        J and J′ [kg m², kg m²/rad].
-    weight_torque : ndarray, shape (...)
-        M_g of all weights on the crank, positive where they drive [N m].
-    """
-
-    crank_angle: Array
+    crank_angle: Array  # φ of this throw, from the vertical [rad]
+    # `inertia_reduced`, `inertia_reduced_d1`: J and J′ [kg m², kg m²/rad].
     inertia_reduced: Array
     inertia_reduced_d1: Array
-    weight_torque: Array
+    weight_torque: Array  # M_g of all weights on the crank, positive where they drive [N m]
 
     def inertia_torque(self, speed: float) -> Array:
         """Torque of the inertia on the crank at constant speed, positive where it drives, as ``crank_angle``.
 
-        Parameters
-        ----------
-        speed : float
-            ω of the crank [rad/s].
-
-        Returns
-        -------
-        ndarray, as ``crank_angle``
-            −½J′ω² [N m].
+        −½J′ω² [N m]. `speed`: ω of the crank [rad/s].
         """
         return -0.5 * speed**2 * self.inertia_reduced_d1
 
@@ -76,33 +59,8 @@ def throw_reduction(
 ) -> ThrowReduction:
     """Inertia and weight of one throw with all its rods and pistons, reduced to the crank.
 
-    Parameters
-    ----------
-    crank_radius : float
-        r [m].
-    gears : sequence of RunningGear
-        Of the cylinders on this throw: side by side, fork and blade, master and articulated.
-    crank_angle : array_like, shape (...)
-        φ of this throw, from the vertical, of any shape [rad].
-    own_inertia : float
-        J_k of journal, pin, webs and counterweights about the axis of the shaft [kg m²].
-    static_moment : complex
-        Their mass times the distance of their centre of mass from that axis: along the crank, and as
-        imaginary part across it in the sense of rotation [kg m].
-    gravity : float
-        Free fall, down the vertical [m/s²]; 0 for an engine whose shaft stands upright.
-
-    Returns
-    -------
-    ThrowReduction
-        In the shape of the crank angles.
-
-    Raises
-    ------
-    InputError
-        An articulated rod names no master rod.
-    AssemblyError
-        A rod does not reach its piston, at the first such crank angle.
+    In the shape of the crank angles. `crank_radius`: r [m]; `crank_angle`: [rad]; `own_inertia`: [kg m²];
+    `static_moment`: [kg m]; `gravity`: [m/s²].
     """
     phi = np.asarray(crank_angle, dtype=np.float64)
     J, J_d1 = np.full(phi.shape, float(own_inertia)), np.zeros(phi.shape)

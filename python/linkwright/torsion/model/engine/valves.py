@@ -41,28 +41,15 @@ _CHANGE = math.radians(20.0)
 
 @dataclass(frozen=True)
 class Timing:
-    """Crank angles from the top dead centre of firing, in order [rad].
+    """Crank angles from the top dead centre of firing, in order [rad]."""
 
-    Attributes
-    ----------
-    closes : float
-        The cylinder is closed, before the dead centre: negative.
-    opens : float
-        The exhaust opens.
-    blown_down : float
-        The pressure is that of the exhaust.
-    intake_opens, charged : float
-        The pressure begins to change to that of the charge, and is there.
-    ends : float
-        The cylinder closes again, a cycle after `closes`.
-    """
-
-    closes: float
-    opens: float
-    blown_down: float
+    closes: float  # the cylinder is closed, before the dead centre: negative
+    opens: float  # the exhaust opens
+    blown_down: float  # the pressure is that of the exhaust
+    # `intake_opens`, `charged`: the pressure begins to change to that of the charge, and is there.
     intake_opens: float
     charged: float
-    ends: float
+    ends: float  # the cylinder closes again, a cycle after `closes`
 
     @property
     def corners(self) -> tuple[float, ...]:
@@ -72,20 +59,14 @@ class Timing:
     def blowdown(self, angle: Array) -> Array:
         """Share b of the pressure at opening that is left, shape (m,).
 
-        Parameters
-        ----------
-        angle : ndarray, shape (m,)
-            Crank angles while the cylinder is open [rad].
+        `angle`: (m,) crank angles while the cylinder is open [rad].
         """
         return 1.0 - _rise(angle, self.opens, self.blown_down)
 
     def charging(self, angle: Array) -> Array:
         """Share s of the charge in the pressure, shape (m,).
 
-        Parameters
-        ----------
-        angle : ndarray, shape (m,)
-            Crank angles while the cylinder is open [rad].
+        `angle`: (m,) crank angles while the cylinder is open [rad].
         """
         return _rise(angle, self.intake_opens, self.charged)
 
@@ -111,26 +92,12 @@ class Valves(Description):
     )
 
     def angle(self, name: str, strokes: int) -> float:
-        """One of the four angles, given or usual [rad].
-
-        Parameters
-        ----------
-        name : str
-            Such as ``"exhaust_opens"``.
-        strokes : int
-            Of a working cycle, 2 or 4.
-        """
+        """One of the four angles, given or usual [rad]."""
         given: float | None = getattr(self, name)
         return math.radians(_USUAL[strokes][name]) if given is None else given
 
     def timing(self, strokes: int) -> Timing:
-        """The angles in order.
-
-        Parameters
-        ----------
-        strokes : int
-            Of a working cycle, 2 or 4.
-        """
+        """The angles in order."""
         opens, intake = (self.angle(name, strokes) for name in ("exhaust_opens", "intake_opens"))
         last = max(self.angle(name, strokes) for name in ("exhaust_closes", "intake_closes"))
         blowdown = self.blowdown or min(_BLOWDOWN, intake - opens)
@@ -138,13 +105,7 @@ class Valves(Description):
         return Timing(last - math.pi * strokes, opens, opens + blowdown, intake, charged, last)
 
     def cycle_faults(self, strokes: int) -> Iterator[InitErrorDetails]:
-        """Angles that are not in their order, or not in the stroke that they belong to.
-
-        Parameters
-        ----------
-        strokes : int
-            Of a working cycle, 2 or 4.
-        """
+        """Angles that are not in their order, or not in the stroke that they belong to."""
         cycle, opens = 180.0 * strokes, math.degrees(self.angle("exhaust_opens", strokes))
         intake = math.degrees(self.angle("intake_opens", strokes))
         yield from _outside("exhaust_opens", opens, 45.0, 216.0)

@@ -38,32 +38,18 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class GasState:
-    """The gas between closing and opening at n loads and m crank angles.
+    """The gas between closing and opening at n loads and m crank angles."""
 
-    Attributes
-    ----------
-    bore, swept_volume : float
-        Of the cylinder [m, m³].
-    volume : ndarray, shape (m,)
-        V [m³].
-    pressure, temperature : ndarray, shape (n, m)
-        p [Pa], T [K].
-    motored : ndarray, shape (n, m)
-        Pressure of the motored cylinder [Pa].
-    closing : ndarray, shape (n, 1)
-        T_r/(p_r V_r) where the cylinder closes [K/J].
-    piston_speed : ndarray, shape (n, 1)
-        Mean speed of the piston [m/s].
-    """
-
+    # `bore`, `swept_volume`: of the cylinder [m, m³].
     bore: float
     swept_volume: float
-    volume: Array
+    volume: Array  # (m,) V [m³]
+    # `pressure`, `temperature`: (n, m) p [Pa], T [K].
     pressure: Array
     temperature: Array
-    motored: Array
-    closing: Array
-    piston_speed: Array
+    motored: Array  # (n, m) pressure of the motored cylinder [Pa]
+    closing: Array  # (n, 1) T_r/(p_r V_r) where the cylinder closes [K/J]
+    piston_speed: Array  # (n, 1) mean speed of the piston [m/s]
 
 
 class WallHeat(Description):
@@ -78,22 +64,10 @@ class WallHeat(Description):
 
     @abstractmethod
     def coefficient(self, gas: GasState) -> Array:
-        """Heat transfer coefficient without the factor, shape (n, m) [W/(m² K)].
-
-        Parameters
-        ----------
-        gas : GasState
-            The gas at n loads and m crank angles.
-        """
+        """Heat transfer coefficient without the factor, shape (n, m) [W/(m² K)]."""
 
     def conductance(self, gas: GasState) -> Array:
-        """Heat flow per temperature difference, shape (n, m) [W/K].
-
-        Parameters
-        ----------
-        gas : GasState
-            The gas at n loads and m crank angles.
-        """
+        """Heat flow per temperature difference, shape (n, m) [W/K]."""
         walls = math.pi / 2 * gas.bore**2 + 4 / gas.bore * gas.volume
         return self.factor * walls * self.coefficient(gas)
 

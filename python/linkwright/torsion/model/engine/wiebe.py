@@ -51,24 +51,12 @@ class Wiebe(Description):
         return self.start + self.duration
 
     def released(self, angle: Array) -> Array:
-        """Share of the whole heat that is released, shape (m,).
-
-        Parameters
-        ----------
-        angle : ndarray, shape (m,)
-            Crank angles [rad].
-        """
+        """Share of the whole heat that is released, shape (m,). `angle`: (m,) crank angles [rad]."""
         a, y = self.efficiency_factor, self._progress(angle)
         return np.asarray(self.share * np.expm1(-a * y ** (self.form_factor + 1)) / math.expm1(-a))
 
     def rate(self, angle: Array) -> Array:
-        """Its derivative by the crank angle, shape (m,) [1/rad].
-
-        Parameters
-        ----------
-        angle : ndarray, shape (m,)
-            Crank angles [rad].
-        """
+        """Its derivative by the crank angle, shape (m,) [1/rad]. `angle`: (m,) crank angles [rad]."""
         a, m, y = self.efficiency_factor, self.form_factor, self._progress(angle)
         inside = (angle >= self.start) & (angle <= self.end)
         scale = self.share * a * (m + 1) / (-math.expm1(-a) * self.duration)

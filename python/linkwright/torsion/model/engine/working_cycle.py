@@ -34,26 +34,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class WorkingCycle:
-    """A cycle at n operating points.
+    """A cycle at n operating points."""
 
-    Attributes
-    ----------
-    closed : ClosedGas
-        Between closing and opening.
-    open : CycleMesh
-        Crank angles while the cylinder is open.
-    open_volume_d1 : ndarray, shape (m,)
-        V′ there [m³/rad].
-    timing : Timing
-        Of valves or ports.
-    exhaust_pressure, charge_pressure : ndarray, shape (n, 1)
-        Absolute [Pa].
-    """
-
-    closed: ClosedGas
-    open: CycleMesh
-    open_volume_d1: Array
-    timing: Timing
+    closed: ClosedGas  # between closing and opening
+    open: CycleMesh  # crank angles while the cylinder is open
+    open_volume_d1: Array  # (m,) V′ there [m³/rad]
+    timing: Timing  # of valves or ports
+    # `exhaust_pressure`, `charge_pressure`: (n, 1) absolute [Pa].
     exhaust_pressure: Array
     charge_pressure: Array
 
@@ -68,13 +55,7 @@ class WorkingCycle:
         return np.concatenate([self.closed.mesh.weight, self.open.weight])
 
     def pressure(self, trace: ClosedTrace) -> Array:
-        """Pressure over the cycle, shape (n, k) [Pa].
-
-        Parameters
-        ----------
-        trace : ClosedTrace
-            The closed gas.
-        """
+        """Pressure over the cycle, shape (n, k) [Pa]."""
         return np.hstack([trace.pressure, self._exchange + self._blowdown * trace.opening])
 
     @property
@@ -90,13 +71,7 @@ class WorkingCycle:
         return np.asarray(p_e + (self.charge_pressure - p_e) * s - p_e * self._blowdown)
 
     def mean_effective(self, trace: ClosedTrace) -> Array:
-        """Mean effective pressure, shape (n, 1) [Pa].
-
-        Parameters
-        ----------
-        trace : ClosedTrace
-            The closed gas.
-        """
+        """Mean effective pressure, shape (n, 1) [Pa]."""
         return self._mean_effective(trace.pressure, trace.opening, self._exchange)
 
     def _mean_effective(self, closed: Array, opening: Array, exchange: Array) -> Array:
@@ -111,25 +86,11 @@ class WorkingCycle:
         return closed_trace(self.closed, no_heat)
 
     def fired(self, rule: Rule, motored: ClosedTrace) -> ClosedTrace:
-        """The closed gas with heat.
-
-        Parameters
-        ----------
-        rule : callable
-            The heat of a cycle from a `Split`.
-        motored : ClosedTrace
-            The same cylinder without combustion.
-        """
+        """The closed gas with heat."""
         return closed_trace(self.closed, rule, motored.pressure)
 
     def heat_for_load(self, wanted: Array) -> Rule:
-        """The rule that gives a mean effective pressure.
-
-        Parameters
-        ----------
-        wanted : ndarray, shape (n, 1)
-            p_i [Pa].
-        """
+        """The rule that gives a mean effective pressure. `wanted`: (n, 1) p_i [Pa]."""
         exchange = self._exchange
         none = np.zeros_like(exchange)
 
@@ -143,13 +104,7 @@ class WorkingCycle:
         return rule
 
     def heat_for_peak(self, wanted: float) -> Rule:
-        """The rule that gives a peak pressure.
-
-        Parameters
-        ----------
-        wanted : float
-            The peak [Pa].
-        """
+        """The rule that gives a peak pressure. `wanted`: [Pa]."""
         angle = self.closed.mesh.angle
 
         def rule(split: Split) -> Array:
