@@ -12,7 +12,7 @@ from typing import Any
 
 import griffe
 
-from linkwright.kernel.result import Result
+from linkwright.kernel.result import Record
 
 
 class Declared(griffe.Extension):
@@ -23,5 +23,5 @@ class Declared(griffe.Extension):
         if cls.docstring is None or not cls.module.path.startswith("linkwright"):
             return
         found = getattr(import_module(cls.module.path), cls.name, None)
-        if isinstance(found, type) and issubclass(found, Result):
+        if isinstance(found, type) and issubclass(found, Record):
             cls.docstring.value = inspect.cleandoc(found.__doc__ or "")

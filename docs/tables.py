@@ -27,7 +27,7 @@ from linkwright.kernel.description.schema_walk import mark_of, model_of, models_
 from linkwright.kernel.limits import ALL, grouped
 from linkwright.kernel.page.glossary import Term, glossary
 from linkwright.kernel.quantities import quantities_of
-from linkwright.kernel.result import Result
+from linkwright.kernel.result import Record, Result
 from linkwright.kernel.units import COUNT, KINDS, Quantity, QuantityList, size_words
 from linkwright.machine.machine import Machine
 
@@ -83,17 +83,17 @@ def limits() -> str:
     return f"| at most | of | since |\n| ---: | --- | --- |\n{rows}"
 
 
-def results() -> list[type[Result]]:
-    """All classes of results, by their modules."""
+def results() -> list[type[Record]]:
+    """All classes whose attributes are declared, by their modules."""
     for found in pkgutil.walk_packages(linkwright.__path__, "linkwright."):
         if not found.name.endswith("__main__"):
             import_module(found.name)
-    left, classes = [Result], set()
+    left, classes = [Record], set()
     while left:
         below = {each for each in left.pop().__subclasses__() if each.__module__.startswith("linkwright.")}
         classes |= below
         left += below
-    return sorted(classes, key=lambda each: (each.__module__, each.__name__))
+    return sorted(classes - {Result}, key=lambda each: (each.__module__, each.__name__))
 
 
 def quantities() -> str:

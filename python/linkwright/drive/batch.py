@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +15,8 @@ from linkwright.drive.sound_loads import require_same_turns
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Record
 from linkwright.linkages.closure import require_one_turn
 from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
@@ -45,70 +47,53 @@ _COLUMNS = (
 STATUS = SENTENCES
 
 
+_STATUS_WORDS = "0 where solved; else a key of `linkwright.drive.batch.STATUS`."
+
+
 @dataclass(frozen=True)
-class SteadyStates:
-    """Steady motion of ``n`` machines; every array has shape (n,), NaN where there is no answer.
+class SteadyStates(Record):
+    """Steady motion of ``n`` machines; every array has shape (n,), NaN where there is no answer."""
 
-    Attributes
-    ----------
-    entries : dict of str to ndarray
-        What was varied, by address.
-    status : ndarray of uint8
-        0 where solved; else a key of `linkwright.drive.batch.STATUS`.
-    speed_min, speed_max : ndarray
-        [rad/s].
-    acceleration_min, acceleration_max : ndarray
-        [rad/s²].
-    period : ndarray
-        [s].
-    multiplier : ndarray
-        Floquet multiplier [–].
-    energy_motor, energy_drive, energy_load : ndarray
-        Work per revolution [J].
-    torque_motor_mean, torque_motor_rms : ndarray
-        At the motor's shaft, over time [N m].
-    turns_swept : int
-        Turns that the solver went through in all.
-    """
-
-    entries: dict[str, Floats]
-    status: NDArray[np.uint8]
-    speed_min: Floats
-    speed_max: Floats
-    acceleration_min: Floats
-    acceleration_max: Floats
-    period: Floats
-    multiplier: Floats
-    energy_motor: Floats
-    energy_drive: Floats
-    energy_load: Floats
-    torque_motor_mean: Floats
-    torque_motor_rms: Floats
-    turns_swept: int
+    entries: Annotated[dict[str, Floats], About("What was varied, by address.")]
+    status: Annotated[NDArray[np.uint8], About(_STATUS_WORDS, "(rows,)")]
+    speed_min: Annotated[Floats, Shown("minimum speed", "ω_min", "rad/s")]
+    speed_max: Annotated[Floats, Shown("maximum speed", "ω_max", "rad/s")]
+    acceleration_min: Annotated[Floats, Shown("minimum acceleration", "ε_min", "rad/s²")]
+    acceleration_max: Annotated[Floats, Shown("maximum acceleration", "ε_max", "rad/s²")]
+    period: Annotated[Floats, Shown("period", "T", "s")]
+    multiplier: Annotated[Floats, Shown("Floquet multiplier", "G", "")]
+    energy_motor: Annotated[Floats, Shown("work of the motor per revolution", "A_m", "J")]
+    energy_drive: Annotated[Floats, Shown("work at the crank per revolution", "A_d", "J")]
+    energy_load: Annotated[Floats, Shown("work of the loads per revolution", "A_r", "J")]
+    torque_motor_mean: Annotated[Floats, Shown("mean torque of the motor", "M_mean", "N m", "Over time.")]
+    torque_motor_rms: Annotated[
+        Floats, Shown("root mean square torque of the motor", "M_rms", "N m", "Over time.")
+    ]
+    turns_swept: Annotated[int, About("Revolutions that the solver went through in all.")]
 
     @property
-    def speed_mean_extremes(self) -> Floats:
-        """(ω_max + ω_min)/2 [rad/s]."""
+    def speed_mean_extremes(self) -> Annotated[Floats, Shown("mean of the extreme speeds", "ω_m", "rad/s")]:
+        """(ω_max + ω_min)/2."""
         return evenness.mean_of_extremes(self.speed_min, self.speed_max)
 
     @property
-    def speed_mean_time(self) -> Floats:
-        """2π/period [rad/s]."""
+    def speed_mean_time(self) -> Annotated[Floats, Shown("mean speed over time", "ω_m", "rad/s")]:
+        """2π/period."""
         return 2 * np.pi / self.period
 
     @property
-    def unevenness(self) -> Floats:
-        """δ with the mean of the extremes [–]."""
+    def unevenness(self) -> Annotated[Floats, Shown("coefficient of speed fluctuation", "δ", "")]:
+        """With the mean of the extremes."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
 
     @property
-    def dynamism(self) -> Floats:
-        """H with the mean of the extremes [–]."""
+    def dynamism(self) -> Annotated[Floats, Shown("dynamic factor", "H", "")]:
+        """With the mean of the extremes."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
 
     @property
-    def motion_coefficient(self) -> Floats:
-        """k_p = δ² + H [–]."""
+    def motion_coefficient(self) -> Annotated[Floats, Shown("combined non-uniformity index", "k_p", "")]:
+        """δ² + H."""
         return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
     def to_frame(self) -> pd.DataFrame:

@@ -35,22 +35,7 @@ _ROUNDING = 1e-12
 
 
 def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -> tuple[str, ...]:
-    """All that should be known.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    reduced : Reduction
-        Its reduced inertia and load.
-    steady : SteadyState or None
-        Its steady motion, if there is one.
-
-    Returns
-    -------
-    tuple of str
-        Sentences, empty if there is nothing to say.
-    """
+    """All that should be known. Returns: sentences, empty if there is nothing to say."""
     drive = machine.drive
     found = [*_unloaded(machine), *_reduced(reduced)]
     if drive is None or drive.motor is None:
@@ -69,13 +54,7 @@ def _unloaded(machine: Machine) -> Iterator[str]:
 
 
 def has_inertia(reduced: Reduction) -> bool:
-    """Whether the reduced inertia is above zero all round, beyond rounding.
-
-    Parameters
-    ----------
-    reduced : Reduction
-        The reduced machine.
-    """
+    """Whether the reduced inertia is above zero all round, beyond rounding."""
     return reduced.inertia_min > _ROUNDING * reduced.inertia_max
 
 

@@ -49,28 +49,9 @@ def characteristic(
 ) -> Characteristic:
     """Torque of the motor, and of the mean load, over the motor's speed.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine, with a motor.
-    reduced : Reduction, optional
-        Its reduction, if known already.
-    speed_max : float
-        Speed of the motor's shaft that the curve must reach [rad/s].
-    n : int
-        Intervals of the curve.
-
-    Returns
-    -------
-    Characteristic
-        From standstill to a little beyond the speed without load.
-
-    Raises
-    ------
-    AssemblyError
-        The mechanism does not close all round.
-    InputError
-        The machine has no motor, or one that keeps its speed under any load.
+    `speed_max`: speed of the motor's shaft that the curve must reach [rad/s]. Returns: from standstill to a
+    little beyond the speed without load. Raises AssemblyError: the mechanism does not close all round;
+    InputError: the machine has no motor, or one that keeps its speed under any load.
     """
     drive = machine.drive
     if drive is None or drive.motor is None or isinstance(drive.motor, ConstantSpeedMotor):

@@ -63,15 +63,6 @@ def constant_energy(machine: Machine) -> ConstantEnergy:
 def constant_energy_of(reduced: Reduction, compiled: Compiled | None = None) -> ConstantEnergy:
     r"""`constant_energy` of a reduced machine.
 
-    Parameters
-    ----------
-    reduced : Reduction
-        Over the revolution.
-    compiled : Compiled, optional
-        The machine, if it is one.
-
-    Notes
-    -----
     With E = 1: :math:`\omega = \sqrt{2/J}`, :math:`\varepsilon = -\tfrac12 J'\omega^2/J = -J'/J^2`.
     Its peak is exact for a machine. Of curves alone it is found by a parabola through the best sample and its
     neighbours: with 1440 intervals within 1e-6 of H on the machines that are shipped.

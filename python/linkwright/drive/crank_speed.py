@@ -29,15 +29,7 @@ class CrankSpeed(NamedTuple):
 
 
 def crank_speed(machine: Machine, text: str | None) -> CrankSpeed:
-    """The speed for a motion at constant speed: that of the option, else the machine's own.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    text : str or None
-        What stands after ``--speed``.
-    """
+    """The speed for a motion at constant speed: that of the option, else the machine's own."""
     from linkwright.drive.model.motor import ConstantSpeedMotor
     from linkwright.kernel.units import SPEED
 

@@ -75,13 +75,7 @@ def require_sound_loads(compiled: Compiled, machine: Machine) -> None:
 
 
 def require_half_turns(compiled: Compiled, machine: Machine) -> None:
-    """Raise if a torsional spring is turned beyond half a revolution from its free angle.
-
-    Raises
-    ------
-    FindingError
-        Names the spring and the angle.
-    """
+    """Raise if a torsional spring is turned beyond half a revolution from its free angle."""
     for name, load in machine.loads.items():
         if isinstance(load, TorsionalSpring):
             _require_half_turns(name, load, compiled, turn_angles(_ANGLES))

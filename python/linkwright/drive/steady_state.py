@@ -137,17 +137,8 @@ class SteadyState(Result):
     others: Annotated[tuple[OtherMotion, ...], About(_OTHERS)] = ()
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """As `Result.to_dict`, other motions as tables with names.
-
-        Parameters
-        ----------
-        curves : bool
-            Whether arrays are included.
-
-        Returns
-        -------
-        dict
-            Plain numbers, texts and lists, ready for JSON.
+        """As `Result.to_dict`, other motions as tables with names. Returns: plain numbers, texts and lists,
+        ready for JSON.
         """
         return super().to_dict(curves=curves) | {"others": [each._asdict() for each in self.others]}
 

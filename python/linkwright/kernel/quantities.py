@@ -52,9 +52,10 @@ class Shown(NamedTuple):
 
 
 class About(NamedTuple):
-    """Mark of an attribute that is no quantity: a text, a table, another result."""
+    """Mark of an attribute that is no quantity of one unit: a text, a table, another result; its shape."""
 
     about: str
+    shape: str = ""
 
 
 class DeclaredQuantity(NamedTuple):
@@ -178,7 +179,9 @@ def _entry(owner: type, name: str) -> str:
 def _shape(owner: type, name: str) -> str:
     """How a docstring says the shape of an array."""
     mark = declared(owner)[name][1]
-    if not isinstance(mark, Shown) or not is_array(owner, name):
+    if isinstance(mark, About):
+        return f", shape {mark.shape}" if mark.shape else ""
+    if not is_array(owner, name):
         return ""
     along = over(owner, name)
     if mark.shape or not along:

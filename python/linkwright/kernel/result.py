@@ -21,17 +21,44 @@ if TYPE_CHECKING:
 _PLAIN = (bool, int, float, str, tuple, dict)
 
 
-class Result:
-    """Base of the frozen results of analyses: dataclasses of SI scalars, tables (tuples) and arrays.
+class _Docstring:
+    """A docstring to which the declared attributes are added when it is asked for."""
 
-    Arrays whose length is that of the first array are the result's curves. What its attributes are is
-    declared where they stand (`linkwright.kernel.quantities`).
-    """
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+    def __get__(self, instance: object, owner: type) -> str:
+        """The text with its section ``Attributes``, before its other sections."""
+        # The decorator `dataclass` asks whether there is a text, before the class is finished.
+        if "__match_args__" not in vars(owner):
+            return self.text
+        section = attributes_section(owner)
+        if not section:
+            return self.text
+        text = inspect.cleandoc(self.text)
+        start = _SECTION.search(text)
+        head, rest = (text[: start.start()], text[start.start() :]) if start else (text, "")
+        return f"{head.rstrip()}\n\nAttributes\n----------\n{section}\n\n{rest}".rstrip() + "\n"
+
+
+# The head of a section of a docstring.
+_SECTION = re.compile(r"^\w[\w ]*\n-{3,}$", re.MULTILINE)
+
+
+class Record:
+    """Base of dataclasses whose attributes are declared where they stand (`linkwright.kernel.quantities`)."""
 
     def __init_subclass__(cls, **options: Any) -> None:
         """Let the docstring tell the declared attributes."""
         super().__init_subclass__(**options)
         cls.__doc__ = _Docstring(vars(cls).get("__doc__") or "")  # type: ignore[assignment]
+
+
+class Result(Record):
+    """Base of the frozen results of analyses: dataclasses of SI scalars, tables (tuples) and arrays.
+
+    Arrays whose length is that of the first array are the result's curves.
+    """
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Scalars and tables by name, with ``curves`` also the arrays as lists.
@@ -97,30 +124,6 @@ class Result:
         for kind in reversed(type(self).__mro__):
             names += [name for name, member in vars(kind).items() if isinstance(member, property)]
         return {name: getattr(self, name) for name in dict.fromkeys(names) if not name.startswith("_")}
-
-
-class _Docstring:
-    """A docstring to which the declared attributes are added when it is asked for."""
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-
-    def __get__(self, instance: object, owner: type) -> str:
-        """The text with its section ``Attributes``, before its other sections."""
-        # The decorator `dataclass` asks whether there is a text, before the class is finished.
-        if "__match_args__" not in vars(owner):
-            return self.text
-        section = attributes_section(owner)
-        if not section:
-            return self.text
-        text = inspect.cleandoc(self.text)
-        start = _SECTION.search(text)
-        head, rest = (text[: start.start()], text[start.start() :]) if start else (text, "")
-        return f"{head.rstrip()}\n\nAttributes\n----------\n{section}\n\n{rest}".rstrip() + "\n"
-
-
-# The head of a section of a docstring.
-_SECTION = re.compile(r"^\w[\w ]*\n-{3,}$", re.MULTILINE)
 
 
 def finite(value: Any) -> Any:

@@ -55,20 +55,7 @@ class Applied:
 
 
 def applied(scene: Scene, load: Any) -> Applied:
-    """What a load does.
-
-    Parameters
-    ----------
-    scene : Scene
-        The machine and its motion.
-    load : Load
-        One of its loads.
-
-    Returns
-    -------
-    Applied
-        Forces and moments on the members, and torque on the crankshaft.
-    """
+    """What a load does. Returns: forces and moments on the members, and torque on the crankshaft."""
     on_crankshaft: dict[type, Callable[[Scene, Any], Floats]] = {
         TorqueAngle: _over_angle,
         TorqueSpeed: _over_speed,

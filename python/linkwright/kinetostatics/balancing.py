@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,8 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Record
 from linkwright.kernel.units import LENGTH, SPEED, positive
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.model.body import Body
@@ -38,46 +40,24 @@ _NOTHING = 1e-12
 
 
 @dataclass(frozen=True)
-class Counterweight:
-    """A mass on a link that turns about a fixed point.
+class Counterweight(Record):
+    """A mass on a link that turns about a fixed point."""
 
-    Attributes
-    ----------
-    link : str
-        The link.
-    moment : float
-        Mass times distance from the pivot [kg m].
-    angle : float
-        Its direction from that of the link [rad].
-    mass, radius : float
-        Mass [kg] at a distance from the pivot [m].
-    """
-
-    link: str
-    moment: float
-    angle: float
-    mass: float
-    radius: float
+    link: Annotated[str, About("The link.")]
+    moment: Annotated[float, Shown("mass times distance from the pivot", "", "kg m")]
+    angle: Annotated[float, Shown("direction from that of the link", "", "rad")]
+    mass: Annotated[float, Shown("mass", "", "kg")]
+    radius: Annotated[float, Shown("distance from the pivot", "", "m")]
 
 
 @dataclass(frozen=True)
-class Balance:
-    """A machine with counterweights, and what they do.
+class Balance(Record):
+    """A machine with counterweights, and what they do."""
 
-    Attributes
-    ----------
-    machine : Machine
-        With a body for each counterweight.
-    counterweights : tuple of Counterweight
-        In the order of the links.
-    before, after : Forces
-        Without and with them, at the same motion.
-    """
-
-    machine: Machine
-    counterweights: tuple[Counterweight, ...]
-    before: Forces
-    after: Forces
+    machine: Annotated[Machine, About("With a body for each counterweight.")]
+    counterweights: Annotated[tuple[Counterweight, ...], About("In the order of the links.")]
+    before: Annotated[Forces, About("Forces without them.")]
+    after: Annotated[Forces, About("Forces with them, at the same motion.")]
 
     def measures(self) -> dict[str, tuple[float, float]]:
         """Root mean squares over time without and with the counterweights.
@@ -189,23 +169,8 @@ def with_counterweights(
 ) -> Balance:
     """A machine with counterweights of given moments.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    scene : Scene
-        The machine and its motion.
-    moments : mapping of str to ndarray, shape (2,)
-        Link → mass times place along the link and to its left [kg m].
-    radius : float, mapping of str to float, or None
-        As for `balance`.
-    before : Forces
-        Of the machine as it is.
-
-    Returns
-    -------
-    Balance
-        With the forces of the new machine.
+    `moments` (2,): link → mass times place along the link and to its left [kg m]. Returns: with the forces of
+    the new machine.
     """
     largest = max(float(np.hypot(*u)) for u in moments.values())
     found, bodies = [], dict(machine.bodies)

@@ -60,23 +60,8 @@ class Push:
 
 
 def pushes(scene: Scene, follower: Follower, name: str) -> tuple[Push, Push | None]:
-    """What the contacts of a cam do to its follower.
-
-    Parameters
-    ----------
-    scene : Scene
-        The machine and its motion.
-    follower : TranslatingFollower or OscillatingFollower
-        The driver.
-    name : str
-        Its name.
-
-    Returns
-    -------
-    push : Push
-        Of the first contact.
-    pull : Push or None
-        Of the second, its normal force counted as negative; None if there is none.
+    """What the contacts of a cam do to its follower. Returns: pull: of the second, its normal force counted
+    as negative; None if there is none.
     """
     cam, points = follower.cam, scene.mechanism.fixed_points()
     centre = np.array(centre_of(cam, points))

@@ -93,28 +93,13 @@ def partial_balance(
 def four_bar_moments(machine: Machine, rocker: str) -> dict[str, complex]:
     """Moments of counterweights that keep the centre of mass of a four-bar at rest.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    rocker : str
-        A rocker about a fixed point, driven by the pin of a crank.
+    `rocker`: a rocker about a fixed point, driven by the pin of a crank. Returns: link → mass times place
+    from its start, along it and, as the imaginary part, to its left [kg m]. Raises MachineError: the rocker
+    is not that of a four-bar.
 
-    Returns
-    -------
-    dict of str to complex
-        Link → mass times place from its start, along it and, as the imaginary part, to its left [kg m].
-
-    Raises
-    ------
-    MachineError
-        The rocker is not that of a four-bar.
-
-    References
-    ----------
-    .. [1] Berkof, Lowen, A new method for completely force balancing simple linkages, J. Eng. Ind. 91 (1969):
-       the direction of the coupler is eliminated by the loop, and the factors of those of
-       crank and rocker vanish.
+    Source: Berkof, Lowen, A new method for completely force balancing simple linkages, J. Eng. Ind. 91
+    (1969): the direction of the coupler is eliminated by the loop, and the factors of those of crank and
+    rocker vanish.
     """
     mechanism = machine.linkage
     part = mechanism.rockers.get(rocker)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Record
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.result import Forces, PairForce
 from linkwright.machine.address import replace
@@ -19,31 +21,22 @@ from linkwright.machine.machine import Machine
 Floats = NDArray[np.float64]
 
 
+_EXTENT_NAME = (
+    "Of the quantity: ``torque_drive``, ``shaking_force``, ``shaking_moment``, a pair, or the "
+    "moment of a guide as ``name moment``."
+)
+
+
 @dataclass(frozen=True)
-class Extent:
-    """How large a quantity becomes.
+class Extent(Record):
+    """How large a quantity becomes."""
 
-    Attributes
-    ----------
-    name : str
-        Of the quantity: ``torque_drive``, ``shaking_force``, ``shaking_moment``, a pair, or the moment of a
-        guide as ``name moment``.
-    unit : str
-        ``"N"`` or ``"N m"``.
-    peak : float
-        Value peak absolute among the angles, with its sign where it has one.
-    peak_angle : float
-        Crank angle there [rad].
-    rms, mean : float
-        Over time.
-    """
-
-    name: str
-    unit: str
-    peak: float
-    peak_angle: float
-    rms: float
-    mean: float
+    name: Annotated[str, About(_EXTENT_NAME)]
+    unit: Annotated[str, About('``"N"`` or ``"N m"``.')]
+    peak: Annotated[float, About("Peak absolute value among the angles, with its sign where it has one.")]
+    peak_angle: Annotated[float, Shown("crank angle of the peak", "", "rad")]
+    rms: Annotated[float, About("Root mean square over time.")]
+    mean: Annotated[float, About("Mean over time.")]
 
 
 @public

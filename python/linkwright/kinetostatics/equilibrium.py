@@ -93,13 +93,7 @@ class Equilibrium:
         return found * row_scale[:, None]
 
     def solve(self) -> Solution:
-        """Solve at all angles.
-
-        Returns
-        -------
-        Solution
-            With the share of every source.
-        """
+        """Solve at all angles."""
         n, m = self.base.shape[0], self.base.shape[2]
         everywhere = np.ones(n, dtype=bool)
         slopes = np.zeros((n, m))

@@ -18,25 +18,7 @@ Floats = NDArray[np.float64]
 
 
 def formula_wrenches(scene: Scene, load: FormulaLoad) -> Wrenches:
-    """What a load by a formula does.
-
-    Parameters
-    ----------
-    scene : Scene
-        The machine and its motion.
-    load : FormulaLoad
-        The load.
-
-    Returns
-    -------
-    Wrenches
-        On the members.
-
-    Raises
-    ------
-    FindingError
-        The formula has no value at some crank angle.
-    """
+    """What a load by a formula does. Raises FindingError: the formula has no value at some crank angle."""
     with np.errstate(all="ignore"):
         found = value(parse(load.text), _names(scene, load)) * np.ones(scene.n)
     if not np.isfinite(found).all():

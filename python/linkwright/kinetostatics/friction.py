@@ -40,24 +40,8 @@ class Friction:
 def checked(friction: Mapping[str, Friction], pairs: Mapping[str, Pair]) -> dict[str, Friction]:
     """Friction by pair, with names and numbers that make sense.
 
-    Parameters
-    ----------
-    friction : mapping of str to Friction
-        By name of the pair.
-    pairs : mapping of str to Pair
-        The pairs that there are.
-
-    Returns
-    -------
-    dict of str to Friction
-        The same.
-
-    Raises
-    ------
-    MachineError
-        A pair that does not exist or has no friction of this kind; a number that is missing.
-    InputError
-        A number that is negative or beyond its range.
+    `friction`: by name of the pair. Raises MachineError: a pair that does not exist or has no friction of
+    this kind; a number that is missing; InputError: a number that is negative or beyond its range.
     """
     problems = [found for name, each in friction.items() if (found := _problem(name, each, pairs))]
     if problems:

@@ -6,12 +6,15 @@ r"""Harmonics of a force over the revolution: amplitudes of Fourier's series.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.errors import ShapeError
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About
+from linkwright.kernel.result import Record
 
 Floats = NDArray[np.float64]
 
@@ -20,21 +23,17 @@ _EVEN = 1e-6
 
 
 @dataclass(frozen=True)
-class Harmonics:
-    """Coefficients of a series.
+class Harmonics(Record):
+    """Coefficients of a series."""
 
-    Attributes
-    ----------
-    cosine, sine : ndarray, shape (order + 1, components)
-        a_k and b_k in the unit of the quantity; the mean is a₀.
-    """
-
-    cosine: Floats
-    sine: Floats
+    cosine: Annotated[
+        Floats, About("a_k in the unit of the quantity; the mean is a₀.", "(order + 1, components)")
+    ]
+    sine: Annotated[Floats, About("b_k, likewise.", "(order + 1, components)")]
 
     @property
-    def amplitude(self) -> Floats:
-        """√(a_k² + b_k²) of each component, (order + 1, components)."""
+    def amplitude(self) -> Annotated[Floats, About("Amplitudes.", "(order + 1, components)")]:
+        """√(a_k² + b_k²) of each component."""
         found: Floats = np.hypot(self.cosine, self.sine)
         return found
 

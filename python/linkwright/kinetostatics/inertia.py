@@ -39,18 +39,7 @@ class Mass(NamedTuple):
 
 
 def masses(scene: Scene) -> Iterator[Mass]:
-    """All masses of a machine.
-
-    Parameters
-    ----------
-    scene : Scene
-        The machine and its motion.
-
-    Yields
-    ------
-    Mass
-        One for each body of the description.
-    """
+    """All masses of a machine. Returns: one for each body of the description."""
     for name, body in scene.machine.bodies.items():
         on = body.on or name
         if on not in scene.links:
@@ -71,18 +60,7 @@ def _on_link(scene: Scene, link: str, along: float, across: float) -> tuple[Floa
 
 
 def inertia_forces(scene: Scene) -> Wrenches:
-    """The forces of all masses.
-
-    Parameters
-    ----------
-    scene : Scene
-        The machine and its motion.
-
-    Returns
-    -------
-    Wrenches
-        −m a at the centre and −J ψ̈ on each member.
-    """
+    """The forces of all masses. Returns: −m a at the centre and −J ψ̈ on each member."""
     found = Wrenches(scene)
     speed, acceleration = scene.motion.speed, scene.motion.acceleration
     for each in masses(scene):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +12,8 @@ from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import Transient
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import Shown
+from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
@@ -19,23 +22,15 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Motion:
-    """Crank angle with speed and acceleration; arrays (n,).
+class Motion(Record):
+    """Crank angle with speed and acceleration; arrays (n,)."""
 
-    Attributes
-    ----------
-    crank_angle : ndarray
-        [rad].
-    speed, acceleration : ndarray
-        Of the crank [rad/s, rad/s²].
-    time : ndarray
-        [s]; the crank angle itself where the machine stands at every angle.
-    """
-
-    crank_angle: Floats
-    speed: Floats
-    acceleration: Floats
-    time: Floats
+    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
+    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Shown("angular acceleration of the crank", "ε", "rad/s²")]
+    time: Annotated[
+        Floats, Shown("time", "t", "s", "The crank angle itself where the machine stands at every angle.")
+    ]
 
     def mean(self, values: Floats) -> float:
         """Mean of values (n,) over the time, or the angle of a machine at rest; without NaN.
@@ -64,29 +59,10 @@ def motion_at(
 ) -> Motion:
     """The motion that is meant: a computed one, or one at a speed.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    motion : SteadyState, Transient, Motion or None
-        A computed motion, with its own angles. Without it and without a speed: the steady motion of the
-        motor, or the design speed of the drive.
-    speed, acceleration : float
-        Of the crank at every angle [rad/s, rad/s²].
-    angles : array_like, shape (n,), optional
-        Crank angles for a speed [rad]; without them a revolution.
-    n : int
-        Intervals of the revolution.
-
-    Returns
-    -------
-    Motion
-        Angles with speed and acceleration.
-
-    Raises
-    ------
-    InputError
-        Motion and speed are both given, or there is neither of them, nor a motor, nor a design speed.
+    `motion`: a computed motion, with its own angles. Without it and without a speed: the steady motion of the
+    motor, or the design speed of the drive; `speed`, `acceleration`: of the crank at every angle [rad/s,
+    rad/s²]; `angles` (n,): crank angles for a speed [rad]; without them a revolution. Raises InputError:
+    motion and speed are both given, or there is neither of them, nor a motor, nor a design speed.
     """
     if motion is not None and speed is not None:
         raise InputError("forces at a motion or at a speed: found both, expected one of them")

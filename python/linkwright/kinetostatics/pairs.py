@@ -113,19 +113,8 @@ class PairModel:
 def pair_models(scene: Scene, friction: dict[str, Friction], pressure_angle: float) -> list[PairModel]:
     """All pairs and drives of a scene.
 
-    Parameters
-    ----------
-    scene : Scene
-        The machine and its motion.
-    friction : dict of str to Friction
-        Friction by name of the pair.
-    pressure_angle : float
-        Of all teeth [rad].
-
-    Returns
-    -------
-    list of PairModel
-        Pairs in the order of the structure, then the drives.
+    `friction`: friction by name of the pair; `pressure_angle`: of all teeth [rad]. Returns: pairs in the
+    order of the structure, then the drives.
     """
     spread = float(np.tan(pressure_angle))
     known = scene.structure.pairs.values()
@@ -236,19 +225,7 @@ def _sliding(scene: Scene, model: PairModel, push: Push) -> PairModel:
 def with_pulls(scene: Scene, models: list[PairModel], x: Floats) -> bool:
     """Let second contacts of cams take over where the first would have to pull.
 
-    Parameters
-    ----------
-    scene : Scene
-        The machine and its motion.
-    models : list of PairModel
-        Its pairs and drives, which are changed.
-    x : ndarray, shape (n, unknowns)
-        Values of all unknowns.
-
-    Returns
-    -------
-    bool
-        Whether anything changed.
+    `x` (n, unknowns): values of all unknowns.
     """
     at, changed = 0, False
     for model in models:

@@ -9,69 +9,64 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.quantities import About, Shown
-from linkwright.kernel.result import Result
+from linkwright.kernel.result import Record, Result
 from linkwright.kinetostatics.motion import Motion
 
 Floats = NDArray[np.float64]
 
 
+_PAIR_FORCE_FRICTION = (
+    "Share of friction: torque of a pin [N m], force along a guide or slot [N], on the second member."
+)
+_PAIR_FORCE_NORMAL = (
+    "Of a guide or slot to the left of it, of teeth along their path, tension of a cable [N]; of "
+    "a belt its torque on the gear [N m]; of a pin the size of its force."
+)
+
+
 @dataclass(frozen=True)
-class PairForce:
-    """What a pair passes on; arrays (n,), vectors (n, 2).
+class PairForce(Record):
+    """What a pair passes on; arrays (n,), vectors (n, 2)."""
 
-    Attributes
-    ----------
-    name, kind : str
-        Of the pair (`linkwright.linkages.model.structure`).
-    first, second : str
-        Its members.
-    force : ndarray, shape (n, 2)
-        On the second member, friction included [N].
-    moment : ndarray, shape (n,)
-        Of a guide, and friction of a pin, on the second member about the point of the pair [N m].
-    friction : ndarray, shape (n,)
-        Share of friction: torque of a pin [N m], force along a guide or slot [N], on the second member.
-    normal : ndarray, shape (n,)
-        Of a guide or slot to the left of it, of teeth along their path, tension of a cable [N]; of a belt its
-        torque on the gear [N m]; of a pin the size of its force.
-    """
-
-    name: str
-    kind: str
-    first: str
-    second: str
-    force: Floats
-    moment: Floats
-    friction: Floats
-    normal: Floats
+    name: Annotated[str, About("Of the pair (`linkwright.linkages.model.structure`).")]
+    kind: Annotated[str, About("Of the pair.")]
+    first: Annotated[str, About("Its first member.")]
+    second: Annotated[str, About("Its second member.")]
+    force: Annotated[
+        Floats, Shown("force on the second member", "", "N", "Friction included.", shape="(n, 2)")
+    ]
+    moment: Annotated[
+        Floats,
+        Shown(
+            "moment on the second member",
+            "",
+            "N m",
+            "Of a guide, and friction of a pin, about the point of the pair.",
+            shape="(n,)",
+        ),
+    ]
+    friction: Annotated[Floats, About(_PAIR_FORCE_FRICTION, "(n,)")]
+    normal: Annotated[Floats, About(_PAIR_FORCE_NORMAL, "(n,)")]
 
     @property
-    def size(self) -> Floats:
-        """Size of the force, (n,) [N]."""
+    def size(self) -> Annotated[Floats, Shown("size of the force", "", "N", shape="(n,)")]:
+        """On the second member."""
         found: Floats = np.hypot(self.force[:, 0], self.force[:, 1])
         return found
 
 
 @dataclass(frozen=True)
-class Contribution:
-    """The share of one source in the forces.
+class Contribution(Record):
+    """The share of one source in the forces."""
 
-    Attributes
-    ----------
-    reactions : dict of str to ndarray, shape (n, 2)
-        In the force of each pair on its second member [N].
-    torque_drive : ndarray, shape (n,)
-        In the driving torque [N m].
-    shaking_force : ndarray, shape (n, 2)
-        In the shaking force [N].
-    shaking_moment : ndarray, shape (n,)
-        In the shaking moment about the origin [N m].
-    """
-
-    reactions: dict[str, Floats]
-    torque_drive: Floats
-    shaking_force: Floats
-    shaking_moment: Floats
+    reactions: Annotated[
+        dict[str, Floats], About("Share in the force of each pair on its second member [N].", "(n, 2)")
+    ]
+    torque_drive: Annotated[Floats, Shown("share in the driving torque", "", "N m", shape="(n,)")]
+    shaking_force: Annotated[Floats, Shown("share in the shaking force", "", "N", shape="(n, 2)")]
+    shaking_moment: Annotated[
+        Floats, Shown("share in the shaking moment", "", "N m", "About the origin.", shape="(n,)")
+    ]
 
 
 _CONTRIBUTIONS = (
@@ -154,17 +149,8 @@ class Forces(Result):
         return found | {f"{name}_drive [N m or N]": values for name, values in self.drives.items()}
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Scalars and maximum forces by name, with ``curves`` also all forces as lists.
-
-        Parameters
-        ----------
-        curves : bool
-            Whether arrays are included.
-
-        Returns
-        -------
-        dict
-            Plain numbers, texts and lists, ready for JSON.
+        """Scalars and maximum forces by name, with ``curves`` also all forces as lists. Returns: plain
+        numbers, texts and lists, ready for JSON.
         """
         found = super().to_dict(curves=curves) | {"reaction_max": self.reaction_max}
         if curves:

@@ -11,11 +11,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import product
+from typing import Annotated
 
 import numpy as np
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Record
 from linkwright.linkages.closure import closure_of, limiter_at
 from linkwright.linkages.dyads import dyads_of
 from linkwright.machine.machine import Machine
@@ -32,37 +35,26 @@ _SIGNED = Element.SliderRod | Element.Rocker | Element.GuidedRod | Element.Slott
 _MEET = 1e-6
 
 
-@dataclass(frozen=True)
-class Branch:
-    """One assembly in one range of the crank.
-
-    Attributes
-    ----------
-    assembly : dict of str to str
-        ``"given"`` or ``"other"`` by dyad: as in the machine's description, or mirrored.
-    low, high : float
-        Range of the crank [rad]; a full revolution if it turns fully.
-    turns_fully : bool
-        Whether the crank turns all round.
-    """
-
-    assembly: dict[str, str]
-    low: float
-    high: float
-    turns_fully: bool
+_BRANCH_ASSEMBLY = '``"given"`` or ``"other"`` by dyad: as in the machine\'s description, or mirrored.'
 
 
 @dataclass(frozen=True)
-class Circuit:
-    """Branches of one circuit; the linkage passes from one to the next at the limits of crank rotation.
+class Branch(Record):
+    """One assembly in one range of the crank."""
 
-    Attributes
-    ----------
-    branches : tuple of Branch
-        Those with as many dyads as possible in the given assembly first.
-    """
+    assembly: Annotated[dict[str, str], About(_BRANCH_ASSEMBLY)]
+    low: Annotated[float, Shown("minimum crank angle", "", "rad", "0 of a full revolution.")]
+    high: Annotated[float, Shown("maximum crank angle", "", "rad", "2π of a full revolution.")]
+    turns_fully: Annotated[bool, About("Whether the crank turns all round.")]
 
-    branches: tuple[Branch, ...]
+
+@dataclass(frozen=True)
+class Circuit(Record):
+    """Branches of one circuit; the linkage passes from one to the next at the limits of crank rotation."""
+
+    branches: Annotated[
+        tuple[Branch, ...], About("Those with as many dyads as possible in the given assembly first.")
+    ]
 
     @property
     def turns_fully(self) -> bool:
@@ -101,12 +93,8 @@ def circuits(machine: Machine) -> tuple[Circuit, ...]:
 
 
 def _slots(compiled: Compiled, machine: Machine) -> dict[str, int]:
-    """Slot of the sign of each dyad that has two assemblies.
-
-    Raises
-    ------
-    InputError
-        They cannot be exchanged, or are too many.
+    """Slot of the sign of each dyad that has two assemblies. Raises InputError: they cannot be exchanged, or
+    are too many.
     """
     if any(_is_tied(each) for each in compiled.elements):
         raise InputError(

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,8 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.kernel.numerics.roots import minima, zeros
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGLE
 from linkwright.linkages.dyads import dyads_of
 from linkwright.linkages.obstacle import change_point, describe
@@ -62,28 +65,37 @@ _DOUBLINGS = 13
 _LINK = 1
 
 
+_CLOSURE_RANGES = (
+    "Ranges of crank angle in which every element closes [rad]; one range of a full revolution, "
+    "or of all the revolutions of a longer motion, if it turns fully, none if it never closes. A "
+    "range may pass 2π."
+)
+
+
 @dataclass(frozen=True)
-class Closure:
-    """Where a mechanism closes.
+class Closure(Record):
+    """Where a mechanism closes."""
 
-    Attributes
-    ----------
-    ranges : tuple of (float, float)
-        Ranges of crank angle in which every element closes [rad]; one range of a full revolution, or of all
-        the revolutions of a longer motion, if it turns fully, none if it never closes. A range may pass 2π.
-    element : str
-        Name of the first element that does not close; empty if all do.
-    change_point : float or None
-        Crank angle at which that element closes with nothing to spare [rad] and its motion does not go on
-        by itself: its speeds are not determined there.
-    turns : int or None
-        Revolutions of the crank after which the motion repeats; None if it never does, as with a screw.
-    """
-
-    ranges: tuple[tuple[float, float], ...]
-    element: str
-    change_point: float | None = None
-    turns: int | None = 1
+    ranges: Annotated[tuple[tuple[float, float], ...], About(_CLOSURE_RANGES)]
+    element: Annotated[str, About("Name of the first element that does not close; empty if all do.")]
+    change_point: Annotated[
+        float | None,
+        Shown(
+            "crank angle of the change point",
+            "",
+            "rad",
+            "There that element closes with nothing to spare, and its speeds are not determined.",
+        ),
+    ] = None
+    turns: Annotated[
+        int | None,
+        Shown(
+            "revolutions of the crank until the motion repeats",
+            "",
+            "",
+            "None if it never does, as with a screw.",
+        ),
+    ] = 1
 
     @property
     def turns_fully(self) -> bool:
@@ -344,14 +356,7 @@ def _feels_one_turn(compiled: Compiled) -> bool:
 
 
 def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None:
-    """Raise if the mechanism does not close at one of some crank angles, or is not determined between them.
-
-    Raises
-    ------
-    AssemblyError
-        Says which element does not close, where the mechanism closes, and what to change; or which change
-        point lies at one of the angles or between them, where the motion does not go on by itself.
-    """
+    """Raise if the mechanism does not close at some crank angles, or is not determined between them."""
     if not compiled.dyads:
         return
     gaps = compiled.gaps(angles)
@@ -388,12 +393,7 @@ def _meets_change_point(found: Closure, angles: Floats) -> bool:
 def closure_error(found: Closure, machine: Machine) -> AssemblyError:
     """The error for a mechanism that does not turn fully: what does not close, where, and what to change.
 
-    Parameters
-    ----------
-    found : Closure
-        Of a mechanism that does not turn fully.
-    machine : Machine
-        Its description.
+    `found`: of a mechanism that does not turn fully.
     """
     at = found.ranges[0][1] if found.ranges else 0.0
     at = at if found.turns is None else at % (2 * np.pi * found.turns)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
-from linkwright.kernel.result import Result
+from linkwright.kernel.result import Record, Result
 from linkwright.linkages.closure import Closure, closure_error, closure_of
 from linkwright.linkages.dead_points import DeadPoint, dead_points
 from linkwright.linkages.grashof import FourBar, four_bars
@@ -35,62 +35,62 @@ Floats = NDArray[np.float64]
 _PARALLEL = 1e-6
 
 
+_ELEMENT_MOTION_VELOCITY_RATIO_MIN = (
+    "Minimum of the output's speed over the crank's [– or m/rad]; None where it grows without limit."
+)
+
+
 @dataclass(frozen=True)
-class ElementMotion:
-    """One element over the cycle.
+class ElementMotion(Record):
+    """One element over the cycle."""
 
-    Attributes
-    ----------
-    element : str
-        Its name; for bars, that of their joint.
-    output : str
-        Name of the link or slide that is looked at.
-    swing : float or None
-        Between the extreme positions of the link [rad]; None if it turns on, or is none.
-    stroke : float or None
-        Between the extreme positions of the slide [m]; None if there is none.
-    turns : float or None
-        Revolutions of the link in a period where it turns on.
-    low, high : float
-        Extreme positions [rad or m].
-    low_angle, high_angle : float
-        Crank angles there [rad].
-    time_ratio : float or None
-        Crank angle of the slower stroke over that of the quicker one [–], at least 1.
-    velocity_ratio_min, velocity_ratio_max : float or None
-        Extremes of the output's speed over the crank's [– or m/rad]; None where they grow without limit.
-    mechanical_advantage_min : float or None
-        Minimum torque or force out for the torque in, without losses [– or 1/m].
-    transmission_angle_min, transmission_angle_max : float or None
-        Extremes of μ [rad]; None for what is no dyad.
-    transmission_angle_min_angle, transmission_angle_max_angle : float or None
-        Crank angles there [rad].
-    four_bar : FourBar or None
-        The four-bar loop that the element closes.
-    """
-
-    element: str
-    output: str
-    swing: float | None
-    stroke: float | None
-    turns: float | None
-    low: float
-    high: float
-    low_angle: float
-    high_angle: float
-    time_ratio: float | None
-    velocity_ratio_min: float | None
-    velocity_ratio_max: float | None
-    mechanical_advantage_min: float | None
-    transmission_angle_min: float | None = None
-    transmission_angle_max: float | None = None
-    transmission_angle_min_angle: float | None = None
-    transmission_angle_max_angle: float | None = None
-    four_bar: FourBar | None = None
+    element: Annotated[str, About("Its name; for bars, that of their joint.")]
+    output: Annotated[str, About("Name of the link or slide that is looked at.")]
+    swing: Annotated[
+        float | None,
+        Shown(
+            "swing of the link", "", "rad", "Between its extreme positions; None if it turns on, or is none."
+        ),
+    ]
+    stroke: Annotated[
+        float | None,
+        Shown("stroke of the slide", "", "m", "Between its extreme positions; None if there is none."),
+    ]
+    turns: Annotated[float | None, Shown("revolutions of the link in a period", "", "", "Where it turns on.")]
+    low: Annotated[float, About("Minimum position [rad or m].")]
+    high: Annotated[float, About("Maximum position [rad or m].")]
+    low_angle: Annotated[float, Shown("crank angle of the minimum position", "", "rad")]
+    high_angle: Annotated[float, Shown("crank angle of the maximum position", "", "rad")]
+    time_ratio: Annotated[
+        float | None,
+        Shown(
+            "time ratio", "", "", "Crank angle of the slower stroke over that of the quicker one, at least 1."
+        ),
+    ]
+    velocity_ratio_min: Annotated[float | None, About(_ELEMENT_MOTION_VELOCITY_RATIO_MIN)]
+    velocity_ratio_max: Annotated[float | None, About("Its maximum, likewise.")]
+    mechanical_advantage_min: Annotated[
+        float | None, About("Minimum torque or force out for the torque in, without losses [– or 1/m].")
+    ]
+    transmission_angle_min: Annotated[
+        float | None, Shown("minimum transmission angle", "", "rad", "None for what is no dyad.")
+    ] = None
+    transmission_angle_max: Annotated[
+        float | None, Shown("maximum transmission angle", "", "rad", "None for what is no dyad.")
+    ] = None
+    transmission_angle_min_angle: Annotated[
+        float | None, Shown("crank angle of the minimum transmission angle", "", "rad")
+    ] = None
+    transmission_angle_max_angle: Annotated[
+        float | None, Shown("crank angle of the maximum transmission angle", "", "rad")
+    ] = None
+    four_bar: Annotated[FourBar | None, About("The four-bar loop that the element closes.")] = None
 
     @property
-    def transmission_angle_worst(self) -> float | None:
-        """Acute angle between the two links where it is smallest [rad]: μ or π − μ."""
+    def transmission_angle_worst(
+        self,
+    ) -> Annotated[float | None, Shown("worst transmission angle", "", "rad")]:
+        """Acute angle between the two links where it is smallest: μ or π − μ."""
         low, high = self.transmission_angle_min, self.transmission_angle_max
         return None if low is None or high is None else min(low, math.pi - high)
 
@@ -100,13 +100,7 @@ class ElementMotion:
         return None if self.four_bar is None else self.four_bar.grashof
 
     def to_dict(self) -> dict[str, Any]:
-        """Scalars by name, without those that do not exist.
-
-        Returns
-        -------
-        dict
-            SI numbers and words.
-        """
+        """Scalars by name, without those that do not exist."""
         found = {name: value for name, value in vars(self).items() if name not in ("element", "four_bar")}
         found["transmission_angle_worst"] = self.transmission_angle_worst
         if self.four_bar is not None:
@@ -152,17 +146,8 @@ class Linkage(Result):
         raise KeyError(name)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Whether the crank turns fully, period, elements by name and dead points, ready for JSON.
-
-        Parameters
-        ----------
-        curves : bool
-            Whether arrays are included.
-
-        Returns
-        -------
-        dict
-            SI numbers. An element with two outputs has the second under that one's name.
+        """Whether the crank turns fully, period, elements by name and dead points, ready for JSON. Returns:
+        SI numbers. An element with two outputs has the second under that one's name.
         """
         elements: dict[str, Any] = {}
         for each in self.elements:

@@ -47,22 +47,7 @@ class DeadPoint(NamedTuple):
 
 
 def dead_points(compiled: Compiled, swept: LinkageSweep, where: Closure) -> list[DeadPoint]:
-    """The dead points of a linkage.
-
-    Parameters
-    ----------
-    compiled : Compiled
-        The machine.
-    swept : LinkageSweep
-        Its sweep.
-    where : Closure
-        Where it closes.
-
-    Returns
-    -------
-    list of DeadPoint
-        By crank angle.
-    """
+    """The dead points of a linkage."""
     found = [*_of_closure(compiled, where), *_passed(swept), *_reversals(swept)]
     return sorted(found)
 

@@ -122,21 +122,8 @@ def transmission_channels(compiled: Compiled, dyad: Dyad) -> list[Channel]:
 def transmission(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> tuple[Floats, Floats]:
     """Transmission angle, and a smooth function with the sign changes of its derivative, up to the sign.
 
-    Parameters
-    ----------
-    compiled : Compiled
-        The machine.
-    dyad : Dyad
-        Not a group.
-    found : list of ndarray, shapes (4, n) and (3, n)
-        What the core gave for `transmission_channels`.
-
-    Returns
-    -------
-    mu : ndarray, shape (n,)
-        0 to π [rad].
-    slope : ndarray, shape (n,)
-        ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of crank rotation.
+    `found` (4, n) and (3, n): what the core gave for `transmission_channels`. Returns: mu: (n,) 0 to π [rad];
+    slope: (n,) ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of crank rotation.
     """
     if isinstance(dyad.element, Element.SlottedLever):
         offset = compiled.parameters[dyad.element.offset]

@@ -96,16 +96,7 @@ def _same(a: float, b: float) -> bool:
 
 def four_bars(compiled: Compiled) -> list[FourBar]:
     """The four-bar loops of a machine: an arm on a fixed point, a coupler, and a link on another fixed point.
-
-    Parameters
-    ----------
-    compiled : Compiled
-        The machine; of a batch, the first.
-
-    Returns
-    -------
-    list of FourBar
-        In build order, from cranks and rockers as well as from joints and bars.
+    Returns: in build order, from cranks and rockers as well as from joints and bars.
     """
     grounds = {fixed.point: compiled.parameters[[fixed.x, fixed.y]] for fixed in compiled.ground}
     arms = _arms(compiled, grounds)

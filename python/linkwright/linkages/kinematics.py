@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.kernel.errors import MachineError, Problem, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, shown
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Record
 from linkwright.linkages.closure import has_levers, require_closed
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
@@ -26,81 +28,43 @@ _THIRD = {"points": 2, "links": 1, "slides": 1}
 
 
 @dataclass(frozen=True)
-class PointMotion:
-    """A point over the crank angle; arrays (n, 2) for one machine, (rows, n, 2) for a batch.
+class PointMotion(Record):
+    """A point over the crank angle; arrays (n, 2) for one machine, (rows, n, 2) for a batch."""
 
-    Attributes
-    ----------
-    position : ndarray
-        [m].
-    d1, d2 : ndarray
-        First and second derivative by the crank angle [m/rad, m/rad²].
-    d3 : ndarray or None
-        Third derivative [m/rad³], where it was asked for.
-    """
-
-    position: Floats
-    d1: Floats
-    d2: Floats
-    d3: Floats | None = None
+    position: Annotated[Floats, About("Place [m].")]
+    d1: Annotated[Floats, About("First derivative by the crank angle [m/rad].")]
+    d2: Annotated[Floats, About("Second derivative [m/rad²].")]
+    d3: Annotated[Floats | None, About("Third derivative [m/rad³], where it was asked for.")] = None
 
 
 @dataclass(frozen=True)
-class LinkMotion:
-    """A link over the crank angle; arrays (n,) for one machine, (rows, n) for a batch.
+class LinkMotion(Record):
+    """A link over the crank angle; arrays (n,) for one machine, (rows, n) for a batch."""
 
-    Attributes
-    ----------
-    angle : ndarray
-        Direction of the link, continuous over the angles [rad].
-    d1, d2 : ndarray
-        First and second derivative by the crank angle [–].
-    d3 : ndarray or None
-        Third derivative [–], where it was asked for.
-    """
-
-    angle: Floats
-    d1: Floats
-    d2: Floats
-    d3: Floats | None = None
+    angle: Annotated[Floats, About("Direction of the link, continuous over the angles [rad].")]
+    d1: Annotated[Floats, About("First derivative by the crank angle [–].")]
+    d2: Annotated[Floats, About("Second derivative [–].")]
+    d3: Annotated[Floats | None, About("Third derivative [–], where it was asked for.")] = None
 
 
 @dataclass(frozen=True)
-class SlideMotion:
-    """A slider along its guide; arrays (n,) for one machine, (rows, n) for a batch.
+class SlideMotion(Record):
+    """A slider along its guide; arrays (n,) for one machine, (rows, n) for a batch."""
 
-    Attributes
-    ----------
-    position : ndarray
-        Along the guide from the foot of its through point [m].
-    d1, d2 : ndarray
-        First and second derivative by the crank angle [m/rad, m/rad²].
-    d3 : ndarray or None
-        Third derivative [m/rad³], where it was asked for.
-    """
-
-    position: Floats
-    d1: Floats
-    d2: Floats
-    d3: Floats | None = None
+    position: Annotated[Floats, About("Along the guide from the foot of its through point [m].")]
+    d1: Annotated[Floats, About("First derivative by the crank angle [m/rad].")]
+    d2: Annotated[Floats, About("Second derivative [m/rad²].")]
+    d3: Annotated[Floats | None, About("Third derivative [m/rad³], where it was asked for.")] = None
 
 
 @dataclass(frozen=True)
-class Kinematics:
-    """Motion of a mechanism over given crank angles.
+class Kinematics(Record):
+    """Motion of a mechanism over given crank angles."""
 
-    Attributes
-    ----------
-    angles : ndarray, shape (n,)
-        Crank angles [rad].
-    points, links, slides : dict
-        `PointMotion`, `LinkMotion`, `SlideMotion` by name.
-    """
-
-    angles: Floats
-    points: dict[str, PointMotion]
-    links: dict[str, LinkMotion]
-    slides: dict[str, SlideMotion]
+    angles: Annotated[Floats, Shown("crank angles", "φ", "rad")]
+    points: Annotated[dict[str, PointMotion], About("Motion of each point.")]
+    links: Annotated[dict[str, LinkMotion], About("Motion of each link.")]
+    slides: Annotated[dict[str, SlideMotion], About("Motion of each slide.")]
 
 
 @public
@@ -161,13 +125,7 @@ def everything(compiled: Compiled) -> list[tuple[str, str]]:
 
 
 def with_third(compiled: Compiled, found: Kinematics, what: list[tuple[str, str]]) -> Kinematics:
-    """The same motion with third derivatives.
-
-    Raises
-    ------
-    ShapeError
-        Entries vary from machine to machine.
-    """
+    """The same motion with third derivatives. Raises ShapeError: entries vary from machine to machine."""
     if len(compiled.slots):
         raise ShapeError("third derivatives are for one machine, and entries vary from machine to machine")
     known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
@@ -184,13 +142,7 @@ def with_third(compiled: Compiled, found: Kinematics, what: list[tuple[str, str]
 
 
 def checked_angles(angles: ArrayLike) -> Floats:
-    """Crank angles as a contiguous list.
-
-    Raises
-    ------
-    ShapeError
-        They are no list of finite numbers.
-    """
+    """Crank angles as a contiguous list. Raises ShapeError: they are no list of finite numbers."""
     phi = array("crank angles", angles)
     if phi.ndim != 1:
         raise ShapeError(f"crank angles: found an array of shape {phi.shape}, expected a list")

@@ -232,20 +232,7 @@ class FunctionLaw:
 def as_law(law: Law | Callable[[Any], Any] | Sequence[ArrayLike]) -> Law:
     """A law, a function, or a pair of times and angles as a law.
 
-    Parameters
-    ----------
-    law : Law, callable or pair of array_like, shape (n,)
-        See the classes of this module.
-
-    Returns
-    -------
-    Law
-        With exact derivatives.
-
-    Raises
-    ------
-    ShapeError
-        It is none of these.
+    `law` (n,): see the classes of this module. Raises ShapeError: it is none of these.
     """
     if hasattr(law, "at"):
         return law

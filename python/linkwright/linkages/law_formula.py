@@ -38,13 +38,7 @@ class FormulaLaw:
     text: str
 
     def __post_init__(self) -> None:
-        """Read it once, for its errors.
-
-        Raises
-        ------
-        InputError
-            It is no formula of t.
-        """
+        """Read it once, for its errors. Raises InputError: it is no formula of t."""
         try:
             found = names(parse(self.text))
         except FormulaError as error:

@@ -20,7 +20,7 @@ from linkwright.kernel.numerics.roots import brackets, zeros
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Shown
-from linkwright.kernel.result import Result
+from linkwright.kernel.result import Record, Result
 from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import closure_of, require_closed
 from linkwright.linkages.kinematics import checked_angles, everything, kinematics_of
@@ -31,20 +31,17 @@ from linkwright.machine.program.compiled import Compiled, compile_machine
 Floats = NDArray[np.float64]
 
 
+_PATH_POSITION = "Of a point two columns [m], of a slide one [m], of a link one [rad]."
+
+
 @dataclass(frozen=True)
-class Path:
-    """A point, link or slide over time.
+class Path(Record):
+    """A point, link or slide over time."""
 
-    Attributes
-    ----------
-    position, velocity, acceleration, jerk : ndarray, shape (n, 2) or (n,)
-        Of a point two columns [m, m/s, m/s², m/s³]; of a slide, and of a link with angles in [rad], one.
-    """
-
-    position: Floats
-    velocity: Floats
-    acceleration: Floats
-    jerk: Floats
+    position: Annotated[Floats, About(_PATH_POSITION, "(n, 2) or (n,)")]
+    velocity: Annotated[Floats, About("Likewise [m/s or rad/s].", "(n, 2) or (n,)")]
+    acceleration: Annotated[Floats, About("Likewise [m/s² or rad/s²].", "(n, 2) or (n,)")]
+    jerk: Annotated[Floats, About("Likewise [m/s³ or rad/s³].", "(n, 2) or (n,)")]
 
 
 @dataclass(frozen=True)
@@ -164,13 +161,7 @@ def _path(position: Floats, each: Any, rates: Floats) -> Path:
 
 
 def _require_within(compiled: Compiled, machine: Machine, law: Law, times: Floats) -> None:
-    """Raise if the law leaves the range of the mechanism, also between the times.
-
-    Raises
-    ------
-    AssemblyError
-        Says when, and at which limit.
-    """
+    """Raise if the law leaves the range of the mechanism, also between the times."""
     where = closure_of(compiled)
     if where.turns_fully:
         return

@@ -12,17 +12,8 @@ Words = tuple[str, str]
 def describe(element: str, machine: Machine) -> Words:
     """Why an element does not close, and the remedy.
 
-    Parameters
-    ----------
-    element : str
-        Name of a dyad, or the joints of a group joined by "and", as in `Closure.element`.
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    tuple of str
-        What cannot meet, with its lengths, and what to change.
+    `element`: name of a dyad, or the joints of a group joined by "and", as in `Closure.element`. Returns:
+    what cannot meet, with its lengths, and what to change.
     """
     mechanism = machine.linkage
     makers = {
@@ -42,17 +33,8 @@ def describe(element: str, machine: Machine) -> Words:
 def change_point(element: str, machine: Machine) -> Words:
     """Why the speeds of an element are not determined where it closes with nothing to spare, and the remedy.
 
-    Parameters
-    ----------
-    element : str
-        Name of a dyad or a group, as in `Closure.element`.
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    tuple of str
-        What happens there, and what to change.
+    `element`: name of a dyad or a group, as in `Closure.element`. Returns: what happens there, and what to
+    change.
     """
     if element in machine.linkage.slotted_levers:
         what = "its pin passes over its pivot, where the lever has no direction"

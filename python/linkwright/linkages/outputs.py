@@ -34,19 +34,8 @@ class Output(NamedTuple):
 
 
 def outputs_of(compiled: Compiled, mechanism: Mechanism) -> list[Output]:
-    """The outputs of a machine in build order; for a rocker its link on the pivot.
-
-    Parameters
-    ----------
-    compiled : Compiled
-        The machine.
-    mechanism : Mechanism
-        Its description, for the names.
-
-    Returns
-    -------
-    list of Output
-        None of the drivers.
+    """The outputs of a machine in build order; for a rocker its link on the pivot. Returns: none of the
+    drivers.
     """
     names = _Names(compiled, mechanism)
     return [each for element in compiled.elements for each in names.of(element)]

@@ -6,12 +6,14 @@ r"""One pose: everything about a mechanism at one crank angle.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import require_closed
 from linkwright.linkages.dyads import dyads_of, evaluate, transmission, transmission_channels
@@ -42,40 +44,20 @@ class PoseCoordinate:
 
 
 @dataclass(frozen=True)
-class Pose:
-    """A mechanism at one crank angle.
+class Pose(Record):
+    """A mechanism at one crank angle."""
 
-    Attributes
-    ----------
-    crank_angle, speed, acceleration : float
-        Of the crank [rad, rad/s, rad/s²].
-    points : dict of str to PosePoint
-        Points by name.
-    links, slides : dict of str to PoseCoordinate
-        Links (directions from −π to π) and slides by name.
-    transmission_angles : dict of str to float
-        μ of each dyad [rad].
-    near_limit : tuple of str
-        Dyads whose links are within some 6° of one line.
-    """
-
-    crank_angle: float
-    speed: float
-    acceleration: float
-    points: dict[str, PosePoint]
-    links: dict[str, PoseCoordinate]
-    slides: dict[str, PoseCoordinate]
-    transmission_angles: dict[str, float]
-    near_limit: tuple[str, ...]
+    crank_angle: Annotated[float, Shown("crank angle", "φ", "rad")]
+    speed: Annotated[float, Shown("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[float, Shown("angular acceleration of the crank", "ε", "rad/s²")]
+    points: Annotated[dict[str, PosePoint], About("Points by name.")]
+    links: Annotated[dict[str, PoseCoordinate], About("Links by name, directions from −π to π [rad].")]
+    slides: Annotated[dict[str, PoseCoordinate], About("Slides by name [m].")]
+    transmission_angles: Annotated[dict[str, float], About("μ of each dyad [rad].")]
+    near_limit: Annotated[tuple[str, ...], About("Dyads whose links are within some 6° of one line.")]
 
     def to_dict(self) -> dict[str, Any]:
-        """Everything by name, ready for JSON.
-
-        Returns
-        -------
-        dict
-            SI numbers; x and y as lists.
-        """
+        """Everything by name, ready for JSON. Returns: SI numbers; x and y as lists."""
         parts = {
             part: {name: _plain(each) for name, each in getattr(self, part).items()}
             for part in ("points", "links", "slides")

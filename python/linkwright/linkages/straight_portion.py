@@ -26,19 +26,9 @@ def straightest(at: Places, cycle: Cycle, straight: float) -> tuple[float, float
 
     All portions between every few samples are looked at, then those whose ends are moved by less.
 
-    Parameters
-    ----------
-    at : callable
-        Gives x and y, and more, (6, n), at crank angles (n,).
-    cycle : Cycle
-        The crank angles that are looked at.
-    straight : float
-        Maximum distance from the chord over its length.
-
-    Returns
-    -------
-    low, high, chord, error : float
-        Crank angles at its ends [rad], its chord and the maximum distance from that [m].
+    `at`: gives x and y, and more, (6, n), at crank angles (n,); `straight`: maximum distance from the chord
+    over its length. Returns: crank angles at its ends [rad], its chord and the maximum distance from that
+    [m].
     """
     n = len(cycle.angles) - 1
     stride = max(1, n // _PORTIONS)

@@ -220,18 +220,6 @@ def _time_ratio(at: Floats, values: Floats, span: float) -> float | None:
 def sweep(compiled: Compiled, mechanism: Mechanism, cycle: Cycle) -> LinkageSweep:
     """Sweep a mechanism over a cycle.
 
-    Parameters
-    ----------
-    compiled : Compiled
-        One machine.
-    mechanism : Mechanism
-        Its description.
-    cycle : Cycle
-        Where it is looked at.
-
-    Returns
-    -------
-    LinkageSweep
-        Curves and located extremes.
+    `cycle`: where it is looked at.
     """
     return LinkageSweep(compiled, mechanism, cycle)

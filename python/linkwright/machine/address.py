@@ -76,24 +76,8 @@ def _at(machine: Machine, place: tuple[str, ...]) -> Any:
 
 
 def kind(machine: Machine, address: str) -> Kind | None:
-    """The quantity that stands at an address.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    address : str
-        Address of an entry.
-
-    Returns
-    -------
-    Kind or None
-        Its kind with unit; None if the entry is no quantity.
-
-    Raises
-    ------
-    MachineError
-        There is no such entry.
+    """The quantity that stands at an address. Returns: its kind with unit; None if the entry is no quantity.
+    Raises MachineError: there is no such entry.
     """
     mark = mark_of(annotation_at(Machine, known_place(machine, address), machine))
     return mark.kind if mark else None
@@ -135,17 +119,8 @@ def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
 def resolve(node: object, address: str) -> tuple[str, ...]:
     """The keys that an address means, where a key with points in it need not stand in quotes.
 
-    Parameters
-    ----------
-    node : object
-        A description, checked or raw.
-    address : str
-        ``bodies.cart1.rod.mass`` finds the key ``cart1.rod``, if there is one.
-
-    Returns
-    -------
-    tuple of str
-        Keys from the top down; keys that do not exist are taken as they are written.
+    `address`: ``bodies.cart1.rod.mass`` finds the key ``cart1.rod``, if there is one. Returns: keys from the
+    top down; keys that do not exist are taken as they are written.
     """
     parts = split(address)
     found: list[str] = []

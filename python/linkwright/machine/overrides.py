@@ -30,20 +30,8 @@ class Override:
 def parse_all(overrides: Sequence[str] | Mapping[str, Any]) -> list[Override]:
     """Read overrides.
 
-    Parameters
-    ----------
-    overrides : sequence of str or Mapping
-        Texts ``PATH=VALUE``, or path → value; values of a mapping are taken as they are.
-
-    Returns
-    -------
-    list of Override
-        In their order.
-
-    Raises
-    ------
-    InputError
-        A text is no ``PATH=VALUE``.
+    `overrides`: texts ``PATH=VALUE``, or path → value; values of a mapping are taken as they are. Raises
+    InputError: a text is no ``PATH=VALUE``.
     """
     if isinstance(overrides, Mapping):
         return [_of(address, value) for address, value in overrides.items()]
@@ -55,23 +43,9 @@ def parse_all(overrides: Sequence[str] | Mapping[str, Any]) -> list[Override]:
 def parse(text: str) -> Override:
     """Read one override.
 
-    Parameters
-    ----------
-    text : str
-        ``PATH=VALUE``. The value is TOML if it can be read so, else a text: ``80 deg`` needs no quotes.
+    `text`: ``PATH=VALUE``. The value is TOML if it can be read so, else a text: ``80 deg`` needs no quotes.
+    Raises InputError: the text is no ``PATH=VALUE``.
 
-    Returns
-    -------
-    Override
-        The address and the value.
-
-    Raises
-    ------
-    InputError
-        The text is no ``PATH=VALUE``.
-
-    Examples
-    --------
     >>> parse("drive.gearbox.ratio=10").value
     10
     """
@@ -90,22 +64,9 @@ def parse(text: str) -> Override:
 def apply(tables: dict[str, Any], change: Override) -> tuple[str, ...]:
     """Write one override into the tables of a file.
 
-    Parameters
-    ----------
-    tables : dict
-        Tables of the file; changed in place.
-    change : Override
-        The entry.
-
-    Returns
-    -------
-    tuple of str
-        Keys from the top down to what is new: the entry, or the first table that was made for it.
-
-    Raises
-    ------
-    InputError
-        The way to the entry leads through something that is no table.
+    `tables`: tables of the file; changed in place. Returns: keys from the top down to what is new: the entry,
+    or the first table that was made for it. Raises InputError: the way to the entry leads through something
+    that is no table.
     """
     place = resolve(tables, change.address)
     new = place

@@ -152,30 +152,10 @@ def loads_as(
 ) -> Model:
     """Read a description of some kind from a TOML text.
 
-    Parameters
-    ----------
-    model : type
-        The description; raises `MachineError` with all problems when it is validated.
-    text : str
-        What such a file holds.
-    overrides : sequence of str or Mapping
-        As for `read`.
-    path : str
-        Name of the text in messages.
-    allow_outside : bool
-        Whether an entry `file` may lead out of the folder of the machine file.
-
-    Returns
-    -------
-    Model
-        Checked, in SI.
-
-    Raises
-    ------
-    MachineFileError
-        The text describes no such thing; all problems are listed.
-    InputError
-        An override is malformed.
+    `model`: the description; raises `MachineError` with all problems when it is validated; `text`: what such
+    a file holds; `path`: name of the text in messages; `allow_outside`: whether an entry `file` may lead out
+    of the folder of the machine file. Raises MachineFileError: the text describes no such thing; all problems
+    are listed; InputError: an override is malformed.
     """
     tables = _tables(text, path)
     _check_format(tables, path, text)

@@ -27,10 +27,7 @@ if TYPE_CHECKING:
 def with_followers(own: Mechanism) -> Mechanism:
     """A mechanism with a driver in place of each cam; the same mechanism gives the same.
 
-    Parameters
-    ----------
-    own : Mechanism
-        What the file builds of elements.
+    `own`: what the file builds of elements.
     """
     if not own.cams:
         return own
@@ -56,19 +53,7 @@ def _driven(own: Mechanism) -> Mechanism:
 def merged(own: Mechanism, unit: PumpingUnit, rotator: RodRotator | None) -> Mechanism:
     """A mechanism together with what a unit expands into; the same parts give the same mechanism.
 
-    Parameters
-    ----------
-    own : Mechanism
-        What the file builds of elements.
-    unit : PumpingUnit
-        The unit.
-    rotator : RodRotator or None
-        The rotator.
-
-    Returns
-    -------
-    Mechanism
-        All elements.
+    `own`: what the file builds of elements.
     """
     parts = (own, unit, rotator)
     return _kept(parts, partial(_merged, *parts), _has_arrays(unit, rotator))

@@ -147,13 +147,7 @@ def known_paper(number: int) -> int:
 
 @cache
 def printed_values(number: int) -> dict[str, Any]:
-    """The file of data of a paper, in SI.
-
-    Raises
-    ------
-    InputError
-        There is no such paper.
-    """
+    """The file of data of a paper, in SI. Raises InputError: there is no such paper."""
     n = known_paper(number)
     text = files(f"linkwright.papers.paper{n}").joinpath(f"paper{n}.toml").read_text(encoding="utf-8")
     return tomllib.loads(text)

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -27,6 +27,8 @@ from linkwright.drive.reduction import reduction_of
 from linkwright.drive.run_up import RunUp, run_up
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.kernel.errors import FindingError
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Record
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -60,36 +62,20 @@ DECISIVE = {
 
 
 @dataclass(frozen=True)
-class Check:
-    """One check.
+class Check(Record):
+    """One check."""
 
-    Attributes
-    ----------
-    name : str
-        Of the check.
-    value, limit : float or None
-        What was found and what it is compared with [``unit``].
-    unit : str
-        Unit of both.
-    passed : bool or None
-        None if it is not determined.
-    at_most : bool
-        Whether the value must be at most the limit, not at least.
-    note : str
-        Why it is not determined, what it rests on, or how it failed.
-    """
-
-    name: str
-    value: float | None
-    limit: float | None
-    unit: str
-    passed: bool | None
-    at_most: bool = False
-    note: str = ""
+    name: Annotated[str, About("Of the check.")]
+    value: Annotated[float | None, About("What was found, in ``unit``.")]
+    limit: Annotated[float | None, About("What it is compared with, in ``unit``.")]
+    unit: Annotated[str, About("Unit of both.")]
+    passed: Annotated[bool | None, About("None if it is not determined.")]
+    at_most: Annotated[bool, About("Whether the value must be at most the limit, not at least.")] = False
+    note: Annotated[str, About("Why it is not determined, what it rests on, or how it failed.")] = ""
 
     @property
-    def utilisation(self) -> float | None:
-        """Share of what is allowed that is used; above 1 the check fails [–]."""
+    def utilisation(self) -> Annotated[float | None, Shown("utilisation", "", "")]:
+        """Share of what is allowed that is used; above 1 the check fails."""
         if self.value is None or self.limit is None or not self.value > 0 or not self.limit > 0:
             return None
         return self.value / self.limit if self.at_most else self.limit / self.value
@@ -161,21 +147,7 @@ def rating_checks(
 ) -> tuple[Check, ...]:
     """Check what the rating of a motor tells by itself: speed and power.
 
-    Parameters
-    ----------
-    known : CatalogueMotor
-        The type.
-    ratio : float
-        Of the gearbox [–].
-    required : RequiredPower
-        Power and design speed.
-    reserve : float
-        Rated power over required power that is asked for [–].
-
-    Returns
-    -------
-    tuple of Check
-        ``speed`` and ``rated_power``.
+    `ratio`: of the gearbox [–]; `reserve`: rated power over required power that is asked for [–].
     """
     speed = known.speed_rated / ratio
     suits = abs(speed / required.speed - 1) <= SPEED_BAND
@@ -197,24 +169,12 @@ def _speed_check(speed: float, wanted: float, suits: bool, note: str) -> Check:
 def motion_checks(machine: Machine) -> MotorChecks:
     """Check what only the machine's motion tells: start, run-up, heat and overload.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine with an induction motor in it.
+    `machine`: the machine with an induction motor in it. Returns: the checks, with steady motion and run-up.
 
-    Returns
-    -------
-    MotorChecks
-        The checks, with steady motion and run-up.
-
-    Notes
-    -----
     Where the catalogue gives no starting torque, Kloss's formula holds down to standstill. It gives less than
     real motors have, so a start by it is sure and a failure to start proves nothing.
 
-    References
-    ----------
-    .. [1] Effective torque and overload: any handbook of electric drives, choice of motors for varying load.
+    Source: Effective torque and overload: any handbook of electric drives, choice of motors for varying load.
     """
     assert machine.drive is not None
     motor = machine.drive.motor
@@ -231,20 +191,7 @@ def motion_checks(machine: Machine) -> MotorChecks:
 
 
 def torque_checks(motor: InductionMotor, steady: SteadyState) -> tuple[Check, Check]:
-    """Check the torque of steady motion against the rated and the breakdown torque.
-
-    Parameters
-    ----------
-    motor : InductionMotor
-        The motor.
-    steady : SteadyState
-        Its steady motion.
-
-    Returns
-    -------
-    tuple of Check
-        ``torque_rms`` and ``torque_peak``.
-    """
+    """Check the torque of steady motion against the rated and the breakdown torque."""
     peak = max(steady.torque_motor_max, -steady.torque_motor_min)
     rms = _at_most("torque_rms", steady.torque_motor_rms, motor.torque_rated, "no rated torque")
     limit = PEAK_SHARE * motor.torque_breakdown if motor.torque_breakdown else None

@@ -13,28 +13,8 @@ def with_motor(
 ) -> Machine:
     """Put a motor of the catalogue into a machine.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    known : CatalogueMotor
-        The type.
-    inertia : float
-        Of its rotor [kg m²].
-    ratio : float
-        Of the gearbox [–].
-    note : str
-        A sentence to add to the machine's description.
-
-    Returns
-    -------
-    Machine
-        The new machine, checked.
-
-    Raises
-    ------
-    MachineError
-        The catalogue gives no characteristic for the type.
+    `inertia`: of its rotor [kg m²]; `ratio`: of the gearbox [–]; `note`: a sentence to add to the machine's
+    description. Raises MachineError: the catalogue gives no characteristic for the type.
     """
     tables = _tables(machine)
     drive = tables.setdefault("drive", {})
@@ -46,19 +26,8 @@ def with_motor(
 def with_flywheel(machine: Machine, inertia: float, *, note: str = "") -> Machine:
     """Put a flywheel on the crankshaft, in place of any that the machine has.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    inertia : float
-        Of the flywheel [kg m²]; 0 leaves it out.
-    note : str
-        A sentence to add to the machine's description.
-
-    Returns
-    -------
-    Machine
-        The new machine, checked.
+    `inertia`: of the flywheel [kg m²]; 0 leaves it out; `note`: a sentence to add to the machine's
+    description.
     """
     tables = _tables(machine)
     drive = tables.setdefault("drive", {})

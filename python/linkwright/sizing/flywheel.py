@@ -151,24 +151,8 @@ def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
 def flywheel_inertia(machine: Machine, unevenness: float, *, guess: float = 0.0) -> tuple[float, int]:
     """The flywheel's inertia alone.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine without a flywheel.
-    unevenness : float
-        δ [–].
-    guess : float
-        Where to begin [kg m²].
-
-    Returns
-    -------
-    tuple of (float, int)
-        J_f [kg m²], 0 if none is needed; how many steady motions were solved.
-
-    Raises
-    ------
-    SteadyStateError, ConvergenceError
-        As for `choose_flywheel`.
+    `unevenness`: δ [–]; `guess`: where to begin [kg m²]. Returns: J_f [kg m²], 0 if none is needed; how many
+    steady motions were solved. Raises SteadyStateError, ConvergenceError: as for `choose_flywheel`.
     """
     without = _unevenness(machine)
     if without is not None and without <= unevenness:
@@ -179,26 +163,13 @@ def flywheel_inertia(machine: Machine, unevenness: float, *, guess: float = 0.0)
 def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, float]:
     """Estimate a flywheel by Mertsalov's method.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine without a flywheel.
-    unevenness : float
-        δ [–].
+    `unevenness`: δ [–]. Returns: inertia on the crankshaft [kg m²], negative if none is needed; largest
+    excess work ΔA [J].
 
-    Returns
-    -------
-    tuple of float
-        Inertia on the crankshaft [kg m²], negative if none is needed; largest excess work ΔA [J].
-
-    Notes
-    -----
     ω_m is the design speed, or the speed without load where none is given. The extremes of ΔA are exact: they
     are where the mean torque equals the torque of load and inertia, and at kinks.
 
-    References
-    ----------
-    .. [1] Artobolevsky, Theory of Mechanisms and Machines: flywheel by Mertsalov's method.
+    Source: Artobolevsky, Theory of Mechanisms and Machines: flywheel by Mertsalov's method.
     """
     assert machine.drive is not None
     compiled = compile_machine(machine)
@@ -212,16 +183,7 @@ def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, floa
 
 def constant_inertia(machine: Machine) -> float:
     """Inertia of what turns in a constant ratio to the crank: drive, and bodies of constant reduced inertia.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    float
-        At the crank [kg m²].
+    Returns: at the crank [kg m²].
     """
     total = 0.0 if machine.drive is None else float(drive_inertia(machine.drive))
     phi = turn_angles(_ANGLES)
@@ -277,9 +239,7 @@ def _searched(bare: Machine, wanted: float, guess: float) -> tuple[float, int]:
 def _root(f: Callable[[float], float], low: float, high: float, close: float) -> float:
     """Root of an increasing function by regula falsi, Illinois variant.
 
-    References
-    ----------
-    .. [1] Dowell, Jarratt, A modified regula falsi method, BIT 11 (1971) 168–174.
+    Source: Dowell, Jarratt, A modified regula falsi method, BIT 11 (1971) 168–174.
     """
     f_low, f_high = f(low), f(high)
     side = 0

@@ -39,18 +39,8 @@ def rotor_inertia(known: CatalogueMotor) -> tuple[float, bool]:
 def estimated_inertia(torque_rated: float) -> float:
     """Estimate the inertia of a rotor from the rated torque of its motor.
 
-    Parameters
-    ----------
-    torque_rated : float
-        M_n [N m].
+    `torque_rated`: M_n [N m]. Returns: J [kg m²], by similarity with `KNOWN`.
 
-    Returns
-    -------
-    float
-        J [kg m²], by similarity with `KNOWN`.
-
-    Examples
-    --------
     >>> round(estimated_inertia(107.7), 3)
     0.138
     """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from linkwright.drive.model.catalogue import CatalogueMotor, motors
 from linkwright.drive.model.catalogue import motor as catalogue_motor
@@ -14,6 +14,8 @@ from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Record
 from linkwright.kernel.units import INERTIA, RATIO, not_negative, positive
 from linkwright.machine.machine import Machine
 from linkwright.sizing.checks import DECISIVE, Check, MotorChecks, motion_checks, rating_checks
@@ -33,44 +35,29 @@ _DOUBT = 2.0
 
 
 @dataclass(frozen=True)
-class Candidate:
-    """One motor and what speaks for and against it.
+class Candidate(Record):
+    """One motor and what speaks for and against it."""
 
-    Attributes
-    ----------
-    type : str
-        Name in the catalogue.
-    known : CatalogueMotor
-        What the catalogue gives.
-    ratio : float
-        Of the gearbox it would have [–].
-    inertia : float
-        Of the rotor [kg m²].
-    inertia_estimated : bool
-        Whether that is an estimate.
-    flywheel : float or None
-        Inertia of the flywheel that it was judged with [kg m²]; None if none was sized for it.
-    checks : tuple of Check
-        Those made; a motor whose rating does not suit is not analysed further.
-    decisive : tuple of str
-        Names of the checks that it must pass.
-    machine : Machine or None
-        The machine with it; None if the catalogue gives no characteristic.
-    steady, run_up : SteadyState, RunUp or None
-        Analyses of that machine, where they succeed.
-    """
-
-    type: str
-    known: CatalogueMotor
-    ratio: float
-    inertia: float
-    inertia_estimated: bool
-    flywheel: float | None
-    checks: tuple[Check, ...]
-    decisive: tuple[str, ...]
-    machine: Machine | None = None
-    steady: SteadyState | None = None
-    run_up: RunUp | None = None
+    type: Annotated[str, About("Name in the catalogue.")]
+    known: Annotated[CatalogueMotor, About("What the catalogue gives.")]
+    ratio: Annotated[float, Shown("ratio of the gearbox", "", "", "Of the one it would have.")]
+    inertia: Annotated[float, Shown("inertia of the rotor", "", "kg m²")]
+    inertia_estimated: Annotated[bool, About("Whether that is an estimate.")]
+    flywheel: Annotated[
+        float | None,
+        Shown(
+            "inertia of the flywheel", "", "kg m²", "That it was judged with; None if none was sized for it."
+        ),
+    ]
+    checks: Annotated[
+        tuple[Check, ...], About("Those made; a motor whose rating does not suit is not analysed further.")
+    ]
+    decisive: Annotated[tuple[str, ...], About("Names of the checks that it must pass.")]
+    machine: Annotated[
+        Machine | None, About("The machine with it; None if the catalogue gives no characteristic.")
+    ] = None
+    steady: Annotated[SteadyState | None, About("Its steady motion, where there is one.")] = None
+    run_up: Annotated[RunUp | None, About("Its run-up, where it succeeds.")] = None
 
     @property
     def failed(self) -> tuple[Check, ...]:
@@ -88,8 +75,8 @@ class Candidate:
         return "; ".join(check.words for check in self.failed)
 
     @property
-    def worst(self) -> float:
-        """Maximum utilisation among the decisive checks; infinite where one has no number [–]."""
+    def worst(self) -> Annotated[float, Shown("maximum utilisation", "", "")]:
+        """Among the decisive checks; infinite where one has no number."""
         shares = [check.utilisation for check in self.failed]
         return max((float("inf") if share is None else share for share in shares), default=0.0)
 
@@ -111,35 +98,23 @@ class Candidate:
         }
 
 
+_MOTOR_CHOICE_PRESENT = "The checks of the motor that the machine has; empty if it has none of this kind."
+
+
 @dataclass(frozen=True)
-class MotorChoice:
-    """The choice of a motor.
+class MotorChoice(Record):
+    """The choice of a motor."""
 
-    Attributes
-    ----------
-    required : RequiredPower
-        The power that the loads take.
-    reserve : float
-        Rated power over required power that was asked for [–].
-    by : str
-        ``"all"`` checks, ``"fixed-start"``, or ``"power"`` and start alone.
-    candidates : tuple of Candidate
-        All types of the catalogue, those that pass first, then by rated power.
-    chosen : Candidate or None
-        The smallest that passes.
-    present : tuple of Check
-        The checks of the motor that the machine has; empty if it has none of this kind.
-    warnings : tuple of str
-        What the choice rests on.
-    """
-
-    required: RequiredPower
-    reserve: float
-    by: By
-    candidates: tuple[Candidate, ...]
-    chosen: Candidate | None
-    present: tuple[Check, ...]
-    warnings: tuple[str, ...]
+    required: Annotated[RequiredPower, About("The power that the loads take.")]
+    reserve: Annotated[float, Shown("rated power over required power", "", "", "That was asked for.")]
+    by: Annotated[By, About('``"all"`` checks, ``"fixed-start"``, or ``"power"`` and start alone.')]
+    candidates: Annotated[
+        tuple[Candidate, ...],
+        About("All types of the catalogue, those that pass first, then by rated power."),
+    ]
+    chosen: Annotated[Candidate | None, About("The smallest that passes.")]
+    present: Annotated[tuple[Check, ...], About(_MOTOR_CHOICE_PRESENT)]
+    warnings: Annotated[tuple[str, ...], About("What the choice rests on.")]
 
     @property
     def reason(self) -> str:
@@ -272,21 +247,8 @@ def own_inertia(machine: Machine) -> dict[str, float]:
 
 
 def present_checks(machine: Machine, required: RequiredPower, reserve: float) -> tuple[Check, ...]:
-    """The checks of the motor that the machine has.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    required : RequiredPower
-        Its required power.
-    reserve : float
-        As for `choose_motor`.
-
-    Returns
-    -------
-    tuple of Check
-        Empty without an induction motor whose rated point is known.
+    """The checks of the motor that the machine has. Returns: empty without an induction motor whose rated
+    point is known.
     """
     motor = machine.drive.motor if machine.drive else None
     if not isinstance(motor, InductionMotor) or None in (motor.power_rated, motor.speed_rated):

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
@@ -42,44 +43,40 @@ _LOOKS = 2001
 SOURCE = "Synthesised by linkwright from its dead centres"
 
 
+_CRANK_ROCKER_TURNS_ALIKE = (
+    "Whether the rocker turns like the crank on its way from the outer dead centre to the inner one."
+)
+
+
 @dataclass(frozen=True)
 class CrankRocker(TransmissionResult):
-    """A crank-rocker for given dead centres.
-
-    Attributes
-    ----------
-    swing : float
-        Angle ψ₀ of the rocker between the dead centres [rad].
-    crank_angle_forward : float
-        Crank angle φ₀ from the outer dead centre to the inner one [rad].
-    time_ratio : float
-        φ₀ over the rest of the revolution [–].
-    frame, crank, coupler, rocker : float
-        Lengths [m].
-    transmission_angle_min : float
-        Minimum transmission angle in the revolution [rad].
-    turns_alike : bool
-        Whether the rocker turns like the crank on its way from the outer dead centre to the inner one.
-    crank_angle_outer, crank_angle_inner : float
-        Crank angles of the dead centres in the machine [rad].
-    machine : Machine
-        The linkage, its frame along x.
-    """
+    """A crank-rocker for given dead centres."""
 
     remedy: ClassVar[str] = "ask for a smaller swing, or a time ratio nearer to 1"
 
-    swing: float
-    crank_angle_forward: float
-    time_ratio: float
-    frame: float
-    crank: float
-    coupler: float
-    rocker: float
-    transmission_angle_min: float
-    turns_alike: bool
-    crank_angle_outer: float
-    crank_angle_inner: float
-    machine: Machine
+    swing: Annotated[float, Shown("swing of the rocker", "ψ_0", "rad", "Between the dead centres.")]
+    crank_angle_forward: Annotated[
+        float,
+        Shown(
+            "crank angle of the forward stroke", "φ_0", "rad", "From the outer dead centre to the inner one."
+        ),
+    ]
+    time_ratio: Annotated[float, Shown("time ratio", "", "", "φ₀ over the rest of the revolution.")]
+    frame: Annotated[float, Shown("length of the frame", "", "m")]
+    crank: Annotated[float, Shown("length of the crank", "", "m")]
+    coupler: Annotated[float, Shown("length of the coupler", "", "m")]
+    rocker: Annotated[float, Shown("length of the rocker", "", "m")]
+    transmission_angle_min: Annotated[
+        float, Shown("minimum transmission angle", "μ_min", "rad", "Over the revolution.")
+    ]
+    turns_alike: Annotated[bool, About(_CRANK_ROCKER_TURNS_ALIKE)]
+    crank_angle_outer: Annotated[
+        float, Shown("crank angle of the outer dead centre", "", "rad", "In the machine.")
+    ]
+    crank_angle_inner: Annotated[
+        float, Shown("crank angle of the inner dead centre", "", "rad", "In the machine.")
+    ]
+    machine: Annotated[Machine, About("The linkage, its frame along x.")]
 
 
 _SWING = Bound(

@@ -53,23 +53,7 @@ _LONGEST = 400
 
 
 def function_of(text: str) -> Callable[[Floats], Floats]:
-    """Read an expression in x.
-
-    Parameters
-    ----------
-    text : str
-        Such as ``"log10(x)"`` or ``"x^1.5"``.
-
-    Returns
-    -------
-    callable
-        Values at arguments, both arrays (n,).
-
-    Raises
-    ------
-    InputError
-        The text is no such expression; names what is wrong.
-    """
+    """Read an expression in x. Raises InputError: the text is no such expression; names what is wrong."""
     if len(text) > _LONGEST:
         raise InputError(f"function: a text of {len(text)} letters, expected at most {_LONGEST}")
     try:

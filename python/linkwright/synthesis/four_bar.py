@@ -150,20 +150,11 @@ def side_of(crank_pin: complex, rocker_pivot: complex, joint: complex) -> Assemb
 def type_of(frame: float, crank: float, coupler: float, rocker: float) -> str:
     """Which links of a four-bar linkage turn fully.
 
-    Parameters
-    ----------
-    frame, crank, coupler, rocker : float
-        Lengths [m].
+    `frame`, `crank`, `coupler`, `rocker`: lengths [m]. Returns: ``"crank-rocker"``, ``"double-crank"``,
+    ``"rocker-crank"`` (the rocker turns, the crank does not), ``"double-rocker"``, ``"triple-rocker"`` (no
+    link turns), or ``"change-point"``.
 
-    Returns
-    -------
-    str
-        ``"crank-rocker"``, ``"double-crank"``, ``"rocker-crank"`` (the rocker turns, the crank does not),
-        ``"double-rocker"``, ``"triple-rocker"`` (no link turns), or ``"change-point"``.
-
-    References
-    ----------
-    .. [1] Grashof's condition: shortest + longest < sum of the other two.
+    Source: Grashof's condition: shortest + longest < sum of the other two.
     """
     lengths = {"double-crank": frame, "crank-rocker": crank, "double-rocker": coupler, "rocker-crank": rocker}
     ordered = sorted(lengths.values())

@@ -63,18 +63,8 @@ class Fit:
 def lengths(K: Floats, frame: float = 1.0) -> tuple[float, float, float] | None:
     """Crank, coupler and rocker of a solution.
 
-    Parameters
-    ----------
-    K : ndarray, shape (3,)
-        K₁, K₂, K₃ [–].
-    frame : float
-        Distance of the fixed pivots [m].
-
-    Returns
-    -------
-    tuple of float or None
-        r, c, b [m]; r or b is negative where its link points against the angle that describes it. None if no
-        such linkage exists.
+    `K` (3,): K₁, K₂, K₃ [–]; `frame`: distance of the fixed pivots [m]. Returns: r, c, b [m]; r or b is
+    negative where its link points against the angle that describes it. None if no such linkage exists.
     """
     if not np.isfinite(K).all() or min(abs(K[0]), abs(K[1])) < 1e-9:
         return None
@@ -88,17 +78,9 @@ def solve(
 ) -> tuple[list[Fit], int]:
     """All solutions that are found for as many pairs of angles as there are unknowns.
 
-    Parameters
-    ----------
-    crank, rocker : ndarray, shape (n,)
-        Crank and rocker angles of the points, from their start angles [rad].
-    crank_start, rocker_start : float or None
-        Start angles from the frame [rad]; None where they are free.
-
-    Returns
-    -------
-    tuple
-        The distinct solutions, and how many starts there were.
+    `crank`, `rocker` (n,): crank and rocker angles of the points, from their start angles [rad];
+    `crank_start`, `rocker_start`: start angles from the frame [rad]; None where they are free. Returns: the
+    distinct solutions, and how many starts there were.
     """
     free = np.array([crank_start is None, rocker_start is None])
     starts = _grid(crank_start, rocker_start)
@@ -123,18 +105,10 @@ def begins(
 ) -> tuple[Floats, Floats]:
     """Where a search for something else than the minimum residual begins: all over, and at what has it.
 
-    Parameters
-    ----------
-    crank, rocker : ndarray, shape (n,)
-        Crank and rocker angles of the points, from their start angles [rad].
-    crank_start, rocker_start : float or None
-        Start angles from the frame [rad]; None where they are free.
-
-    Returns
-    -------
-    tuple of ndarray
-        K (m, 3) by linear least squares for start angles all round, then refined from there; the start angles
-        (m, 2) [rad].
+    `crank`, `rocker` (n,): crank and rocker angles of the points, from their start angles [rad];
+    `crank_start`, `rocker_start`: start angles from the frame [rad]; None where they are free. Returns: K (m,
+    3) by linear least squares for start angles all round, then refined from there; the start angles (m, 2)
+    [rad].
     """
     starts = _grid(crank_start, rocker_start)
     K = _linear(crank, rocker, starts)

@@ -44,18 +44,8 @@ _SAME = 0.01
 def nearest(task: FunctionTask, scale: Scale) -> tuple[list[Fit], int]:
     """Linkages whose largest structural error over the range is a minimum, and that keep all limits.
 
-    Parameters
-    ----------
-    task : FunctionTask
-        Limits and start angles.
-    scale : Scale
-        The points as angles.
-
-    Returns
-    -------
-    tuple
-        The fits, the minimum of the largest errors first, each with the number of starts that ended at this
-        error; and how many starts were refined.
+    Returns: the fits, the minimum of the largest errors first, each with the number of starts that ended at
+    this error; and how many starts were refined.
     """
     free = np.array([True, True, True, task.crank_start is None, task.rocker_start is None])
     model = FunctionModel(

@@ -12,12 +12,14 @@ Source: F. Freudenstein, Approximate synthesis of four-bar linkages, Transaction
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, side_of
@@ -36,64 +38,59 @@ _SURE = 3
 SOURCE = "Synthesised by linkwright as a function generator"
 
 
+_FUNCTION_GENERATOR_MACHINE = "The linkage, its frame along x; crank angle zero is the start of the range."
+
+
 @dataclass(frozen=True)
 class FunctionGenerator(TransmissionResult):
-    """A four-bar linkage that generates a function.
+    """A four-bar linkage that generates a function."""
 
-    Attributes
-    ----------
-    type : str
-        Which links turn fully.
-    frame, crank, coupler, rocker : float
-        Lengths [m].
-    crank_start, rocker_start : float
-        Crank and rocker angle from the frame at the start of the range [rad].
-    rocker_opposite : bool
-        Whether the link ``B.rocker`` points against the rocker angle.
-    residual : float
-        Root of the mean square of the residuals of Freudenstein's equation [–]; 0 where all points are met.
-    angle_error_max, angle_error_rms : float
-        Structural error of the rocker angle over the range [rad].
-    function_error_max : float
-        The maximum in the unit of y.
-    angle_error_points : float
-        Error of the rocker angle at the worst of the points [rad].
-    transmission_angle_min : float
-        Minimum transmission angle over the range [rad].
-    solutions : int
-        Linkages that were found; this is the one with the minimum structural error.
-    starts, found_by : int
-        Starts of the search, and how many of them ended at this linkage.
-    points : ndarray, shape (n,)
-        Arguments of the points.
-    x, wanted, generated : ndarray, shape (m,)
-        Arguments over the range, the function there, and what the machine gives.
-    machine : Machine
-        The linkage, its frame along x; crank angle zero is the start of the range.
-    """
-
-    type: str
-    frame: float
-    crank: float
-    coupler: float
-    rocker: float
-    crank_start: float
-    rocker_start: float
-    rocker_opposite: bool
-    residual: float
-    angle_error_max: float
-    angle_error_rms: float
-    function_error_max: float
-    angle_error_points: float
-    transmission_angle_min: float
-    solutions: int
-    starts: int
-    found_by: int
-    x: Floats
-    wanted: Floats
-    generated: Floats
-    points: Floats
-    machine: Machine
+    type: Annotated[str, About("Which links turn fully.")]
+    frame: Annotated[float, Shown("length of the frame", "", "m")]
+    crank: Annotated[
+        float, Shown("length of the crank", "", "m", "Negative where it points against its angle.")
+    ]
+    coupler: Annotated[float, Shown("length of the coupler", "", "m")]
+    rocker: Annotated[float, Shown("length of the rocker", "", "m")]
+    crank_start: Annotated[
+        float, Shown("crank angle at the start of the range", "φ_0", "rad", "From the frame.")
+    ]
+    rocker_start: Annotated[
+        float, Shown("rocker angle at the start of the range", "ψ_0", "rad", "From the frame.")
+    ]
+    rocker_opposite: Annotated[bool, About("Whether the link ``B.rocker`` points against the rocker angle.")]
+    residual: Annotated[
+        float,
+        Shown(
+            "residual of Freudenstein's equation",
+            "",
+            "",
+            "Root of the mean square; 0 where all points are met.",
+        ),
+    ]
+    angle_error_max: Annotated[
+        float, Shown("maximum structural error", "", "rad", "Of the rocker angle over the range.")
+    ]
+    angle_error_rms: Annotated[
+        float, Shown("root-mean-square structural error", "", "rad", "Of the rocker angle over the range.")
+    ]
+    function_error_max: Annotated[float, About("The maximum in the unit of y.")]
+    angle_error_points: Annotated[
+        float, Shown("maximum error at the points", "", "rad", "Of the rocker angle.")
+    ]
+    transmission_angle_min: Annotated[
+        float, Shown("minimum transmission angle", "μ_min", "rad", "Over the range.")
+    ]
+    solutions: Annotated[
+        int, Shown("linkages found", "", "", "This is the one with the minimum structural error.")
+    ]
+    starts: Annotated[int, Shown("starts of the search", "", "")]
+    found_by: Annotated[int, Shown("starts that ended at this linkage", "", "")]
+    x: Annotated[Floats, About("Arguments over the range.", "(m,)")]
+    wanted: Annotated[Floats, About("The function there.", "(m,)")]
+    generated: Annotated[Floats, About("What the machine gives there.", "(m,)")]
+    points: Annotated[Floats, About("Arguments of the points.", "(n,)")]
+    machine: Annotated[Machine, About(_FUNCTION_GENERATOR_MACHINE)]
 
     @property
     def warnings(self) -> tuple[str, ...]:

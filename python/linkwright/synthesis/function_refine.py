@@ -188,22 +188,9 @@ def refine(
 ) -> tuple[Rows, Floats, Floats]:
     """Make the structural error at the points small in the least-squares sense, from every row.
 
-    Parameters
-    ----------
-    model : FunctionModel
-        The function and the constraints.
-    rows : Rows
-        Where to begin, m linkages.
-    weights : ndarray, shape (m, n), optional
-        Of the errors of each linkage; without them, all are one.
-    steps : int
-        At most.
-
-    Returns
-    -------
-    tuple
-        The linkages, the root of the mean square of their errors (m,) [rad], and by how much they break the
-        worst constraint (m,); zero or less where all are kept.
+    `rows`: where to begin, m linkages; `weights` (m, n): of the errors of each linkage; without them, all are
+    one. Returns: the linkages, the root of the mean square of their errors (m,) [rad], and by how much they
+    break the worst constraint (m,); zero or less where all are kept.
     """
     x = rows.x.copy()
     weights = np.ones((len(x), len(model.crank))) if weights is None else weights
@@ -240,17 +227,9 @@ def refine(
 def level(model: FunctionModel, rows: Rows) -> tuple[Rows, Floats]:
     """Make the largest structural error small, by Lawson's method: weights grow with the errors they meet.
 
-    Parameters
-    ----------
-    model : FunctionModel
-        The function over its whole range, and the constraints.
-    rows : Rows
-        Where to begin, m linkages that keep the constraints.
-
-    Returns
-    -------
-    tuple
-        The linkages, and their largest errors, (m,) [rad]; those of the start where nothing was gained.
+    `model`: the function over its whole range, and the constraints; `rows`: where to begin, m linkages that
+    keep the constraints. Returns: the linkages, and their largest errors, (m,) [rad]; those of the start
+    where nothing was gained.
     """
     errors = np.abs(model.errors(rows)[0])
     best, least = rows.x.copy(), errors.max(axis=1)

@@ -28,21 +28,9 @@ def chebyshev_points(start: float, end: float, n: int) -> Floats:
 
     .. math:: x_j = \tfrac12 (x_0 + x_n) - \tfrac12 (x_n - x_0) \cos\frac{(2j - 1)\pi}{2n}
 
-    Parameters
-    ----------
-    start, end : float
-        First and last argument of the range.
-    n : int
-        How many.
+    `start`, `end`: first and last argument of the range. Returns: (n,) in order from start to end.
 
-    Returns
-    -------
-    ndarray, shape (n,)
-        In order from start to end.
-
-    References
-    ----------
-    .. [1] Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
+    Source: Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
     """
     j = np.arange(1, n + 1)
     return 0.5 * (start + end) - 0.5 * (end - start) * np.cos((2 * j - 1) * np.pi / (2 * n))

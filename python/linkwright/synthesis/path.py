@@ -15,12 +15,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import worst_transmission
@@ -55,70 +57,55 @@ SOURCE = "Synthesised by linkwright for given points of a path"
 Track = Callable[[int, int], None]
 
 
+_PATH_GENERATOR_LIMITED_BY = (
+    "Keys of the task's limits at which the linkage stands; none if its error is rounding."
+)
+_PATH_GENERATOR_HISTORY = (
+    "Root of the mean square of the best linkage's errors after each step of the refinement [m], "
+    "shape (steps,); NaN as long as none keeps the constraints."
+)
+
+
 @dataclass(frozen=True)
 class PathGenerator(TransmissionResult):
-    """A four-bar linkage whose coupler point follows given points.
+    """A four-bar linkage whose coupler point follows given points."""
 
-    Attributes
-    ----------
-    type : str
-        Which links turn fully.
-    frame, crank, coupler, rocker : float
-        Lengths [m].
-    along, across : float
-        Place of the coupler point on the coupler [m].
-    assembly : str
-        Side of the joint.
-    error_rms, error_max : float
-        Distance of the points from the curve, in the machine analysed again [m].
-    error_relative : float
-        ``error_rms`` over the size of the path [–].
-    transmission_angle_min : float
-        Minimum transmission angle in the revolution [rad].
-    starts, found_by : int
-        Starts that were refined, and how many of them ended at this error, within 1 %.
-    evaluated : int
-        Linkages that were computed.
-    rate : float
-        Linkages computed a second, by the clock.
-    seed : int
-        Start of the random numbers.
-    limited_by : tuple of str
-        Keys of the task's limits at which the linkage stands; none if its error is rounding.
-    crank_angles : ndarray, shape (n,)
-        Crank angles of the points in the machine [rad].
-    x, y : ndarray, shape (n,)
-        What the coupler point reaches there [m].
-    history : ndarray, shape (steps,)
-        Root of the mean square of the best linkage's errors after each step of the refinement [m]; NaN as
-        long as none keeps the constraints.
-    machine : Machine
-        The linkage; its point ``P`` draws the path.
-    """
-
-    type: str
-    frame: float
-    crank: float
-    coupler: float
-    rocker: float
-    along: float
-    across: float
-    assembly: str
-    error_rms: float
-    error_max: float
-    error_relative: float
-    transmission_angle_min: float
-    starts: int
-    found_by: int
-    evaluated: int
-    rate: float
-    seed: int
-    limited_by: tuple[str, ...]
-    crank_angles: Floats
-    x: Floats
-    y: Floats
-    history: Floats
-    machine: Machine
+    type: Annotated[str, About("Which links turn fully.")]
+    frame: Annotated[float, Shown("length of the frame", "", "m")]
+    crank: Annotated[float, Shown("length of the crank", "", "m")]
+    coupler: Annotated[float, Shown("length of the coupler", "", "m")]
+    rocker: Annotated[float, Shown("length of the rocker", "", "m")]
+    along: Annotated[float, Shown("place of the coupler point along the coupler", "", "m")]
+    across: Annotated[float, Shown("place of the coupler point across the coupler", "", "m")]
+    assembly: Annotated[str, About("Side of the joint.")]
+    error_rms: Annotated[
+        float,
+        Shown(
+            "root-mean-square distance of the points from the curve",
+            "",
+            "m",
+            "In the machine analysed again.",
+        ),
+    ]
+    error_max: Annotated[
+        float,
+        Shown("maximum distance of the points from the curve", "", "m", "In the machine analysed again."),
+    ]
+    error_relative: Annotated[float, Shown("root-mean-square distance over the size of the path", "", "")]
+    transmission_angle_min: Annotated[
+        float, Shown("minimum transmission angle", "μ_min", "rad", "Over the revolution.")
+    ]
+    starts: Annotated[int, Shown("starts that were refined", "", "")]
+    found_by: Annotated[int, Shown("starts that ended at this error", "", "", "Within 1 %.")]
+    evaluated: Annotated[int, Shown("linkages computed", "", "")]
+    rate: Annotated[float, About("Linkages computed per second, by the clock [1/s].")]
+    seed: Annotated[int, About("Start of the random numbers.")]
+    limited_by: Annotated[tuple[str, ...], About(_PATH_GENERATOR_LIMITED_BY)]
+    crank_angles: Annotated[Floats, Shown("crank angles of the points", "", "rad", "In the machine.")]
+    x: Annotated[Floats, Shown("place of the coupler point along x", "", "m", "At these crank angles.")]
+    y: Annotated[Floats, Shown("place of the coupler point along y", "", "m", "At these crank angles.")]
+    history: Annotated[Floats, About(_PATH_GENERATOR_HISTORY)]
+    machine: Annotated[Machine, About("The linkage; its point ``P`` draws the path.")]
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -201,17 +201,8 @@ class PathModel:
 def disorder(at: Floats, turn: float) -> Floats:
     """How many revolutions too many the curve must be run through to meet its points in order, (m,).
 
-    Parameters
-    ----------
-    at : ndarray, shape (m, n)
-        Where on the closed curve each point is.
-    turn : float
-        Length of the closed curve in the same measure.
-
-    Returns
-    -------
-    ndarray, shape (m,)
-        0 where one revolution, in either direction, meets them all.
+    `at` (m, n): where on the closed curve each point is; `turn`: length of the closed curve in the same
+    measure. Returns: (m,) 0 where one revolution, in either direction, meets them all.
     """
     steps = np.diff(at, axis=1, append=at[:, :1])
     turns = [np.round(np.mod(sign * steps, turn).sum(axis=1) / turn) for sign in (1, -1)]

@@ -53,21 +53,8 @@ _EXACT = 1e-30
 def refine(model: PathModel, rows: Linkages, weight: float, steps: int) -> Iterator[int]:
     """Improve linkages in place, step by step.
 
-    Parameters
-    ----------
-    model : PathModel
-        The task.
-    rows : Linkages
-        What is improved.
-    weight : float
-        Of broken constraints at the beginning, beside distances over the size of the path.
-    steps : int
-        At most.
-
-    Yields
-    ------
-    int
-        After every step: how many linkages it took.
+    `weight`: of broken constraints at the beginning, beside distances over the size of the path. Returns:
+    after every step: how many linkages it took.
     """
     active = np.arange(len(rows.p))
     damping = np.full(len(active), _DAMPING)

@@ -47,20 +47,7 @@ _TOGETHER = 100_000
 
 
 def starts(model: PathModel, count: int) -> Linkages:
-    """The best trial of each of so many groups, so that the starts are independent of each other.
-
-    Parameters
-    ----------
-    model : PathModel
-        The task; its seed shifts the sequence.
-    count : int
-        Starts.
-
-    Returns
-    -------
-    Linkages
-        The starts; they may break constraints.
-    """
+    """The best trial of each of so many groups, so that the starts are independent of each other."""
     shares = sequence(count * TRIALS, 4 if model.timed is not None else 8, model.task.seed)
     number = np.arange(count * TRIALS)
     size = max(1, _TOGETHER // (TRIALS * len(model.target)))

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
@@ -42,49 +43,32 @@ SOURCE = "Synthesised by linkwright for given poses"
 
 @dataclass(frozen=True)
 class PoseGuide(TransmissionResult):
-    """A linkage whose coupler passes through given poses.
-
-    Attributes
-    ----------
-    linkage : str
-        ``"four-bar"`` or ``"slider-crank"``.
-    type : str
-        Which links turn fully.
-    frame : float or None
-        Distance of the fixed pivots [m]; of a four-bar.
-    crank, coupler : float
-        Lengths [m].
-    rocker, offset : float or None
-        Length of the rocker of a four-bar, offset of the guide of a slider-crank [m].
-    direction : str
-        In which the crank turns through the poses.
-    transmission_angle_min : float
-        Minimum transmission angle from the first pose to the last [rad].
-    pose_error : float
-        Maximum distance of the body's origin from its place, in the machine analysed again [m].
-    angle_error : float
-        Maximum deviation of its turning from pose to pose [rad].
-    crank_angles : ndarray, shape (n,)
-        Crank angles of the poses [rad].
-    machine : Machine
-        The linkage; its point ``P`` is the body's origin.
-    """
+    """A linkage whose coupler passes through given poses."""
 
     remedy: ClassVar[str] = "choose other points of the body"
 
-    linkage: str
-    type: str
-    frame: float | None
-    crank: float
-    coupler: float
-    rocker: float | None
-    offset: float | None
-    direction: str
-    transmission_angle_min: float
-    pose_error: float
-    angle_error: float
-    crank_angles: Floats
-    machine: Machine
+    linkage: Annotated[str, About('``"four-bar"`` or ``"slider-crank"``.')]
+    type: Annotated[str, About("Which links turn fully.")]
+    frame: Annotated[float | None, Shown("length of the frame", "", "m", "Of a four-bar.")]
+    crank: Annotated[float, Shown("length of the crank", "", "m")]
+    coupler: Annotated[float, Shown("length of the coupler", "", "m")]
+    rocker: Annotated[float | None, Shown("length of the rocker", "", "m", "Of a four-bar.")]
+    offset: Annotated[float | None, Shown("offset of the guide", "", "m", "Of a slider-crank.")]
+    direction: Annotated[str, About("In which the crank turns through the poses.")]
+    transmission_angle_min: Annotated[
+        float, Shown("minimum transmission angle", "μ_min", "rad", "From the first pose to the last.")
+    ]
+    pose_error: Annotated[
+        float,
+        Shown(
+            "maximum distance of the body's origin from its place", "", "m", "In the machine analysed again."
+        ),
+    ]
+    angle_error: Annotated[
+        float, Shown("maximum deviation of the body's rotation", "", "rad", "From pose to pose.")
+    ]
+    crank_angles: Annotated[Floats, Shown("crank angles of the poses", "", "rad")]
+    machine: Annotated[Machine, About("The linkage; its point ``P`` is the body's origin.")]
 
 
 @public
@@ -127,24 +111,9 @@ def body_places(task: PoseTask, point: MovingPoint) -> Complexes:
 def centre(places: Complexes, point: MovingPoint, key: str) -> complex:
     """Centre of the circle through the places of a point.
 
-    Parameters
-    ----------
-    places : ndarray, shape (n,)
-        Two or three places [m].
-    point : MovingPoint
-        The point; the rotation of its link chooses the centre of two places.
-    key : str
-        Its key, for messages.
-
-    Returns
-    -------
-    complex
-        The centre [m].
-
-    Raises
-    ------
-    SynthesisError
-        Places that coincide, or lie on a straight line.
+    `places` (n,): two or three places [m]; `point`: the point; the rotation of its link chooses the centre of
+    two places. Returns: the centre [m]. Raises SynthesisError: places that coincide, or lie on a straight
+    line.
     """
     reach = np.abs(places - places.mean()).max()
     apart = min(abs(places[i] - places[i - 1]) for i in range(len(places)))

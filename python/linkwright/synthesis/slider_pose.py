@@ -92,24 +92,9 @@ class SliderGuide:
 def circle_of_sliders(origins: Complexes, angles: Floats, wanted: complex) -> complex:
     """The point of a body nearest to a wanted one whose three places are in line.
 
-    Parameters
-    ----------
-    origins : ndarray, shape (3,)
-        Places of the body's origin [m].
-    angles : ndarray, shape (3,)
-        Angles of the body [rad].
-    wanted : complex
-        Point of the body, in its own axes [m].
-
-    Returns
-    -------
-    complex
-        Point of the body, in its own axes [m].
-
-    Raises
-    ------
-    SynthesisError
-        No point of the body stays on a line.
+    `origins` (3,): places of the body's origin [m]; `angles` (3,): angles of the body [rad]; `wanted`: point
+    of the body, in its own axes [m]. Returns: point of the body, in its own axes [m]. Raises SynthesisError:
+    no point of the body stays on a line.
     """
     turns = np.exp(1j * np.asarray(angles))
     u, w = origins[1] - origins[0], origins[2] - origins[0]
@@ -146,24 +131,9 @@ def _on_line(line: complex, constant: float, wanted: complex, size: float) -> co
 def guide_slider(task: PoseTask, pins: Complexes, crank_pivot: complex) -> SliderGuide:
     """The slider-crank for two or three poses.
 
-    Parameters
-    ----------
-    task : PoseTask
-        The poses and the points of the body.
-    pins : ndarray, shape (n,)
-        Places of the crank pin [m].
-    crank_pivot : complex
-        The crank's fixed pivot [m].
-
-    Returns
-    -------
-    SliderGuide
-        With crank angle zero in the first pose.
-
-    Raises
-    ------
-    SynthesisError
-        No such point, a slider that does not move, or poses on different sides.
+    `task`: the poses and the points of the body; `pins` (n,): places of the crank pin [m]; `crank_pivot`: the
+    crank's fixed pivot [m]. Returns: with crank angle zero in the first pose. Raises SynthesisError: no such
+    point, a slider that does not move, or poses on different sides.
     """
     assert task.slider_point is not None
     point = complex(task.slider_point.x, task.slider_point.y)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import LENGTH, positive
 from linkwright.linkages.kinematics import motions
@@ -38,57 +40,37 @@ SOURCE = "From the catalogue of straight-line linkages of linkwright"
 
 @dataclass(frozen=True)
 class StraightLine(Result):
-    """A linkage whose point ``P`` runs along a straight line.
+    """A linkage whose point ``P`` runs along a straight line."""
 
-    Attributes
-    ----------
-    kind, title : str
-        Which linkage.
-    exact : bool
-        Whether the line is straight by a theorem.
-    links : int
-        Links, the frame among them.
-    length : float
-        Of the line [m].
-    deviation : float
-        Maximum distance from the best straight line [m].
-    straightness : float
-        Width of the narrowest strip that holds the line, twice the deviation, over its length [–].
-    direction : float
-        Of the line [rad].
-    crank_angle_start, crank_angle_end : float
-        Range of the crank [rad].
-    speed_ratio : float
-        Maximum over minimum speed of ``P`` in the range at constant crank speed [–].
-    size : float
-        Longest distance between two points of the linkage in one link [m].
-    turns_fully : bool
-        Whether the crank can go on round.
-    crank_angles : ndarray, shape (n,)
-        Crank angles over the range [rad].
-    x, y : ndarray, shape (n,)
-        Places of ``P`` [m].
-    machine : Machine
-        The linkage.
-    """
-
-    kind: str
-    title: str
-    exact: bool
-    links: int
-    length: float
-    deviation: float
-    straightness: float
-    direction: float
-    crank_angle_start: float
-    crank_angle_end: float
-    speed_ratio: float
-    size: float
-    turns_fully: bool
-    crank_angles: Floats
-    x: Floats
-    y: Floats
-    machine: Machine
+    kind: Annotated[str, About("Which linkage, as in commands.")]
+    title: Annotated[str, About("Its name in words.")]
+    exact: Annotated[bool, About("Whether the line is straight by a theorem.")]
+    links: Annotated[int, Shown("links", "", "", "The frame among them.")]
+    length: Annotated[float, Shown("length of the line", "", "m")]
+    deviation: Annotated[float, Shown("maximum distance from the best straight line", "", "m")]
+    straightness: Annotated[
+        float,
+        Shown(
+            "straightness error over the length",
+            "",
+            "",
+            "Width of the narrowest strip that holds the line, twice the deviation, over its length.",
+        ),
+    ]
+    direction: Annotated[float, Shown("direction of the line", "", "rad")]
+    crank_angle_start: Annotated[float, Shown("first crank angle of the range", "", "rad")]
+    crank_angle_end: Annotated[float, Shown("last crank angle of the range", "", "rad")]
+    speed_ratio: Annotated[
+        float, Shown("maximum over minimum speed", "", "", "Of ``P`` in the range at constant crank speed.")
+    ]
+    size: Annotated[
+        float, Shown("size of the linkage", "", "m", "Longest distance between two points of it in one link.")
+    ]
+    turns_fully: Annotated[bool, About("Whether the crank can go on round.")]
+    crank_angles: Annotated[Floats, Shown("crank angles", "", "rad", "Over the range.")]
+    x: Annotated[Floats, Shown("place along x", "", "m", "Of ``P``.")]
+    y: Annotated[Floats, Shown("place along y", "", "m", "Of ``P``.")]
+    machine: Annotated[Machine, About("The linkage.")]
 
 
 @public
@@ -165,15 +147,7 @@ def straight_lines(length: float = 1.0) -> tuple[StraightLine, ...]:
 def narrowest_strip(x: Floats, y: Floats) -> tuple[float, float]:
     """Width and direction of the narrowest strip that holds some points.
 
-    Parameters
-    ----------
-    x, y : ndarray, shape (n,)
-        The points [m].
-
-    Returns
-    -------
-    tuple of float
-        Width [m]; direction of the strip from 0 to π [rad].
+    `x`, `y` (n,): the points [m]. Returns: width [m]; direction of the strip from 0 to π [rad].
     """
     corners = _hull(x, y)
     if len(corners) < 3:

@@ -30,17 +30,7 @@ _SAME = 1e-6
 def transmission_caution(angle: float, remedy: str = "") -> tuple[str, ...]:
     """What to know of a minimum transmission angle; nothing where it is good.
 
-    Parameters
-    ----------
-    angle : float
-        Minimum transmission angle in the motion that is used [rad].
-    remedy : str
-        What raises it.
-
-    Returns
-    -------
-    tuple of str
-        One sentence, or none.
+    `angle`: minimum transmission angle in the motion that is used [rad].
     """
     if angle >= _GOOD - _SAME:
         return ()
@@ -57,17 +47,8 @@ def transmission_caution(angle: float, remedy: str = "") -> tuple[str, ...]:
 def least_transmission(of: Callable[[Floats], Floats], start: float, end: float) -> float:
     """Minimum transmission angle while the crank turns from one angle to another, exactly [rad].
 
-    Parameters
-    ----------
-    of : callable
-        Transmission angle at crank angles [rad].
-    start, end : float
-        Crank angles [rad].
-
-    Returns
-    -------
-    float
-        At an end, or where crank and frame are in line.
+    `of`: transmission angle at crank angles [rad]; `start`, `end`: crank angles [rad]. Returns: at an end, or
+    where crank and frame are in line.
     """
     turn = turn_curve(lambda phi: of(phi)[None], np.sort([start, end]), "transmission angle")
     return turn.extreme(-1)[0]

@@ -28,19 +28,10 @@ def travel(
 ) -> Floats | None:
     """The crank angles, counted on in the direction in which the linkage can be driven through them.
 
-    Parameters
-    ----------
-    gap : callable
-        Radicand of the closure at crank angles [rad]; negative where the linkage does not close.
-    angles : sequence of float
-        Crank angles of the positions in their order [rad], each up to whole revolutions.
-    turn : float, optional
-        An angle with the sign of the direction that is wanted; without it the shorter way is tried first.
-
-    Returns
-    -------
-    ndarray of shape (n,) or None
-        Increasing or decreasing within one revolution [rad]; None if neither direction passes all positions.
+    `gap`: radicand of the closure at crank angles [rad]; negative where the linkage does not close; `angles`:
+    crank angles of the positions in their order [rad], each up to whole revolutions; `turn`: an angle with
+    the sign of the direction that is wanted; without it the shorter way is tried first. Returns: (n,)
+    increasing or decreasing within one revolution [rad]; None if neither direction passes all positions.
     """
     ways = [_unrolled(np.asarray(angles, dtype=float), sign) for sign in (1.0, -1.0)]
     if turn is not None:

@@ -33,17 +33,8 @@ _FAR = 14.0
 def shape(q: Floats, is_double: Bools) -> tuple[Floats, Floats]:
     """Lengths of crank, coupler and rocker over the frame.
 
-    Parameters
-    ----------
-    q : ndarray, shape (m, 3)
-        The free numbers.
-    is_double : ndarray of bool, shape (m,)
-        Whether the linkage is a double crank.
-
-    Returns
-    -------
-    tuple of ndarray
-        Lengths (m, 3), and their derivatives by the numbers (m, 3, 3) [–].
+    `q` (m, 3): the free numbers; `is_double` (m,): whether the linkage is a double crank. Returns: lengths
+    (m, 3), and their derivatives by the numbers (m, 3, 3) [–].
     """
     q1, q2, q3 = np.clip(q, -_FAR, _FAR).T
     share = 1 / (1 + np.exp(-q1))
@@ -74,19 +65,9 @@ def free_numbers(crank: Floats, bent: Floats, rest: Floats, is_double: Bools) ->
 def pin_and_coupler(lengths: Floats, side: Floats, phi: Floats) -> tuple[Complexes, Complexes]:
     """Crank pin and direction of the coupler, with the frame from 0 to 1.
 
-    Parameters
-    ----------
-    lengths : ndarray, shape (m, 3)
-        Crank, coupler, rocker over the frame.
-    side : ndarray, shape (m,)
-        +1 where the joint is to the left of the way from the pin to the rocker's pivot, −1 to the right.
-    phi : ndarray, shape (m, n)
-        Crank angles from the frame [rad].
-
-    Returns
-    -------
-    tuple of ndarray
-        Pin (m, n) over the frame, and e^{iχ} (m, n).
+    `lengths` (m, 3): crank, coupler, rocker over the frame; `side` (m,): +1 where the joint is to the left of
+    the way from the pin to the rocker's pivot, −1 to the right; `phi` (m, n): crank angles from the frame
+    [rad]. Returns: pin (m, n) over the frame, and e^{iχ} (m, n).
     """
     r, c, b = lengths.T[:, :, None]
     A = r * np.exp(1j * phi)

@@ -18,21 +18,9 @@ def require_met(
 ) -> None:
     """Raise unless a linkage has what was asked for.
 
-    Parameters
-    ----------
-    what : str
-        The quantity, with its article: "a swing".
-    wanted, found : float
-        What was asked for, and what the analysis of the machine finds; None if it has no such thing.
-    unit : str
-        Unit of both, for the message; angles in ``"rad"`` are reported in degrees.
-    size : float, optional
-        What the difference is compared with, instead of the wanted value.
-
-    Raises
-    ------
-    SynthesisError
-        The analysis finds something else; with both numbers.
+    `wanted`, `found`: what was asked for, and what the analysis of the machine finds; None if it has no such
+    thing; `unit`: unit of both, for the message; angles in ``"rad"`` are reported in degrees; `size`: what
+    the difference is compared with, instead of the wanted value.
     """
     size = abs(wanted) if size is None else size
     # "not less or equal" holds for NaN too.
@@ -48,12 +36,7 @@ def require_met(
 def element_of(machine: Machine, output: str) -> ElementMotion:
     """The motion of one output of a machine, by its analysis.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    output : str
-        Name of the link or slide.
+    `output`: name of the link or slide.
     """
     return next(each for each in linkage(machine).elements if each.output == output)
 
@@ -61,12 +44,7 @@ def element_of(machine: Machine, output: str) -> ElementMotion:
 def require_transmission(wanted: float, found: ElementMotion) -> None:
     """Raise unless the minimum transmission angle over a revolution is the one that is returned.
 
-    Parameters
-    ----------
-    wanted : float
-        The one that is returned [rad].
-    found : ElementMotion
-        By the analysis of the machine.
+    `wanted`: the one that is returned [rad]; `found`: by the analysis of the machine.
     """
     low, high = found.transmission_angle_min, found.transmission_angle_max
     least = None if low is None or high is None else min(low, np.pi - high)

@@ -22,15 +22,8 @@ _DASHES = ("-", "--", "-.", ":")
 def compare_figure(motions: Mapping[str, SteadyState]) -> Figure:
     """Draw the speed over its mean, and the acceleration, of several machines.
 
-    Parameters
-    ----------
-    motions : Mapping of str to SteadyState
-        Name of the machine → its steady motion.
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other; speeds as shares of each machine's mean over time.
+    `motions`: name of the machine → its steady motion. Returns: two panels, one above the other; speeds as
+    shares of each machine's mean over time.
     """
     figure, (speed, acceleration) = panels(2, height=4.6)
     for n, (name, steady) in enumerate(motions.items()):

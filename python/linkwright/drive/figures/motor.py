@@ -32,17 +32,8 @@ if TYPE_CHECKING:
 def motor_figure(characteristic: Characteristic, steady: SteadyState | None = None) -> Figure:
     """Draw motor torque over motor speed: the whole curve, and the working range beside it.
 
-    Parameters
-    ----------
-    characteristic : Characteristic
-        The curve and its named points.
-    steady : SteadyState, optional
-        Steady motion; without it the whole curve alone is drawn.
-
-    Returns
-    -------
-    Figure
-        One or two panels, side by side.
+    `steady`: steady motion; without it the whole curve alone is drawn. Returns: one or two panels, side by
+    side.
     """
     figure, axes = panels(1, height=3.3, columns=2 if steady else 1, shared=False)
     whole = axes[0]

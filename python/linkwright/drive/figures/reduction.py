@@ -27,18 +27,7 @@ if TYPE_CHECKING:
 
 @styled
 def reduction_figure(reduction: Reduction) -> Figure:
-    """Draw reduced inertia and reduced torque over the crank angle.
-
-    Parameters
-    ----------
-    reduction : Reduction
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other.
-    """
+    """Draw reduced inertia and reduced torque over the crank angle."""
     figure, (inertia, torque) = panels(2, height=4.2)
     degrees = np.degrees(reduction.crank_angle)
     inertia.plot(degrees, reduction.inertia_reduced, color=INERTIA)

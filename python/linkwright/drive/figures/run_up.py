@@ -28,17 +28,7 @@ _AFTER = 1.0
 def run_up_figure(run_up: RunUp, steady: SteadyState | None = None) -> Figure:
     """Draw the speed during run-up over time and over turns.
 
-    Parameters
-    ----------
-    run_up : RunUp
-        What to draw.
-    steady : SteadyState, optional
-        Steady motion, whose band of speeds is shaded.
-
-    Returns
-    -------
-    Figure
-        Two panels, side by side.
+    `steady`: steady motion, whose band of speeds is shaded.
     """
     figure, axes = panels(1, height=3.0, columns=2, shared=False)
     time, turns, speed = _fine(run_up.motion, run_up.turns + _AFTER)
@@ -58,15 +48,7 @@ def run_up_figure(run_up: RunUp, steady: SteadyState | None = None) -> Figure:
 def attempt_figure(motion: Transient) -> Figure:
     """Draw the speed of a run-up that fails, over time and over turns.
 
-    Parameters
-    ----------
-    motion : Transient
-        The motion from the start to the stall.
-
-    Returns
-    -------
-    Figure
-        Two panels, side by side.
+    `motion`: the motion from the start to the stall.
     """
     figure, axes = panels(1, height=3.0, columns=2, shared=False)
     time, turns, speed = _fine(motion, motion.turns)

@@ -37,18 +37,7 @@ _KILOWATT = 1000.0
 
 @styled
 def speed_figure(steady: SteadyState) -> Figure:
-    """Draw speed and acceleration of the crank over its angle.
-
-    Parameters
-    ----------
-    steady : SteadyState
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other.
-    """
+    """Draw speed and acceleration of the crank over its angle."""
     figure, (speed, acceleration) = panels(2, height=4.2)
     degrees = np.degrees(steady.crank_angle)
     _speed(speed, degrees, steady)
@@ -75,18 +64,7 @@ def _speed(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
 
 @styled
 def torque_figure(steady: SteadyState) -> Figure:
-    """Draw torques at the crank and power of the motor over the crank angle.
-
-    Parameters
-    ----------
-    steady : SteadyState
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other.
-    """
+    """Draw torques at the crank and power of the motor over the crank angle."""
     figure, (torque, power) = panels(2, height=4.2)
     degrees = np.degrees(steady.crank_angle)
     torque.plot(degrees, steady.torque_load, color=LOAD, label="load torque")
@@ -115,18 +93,7 @@ def _power(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
 
 @styled
 def time_figure(steady: SteadyState) -> Figure:
-    """Draw speed and motor torque against time, over two revolutions.
-
-    Parameters
-    ----------
-    steady : SteadyState
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other.
-    """
+    """Draw speed and motor torque against time, over two revolutions."""
     figure, (speed, torque) = panels(2, height=4.2)
     time = np.concatenate([steady.time + turn * steady.period for turn in range(_TURNS)])
     speed.plot(time, np.tile(steady.speed, _TURNS), color=SPEED, label="speed")

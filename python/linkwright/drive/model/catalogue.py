@@ -112,17 +112,8 @@ def checked_name(type: str) -> str:
 
 
 def entries(type: str) -> dict[str, Any]:
-    """What the catalogue gives for the entries of a motor in a machine file.
-
-    Parameters
-    ----------
-    type : str
-        A name of the catalogue.
-
-    Returns
-    -------
-    dict
-        Entry → value in SI. The rated torque is left out where it is only power over speed.
+    """What the catalogue gives for the entries of a motor in a machine file. Returns: entry → value in SI.
+    The rated torque is left out where it is only power over speed.
     """
     known = _given(_row(type))
     names = (

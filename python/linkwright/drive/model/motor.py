@@ -120,19 +120,9 @@ def with_rated_point(given: Values) -> Values:
 def breakdown_slip(slip_rated: Any, overload: Any, resistance_ratio: Any) -> Any:
     """Slip at which Kloss's formula through the rated point has its maximum torque.
 
-    Parameters
-    ----------
-    slip_rated : float or array
-        s_n, slip at the rated point.
-    overload : float or array
-        λ = M_k/M_n, breakdown over rated torque; greater than 1.
-    resistance_ratio : float or array
-        a = R_1/R_2'; 0 is Kloss's simplified formula.
-
-    Returns
-    -------
-    float or array
-        s_k; NaN if no formula of this kind goes through the point.
+    `slip_rated`: s_n, slip at the rated point; `overload`: λ = M_k/M_n, breakdown over rated torque; greater
+    than 1; `resistance_ratio`: a = R_1/R_2'; 0 is Kloss's simplified formula. Returns: s_k; NaN if no formula
+    of this kind goes through the point.
     """
     s_n, lam, a = slip_rated, overload, resistance_ratio
     # Where no formula goes through the point, and beyond the range of floats, there is no slip.

@@ -42,13 +42,7 @@ def styled(*parts: str | tuple[str, str]) -> Text:
 
 
 def progress(words: str) -> AbstractContextManager[Any]:
-    """A moving sign on standard error while something takes long; nothing where nobody looks.
-
-    Parameters
-    ----------
-    words : str
-        What is being done.
-    """
+    """A moving sign on standard error while something takes long; nothing where nobody looks."""
     # Asked of the stream itself: a console is large, and JSON for programs needs none.
     if not sys.stderr.isatty():
         return nullcontext()

@@ -67,13 +67,7 @@ def not_rising(
 
 
 def unread_file(found: str) -> InitErrorDetails:
-    """The fault of a file of points in a description that is not read from a machine file.
-
-    Parameters
-    ----------
-    found : str
-        Its name.
-    """
+    """The fault of a file of points in a description that is not read from a machine file."""
     expected = "points in lists: a file of points is read with the machine file that names it"
     return fault("file", found=found, expected=expected)
 

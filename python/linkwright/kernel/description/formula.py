@@ -110,13 +110,7 @@ def parse(text: str) -> Node:
 
 
 def names(node: Node) -> dict[str, int]:
-    """Names in a formula and the character at which each stands first, without its functions.
-
-    Parameters
-    ----------
-    node : Node
-        The formula.
-    """
+    """Names in a formula and the character at which each stands first, without its functions."""
     found = {str(node.value): node.position} if node.op == "name" else {}
     for each in node.args:
         found = {**names(each), **found}
@@ -128,11 +122,6 @@ def terms(node: Node) -> tuple[Node, ...]:
 
     What grows with speed stands alone, since each such summand may grow in its own way; what depends on
     nothing but the position is kept together.
-
-    Parameters
-    ----------
-    node : Node
-        The formula.
     """
     alone: list[Node] = []
     together: Node | None = None
@@ -162,13 +151,7 @@ def program(node: Node) -> Program:
 
 
 def depth(found: Program) -> int:
-    """How many numbers a program keeps at once.
-
-    Parameters
-    ----------
-    found : Program
-        The program.
-    """
+    """How many numbers a program keeps at once."""
     height = most = 0
     for op, _ in found:
         height += 1 - _TAKES.get(op, 1)

@@ -55,13 +55,7 @@ def constant_faults(constants: dict[str, Any], text: str) -> Iterator[InitErrorD
 
 
 def used_names(text: str) -> dict[str, int] | None:
-    """Names in a formula and the character at which each stands first; None if it cannot be read.
-
-    Parameters
-    ----------
-    text : str
-        The formula.
-    """
+    """Names in a formula and the character at which each stands first; None if it cannot be read."""
     try:
         return names(parse(text))
     except FormulaError:

@@ -31,25 +31,13 @@ _DIGITS = re.compile(r"[0-9_]{1001}")
 
 
 def deep_line(text: str) -> int | None:
-    """Line of the first key or list that is nested too deep to be read, counted from 1; None if none is.
-
-    Parameters
-    ----------
-    text : str
-        A TOML text.
-    """
+    """Line of the first key or list that is nested too deep to be read, counted from 1; None if none is."""
     found = _DEEP_KEY.search(text) or _BRACKETS.search(text)
     return None if found is None else text.count("\n", 0, found.end()) + 1
 
 
 def long_number_line(text: str) -> int | None:
-    """Line of the first number that has more digits than can be read, counted from 1; None if none has.
-
-    Parameters
-    ----------
-    text : str
-        A TOML text.
-    """
+    """Line of the first number that has more digits than can be read, counted from 1; None if none has."""
     found = _DIGITS.search(text)
     return None if found is None else text.count("\n", 0, found.start()) + 1
 

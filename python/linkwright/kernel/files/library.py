@@ -10,13 +10,7 @@ from linkwright.kernel.errors import InputError
 
 
 def library() -> tuple[str, ...]:
-    """Names of the machines of the library, in order.
-
-    Returns
-    -------
-    tuple of str
-        Such as ``"roller_two_carts"``.
-    """
+    """Names of the machines of the library, in order."""
     return tuple(sorted(path.stem for path in _folder().glob("*.toml")))
 
 

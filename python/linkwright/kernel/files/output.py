@@ -329,20 +329,7 @@ def _require_file(place: Path) -> None:
 
 
 def unwritable(place: Path, error: OSError) -> InputError:
-    """The error for a file or folder that cannot be written.
-
-    Parameters
-    ----------
-    place : Path
-        The file or folder.
-    error : OSError
-        What hinders.
-
-    Returns
-    -------
-    InputError
-        To be raised.
-    """
+    """The error for a file or folder that cannot be written."""
     if error.errno in (ENOSPC, EDQUOT, EFBIG):
         return InputError(
             f"{place}: the disk is full; nothing was replaced; free some space or write elsewhere"

@@ -42,18 +42,7 @@ def public_type(kind: type[T]) -> type[T]:
 
 
 def public(function: Callable[P, R]) -> Callable[P, R]:
-    """Check the arguments of a function by its annotations, and freeze what it returns.
-
-    Parameters
-    ----------
-    function : callable
-        A function of the package.
-
-    Returns
-    -------
-    callable
-        The same function.
-    """
+    """Check the arguments of a function by its annotations, and freeze what it returns."""
     code = function.__code__
     names = code.co_varnames[: code.co_argcount]
     checks = checks_of(function)

@@ -195,18 +195,7 @@ def rows(name: str, value: Any) -> Floats:
 
 
 def shown(value: Any) -> str:
-    """A value in a message, cut where it is long.
-
-    Parameters
-    ----------
-    value : object
-        Any.
-
-    Returns
-    -------
-    str
-        At most some sixty characters.
-    """
+    """A value in a message, cut where it is long."""
     if isinstance(value, np.ndarray):
         return f"an array of {value.dtype} of shape {value.shape}"
     if isinstance(value, int) and value.bit_length() > 128:

@@ -231,12 +231,6 @@ def range_words(kind: Kind) -> str:
 
 
 def size_words(kind: Kind) -> tuple[str, str]:
-    """The smallest and the largest size of a kind, as written by hand: ``("1e-9", "1e6")``.
-
-    Parameters
-    ----------
-    kind : Kind
-        The quantity.
-    """
+    """The smallest and the largest size of a kind, as written by hand: ``("1e-9", "1e6")``."""
     least, most = (_ZEROS.sub(r"e\1", f"{size:.0e}") for size in (kind.least, kind.most))
     return least, most

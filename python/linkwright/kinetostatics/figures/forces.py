@@ -35,18 +35,7 @@ _MOST = 4
 
 @styled
 def forces_figure(forces: Forces) -> Figure:
-    """Draw the driving torque and the largest reactions over the crank angle.
-
-    Parameters
-    ----------
-    forces : Forces
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other.
-    """
+    """Draw the driving torque and the largest reactions over the crank angle."""
     figure, (torque, sizes) = panels(2, height=4.2)
     degrees = np.degrees(forces.crank_angle)
     torque.plot(degrees, forces.torque_drive, color=DRIVE)
@@ -64,18 +53,7 @@ def forces_figure(forces: Forces) -> Figure:
 
 @styled
 def hodograph_figure(forces: Forces) -> Figure:
-    """Draw the ends of force vectors: the largest reactions, and the shaking force.
-
-    Parameters
-    ----------
-    forces : Forces
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Two panels side by side.
-    """
+    """Draw the ends of force vectors: the largest reactions, and the shaking force."""
     figure, (reactions, frame) = panels(1, height=3.6, columns=2, shared=False)
     for name, colour in zip(_largest(forces), LINES, strict=False):
         _vectors(reactions, forces, forces.pairs[name].force, colour, name)
@@ -98,18 +76,7 @@ def _vectors(axes: Axes, forces: Forces, force: np.ndarray, colour: str, label: 
 
 @styled
 def polar_figure(forces: Forces) -> Figure:
-    """Draw the size of the largest reactions over the crank angle as a polar diagram.
-
-    Parameters
-    ----------
-    forces : Forces
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        One polar diagram.
-    """
+    """Draw the size of the largest reactions over the crank angle as a polar diagram."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(4.6, 4.6), layout="constrained")

@@ -20,17 +20,8 @@ _POOR = 40.0
 
 @styled
 def transmission_figure(linkage: Linkage) -> Figure:
-    """Draw the transmission angle of every dyad over the crank angle.
-
-    Parameters
-    ----------
-    linkage : Linkage
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        One panel; dashed where a linkage begins to run badly, at 40° and 140°.
+    """Draw the transmission angle of every dyad over the crank angle. Returns: one panel; dashed where a
+    linkage begins to run badly, at 40° and 140°.
     """
     figure, (axes,) = panels(1, height=2.9)
     angles = np.degrees(linkage.crank_angle)
@@ -51,17 +42,8 @@ def transmission_figure(linkage: Linkage) -> Figure:
 def coupler_figure(curves: list[CouplerCurve], links: list[tuple[np.ndarray, bool]]) -> Figure:
     """Draw the paths of points with the links in one position.
 
-    Parameters
-    ----------
-    curves : list of CouplerCurve
-        The paths.
-    links : list of (ndarray, shape (2, 2), and bool)
-        Ends of each link, shape (2, 2) [m], and whether its start is at rest.
-
-    Returns
-    -------
-    Figure
-        One panel to scale; crosses mark double points, dots cusps.
+    `links`: ends of each link, shape (2, 2) [m], and whether its start is at rest. Returns: one panel to
+    scale; crosses mark double points, dots cusps.
     """
     figure, (axes,) = panels(1, height=5.0)
     for ends, is_ground in links:

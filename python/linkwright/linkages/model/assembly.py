@@ -74,19 +74,9 @@ class Build:
 def build(parts: Mapping[str, Part], placed: Iterable[str], ignored: Iterable[str] = ()) -> Build:
     """Find the order.
 
-    Parameters
-    ----------
-    parts : mapping
-        Name of each element → what it needs and makes.
-    placed : iterable of str
-        What is there from the start: points at rest.
-    ignored : iterable of str
-        Bars that are redundant: they hold nothing.
-
-    Returns
-    -------
-    Build
-        The steps, as far as they go, and what is missing or too much.
+    `parts`: name of each element → what it needs and makes; `placed`: what is there from the start: points at
+    rest; `ignored`: bars that are redundant: they hold nothing. Returns: the steps, as far as they go, and
+    what is missing or too much.
     """
     return _Builder(dict(parts), set(placed), set(ignored)).run()
 

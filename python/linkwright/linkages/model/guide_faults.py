@@ -32,15 +32,7 @@ _SLIDING = ("linear_drivers", "cams", "racks", "sliders", "yokes")
 def guide_faults(outline: Outline) -> Iterator[InitErrorDetails]:
     """Guides through points of another body, crossings at rest, gears that nothing turns.
 
-    Parameters
-    ----------
-    outline : Outline
-        An outline whose names all refer to something.
-
-    Yields
-    ------
-    InitErrorDetails
-        One fault each.
+    `outline`: an outline whose names all refer to something.
     """
     for each in outline.elements:
         for before in [key[: -len("through")] for key in each.kind.references if key.endswith("through")]:
@@ -83,20 +75,7 @@ def _sliding(outline: Outline) -> list[str]:
 
 
 def points_of(link: str, outline: Outline) -> list[str]:
-    """Names of the points that a link carries.
-
-    Parameters
-    ----------
-    link : str
-        Name of the link.
-    outline : Outline
-        The outline.
-
-    Returns
-    -------
-    list of str
-        Its ends first, then the points fixed to it.
-    """
+    """Names of the points that a link carries. Returns: its ends first, then the points fixed to it."""
     maker = next(each for each in outline.elements if each.name == outline.links[link])
     ends = [maker.references.get(key, "O") for key in _ENDS[maker.kind.table][link.removeprefix(maker.name)]]
     made = maker.made(maker.kind.points)

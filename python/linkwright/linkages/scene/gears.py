@@ -29,19 +29,7 @@ class _Circle(NamedTuple):
 def gear_parts(mechanism: Mechanism, motion: Kinematics, series: dict[str, int]) -> Iterator[Scene]:
     """Circles, belts and racks.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The mechanism.
-    motion : Kinematics
-        Its motion.
-    series : dict of str to int
-        Number of the driver that moves each element.
-
-    Yields
-    ------
-    dict
-        Parts of the scene.
+    `series`: number of the driver that moves each element.
     """
     drawn: set[_Circle] = set()
     links = mechanism.links()

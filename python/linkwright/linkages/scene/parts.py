@@ -70,13 +70,7 @@ def parts(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
 
 
 def arc_end(cable: str) -> str:
-    """Name of the point where a cable leaves its arc.
-
-    Parameters
-    ----------
-    cable : str
-        Name of the cable.
-    """
+    """Name of the point where a cable leaves its arc."""
     return f"{cable}, end of the arc"
 
 

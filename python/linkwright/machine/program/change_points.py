@@ -27,12 +27,7 @@ _TOLD_APART = 1e-8
 def undecided_error(name: str, point: _core.InLine) -> AssemblyError:
     """What is to be said where the lengths of a dyad do not tell how its motion goes on.
 
-    Parameters
-    ----------
-    name : str
-        The dyad.
-    point : _core.InLine
-        Where its links are all but in line.
+    `point`: where its links are all but in line.
     """
     return AssemblyError(
         f"{name} comes within {abs(point.spare):.3g} m of a change point at crank angle "
@@ -49,23 +44,8 @@ def in_line(
 ) -> list[list[_core.InLine]]:
     """Where the links of an element come into line over the revolution, by crank angle, in each machine.
 
-    Parameters
-    ----------
-    plan : _core.Plan
-        What comes before the element is settled.
-    parameters : ndarray, shape (n_parameters,)
-        Of the first machine.
-    slots : ndarray, shape (k,)
-        Which of them vary.
-    values : ndarray, shape (k, n)
-        Their values.
-    element : int
-        Place among the elements.
-
-    Returns
-    -------
-    list of list of _core.InLine
-        A list a machine.
+    `plan`: what comes before the element is settled; `parameters` (n_parameters,): of the first machine;
+    `slots` (k,): which of them vary; `values` (k, n): their values.
     """
     found: list[list[_core.InLine]] = [[] for _ in range(values.shape[1])]
     for point in _core.in_line(plan, parameters, slots, values, element):
@@ -78,12 +58,7 @@ def undecided(points: list[_core.InLine], sign: float) -> _core.InLine | None:
 
     An arm that goes round about a pivot, which the pin all but meets, has no digits left.
 
-    Parameters
-    ----------
-    points : list of _core.InLine
-        Of one machine.
-    sign : float
-        Side of the dyad where the product of half-angle sines over all points is positive, ±1.
+    `sign`: side of the dyad where the product of half-angle sines over all points is positive, ±1.
     """
     angles = np.array([point.crank_angle for point in points])
     for k, point in enumerate(points):
@@ -101,19 +76,9 @@ def undecided(points: list[_core.InLine], sign: float) -> _core.InLine | None:
 def stored(found: list[list[_core.InLine]], first: int) -> tuple[list[_core.ChangePoint], Floats]:
     """The change points of all machines, and the numbers that they refer to.
 
-    Parameters
-    ----------
-    found : list of list of _core.InLine
-        A list a machine; machines with fewer have the rest out of reach.
-    first : int
-        Slot of the first of the numbers.
-
-    Returns
-    -------
-    change_points : list of _core.ChangePoint
-        As many as the machine with most has.
-    numbers : ndarray, shape (k, n)
-        A column a machine.
+    `found`: a list a machine; machines with fewer have the rest out of reach; `first`: slot of the first of
+    the numbers. Returns: change_points: as many as the machine with most has; numbers: (k, n) A column a
+    machine.
     """
     # At least one, so that there are numbers: that of a machine without an answer is out of reach.
     most = max(1, *(len(points) for points in found))
@@ -132,15 +97,7 @@ def _numbers(points: list[_core.InLine], most: int, has_arms: bool) -> Floats:
 
 
 def folding(dyad: _core.Element, change_points: list[_core.ChangePoint]) -> _core.Element:
-    """A dyad as one with change points; a rod on a fixed guide becomes one on any guide.
-
-    Parameters
-    ----------
-    dyad : _core.Element
-        Without any.
-    change_points : list of _core.ChangePoint
-        That it passes.
-    """
+    """A dyad as one with change points; a rod on a fixed guide becomes one on any guide."""
     if isinstance(dyad, _core.Element.Rocker):
         return _core.Element.Rocker(
             joint=dyad.joint,

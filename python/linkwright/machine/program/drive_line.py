@@ -25,14 +25,7 @@ _SPEED_UNKNOWN = 10.0
 def drive_of(machine: Machine, program: MechanismProgram, *, motor: bool) -> _core.Drive:
     """The driveline.
 
-    Parameters
-    ----------
-    machine : Machine
-        Its description.
-    program : MechanismProgram
-        Takes the numbers.
-    motor : bool
-        Whether the motor is on.
+    `motor`: whether the motor is on.
     """
     drive = machine.drive or Drive()
     turned_on = _motor(machine, program, drive.motor) if motor else None

@@ -28,17 +28,7 @@ _HALVINGS = 30
 def require_smooth(name: str, text: str, law: Callable[[Floats], Floats]) -> None:
     """Raise if a law has no value at some crank angle, or jumps.
 
-    Parameters
-    ----------
-    name, text : str
-        The driver and its formula.
-    law : callable
-        Crank angles (n,) [rad] → the law and its slope, (2, n).
-
-    Raises
-    ------
-    AssemblyError
-        Names driver, formula and angle.
+    `law`: crank angles (n,) [rad] → the law and its slope, (2, n).
     """
     phi = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
     value, slope = law(phi)

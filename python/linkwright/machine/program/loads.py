@@ -30,15 +30,7 @@ from linkwright.machine.program.numbers import table
 
 
 def bodies_of(machine: Machine, program: MechanismProgram) -> list[_core.Body]:
-    """Masses on links and on points.
-
-    Parameters
-    ----------
-    machine : Machine
-        Its description.
-    program : MechanismProgram
-        The mechanism; takes the numbers.
-    """
+    """Masses on links and on points."""
     lengths = {name: link.length for name, link in program.links_of.items()}
     return [
         _body(program, body.on or name, body, lengths.get(body.on or name))
@@ -61,20 +53,7 @@ def _body(program: MechanismProgram, carrier: str, body: Body, length: Any) -> _
 
 
 def table_of(machine: Machine, x: Sequence[Any], y: Sequence[Any]) -> _core.Table:
-    """A table of the description.
-
-    Parameters
-    ----------
-    machine : Machine
-        That has it.
-    x, y : sequence of float
-        Its points.
-
-    Raises
-    ------
-    ShapeError
-        They vary from machine to machine.
-    """
+    """A table of the description. Raises ShapeError: they vary from machine to machine."""
     if any(np.ndim(value) for value in (*x, *y)):
         points = ", ".join(join(place) for place, _ in arrays(machine) if place[-1].isdecimal())
         raise ShapeError(

@@ -196,9 +196,7 @@ def _load_in_closed_form(two: Drive) -> float:
 def paper1() -> Paper1:
     """Compute paper 1 anew.
 
-    References
-    ----------
-    .. [1] Paper 1, whole.
+    Source: Paper 1, whole.
     """
     drives = tuple(drive(each) for each in published_drives())
     two, four = drives[1], drives[3]

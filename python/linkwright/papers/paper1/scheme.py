@@ -32,16 +32,10 @@ def published_scheme(machine: Machine, *, step: float = np.radians(1.0)) -> Step
 
     The step of the angle [rad] must divide the revolution.
 
-    Raises
-    ------
-    InputError
-        The step does not divide the revolution.
-    StartError
-        The machine does not start, or comes to rest.
+    Raises InputError: the step does not divide the revolution; StartError: the machine does not start, or
+    comes to rest.
 
-    References
-    ----------
-    .. [1] Paper 1, equations (4), (8), (9), (11), (12).
+    Source: Paper 1, equations (4), (8), (9), (11), (12).
     """
     assert machine.drive is not None
     compiled = compile_machine(machine)

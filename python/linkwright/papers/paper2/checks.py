@@ -21,20 +21,7 @@ _POINTS = 3600
 
 
 def checks(formulas: Formulas, profile: CamProfile) -> dict[str, Any]:
-    """All checks by name.
-
-    Parameters
-    ----------
-    formulas : Formulas
-        As printed.
-    profile : CamProfile
-        Of the machine, by the general synthesis.
-
-    Returns
-    -------
-    dict
-        Differences [–]; ``places`` and ``travels`` by the law of the machine [m].
-    """
+    """Differences [–] by name of the check; ``places`` and ``travels`` by the law of the machine [m]."""
     law = profile.cam.lift
     places = [float(law.at(x)) for x in (0.0, *law.breaks[1:4])]
     return {

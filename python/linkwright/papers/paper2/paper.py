@@ -150,9 +150,7 @@ def _fraction(value: float) -> str:
 def paper2() -> Paper2:
     """Compute paper 2 anew.
 
-    References
-    ----------
-    .. [1] Paper 2, whole.
+    Source: Paper 2, whole.
     """
     data = printed_values(2)
     formulas, name = Formulas(data), data["given"]["machine"]

@@ -118,9 +118,7 @@ class Paper4(Paper):
 def paper4() -> Paper4:
     """Compute paper 4 anew.
 
-    References
-    ----------
-    .. [1] Paper 4, whole.
+    Source: Paper 4, whole.
     """
     data = printed_values(4)
     places = recomputed_places(data)

@@ -74,12 +74,8 @@ def _extremes(given: dict[str, float], k_1: float, top: float) -> tuple[float, f
 
 
 def _newton(gaps: Callable[[Floats], Floats], x: Floats) -> Floats:
-    """Root of smooth equations, the Jacobian by central differences.
-
-    Raises
-    ------
-    ConvergenceError
-        There is no root near the start.
+    """Root of smooth equations, the Jacobian by central differences. Raises ConvergenceError: there is no
+    root near the start.
     """
     step = 1e-6
     for _ in range(_STEPS):

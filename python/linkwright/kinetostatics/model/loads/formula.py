@@ -56,21 +56,7 @@ class FormulaLoad(Load):
 def variable_faults(key: str, text: object, known: frozenset[str], on: str) -> Iterator[tuple[str, str, str]]:
     """Variables that what a load acts on does not have.
 
-    Parameters
-    ----------
-    key : str
-        ``force`` or ``torque``.
-    text : object
-        The formula.
-    known : frozenset of str
-        Variables that there are.
-    on : str
-        What the load acts on, in words.
-
-    Yields
-    ------
-    tuple of str
-        Key, what is expected, and the remedy.
+    `on`: what the load acts on, in words. Returns: key, what is expected, and the remedy.
     """
     used = used_names(text) if isinstance(text, str) else None
     for name, at in (used or {}).items():
