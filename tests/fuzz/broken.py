@@ -15,11 +15,16 @@ from types import FrameType
 
 from linkwright.kernel.errors import LinkwrightError
 
-# Far more than any case needs on a busy machine, far less than anyone would wait.
+# Processor time that a call may take [s]: far more than any needs, far less than anyone would wait. On a
+# machine with much else to do a call waits, which is no fault of its own.
 SECONDS = 60.0
 
-# A case that integrates by other means as well, or runs a command, takes longer.
+# The same for a case that integrates by other means as well [s].
 LONGEST = 120.0
+
+# Who takes no processor time either waits for ever: this many times as long on the clock is a deadlock,
+# however much else there is to do.
+CLOCK = 20.0
 
 
 class PromiseError(Exception):
@@ -52,8 +57,8 @@ def watched(inputs: Mapping[str, str | bytes], seconds: float = SECONDS) -> Iter
             yield
     except (LinkwrightError, PromiseError):
         raise
-    except Hang:
-        raise PromiseError(f"no answer within {seconds:g} s", inputs) from None
+    except Hang as hang:
+        raise PromiseError(str(hang), inputs) from None
     except KeyboardInterrupt:
         raise
     # A panic of the core reaches Python as a BaseException.
@@ -63,18 +68,25 @@ def watched(inputs: Mapping[str, str | bytes], seconds: float = SECONDS) -> Iter
 
 @contextmanager
 def deadline(seconds: float) -> Iterator[None]:
-    """Raise `Hang` in the body when the time is over; only the main thread can be interrupted."""
+    """Raise `Hang` in a body that has taken so much processor time; only the main thread can be interrupted."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
+    limits = (
+        (signal.ITIMER_PROF, signal.SIGPROF, seconds, "of processor time"),
+        (signal.ITIMER_REAL, signal.SIGALRM, CLOCK * seconds, "on the clock"),
+    )
+    words = {number: f"no answer within {limit:g} s {of}" for _, number, limit, of in limits}
 
-    def over(_signal: int, _frame: FrameType | None) -> None:
-        raise Hang
+    def over(number: int, _frame: FrameType | None) -> None:
+        raise Hang(words[number])
 
-    before = signal.signal(signal.SIGALRM, over)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    before = [signal.signal(number, over) for _, number, _, _ in limits]
     try:
+        for timer, _, limit, _ in limits:
+            signal.setitimer(timer, limit)
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-        signal.signal(signal.SIGALRM, before)
+        for (timer, number, _, _), handler in zip(limits, before, strict=True):
+            signal.setitimer(timer, 0.0)
+            signal.signal(number, handler)

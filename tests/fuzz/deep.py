@@ -21,10 +21,13 @@ from pathlib import Path
 
 import kinds
 import numpy as np
-from broken import LONGEST, PromiseError
+from broken import CLOCK, LONGEST, SECONDS, PromiseError
 
-# A case that does not stop itself by then hangs where Python cannot interrupt it.
-HARD_SECONDS = LONGEST + 30.0
+# Calls of a case that are watched one by one, at most.
+CALLS = 3
+
+# Processor time after which a case that has not stopped itself hangs where Python cannot interrupt it [s].
+HARD_SECONDS = max(LONGEST, CALLS * SECONDS) + 60.0
 
 # No case may need more memory than this [bytes]; machine files of a few pages describe them all.
 MEMORY = 6 << 30
@@ -69,6 +72,16 @@ def worker(pipe: Connection) -> None:
             pipe.send(None)
 
 
+def processor_time(process: mp.process.BaseProcess) -> float:
+    """Processor time that a process has taken, all its threads together [s]; 0 for one that has ended."""
+    # The clock of a process as Linux numbers it, clock_getcpuclockid(3).
+    clock = (~(process.pid or 0) << 3) | 2
+    try:
+        return time.clock_gettime(clock)
+    except OSError:
+        return 0.0
+
+
 @dataclass
 class Runner:
     """A process with the case that it works on."""
@@ -77,6 +90,7 @@ class Runner:
     pipe: Connection
     case: tuple[str, int] = ("", 0)
     since: float = 0.0
+    used: float = 0.0
     done: int = 0
 
     @classmethod
@@ -93,6 +107,13 @@ class Runner:
         """Hand over the next case."""
         self.pipe.send(case)
         self.case, self.since, self.done = case, time.monotonic(), self.done + 1
+        self.used = processor_time(self.process)
+
+    def hangs(self) -> bool:
+        """Whether the case has taken more processor time than any may, or has waited far longer than that."""
+        if time.monotonic() - self.since > CLOCK * HARD_SECONDS:
+            return True
+        return processor_time(self.process) - self.used > HARD_SECONDS
 
     def stop(self) -> None:
         """End the process, whatever it does."""
@@ -140,10 +161,10 @@ def run(minutes: float, jobs: int, seed: int, only: Sequence[str], out: Path) ->
     while time.monotonic() < end:
         ready = wait([runner.pipe for runner in runners], timeout=1.0)
         for k, runner in enumerate(runners):
-            late = time.monotonic() - runner.since > HARD_SECONDS
+            late = runner.pipe not in ready and runner.hangs()
             if runner.pipe not in ready and not late:
                 continue
-            runners[k] = _next(runner, tally, out, late=late and runner.pipe not in ready)
+            runners[k] = _next(runner, tally, out, late=late)
             runners[k].give(next(queue))
         if time.monotonic() - said > 60.0:
             said = time.monotonic()
@@ -161,7 +182,7 @@ def _next(runner: Runner, tally: Tally, out: Path, *, late: bool) -> Runner:
     tally.seconds[kind] += time.monotonic() - runner.since
     answer: tuple[str, dict[str, str | bytes]] | None
     if late:
-        answer = (f"no answer within {HARD_SECONDS:g} s, and not to be interrupted", {})
+        answer = (f"no answer within {HARD_SECONDS:g} s of processor time, and not to be interrupted", {})
     else:
         try:
             answer = runner.pipe.recv()

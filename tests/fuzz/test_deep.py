@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import multiprocessing as mp
+import time
+from functools import partial
 from typing import Any
 
+import broken
 import deep
 import kinds
 import pytest
+from broken import PromiseError, watched
 from numpy.random import Generator
 
 from linkwright.kernel.errors import AssemblyError
@@ -41,3 +46,37 @@ def test_an_error_that_escapes_a_case_is_told_and_the_next_case_runs(monkeypatch
     assert what == "the case itself failed: AssemblyError: the links do not close at 30 deg"
     assert "in case" in inputs["traceback.txt"]
     assert answer is None
+
+
+def test_a_case_is_judged_by_the_processor_time_that_it_takes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that waits for a busy machine goes on; one that computes for ever is told, and so is a deadlock."""
+    with watched({}, seconds=0.1):
+        time.sleep(0.3)
+    with pytest.raises(PromiseError, match=r"within 0\.1 s of processor time"), watched({}, seconds=0.1):
+        _spin()
+    monkeypatch.setattr(broken, "CLOCK", 2.0)
+    with pytest.raises(PromiseError, match=r"within 0\.2 s on the clock"), watched({}, seconds=0.1):
+        time.sleep(60.0)
+
+
+def _spin() -> None:
+    while True:
+        pass
+
+
+def test_a_process_that_cannot_be_interrupted_is_judged_by_its_processor_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    context = mp.get_context("fork")
+    pipe, _ = context.Pipe()
+    monkeypatch.setattr(deep, "HARD_SECONDS", 0.2)
+    for work, hangs in ((_spin, True), (partial(time.sleep, 60.0), False)):
+        process = context.Process(target=work, daemon=True)
+        process.start()
+        runner = deep.Runner(process, pipe, since=time.monotonic())
+        end = time.monotonic() + (20.0 if hangs else 0.6)
+        while not runner.hangs() and time.monotonic() < end:
+            time.sleep(0.02)
+        assert runner.hangs() is hangs
+        process.kill()
+        process.join()
