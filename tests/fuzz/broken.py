@@ -68,7 +68,7 @@ def watched(inputs: Mapping[str, str | bytes], seconds: float = SECONDS) -> Iter
 
 @contextmanager
 def deadline(seconds: float) -> Iterator[None]:
-    """Raise `Hang` in a body that has taken so much processor time; only the main thread can be interrupted."""
+    """Raise `Hang` in a body that has taken that much processor time; only the main thread is interrupted."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
