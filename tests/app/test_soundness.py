@@ -40,13 +40,23 @@ def told(machine: Machine) -> set[str]:
     if machine.is_train_alone:
         lw.free_vibration(machine)
         return set()
-    return {text for text in lw.study(machine).findings if not SOLVED.search(text)}
+    return {without_heads(text) for text in lw.study(machine).findings if not SOLVED.search(text)}
+
+
+def seen(machine: Machine) -> set[str]:
+    """Findings of the check."""
+    return {without_heads(text) for text in soundness(machine).findings}
+
+
+def without_heads(text: str) -> str:
+    """A check looks at a part of the heads that a study follows, so the worst of them may be another."""
+    return re.sub("(does not cut through every head).*", r"\1", text)
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=name_of)
 def test_a_check_sees_what_is_wrong_with_shipped_machines(path: Path) -> None:
     machine = lw.read(path)
-    assert told(machine) <= set(soundness(machine).findings)
+    assert told(machine) <= seen(machine)
 
 
 # Shipped machines, what is changed in them, and what the check then says.
@@ -71,7 +81,7 @@ def test_a_check_says_what_is_broken(name: str, changes: dict[str, Any], words: 
     machine = changed(path, changes)
     found = soundness(machine).findings
     assert any(re.search(words, text) for text in found), found
-    assert told(machine) <= set(found)
+    assert told(machine) <= {without_heads(text) for text in found}
 
 
 def test_a_check_sees_what_a_field_of_roots_refuses() -> None:
@@ -130,4 +140,13 @@ def test_a_check_never_says_ok_where_the_study_has_a_finding_of_geometry(name: s
             other = changed(path, drawn)
         except InputError:
             continue
-        assert told(other) <= set(soundness(other).findings), drawn
+        assert told(other) <= seen(other), drawn
+
+
+def test_a_check_of_a_knife_says_what_the_study_says() -> None:
+    """Also where a few heads do not decide: about the length that the worst head needs."""
+    path = ROOT / "examples" / "topper_cam" / "machine.toml"
+    needed = lw.topper(lw.read(path)).length_exact
+    for length in (0.5 * needed, needed - 1e-6, needed + 1e-6, 1.02 * needed, 2.0 * needed):
+        machine = changed(path, {"topper.edge_length": length})
+        assert told(machine) == seen(machine), length

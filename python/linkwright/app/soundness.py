@@ -8,11 +8,12 @@
 | rotator | the lever does as its regime asks | `rod_rotator` |
 | cams | undercut, crossed, locked, hollow, no room for a second follower | `cam_profile`, `cam_faults` |
 | turning-moment diagram | driver and load balance over a cycle | `turning_moment` |
-| knife of a topper | advances, over its field too; long enough for all | `topper`, `require_advance` |
+| knife of a topper | advances, over its field too; long enough for all | `knife_look`, `require_advance` |
 | train, torsionally flexible driveline | has natural frequencies | `free_vibration` |
 
-Each is the function that the study itself calls, so what is a finding here is one there, and the other way
-round. What takes solving, such as steady motion, forces and vibration under torques, is left to the study.
+Each is the function that the study itself calls, or decides as that does at a part of its places, so what is
+a finding here is one there, and the other way round. What takes solving, such as steady motion, forces and
+vibration under torques, is left to the study.
 """
 
 from __future__ import annotations
@@ -91,15 +92,14 @@ def _knife(machine: Machine, found: Findings) -> Iterator[str]:
     described = machine.topper
     if described is None:
         return
-    from linkwright.topping.cautions import topper_findings
     from linkwright.topping.edge import edges_of
+    from linkwright.topping.knife_look import knife_look
     from linkwright.topping.passes import require_advance
     from linkwright.topping.roots import draw_roots
-    from linkwright.topping.topper import topper
 
-    cut = found.of(topper, machine, charts=False)
-    found.add(topper_findings(described, cut) if cut else ())
-    if cut and described.field is not None:
+    looked = found.of(lambda: tuple(knife_look(machine, described)))
+    found.add(looked or ())
+    if looked is not None and described.field is not None:
         found.of(lambda: require_advance(edges_of(machine, described), draw_roots(described)))
     yield "knife of the topper: its advance, and its length for every head"
 

@@ -19,6 +19,7 @@
 | `intervals` | Shares and means of a sample in clusters, and the intervals that hold the true ones |
 | `knife` | The law of the knife, given or that of a member of the mechanism |
 | `knife_drive` | Inertia force of the knife, torque of its drive |
+| `knife_look` | Whether an edge is long enough, seen at few heads |
 | `length_chart` | Lengths over root diameter and knife speed, for some forward speeds |
 | `model/` | Toppers, fields and limits of a knife in a machine file |
 | `passes` | One pass of an edge over many roots, in portions, so that somebody may watch |
