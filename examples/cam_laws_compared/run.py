@@ -35,7 +35,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """The law of the file beside the three that are best in something."""
-    from linkwright.cam.figures.laws import motion_laws_figure
+    from linkwright.cam.figures.cam import motion_laws_figure
 
     names = [machine.mechanism.cams["slide"].sections[0].law.kind, "modified_trapezoid", "minimum_jerk"]
     return motion_laws_figure({name: LAWS[name].normalised() for name in names})

@@ -10,7 +10,7 @@ import numpy as np
 
 import linkwright as lw
 from linkwright.topping.edge import edges_of
-from linkwright.topping.model.motion import HarmonicKnife
+from linkwright.topping.model.topper import HarmonicKnife
 
 
 def by_a_sine(machine: lw.Machine) -> lw.Machine:

@@ -112,7 +112,7 @@ _HOME = {
     "pose_guide": "synthesis.pose",
     "straight_line": "synthesis.straight_line",
     "straight_lines": "synthesis.straight_line",
-    "cam_drawings": "cam.manufacture.cam",
+    "cam_drawings": "cam.manufacture.drawing",
     "write_drawing": "cam.manufacture.write",
     "write_report": "app.report.page",
 }
@@ -156,7 +156,7 @@ if TYPE_CHECKING:
     from linkwright.cam.dynamics.residual_vibration import residual_spectrum as residual_spectrum
     from linkwright.cam.law_factors import cam_laws as cam_laws
     from linkwright.cam.law_factors import law_factors as law_factors
-    from linkwright.cam.manufacture.cam import cam_drawings as cam_drawings
+    from linkwright.cam.manufacture.drawing import cam_drawings as cam_drawings
     from linkwright.cam.manufacture.write import write_drawing as write_drawing
     from linkwright.cam.profile.faults import cam_cautions as cam_cautions
     from linkwright.cam.profile.faults import cam_faults as cam_faults

@@ -9,12 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.boundary import Boundary, by_conditions, half_law
 from linkwright.cam.laws.catalogue import LAWS
-from linkwright.cam.laws.half_law import half_law
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.ramps import SYMMETRIC
-from linkwright.cam.laws.shapes import by_conditions
 from linkwright.kernel.errors import LawError
 
 # Velocity and acceleration of each letter.

@@ -13,7 +13,7 @@ from linkwright.cam.core import crossings
 from linkwright.cam.model.follower import Sizes
 from linkwright.cam.profile.contact import CamCurve
 from linkwright.cam.profile.faults import cam_cautions, cam_faults
-from linkwright.cam.profile.least_base import (
+from linkwright.cam.profile.least_sizes import (
     base_for_curvature,
     base_for_pressure_angle,
     largest_roller,

@@ -14,11 +14,10 @@ import pytest
 from brute_force import distances, samples
 from cam_outlines import CAMS, Cam, eccentric
 
+from linkwright.cam.manufacture.curve import Track
 from linkwright.cam.manufacture.drawing import Drawing
 from linkwright.cam.manufacture.fit import FORMS, Form
-from linkwright.cam.manufacture.read_back import read_back
-from linkwright.cam.manufacture.track import Track
-from linkwright.cam.manufacture.write import write_drawing
+from linkwright.cam.manufacture.write import read_back, write_drawing
 from linkwright.kernel.errors import ExchangeError, InputError
 
 CAM = CAMS["dwells, cycloidal, roller"]

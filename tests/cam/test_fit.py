@@ -23,11 +23,11 @@ from cam_outlines import (
 
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
+from linkwright.cam.manufacture.arcs import equal_errors
+from linkwright.cam.manufacture.curve import Track
 from linkwright.cam.manufacture.deviation import Path, deviation
 from linkwright.cam.manufacture.fit import Form, fit
-from linkwright.cam.manufacture.mesh import equal_errors
 from linkwright.cam.manufacture.outline import Outline
-from linkwright.cam.manufacture.track import Track
 from linkwright.kernel.errors import ConvergenceError, ExchangeError, InputError
 
 TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8)

@@ -16,13 +16,10 @@ from scipy.optimize import minimize_scalar
 
 from linkwright.cam.law_factors import cam_laws, law_factors
 from linkwright.cam.laws.boundary import Boundary
-from linkwright.cam.laws.bounds import BOUNDS
-from linkwright.cam.laws.catalogue import LAWS
-from linkwright.cam.laws.modified_sine import modified_sine
-from linkwright.cam.laws.modified_trapezoid import modified_trapezoid
+from linkwright.cam.laws.catalogue import BOUNDS, LAWS
+from linkwright.cam.laws.handbook import modified_sine, modified_trapezoid
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.polynomial import polynomial
-from linkwright.cam.laws.spline import spline
+from linkwright.cam.laws.polynomial import polynomial, spline
 
 pi, sin, cos, sqrt = math.pi, math.sin, math.cos, math.sqrt
 FACTORS = cam_laws()

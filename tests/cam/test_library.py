@@ -8,14 +8,11 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.boundary import Boundary, is_symmetric
 from linkwright.cam.laws.catalogue import LAWS
-from linkwright.cam.laws.modified_sine import modified_sine
-from linkwright.cam.laws.modified_trapezoid import modified_trapezoid
+from linkwright.cam.laws.handbook import modified_sine, modified_trapezoid
 from linkwright.cam.laws.polynomial import polynomial, polynomial_3_4_5, polynomial_4_5_6_7
-from linkwright.cam.laws.ramps import RAMPS, ramp
-from linkwright.cam.laws.shapes import is_symmetric
-from linkwright.cam.laws.start_and_stop import s_curve, start_and_stop, trapezoidal_velocity
+from linkwright.cam.laws.ramps import RAMPS, ramp_of, s_curve, start_and_stop, trapezoidal_velocity
 from linkwright.cam.model.motion_law import CombinedLaw, PlainLaw
 from linkwright.cam.model.motion_section import AnyLaw
 from linkwright.kernel.description.schema_walk import kinds_of
@@ -134,10 +131,10 @@ def test_shares_beyond_the_whole_are_told() -> None:
 
 def test_ramps_go_from_rest_to_a_velocity_of_one() -> None:
     for name in RAMPS:
-        G = ramp(name)
+        G = ramp_of(name)
         assert [float(G.at(0.0, 1)), float(G.at(1.0, 1, "before"))] == pytest.approx([0.0, 1.0], abs=EXACT)
-    assert float(ramp("optimal_jerk").at(1.0)) == pytest.approx(0.6, abs=EXACT)
-    assert float(ramp("optimal_jerk_free").at(1.0)) == pytest.approx(0.5, abs=EXACT)
+    assert float(ramp_of("optimal_jerk").at(1.0)) == pytest.approx(0.6, abs=EXACT)
+    assert float(ramp_of("optimal_jerk_free").at(1.0)) == pytest.approx(0.5, abs=EXACT)
 
 
 def test_trapezoid_and_s_curve() -> None:

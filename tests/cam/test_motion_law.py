@@ -10,8 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkwright.cam.laws.motion_law import MotionLaw, combined, joined
-from linkwright.cam.laws.piece import Harmonic, Piece
-from linkwright.cam.laws.zeros import zeros
+from linkwright.cam.laws.piece import Harmonic, Piece, zeros
 
 LAW = MotionLaw(
     (0.5, 1.0, 3.0),

@@ -15,7 +15,7 @@ from linkwright.cam.laws.boundary import Boundary
 from linkwright.cam.laws.catalogue import LAWS
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.optimal import optimal, optimal_section
-from linkwright.cam.laws.ramps import ramp
+from linkwright.cam.laws.ramps import ramp_of
 from linkwright.kernel.errors import LawError
 
 Floats = NDArray[np.float64]
@@ -110,11 +110,11 @@ def test_the_start_of_paper_2_is_optimal_for_its_travel_only() -> None:
     start = {0: 0.0, 1: 0.0, 2: 0.0}
     free = optimal(3, start, {1: 1.0, 2: 0.0})
     z = np.linspace(0, 1, 21)
-    np.testing.assert_allclose(free.at(z), ramp("optimal_jerk_free").at(z), atol=1e-15)
+    np.testing.assert_allclose(free.at(z), ramp_of("optimal_jerk_free").at(z), atol=1e-15)
     assert float(free.at(1.0)) == pytest.approx(0.5, rel=1e-14)
     assert free.integral_of_square(3) == pytest.approx(12.0, rel=1e-13)
     fixed = optimal(3, start, {0: 0.6, 1: 1.0, 2: 0.0})
-    np.testing.assert_allclose(fixed.at(z), ramp("optimal_jerk").at(z), atol=1e-14)
+    np.testing.assert_allclose(fixed.at(z), ramp_of("optimal_jerk").at(z), atol=1e-14)
     assert fixed.integral_of_square(3) == pytest.approx(19.2, rel=1e-13)
     assert float(fixed.at(1.0, 3)) == pytest.approx(0.0, abs=1e-13)
 

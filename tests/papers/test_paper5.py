@@ -15,7 +15,7 @@ from linkwright.papers.paper5.short import exact_over
 from linkwright.papers.paper5.step import factors
 from linkwright.papers.sheet import page
 from linkwright.papers.words import shown
-from linkwright.topping.published import length_consistent, length_published, published_lengths
+from linkwright.topping.required_length import length_consistent, length_published, published_lengths
 
 
 @pytest.fixture(scope="module")

@@ -8,16 +8,20 @@ import numpy as np
 import pytest
 
 from linkwright.machine.read import read
-from linkwright.topping.constant_speed import constant_speed_lengths
+from linkwright.topping.charts import length_chart, verdict_chart
 from linkwright.topping.edge import edges_of
-from linkwright.topping.figures.lengths import length_chart_figure, verdict_figure
-from linkwright.topping.figures.phase import edge_use_figure, phase_figure, slicing_figure
+from linkwright.topping.figures.lengths import (
+    edge_use_figure,
+    length_chart_figure,
+    phase_figure,
+    slicing_figure,
+    verdict_figure,
+)
 from linkwright.topping.figures.view import top_view_figure
 from linkwright.topping.head_pass import HeadPass, head_pass
-from linkwright.topping.length_chart import length_chart
+from linkwright.topping.required_length import constant_speed_lengths
 from linkwright.topping.topper import TopperStudy, topper
 from linkwright.topping.verdict import Stroke
-from linkwright.topping.verdict_chart import verdict_chart
 
 MACHINE = Path(__file__).parents[2] / "machines" / "topper.toml"
 

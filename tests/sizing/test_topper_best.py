@@ -12,8 +12,7 @@ import linkwright as lw
 from linkwright.topping.best.best_knife import KnifeSearch, best_knife
 from linkwright.topping.best.knife_trial import Trials, thinned
 from linkwright.topping.field import topper_field
-from linkwright.topping.head import head_diameter
-from linkwright.topping.roots import draw_roots
+from linkwright.topping.roots import draw_roots, head_diameter
 
 TOPPER = """
 format = 1

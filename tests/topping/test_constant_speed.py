@@ -22,12 +22,16 @@ from numpy.typing import NDArray
 from scipy.integrate import quad
 
 from linkwright.machine.machine import Machine
-from linkwright.topping.constant_speed import constant_speed_lengths
 from linkwright.topping.edge import Edge
-from linkwright.topping.head import cap_volume, head_diameter
 from linkwright.topping.knife import knives
 from linkwright.topping.model.topper import Topper
-from linkwright.topping.published import length_consistent, length_published, published_lengths
+from linkwright.topping.required_length import (
+    constant_speed_lengths,
+    length_consistent,
+    length_published,
+    published_lengths,
+)
+from linkwright.topping.roots import cap_volume, head_diameter
 
 Floats = NDArray[np.float64]
 

@@ -31,10 +31,10 @@ from knife_sweep import (
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError
-from linkwright.topping.constant_speed import constant_speed_lengths
 from linkwright.topping.coverage import COARSE, Coverage, coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.knife import Knife, knives
+from linkwright.topping.required_length import constant_speed_lengths
 from linkwright.topping.worst_head import worst_head
 
 LAWS: dict[str, Law] = {

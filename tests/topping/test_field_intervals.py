@@ -9,8 +9,7 @@ from scipy import stats
 from topper_fields import machine
 
 from linkwright.topping.field import topper_field
-from linkwright.topping.intervals import Clusters
-from linkwright.topping.share_curve import ShareCurve
+from linkwright.topping.intervals import Clusters, ShareCurve
 
 Floats = NDArray[np.float64]
 

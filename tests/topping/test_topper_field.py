@@ -13,16 +13,15 @@ import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineError
 from linkwright.kernel.files.templates import template
 from linkwright.machine.write import dumps
-from linkwright.topping import passes
-from linkwright.topping.constant_speed import constant_speed_lengths
+from linkwright.topping import coverage as passes
+from linkwright.topping.cautions import field_cautions, field_findings
+from linkwright.topping.coverage import pass_over
 from linkwright.topping.edge import edges_of
 from linkwright.topping.field import TopperField, topper_field
-from linkwright.topping.field_verdict import field_cautions, field_findings
-from linkwright.topping.head import cap_volume, head_diameter
 from linkwright.topping.knife import knives
 from linkwright.topping.model.field import RandomField
-from linkwright.topping.passes import pass_over
-from linkwright.topping.roots import draw_roots
+from linkwright.topping.required_length import constant_speed_lengths
+from linkwright.topping.roots import cap_volume, draw_roots, head_diameter
 
 Floats = NDArray[np.float64]
 

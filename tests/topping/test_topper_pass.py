@@ -10,10 +10,10 @@ from scipy.integrate import quad
 
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import read
+from linkwright.topping.charts import length_chart
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge, edges_of
 from linkwright.topping.head_pass import HeadPass, head_pass, worse_edge
-from linkwright.topping.length_chart import length_chart
 from linkwright.topping.slicing import edge_use, slicing_over_phase
 from linkwright.topping.topper import topper
 

@@ -92,9 +92,9 @@ def _knife(machine: Machine, found: Findings) -> Iterator[str]:
     described = machine.topper
     if described is None:
         return
+    from linkwright.topping.coverage import require_advance
     from linkwright.topping.edge import edges_of
     from linkwright.topping.knife_look import knife_look
-    from linkwright.topping.passes import require_advance
     from linkwright.topping.roots import draw_roots
 
     looked = found.of(lambda: tuple(knife_look(machine, described)))

@@ -14,5 +14,5 @@
 | `scene` | Cams in the moving sketch: outlines that turn, rollers, edges and faces that they move |
 | `search` | Thousands to millions of cams that differ in law, radii, offset or lift |
 | `study` | What is known of all cams of a machine |
-| `tables/` | Tables of cams |
+| `tables` | Tables of cams, of laws compared, and their theoretical bounds |
 """

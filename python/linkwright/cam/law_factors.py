@@ -24,8 +24,7 @@ import numpy as np
 
 from linkwright.cam.laws.catalogue import LAWS
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.piece import Piece
-from linkwright.cam.laws.zeros import zeros
+from linkwright.cam.laws.piece import Piece, zeros
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result

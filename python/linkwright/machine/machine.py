@@ -26,13 +26,13 @@ if TYPE_CHECKING:
     from linkwright.pumping.model.unit import PumpingUnit
     from linkwright.topping.model.topper import Topper
     from linkwright.torsion.model.train import Train
-    from linkwright.turning.model.turning_moment import TurningMoment
+    from linkwright.turning.model import TurningMoment
 else:
     PumpingUnit = deferred_model("pumping.model.unit", "PumpingUnit")
     RodRotator = deferred_model("pumping.model.rod_rotator", "RodRotator")
     Topper = deferred_model("topping.model.topper", "Topper")
     Train = deferred_model("torsion.model.train", "Train")
-    TurningMoment = deferred_model("turning.model.turning_moment", "TurningMoment")
+    TurningMoment = deferred_model("turning.model", "TurningMoment")
 
 # The format that this version reads and writes.
 FORMAT = 1

@@ -3,7 +3,7 @@
 | module | |
 | --- | --- |
 | `cautions` | What the user of a pumping unit or of a rotator should know although it runs |
-| `figures/` | Figures of pumping units and rotators |
+| `figures` | Figures of pumping units and rod rotators |
 | `gear_torque` | Torque of the gearbox of a pumping unit: polished-rod load and counterbalance |
 | `lever` | Link and lever of a rotator as functions of the crank angle, and what the lever gives the worm |
 | `model/` | Pumping units and rotators in a machine file; the mechanism that they are |

@@ -1,4 +1,9 @@
-"""What a topper cannot do, and what its user should know: sentences with numbers."""
+"""Findings and warnings on a topper and on its field.
+
+What a topper cannot do, and what its user should know: sentences with numbers.
+
+What speaks against a topper over its field: limits that it does not keep, and what else to know.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +11,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.topping.field import TopperField
+from linkwright.topping.knife import Knife
+from linkwright.topping.model.field import RandomField
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy, leaves
 
@@ -73,3 +81,93 @@ def topper_cautions(described: Topper, found: TopperStudy) -> Iterator[str]:
             f"The edge runs backwards at times, by up to {speed:.4g} m/s along its normal: there its back "
             "meets the head; reduce the edge angle or the knife speed."
         )
+
+
+# Phases of a row that count as few, how far they may wander along it [turns], and roots that share each at
+# minimum.
+_FEW, _WANDER, _SHARING = 4, 0.25, 4
+
+
+def field_findings(found: TopperField, topper: Topper) -> Iterator[str]:
+    """Limits of the machine file that are not kept; without any in the file, none.
+
+    Parameters
+    ----------
+    found : TopperField
+        The study.
+    topper : Topper
+        The topper.
+
+    Yields
+    ------
+    str
+        A sentence with both numbers.
+    """
+    if "limits" not in topper.model_fields_set:
+        return
+    limits = topper.limits
+    if found.share_complete < limits.complete_min:
+        least = found.length_at(limits.complete_min)
+        remedy = f"; {least:.4g} m would do" if least < float("inf") else ""
+        yield (
+            f"Of the heads {100 * found.share_complete:.4g} % are cut right through, "
+            f"{100 * limits.complete_min:.4g} % are asked for{remedy}."
+        )
+    if limits.haulm_max is not None and found.haulm_mean > limits.haulm_max:
+        yield (
+            f"Of the head {100 * found.haulm_mean:.3g} % is left on average, {100 * limits.haulm_max:.3g} % "
+            "are allowed."
+        )
+    if limits.slicing_min is not None and found.slicing_ratio_mean < limits.slicing_min:
+        yield (
+            f"The mean draw-cut ratio is {found.slicing_ratio_mean:.4g}; {limits.slicing_min:.4g} is asked."
+        )
+    if limits.length_max is not None and found.edge_length > limits.length_max:
+        yield f"The edge is {found.edge_length:.4g} m long, {limits.length_max:.4g} m are allowed."
+
+
+def field_cautions(found: TopperField, topper: Topper, knife: Knife) -> Iterator[str]:
+    """What the designer should know of a field.
+
+    Parameters
+    ----------
+    found : TopperField
+        The study.
+    topper : Topper
+        The topper.
+    knife : Knife
+        How its knife moves.
+
+    Yields
+    ------
+    str
+        A sentence with the numbers.
+    """
+    if topper.field is None:
+        yield "There is no [topper.field]: all roots are alike, their axes even within the offset."
+    if found.n_missed:
+        share = 100 * found.n_missed / found.n_roots
+        yield f"The knife passes above {share:.3g} % of the heads: no length of the edge cuts them."
+    if found.n_lost:
+        share = 100 * found.n_lost / found.n_roots
+        yield f"The cut passes below {share:.3g} % of the roots, which are lost as a whole."
+    if isinstance(topper.field, RandomField):
+        yield from _locked(topper.field, topper.forward_speed, knife)
+
+
+def _locked(field: RandomField, forward_speed: float, knife: Knife) -> Iterator[str]:
+    """Even distances that go with the strokes of the knife."""
+    spacing = field.spacing
+    if spacing is None or not spacing.is_constant or not knife.rate:
+        return
+    turns = spacing.ends[0] * knife.frequency / forward_speed
+    in_row = field.roots / field.rows
+    for phases in range(1, _FEW + 1):
+        drift = abs(phases * turns - round(phases * turns)) / phases
+        if drift * in_row <= _WANDER and in_row >= _SHARING * phases:
+            met = "in one phase" if phases == 1 else f"in no more than {phases} phases"
+            yield (
+                f"The knife makes {turns:.5g} cycles from root to root: roots of a row meet it {met}, and "
+                "rows differ the more. Take the result of many rows, or let spacing scatter."
+            )
+            return

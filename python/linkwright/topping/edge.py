@@ -26,10 +26,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
-from linkwright.topping.constant_speed import ALONG_ITSELF
 from linkwright.topping.core import KnifeKernel
 from linkwright.topping.knife import Knife, knives
 from linkwright.topping.model.topper import Topper
+from linkwright.topping.required_length import ALONG_ITSELF
 
 Floats = NDArray[np.float64]
 

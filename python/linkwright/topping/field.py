@@ -31,13 +31,11 @@ from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import INSIDE_ONE, RATIO, Quantity
 from linkwright.machine.machine import Machine
-from linkwright.topping.coverage import COARSE
+from linkwright.topping.coverage import COARSE, Pass, Watch, pass_over
 from linkwright.topping.edge import Edge, edges_of, require_topper
-from linkwright.topping.intervals import Clusters, Interval
+from linkwright.topping.intervals import QUANTILES, Clusters, Interval, ShareCurve
 from linkwright.topping.model.topper import Topper
-from linkwright.topping.passes import Pass, Watch, pass_over
 from linkwright.topping.roots import Roots, draw_roots, field_of
-from linkwright.topping.share_curve import QUANTILES, ShareCurve
 from linkwright.topping.slicing import slicing
 
 Floats = NDArray[np.float64]

@@ -1,4 +1,6 @@
-r"""The law y(t) by which the knife of a topper goes back and forth across the row.
+r"""Motion of a knife, and the force and power that drive it.
+
+The law y(t) by which the knife of a topper goes back and forth across the row.
 
 The mean speed v_h counts the way in both senses, :math:`v_h = 2 S f` for one stroke S back and forth a cycle;
 so a sine of stroke S has :math:`2\pi f = \pi v_h/S` and its maximum speed is :math:`\tfrac{\pi}{2} v_h`. The
@@ -8,6 +10,10 @@ is the crank angle. A knife at rest stands in the middle of its stroke, or where
 Smooth laws are sums of harmonics, all others laws in pieces: those of a mechanism with cams are polynomials
 of degree 5 through position, velocity and acceleration at each degree and at every joint of a cam, which
 leaves rounding of a smooth stretch. The follower of a cam has the lift of its cam.
+
+What it takes to move the knife: its inertia force, and the torque of its drive at the design speed.
+
+Inertia and loads are those of the machine file; `linkwright.kinetostatics.forces` balances all members.
 """
 
 from __future__ import annotations
@@ -22,13 +28,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
 from linkwright.kernel.errors import FindingError
+from linkwright.kinetostatics.forces import forces
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.kinematics import kinematics_of
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.topping.core import KnifeWay
-from linkwright.topping.model.motion import ConstantKnife, MemberKnife
-from linkwright.topping.model.topper import Topper
+from linkwright.topping.model.topper import ConstantKnife, MemberKnife, Topper
 
 Floats = NDArray[np.float64]
 Ends = tuple[float, float, float]
@@ -297,3 +303,80 @@ def _quintic(length: float, start: Ends, end: Ends) -> Piece:
         6 * rise - 3 * slope + 0.5 * bend,
     )
     return Piece(tuple(float(c) for c in (s, v, 0.5 * a, *cubic)))
+
+
+# Crank angles of the revolution; then so often so many about an extreme, which leaves 1e-12 of it.
+_DRIVE_ANGLES, _LOOKS, _CLOSE = 720, 3, 40
+
+
+@dataclass(frozen=True)
+class KnifeDrive:
+    """Force and torque at the design speed.
+
+    Attributes
+    ----------
+    mass : float
+        Of the bodies on the knife [kg].
+    inertia_force_max : float
+        Peak absolute value of mass times acceleration of the knife [N].
+    torque_max, torque_min, torque_mean : float
+        Extremes and mean of the driving torque at the crank [N m].
+    power_mean : float
+        Mean power at the crank [W].
+    """
+
+    mass: float
+    inertia_force_max: float
+    torque_max: float
+    torque_min: float
+    torque_mean: float
+    power_mean: float
+
+
+def knife_drive(machine: Machine, knife: Knife) -> KnifeDrive | None:
+    """Inertia force of the knife and torque of its drive.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    knife : Knife
+        Its knife.
+
+    Returns
+    -------
+    KnifeDrive or None
+        None if no mechanism moves the knife, or nothing has mass.
+
+    Raises
+    ------
+    FindingError
+        There are no forces.
+    """
+    motion = None if machine.topper is None else machine.topper.motion
+    drive = machine.drive
+    if not isinstance(motion, MemberKnife) or drive is None or drive.speed is None or not machine.bodies:
+        return None
+    mass = sum(body.mass or 0.0 for name, body in machine.bodies.items() if (body.on or name) == motion.of)
+    found = forces(machine, speed=drive.speed, n=_DRIVE_ANGLES)
+    # The revolution's end is its start.
+    mean = float(np.mean(found.torque_drive[:-1]))
+    return KnifeDrive(
+        mass=float(mass),
+        inertia_force_max=float(mass * knife.acceleration_max),
+        torque_max=_highest(machine, drive.speed, found.crank_angle, found.torque_drive, 1.0),
+        torque_min=-_highest(machine, drive.speed, found.crank_angle, found.torque_drive, -1.0),
+        torque_mean=mean,
+        power_mean=mean * drive.speed,
+    )
+
+
+def _highest(machine: Machine, speed: float, angle: Floats, torque: Floats, sign: float) -> float:
+    """The maximum torque, times a sign: looked at more closely about the highest so far."""
+    step = 2 * np.pi / _DRIVE_ANGLES
+    for _ in range(_LOOKS):
+        at = int(np.nanargmax(sign * torque))
+        angle = np.linspace(angle[at] - step, angle[at] + step, _CLOSE + 1)
+        torque = forces(machine, speed=speed, angles=angle).torque_drive
+        step = 2 * step / _CLOSE
+    return float(np.nanmax(sign * torque))

@@ -10,8 +10,8 @@ from linkwright.machine.machine import Machine
 from linkwright.topping.cautions import topper_findings
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge, edges_of, hardly_goes_on
-from linkwright.topping.head import head_diameter
 from linkwright.topping.model.topper import Topper
+from linkwright.topping.roots import head_diameter
 from linkwright.topping.topper import NOTHING, topper
 
 # Heads that are looked at: phases, and offsets with both ends.

@@ -23,13 +23,11 @@ from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, INSIDE_ONE, LENGTH, RATIO, VELOCITY, Kind, Quantity, worded
 from linkwright.machine.machine import Machine
-from linkwright.topping.coverage import COARSE
+from linkwright.topping.coverage import COARSE, Watch, pass_over
 from linkwright.topping.edge import Edge, edges_of, require_topper
 from linkwright.topping.field import TopperField, field_result
 from linkwright.topping.knife import knives
-from linkwright.topping.model.motion import ConstantKnife, MemberKnife
-from linkwright.topping.model.topper import Topper
-from linkwright.topping.passes import Watch, pass_over
+from linkwright.topping.model.topper import ConstantKnife, MemberKnife, Topper
 from linkwright.topping.roots import Roots, draw_roots
 
 Floats = NDArray[np.float64]

@@ -13,15 +13,13 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-from linkwright.topping.constant_speed import constant_speed_lengths
 from linkwright.topping.edge import Edge, edges_of, hardly_goes_on, require_topper
-from linkwright.topping.every_head import every_head, unknown_heads
-from linkwright.topping.every_phase import every_phase_length
-from linkwright.topping.head import cap_volume, head_diameter
-from linkwright.topping.knife_drive import KnifeDrive, knife_drive
+from linkwright.topping.knife import KnifeDrive, knife_drive
 from linkwright.topping.model.topper import Topper
-from linkwright.topping.published import published_lengths
+from linkwright.topping.required_length import constant_speed_lengths, every_phase_length, published_lengths
+from linkwright.topping.roots import cap_volume, head_diameter
 from linkwright.topping.slicing import edge_use, slicing
+from linkwright.topping.worst_head import every_head, unknown_heads
 
 Floats = NDArray[np.float64]
 

@@ -23,9 +23,12 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.result import Result, finite
 from linkwright.kernel.units import ACUTE, ANGLE, LENGTH, Quantity, positive
-from linkwright.topping.constant_speed import constant_speed_lengths
-from linkwright.topping.every_phase import every_phase_length
-from linkwright.topping.published import length_consistent, length_published
+from linkwright.topping.required_length import (
+    constant_speed_lengths,
+    every_phase_length,
+    length_consistent,
+    length_published,
+)
 
 Floats = NDArray[np.float64]
 

@@ -1,14 +1,22 @@
-"""The worst of the heads that a knife may meet: over offsets on both sides of the row and over phases."""
+"""The worst place of a head, and all heads of the range.
+
+The worst of the heads that a knife may meet: over offsets on both sides of the row and over phases.
+
+One edge over all heads that it may meet: what they need, and what it leaves of them.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
+from linkwright.topping.model.topper import Topper
 
 Floats = NDArray[np.float64]
 
@@ -102,3 +110,125 @@ def _best(edge: Edge, phases: Floats, offsets: Floats, measure: Measure) -> Wors
     values = measure(edge, delta, phi)
     at = int(np.argmax(values))
     return Worst(float(values[at]), float(phi[at]), float(delta[at]), edge)
+
+
+# Phases of the curves, and offsets at which the worst is looked for.
+_CURVE_PHASES, _CURVE_OFFSETS = 180, 9
+
+# Phases and offsets of the mean, amid even steps so that all count alike: it is good to three digits, of an
+# edge that retreats to two.
+_MEAN_PHASES, _MEAN_OFFSETS = 90, 41
+
+
+def every_head(described: Topper, edges: list[Edge], d: float, *, charts: bool = True) -> dict[str, Any]:
+    """What heads need, and what is left of them.
+
+    Parameters
+    ----------
+    described : Topper
+        The topper.
+    edges : list of Edge
+        Its edge, or the two directions of it.
+    d : float
+        Diameter of the heads [m].
+    charts : bool
+        Whether to follow all phases; else only whether the edge is long enough, and what a shorter one
+        leaves.
+
+    Returns
+    -------
+    dict
+        Entries of `TopperStudy`, from ``phase`` to ``uncut_by_phase`` and from ``length_exact`` to
+        ``uncut_share_mean``.
+    """
+    found = unknown_heads() | _needed(described, edges, d)
+    if charts or found["length_exact"] > described.edge_length:
+        found |= _left(described, edges, d)
+    return found | _by_phase(described, edges, d) if charts else found
+
+
+def unknown_heads() -> dict[str, Any]:
+    """The same entries for an edge that cannot be followed: NaN."""
+    scalars = ("length_exact", "worst_phase", "worst_offset", "last_x", "last_y", "length_best_phase")
+    left = ("uncut_share", "uncut_phase", "uncut_offset", "uncut_right", "uncut_left", "uncut_between")
+    nothing = np.full(_CURVE_PHASES + 1, np.nan)
+    curves = {"length_by_phase": nothing, "uncut_by_phase": nothing}
+    numbers = dict.fromkeys((*scalars, *left, "best_phase", "uncut_share_mean"), float("nan"))
+    return {"phase": np.linspace(0.0, 2 * np.pi, _CURVE_PHASES + 1)} | curves | numbers
+
+
+def _needed(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
+    """The head that needs most."""
+    phase = described.motion.phase
+
+    def needs(edge: Edge, offset: Floats, angle: Floats) -> Floats:
+        return coverage(edge, d, offset, angle).length_needed
+
+    worst = worst_head(edges, described.offset, phase, needs)
+    there = coverage(worst.edge, d, worst.offset, worst.phase)
+    return {
+        "length_exact": worst.value,
+        "worst_phase": worst.phase,
+        "worst_offset": worst.offset,
+        "last_x": float(there.last_x[0]),
+        "last_y": float(there.last_y[0]),
+    }
+
+
+def _left(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
+    """The head of which most is left."""
+    area, length = 0.25 * np.pi * d**2, described.edge_length
+
+    def left(edge: Edge, offset: Floats, angle: Floats) -> Floats:
+        return coverage(edge, d, offset, angle, length=length).uncut / area
+
+    worst = worst_head(edges, described.offset, described.motion.phase, left)
+    there = coverage(worst.edge, d, worst.offset, worst.phase, length=length)
+    return {
+        # All of it, but for rounding.
+        "uncut_share": min(worst.value, 1.0),
+        "uncut_phase": worst.phase,
+        "uncut_offset": worst.offset,
+        "uncut_right": float(there.uncut_right[0] / area),
+        "uncut_left": float(there.uncut_left[0] / area),
+        "uncut_between": float(there.uncut_between[0] / area),
+    }
+
+
+def _by_phase(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
+    """What each phase needs and leaves at its worst offset, the best phase, and the mean of what is left."""
+    phases = np.linspace(0.0, 2 * np.pi, _CURVE_PHASES + 1)
+    n_offsets = _CURVE_OFFSETS // SPARING + 1 if any(edge.retreats for edge in edges) else _CURVE_OFFSETS
+    offsets = np.linspace(-described.offset, described.offset, n_offsets if described.offset else 1)
+    phi, delta = np.meshgrid(phases, offsets, indexing="ij")
+    length = described.edge_length
+    found = [coverage(edge, d, delta.ravel(), phi.ravel(), length=length) for edge in edges]
+    needed = np.stack([each.length_needed.reshape(phi.shape) for each in found])
+    left = np.stack([each.uncut.reshape(phi.shape) for each in found]) / (0.25 * np.pi * d**2)
+    by_phase = needed.max(axis=(0, 2))
+    best = int(np.argmin(by_phase))
+    return {
+        "phase": phases,
+        "length_by_phase": by_phase,
+        "uncut_by_phase": left.max(axis=(0, 2)),
+        "length_best_phase": float(by_phase[best]),
+        "best_phase": float(phases[best]),
+        "uncut_share_mean": _mean_left(described, edges, d),
+    }
+
+
+def _mean_left(described: Topper, edges: list[Edge], d: float) -> float:
+    """Mean share that is left, over offsets, over directions, and over phases if none is given."""
+    offset, phase = described.offset, described.motion.phase
+    sparing = SPARING if any(edge.retreats for edge in edges) else 1
+    offsets = offset * _amid(_MEAN_OFFSETS // sparing) if offset else np.zeros(1)
+    moves = phase is None and any(edge.knife.rate for edge in edges)
+    phases = np.pi * (1 + _amid(_MEAN_PHASES // sparing)) if moves else np.array([phase or 0.0])
+    phi, delta = (each.ravel() for each in np.meshgrid(phases, offsets))
+    left = [coverage(edge, d, delta, phi, length=described.edge_length).uncut for edge in edges]
+    return float(np.mean(left) / (0.25 * np.pi * d**2))
+
+
+def _amid(n: int) -> Floats:
+    """Middles of even steps from −1 to 1, (n,)."""
+    return np.asarray((2 * np.arange(n) + 1) / n - 1, dtype=np.float64)

@@ -4,6 +4,6 @@
 | --- | --- |
 | `diagram` | Fluctuation of energy over a cycle, and the flywheel that evens the motion |
 | `figures` | The diagram, the energy and the speed over a cycle |
-| `model/` | The turning-moment diagram of a machine file |
+| `model` | Torques and the turning-moment diagram in a file |
 | `tables` | The diagram as tables, headline and formulas |
 """

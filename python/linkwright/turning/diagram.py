@@ -33,7 +33,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-from linkwright.turning.model.turning_moment import TurningMoment
+from linkwright.turning.model import TurningMoment
 
 Floats = NDArray[np.float64]
 

@@ -84,7 +84,7 @@ def _topper(machine: Machine) -> list[tuple[str, str]]:
     """The head that is cut, the edge, and how the knife moves."""
     from math import degrees
 
-    from linkwright.topping.head import head_diameter
+    from linkwright.topping.roots import head_diameter
 
     cut = machine.topper
     if cut is None:

@@ -36,6 +36,6 @@ def _slices(study: Study) -> Iterator[Captioned]:
 
         yield from cam_figures(study.cams, study.loaded_cams)
     if study.pumping_unit is not None or study.rotator is not None:
-        from linkwright.pumping.figures.captions import unit_figures
+        from linkwright.pumping.figures import unit_figures
 
         yield from unit_figures(study.pumping_unit, study.rotator)

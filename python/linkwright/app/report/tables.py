@@ -30,7 +30,7 @@ def _slices(study: Study) -> Iterator[Table]:
 
         yield from topper_tables(*study.knife)
     if study.cams:
-        from linkwright.cam.tables.cam import cam_tables
+        from linkwright.cam.tables import cam_tables
 
         yield from cam_tables(study.cams, study.cam_sizes, study.loaded_cams)
     if study.pumping_unit is not None or study.rotator is not None:

@@ -120,7 +120,7 @@ def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawn], li
     """Name of the file → drawing, of the cams that can be made; what cannot be drawn is a finding."""
     from tempfile import TemporaryDirectory
 
-    from linkwright.cam.manufacture.cam import cam_drawings
+    from linkwright.cam.manufacture.drawing import cam_drawings
     from linkwright.cam.manufacture.write import write_drawing
     from linkwright.cam.profile.faults import cam_faults
     from linkwright.kernel.files.output import file_names
@@ -179,7 +179,7 @@ def _answer(
 
 def _tables(study: Study) -> list[Table]:
     """Tables for people."""
-    from linkwright.cam.tables.cam import cam_tables
+    from linkwright.cam.tables import cam_tables
 
     return list(cam_tables(study.cams, study.cam_sizes, study.loaded_cams))
 

@@ -75,8 +75,7 @@ def _known(wanted: list[str], everything: dict[str, Any]) -> list[str]:
 
 def _results(chosen: dict[str, LawFactors]) -> dict[str, Any]:
     """The factors of each law, and their theoretical lower bounds."""
-    from linkwright.cam.laws.bounds import BOUNDS
-    from linkwright.cam.laws.catalogue import LAWS
+    from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 
     laws = {
         name: {**factors.to_dict(), "parameters": LAWS[name].parameters, "source": LAWS[name].source}
@@ -87,14 +86,14 @@ def _results(chosen: dict[str, LawFactors]) -> dict[str, Any]:
 
 def _tables(chosen: dict[str, LawFactors]) -> list[Table]:
     """Tables for people."""
-    from linkwright.cam.tables.laws import bound_table, law_table
+    from linkwright.cam.tables import bound_table, law_table
 
     return [law_table(chosen), bound_table()]
 
 
 def _figures(drawn: list[str]) -> dict[str, Figure]:
     """The laws in one figure."""
-    from linkwright.cam.figures.laws import motion_laws_figure
+    from linkwright.cam.figures.cam import motion_laws_figure
     from linkwright.cam.laws.catalogue import LAWS
 
     return {"cam_laws": motion_laws_figure({name: LAWS[name].normalised() for name in drawn})}

@@ -31,8 +31,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.cam.dynamics.follower_load import CamCourse
-from linkwright.cam.profile.checks import alike
+from linkwright.cam.dynamics.follower_load import CamCourse, alike
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.public import public_type
 from linkwright.kernel.public.in_range import in_range

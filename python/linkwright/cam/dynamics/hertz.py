@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.cam.profile.checks import alike
+from linkwright.cam.dynamics.follower_load import alike
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range

@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from linkwright.cam.model.follower_train import FollowerTrain
+from linkwright.cam.model.follower_motion import FollowerTrain
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public_type
 from linkwright.kernel.public.in_range import in_range

@@ -1,6 +1,6 @@
 """The lift that lets an elastic follower move exactly by a wanted law, at the speed of its design.
 
-`linkwright.cam.laws.polydyne` has the formula: the equation of the one mass, read for the lift.
+`linkwright.cam.model.follower_motion` has the formula: the equation of the one mass, read for the lift.
 The preload is in balance at rest and does not appear. The lift is continuous if x″ is, its velocity if x‴ is,
 its acceleration if x⁗ is.
 """
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from linkwright.cam.dynamics.one_mass import OneMass
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.polydyne import polydyne_correction, polydyne_lift
+from linkwright.cam.model.follower_motion import polydyne_correction, polydyne_lift
 from linkwright.cam.profile.lift_steps import Ends, continuity, steps
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public

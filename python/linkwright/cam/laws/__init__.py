@@ -2,17 +2,14 @@
 
 | module | holds |
 | --- | --- |
-| `piece`, `motion_law` | a polynomial with harmonics; laws in pieces: values, derivatives, extremes, sums |
-| `zeros` | all zeros of a smooth function |
-| `linear_system` | exact linear equations for the unknowns of a law |
-| `rest_to_rest` | a law from the course of its acceleration |
-| `parabolic`, `harmonic`, `sine_series` | laws of one power, of cosines, of a few sines |
-| `modified_sine`, `modified_trapezoid` | accelerations of sines and constants |
-| `polynomial`, `optimal`, `least_peak` | by boundary conditions; of minimum integral; of minimum peak |
-| `ramps`, `start_and_stop`, `limited` | ramps; start, constant velocity and braking; by limits |
-| `spline` | through points |
-| `catalogue`, `bounds` | all laws by name; theoretical lower bounds |
-| `boundary`, `half_law`, `shapes` | what a section has to do, and how a law does it |
+| `boundary` | Velocities and accelerations at the ends of a section, and laws that meet them |
+| `catalogue` | All laws by name, with their sources, and the theoretical bounds of their factors |
+| `handbook` | Laws in closed form: parabola, harmonics, sine series, modified sine and trapezoid |
+| `limited` | Trapezoidal velocity and S-curve by limits of velocity, acceleration and jerk |
+| `motion_law` | A motion law: lift over angle, or over time, in pieces that are polynomials and harmonics |
+| `optimal` | Laws with minimum mean square or minimum peak of a derivative |
+| `piece` | One stretch of a law, polynomial and harmonics, and where it is zero |
+| `polynomial` | Laws by conditions at their ends, and splines through points |
 | `programme` | sections over one revolution, and how smoothly they meet |
-| `polydyne` | the lift that moves an elastic follower by a law |
+| `ramps` | Ramps of the velocity, and laws that start, keep a velocity and stop |
 """

@@ -1,4 +1,6 @@
-r"""What a section of a programme has to do, counted over its own z from 0 to 1: the task of VDI 2143.
+r"""Velocities and accelerations at the ends of a section, and laws that meet them.
+
+What a section of a programme has to do, counted over its own z from 0 to 1: the task of VDI 2143.
 
 Derivatives count by z: a section over the angle β with the slope s′ has the velocity s′ β and the
 acceleration s″ β² here. The ends of VDI 2143 are
@@ -11,11 +13,36 @@ acceleration s″ β² here. The ends of VDI 2143 are
 | B | any motion (Bewegung) | v | a |
 
 Source: VDI 2143 Blatt 1 (1980).
+
+Any symmetric law of rest to rest, used for any boundary values.
+
+The first half of a law f brings a follower from rest to its maximum velocity. Stretched over a section it
+changes the velocity there,
+
+.. math:: x(z) = v_0 z + (v_1 - v_0)\,G(z) + \bigl(s - v_0 - (v_1 - v_0)\,G(1)\bigr) f(z), \qquad
+          G'(z) = \frac{f'(z/2)}{f'(1/2)}
+
+and f itself covers what is left of the lift s. Accelerations at the ends that the sum does not have are added
+by a quintic that changes nothing else there. A section of a family keeps the family's smoothness: its
+harmonics, and no jump that f has not.
+
+Source: VDI 2143 Blatt 1 (1980) takes halves of symmetric laws for the tasks R-G and G-R; the sum for
+two velocities is the same formula once for each.
+
+From a law of rest to rest to a section with any boundary values, in the way that suits the law.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.cam.laws.handbook import constant_velocity
+from linkwright.cam.laws.motion_law import MotionLaw, combined
+from linkwright.cam.laws.polynomial import polynomial
+from linkwright.kernel.errors import LawError, Problem
 
 
 @dataclass(frozen=True)
@@ -46,3 +73,172 @@ class Boundary:
             (self.velocity_end, self.acceleration_end or 0.0),
         )
         return "-".join("RGUB"[(v != 0) + 2 * (a != 0)] for v, a in ends)
+
+
+_REST = {0: 0.0, 1: 0.0, 2: 0.0}
+
+
+def half_law(law: MotionLaw) -> MotionLaw:
+    """The first half of a symmetric law, stretched to a section and to an end velocity of one.
+
+    Parameters
+    ----------
+    law : MotionLaw
+        Symmetric, from 0 to 1.
+
+    Returns
+    -------
+    MotionLaw
+        G, from 0 to 1; G′ goes from 0 to 1.
+    """
+    middle = float(law.at(0.5, 1))
+    return law.stretch(0.0, 0.5).placed(0.0, 1.0).scaled(2 / middle)
+
+
+def with_boundary(law: MotionLaw, task: Boundary) -> MotionLaw:
+    """A symmetric law made to meet boundary values.
+
+    Parameters
+    ----------
+    law : MotionLaw
+        Symmetric, from 0 to 1.
+    task : Boundary
+        The boundary values. Accelerations that are None are those that come out.
+
+    Returns
+    -------
+    MotionLaw
+        x(z), from 0 to 1, beginning with 0.
+    """
+    moved = law.scaled(task.lift)
+    if task.velocity_start or task.velocity_end:
+        moved = _moved(law, task)
+    start, end = moved.at(0.0, 2), moved.at(1.0, 2, "before")
+    missing = [
+        0.0 if wanted is None else wanted - float(there)
+        for wanted, there in ((task.acceleration_start, start), (task.acceleration_end, end))
+    ]
+    if not any(missing):
+        return moved
+    bend = polynomial(_REST | {2: missing[0]}, _REST | {2: missing[1]})
+    return combined((1.0, moved), (1.0, bend))
+
+
+def _moved(law: MotionLaw, task: Boundary) -> MotionLaw:
+    """The sum that meets lift and velocities."""
+    v_0, change = task.velocity_start, task.velocity_end - task.velocity_start
+    G = half_law(law)
+    left = task.lift - v_0 - change * float(G.at(1.0))
+    return combined((v_0, constant_velocity()), (change, G), (left, law))
+
+
+# What differs by less than this share is the same.
+_SAME = 1e-9
+
+
+def straight(task: Boundary) -> MotionLaw:
+    """Constant velocity: the lift alone counts."""
+    return constant_velocity().scaled(task.lift)
+
+
+def suited(law: MotionLaw, task: Boundary) -> MotionLaw:
+    """A law of rest to rest for any boundary values if it is symmetric, else for rest alone.
+
+    Parameters
+    ----------
+    law : MotionLaw
+        From 0 to 1.
+    task : Boundary
+        The boundary values.
+
+    Returns
+    -------
+    MotionLaw
+        From 0 to 1.
+
+    Raises
+    ------
+    LawError
+        The law is not symmetric, and other boundary values than its own are asked for.
+    """
+    return with_boundary(law, task) if is_symmetric(law) else at_rest_only(law, task)
+
+
+def is_symmetric(law: MotionLaw) -> bool:
+    """Whether the second half of a law of rest to rest is the mirror image of the first."""
+    z = np.linspace(0.0, 0.5, 17)
+    return bool(np.abs(law.at(z) + law.at(1 - z) - 1).max() < _SAME)
+
+
+def at_rest_only(law: MotionLaw, task: Boundary) -> MotionLaw:
+    """A law that cannot but begin and end at rest.
+
+    Parameters
+    ----------
+    law : MotionLaw
+        From 0 to 1.
+    task : Boundary
+        The boundary values.
+
+    Returns
+    -------
+    MotionLaw
+        From 0 to 1.
+
+    Raises
+    ------
+    LawError
+        Other boundary values are asked for.
+    """
+    own = law.scaled(task.lift)
+    ends = (float(own.at(0.0, 2)), float(own.at(1.0, 2, "before")))
+    wanted = (task.acceleration_start, task.acceleration_end)
+    limit = _SAME * (1 + abs(task.lift) * max(map(abs, ends)))
+    differs = any(a is not None and abs(a - b) > limit for a, b in zip(wanted, ends, strict=True))
+    if task.velocity_start or task.velocity_end or differs:
+        found = f"a law of rest to rest for the task {task.letters}"
+        remedy = 'take law = "polynomial", or one of the symmetric laws'
+        raise LawError(Problem("", found, "a law that begins and ends as the neighbours ask", remedy))
+    return own
+
+
+def by_conditions(
+    task: Boundary,
+    continuity_start: int = 2,
+    continuity_end: int = 2,
+    powers: Sequence[int] | None = None,
+) -> MotionLaw:
+    """The polynomial that meets the boundary values.
+
+    Parameters
+    ----------
+    task : Boundary
+        The boundary values; accelerations that are None are zero.
+    continuity_start, continuity_end : int
+        Order of the highest derivative that is set there; those above the second are zero.
+    powers : sequence of int, optional
+        Powers to be used instead of 0, 1, 2, …
+
+    Returns
+    -------
+    MotionLaw
+        From 0 to 1.
+
+    Raises
+    ------
+    LawError
+        A velocity or acceleration is asked for that the order leaves out; powers that cannot do it.
+    """
+    start = (0.0, task.velocity_start, task.acceleration_start or 0.0)
+    end = (task.lift, task.velocity_end, task.acceleration_end or 0.0)
+    at_start = _conditions("continuity_start", start, continuity_start)
+    return polynomial(at_start, _conditions("continuity_end", end, continuity_end), powers)
+
+
+def _conditions(key: str, values: Sequence[float], order: int) -> dict[int, float]:
+    """Order → value, up to the order that is wanted."""
+    left_out = [i for i in range(order + 1, len(values)) if values[i]]
+    if left_out:
+        expected = f"{left_out[-1]} or more, as the section has a derivative of that order at this end"
+        raise LawError(Problem(key, str(order), expected))
+    return dict(enumerate([*values, *[0.0] * order][: order + 1]))

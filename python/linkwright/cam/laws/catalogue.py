@@ -1,7 +1,22 @@
-"""The catalogue of motion laws: each described once, for the machine file, the command line and the pages.
+r"""All laws by name, with their sources, and the theoretical bounds of their factors.
+
+The catalogue of motion laws: each described once, for the machine file, the command line and the pages.
 
 A law without parameters of its own is here in full; a law with some has them as arguments of ``law``, with
 their usual values.
+
+What no law of rest to rest can go below, with the law that gets there.
+
+For x from 0 to 1 over a length of one:
+
+.. math:: C_v \ge 1, \quad C_a \ge 4, \quad C_j \ge 32, \quad \int \ddot x^2 \ge 12,
+          \quad \int \dddot x^2 \ge 720
+
+Each follows by integrating by parts against a fixed function. With the velocity zero at both ends,
+:math:`1 = \int (\tfrac12 - z)\,\ddot x\,dz`, so that :math:`1 \le C_a \int |\tfrac12 - z| dz = C_a/4` and, by
+Schwarz, :math:`1 \le \int \ddot x^2 \cdot \tfrac1{12}`. With the acceleration zero there too,
+:math:`1 = \int p\,\dddot x\,dz` for every :math:`p = \tfrac12 z^2 - \tfrac12 z + c`; the best c gives
+:math:`1 \le C_j/32` (c = 3/32) and :math:`1 \le \int \dddot x^2/720` (c = 1/12).
 """
 
 from __future__ import annotations
@@ -9,20 +24,25 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
-from linkwright.cam.laws import sine_series
-from linkwright.cam.laws.boundary import Boundary
-from linkwright.cam.laws.harmonic import double_harmonic, harmonic
-from linkwright.cam.laws.least_peak import minimum_acceleration, minimum_jerk
-from linkwright.cam.laws.modified_sine import modified_sine
-from linkwright.cam.laws.modified_trapezoid import modified_trapezoid
+from linkwright.cam.laws.boundary import Boundary, by_conditions, straight, suited
+from linkwright.cam.laws.handbook import (
+    constant_velocity,
+    cycloidal,
+    double_harmonic,
+    freudenstein_1_3,
+    freudenstein_1_3_5,
+    gutman_1_3,
+    harmonic,
+    modified_sine,
+    modified_trapezoid,
+    parabolic,
+)
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.optimal import optimal_section
-from linkwright.cam.laws.parabolic import constant_velocity, parabolic
+from linkwright.cam.laws.optimal import minimum_acceleration, minimum_jerk, optimal_section
 from linkwright.cam.laws.polynomial import polynomial_3_4_5, polynomial_4_5_6_7
-from linkwright.cam.laws.shapes import by_conditions, straight, suited
-from linkwright.cam.laws.start_and_stop import s_curve, start_and_stop, trapezoidal_velocity
+from linkwright.cam.laws.ramps import s_curve, start_and_stop, trapezoidal_velocity
 
 REST_TO_REST = Boundary(1.0)
 
@@ -105,25 +125,23 @@ LAWS: dict[str, Entry] = {
     "parabolic": Entry("constant acceleration, then as much deceleration", _VDI, parabolic),
     "harmonic": Entry("one cosine, the motion of a Scotch yoke", _VDI, harmonic),
     "double_harmonic": Entry("two cosines, soft at its start only", _HANDBOOK, double_harmonic),
-    "cycloidal": Entry("acceleration of one sine (Bestehorn)", _VDI, sine_series.cycloidal),
+    "cycloidal": Entry("acceleration of one sine (Bestehorn)", _VDI, cycloidal),
     "modified_trapezoid": Entry(
         "constant acceleration with ramps of quarter sines", _VDI, modified_trapezoid, parameters=_SHARE
     ),
     "modified_sine": Entry(
         "slow cosine between two quick quarter sines", _VDI, modified_sine, parameters=_SHARE
     ),
-    "gutman_1_3": Entry(
-        "harmonics 1 and 3 of the parabola", "Gutman (1961), by " + _HANDBOOK, sine_series.gutman_1_3
-    ),
+    "gutman_1_3": Entry("harmonics 1 and 3 of the parabola", "Gutman (1961), by " + _HANDBOOK, gutman_1_3),
     "freudenstein_1_3": Entry(
         "sines 1 and 3, small peak of acceleration",
         "Freudenstein (1960), by " + _HANDBOOK,
-        sine_series.freudenstein_1_3,
+        freudenstein_1_3,
     ),
     "freudenstein_1_3_5": Entry(
         "sines 1, 3 and 5, small peak of acceleration",
         "Freudenstein (1960), by " + _HANDBOOK,
-        sine_series.freudenstein_1_3_5,
+        freudenstein_1_3_5,
     ),
     "polynomial_3_4_5": Entry("velocity and acceleration by task", _VDI, polynomial_3_4_5, by_conditions),
     "polynomial_4_5_6_7": Entry(
@@ -163,3 +181,36 @@ LAWS: dict[str, Entry] = {
         parameters=_THIRDS | {"rounding": 1 / 4},
     ),
 }
+
+
+class LowerBound(NamedTuple):
+    """A bound from below.
+
+    Attributes
+    ----------
+    name : str
+        Of the factor.
+    value : float
+        The bound.
+    reached_by : str
+        Law of the catalogue that has this value.
+    holds_for : str
+        Laws that it holds for.
+    """
+
+    name: str
+    value: float
+    reached_by: str
+    holds_for: str
+
+
+_REST = "velocity zero at both ends"
+_SOFT = "velocity and acceleration zero at both ends"
+
+BOUNDS = (
+    LowerBound("C_v", 1.0, "constant_velocity", "every law"),
+    LowerBound("C_a", 4.0, "parabolic", _REST),
+    LowerBound("C_j", 32.0, "minimum_jerk", _SOFT),
+    LowerBound("acceleration_squared", 12.0, "optimal", _REST),
+    LowerBound("jerk_squared", 720.0, "polynomial_3_4_5", _SOFT),
+)

@@ -19,10 +19,9 @@ from dataclasses import dataclass
 from math import copysign, degrees, inf, sqrt
 
 from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.handbook import constant_velocity, rest_to_rest
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.parabolic import constant_velocity
 from linkwright.cam.laws.piece import Piece
-from linkwright.cam.laws.rest_to_rest import rest_to_rest
 from linkwright.kernel.errors import LawError, Problem
 
 # Halvings after which an interval of floats is two neighbours.

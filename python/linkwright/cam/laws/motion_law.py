@@ -16,8 +16,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.cam.laws.piece import Harmonic, Piece
-from linkwright.cam.laws.zeros import zeros
+from linkwright.cam.laws.piece import Harmonic, Piece, zeros
 
 __all__ = ["Extreme", "Harmonic", "MotionLaw", "Piece", "combined", "joined"]
 

@@ -1,4 +1,6 @@
-r"""Ramps: from rest to a velocity of one over a length of one.
+r"""Ramps of the velocity, and laws that start, keep a velocity and stop.
+
+Ramps: from rest to a velocity of one over a length of one.
 
 Halves of the symmetric laws, and two of minimum :math:`\int \dddot x^2`: for the travel of 3/5, which makes
 the jerk end in zero,
@@ -12,19 +14,38 @@ ends in zero:
 
 Source: the first is the start of paper 2, *Synthesis of the cam drive mechanism of a roller-forming
 installation with a combined mode of motion*, equations (1)–(3); the second follows from `optimal`.
+
+Start, constant velocity, braking: the velocity goes up a ramp, stays, and comes down a ramp.
+
+With the share p of the start, g of the braking, and ramps of the travel S (the velocity one reached over a
+length of one), the constant velocity for a lift of one over a length of one is
+
+.. math:: v = \frac{1}{p S_p + (1 - p - g) + g S_g}
+
+With straight ramps it is the trapezoidal velocity, with rounded ones the S-curve.
+
+Source: paper 2, *Synthesis of the cam drive mechanism of a roller-forming installation with a combined mode
+of motion*, equations (4)–(10): p = g = 1/6, S = 3/5, v = 15/13; Biagiotti and Melchiorri, *Trajectory
+Planning for Automatic Machines and Robots* (2008), chapter 3, for trapezoidal velocity and S-curve.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
-from linkwright.cam.laws import sine_series
-from linkwright.cam.laws.half_law import half_law
-from linkwright.cam.laws.harmonic import harmonic
-from linkwright.cam.laws.modified_sine import modified_sine
-from linkwright.cam.laws.modified_trapezoid import modified_trapezoid
-from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.parabolic import parabolic
+from linkwright.cam.laws.boundary import half_law
+from linkwright.cam.laws.handbook import (
+    constant_velocity,
+    cycloidal,
+    freudenstein_1_3,
+    freudenstein_1_3_5,
+    gutman_1_3,
+    harmonic,
+    modified_sine,
+    modified_trapezoid,
+    parabolic,
+)
+from linkwright.cam.laws.motion_law import MotionLaw, joined
 from linkwright.cam.laws.piece import Piece
 from linkwright.cam.laws.polynomial import polynomial_3_4_5, polynomial_4_5_6_7
 from linkwright.kernel.errors import LawError, Problem
@@ -44,12 +65,12 @@ def optimal_jerk_free() -> MotionLaw:
 SYMMETRIC: dict[str, Callable[[], MotionLaw]] = {
     "parabolic": parabolic,
     "harmonic": harmonic,
-    "cycloidal": sine_series.cycloidal,
+    "cycloidal": cycloidal,
     "modified_trapezoid": modified_trapezoid,
     "modified_sine": modified_sine,
-    "gutman_1_3": sine_series.gutman_1_3,
-    "freudenstein_1_3": sine_series.freudenstein_1_3,
-    "freudenstein_1_3_5": sine_series.freudenstein_1_3_5,
+    "gutman_1_3": gutman_1_3,
+    "freudenstein_1_3": freudenstein_1_3,
+    "freudenstein_1_3_5": freudenstein_1_3_5,
     "polynomial_3_4_5": polynomial_3_4_5,
     "polynomial_4_5_6_7": polynomial_4_5_6_7,
 }
@@ -57,7 +78,7 @@ SYMMETRIC: dict[str, Callable[[], MotionLaw]] = {
 RAMPS = ("optimal_jerk", "optimal_jerk_free", *SYMMETRIC)
 
 
-def ramp(name: str) -> MotionLaw:
+def ramp_of(name: str) -> MotionLaw:
     """A ramp by its name.
 
     Parameters
@@ -81,3 +102,95 @@ def ramp(name: str) -> MotionLaw:
     if name not in SYMMETRIC:
         raise LawError(Problem("ramp", f'"{name}"', "one of " + ", ".join(RAMPS)))
     return half_law(SYMMETRIC[name]())
+
+
+# What rounding may leave of three shares that add to one.
+_ROUNDING = 1e-12
+
+
+def start_and_stop(start: float = 1 / 6, stop: float = 1 / 6, ramp: str = "optimal_jerk") -> MotionLaw:
+    """Start over a share, constant velocity, braking over a share.
+
+    Parameters
+    ----------
+    start, stop : float
+        Shares of the start and of the braking, 0 or more, together at most 1.
+    ramp : str
+        Course of the velocity, one of `ramps.RAMPS`.
+
+    Returns
+    -------
+    MotionLaw
+        From 0 to 1.
+
+    Raises
+    ------
+    LawError
+        The shares are more than the whole, or there is no such ramp.
+    """
+    return _with_ramp(start, stop, ramp_of(ramp))
+
+
+def trapezoidal_velocity(start: float = 1 / 3, stop: float = 1 / 3) -> MotionLaw:
+    """Constant acceleration, constant velocity, constant deceleration.
+
+    Parameters
+    ----------
+    start, stop : float
+        Shares of acceleration and deceleration.
+
+    Returns
+    -------
+    MotionLaw
+        From 0 to 1.
+
+    Raises
+    ------
+    LawError
+        The shares are more than the whole.
+    """
+    return start_and_stop(start, stop, "parabolic")
+
+
+def s_curve(start: float = 1 / 3, stop: float = 1 / 3, rounding: float = 1 / 4) -> MotionLaw:
+    """Trapezoidal velocity with its corners rounded by parabolas: the jerk is constant there.
+
+    Parameters
+    ----------
+    start, stop : float
+        Shares of acceleration and deceleration.
+    rounding : float
+        Share of each of the two corners in its ramp, up to 1/2.
+
+    Returns
+    -------
+    MotionLaw
+        From 0 to 1.
+
+    Raises
+    ------
+    LawError
+        The shares are more than the whole.
+    """
+    corner = (rounding, Piece((0.0, 1.0)))
+    flat = (1 - 2 * rounding, Piece((1.0,)))
+    rise = MotionLaw.of(0.0, corner, flat, (rounding, Piece((1.0, -1.0)))).integral()
+    return _with_ramp(start, stop, rise.scaled(1 / (1 - rounding)).placed(0.0, 1.0).integral())
+
+
+def _with_ramp(start: float, stop: float, ramp: MotionLaw) -> MotionLaw:
+    """Start, constant velocity and braking with one ramp G, G′ from 0 to 1."""
+    cruise = 1 - start - stop
+    if cruise < -_ROUNDING or min(start, stop) < 0:
+        found = f"shares of {start:.6g} and {stop:.6g}"
+        raise LawError(Problem("start", found, "shares of 0 or more, together at most 1"))
+    travel = float(ramp.at(1.0))
+    v = 1 / (start * travel + cruise + stop * travel)
+    before, after = v * start * travel, 1 - v * stop * travel
+    parts = [
+        (0.0, start, ramp.scaled(v * start)),
+        (start, 1 - stop - start, constant_velocity().scaled(v * cruise, before)),
+        (1 - stop, stop, ramp.reversed().scaled(-v * stop, after + v * stop * travel)),
+    ]
+    law = joined([part.placed(low, length) for low, length, part in parts if length > _ROUNDING])
+    return MotionLaw((0.0, *law.breaks[1:-1], 1.0), law.pieces)

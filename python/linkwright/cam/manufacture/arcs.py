@@ -1,4 +1,16 @@
-r"""A curve as circular arcs and lines that meet without kinks: biarcs through places of the curve, with its
+r"""A closed curve as arcs or chords, division with equal errors.
+
+Where to cut a smooth stretch so that few pieces keep a tolerance: all pieces err alike.
+
+If the error of a piece of length h goes with hᵖ, then (e/tolerance)^(1/p) is how many pieces that piece
+should have been. These shares add up to the number needed, and cutting at equal shares makes the errors
+alike. As errors go with hᵖ only for short pieces, this is done over and over, each time with measured errors.
+
+Source: de Boor, *A Practical Guide to Splines* (1978), chapter XII (NEWNOT).
+
+A curve as a polygon with its corners on the curve: a chord of length s errs by κ s²/8.
+
+A curve as circular arcs and lines that meet without kinks: biarcs through places of the curve, with its
 tangents.
 
 Between two places with unit tangents :math:`t_0, t_1`, the two arcs meet in the middle of the side between
@@ -18,16 +30,147 @@ planar curves by arc splines*, J. Comput. Appl. Math. 59 (1995) 221–231.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.manufacture.curve import Stretch
-from linkwright.cam.manufacture.mesh import equal_errors
-from linkwright.cam.manufacture.outline import Outline
-from linkwright.cam.manufacture.sides import Sides, angle_between, dot
-from linkwright.cam.manufacture.track import Track
+from linkwright.cam.manufacture.curve import Stretch, Track
+from linkwright.cam.manufacture.outline import Outline, Sides, angle_between, dot
+from linkwright.kernel.errors import ConvergenceError
 
 Floats = NDArray[np.float64]
+
+# Rounds with one number of pieces before there is one more, and at most of pieces.
+_ROUNDS, _MOST = 6, 200_000
+
+# Share of an equal part that a piece keeps even if it errs by nothing, so that no piece grows without limit.
+_FLOOR = 0.02
+
+
+def equal_errors(
+    errors: Callable[[Floats], Floats], low: float, high: float, order: float, tolerance: float
+) -> Floats:
+    """Cuts between which no piece errs by more than the tolerance.
+
+    Parameters
+    ----------
+    errors : callable
+        From cuts (n + 1,) to the error of each piece, (n,), in the unit of the tolerance; not negative.
+    low, high : float
+        Ends of the stretch.
+    order : float
+        p: with which power of its length a short piece errs.
+    tolerance : float
+        How much a piece may err.
+
+    Returns
+    -------
+    ndarray, shape (n + 1,)
+        The cuts, with both ends.
+
+    Raises
+    ------
+    ConvergenceError
+        Even 200 000 pieces do not keep the tolerance.
+    """
+    cuts, enough = np.array([low, high]), False
+    n = 1
+    while not enough:
+        cuts, found, enough = _alike(errors, cuts, n, order, tolerance)
+        needed = math.ceil(min(((found / tolerance) ** (1 / order)).sum(), 2.0 * n + 8))
+        n = max(needed, n + max(1, n // 50))
+        if n > _MOST:
+            raise ConvergenceError(
+                f"{n} pieces between {low:g} and {high:g} rad do not keep the tolerance; ask for a wider one",
+                method="cutting a curve into pieces",
+                iterations=n,
+                residual=float(found.max()),
+            )
+    return _fewer(errors, cuts, order, tolerance)
+
+
+def _fewer(errors: Callable[[Floats], Floats], cuts: Floats, order: float, tolerance: float) -> Floats:
+    """Cuts of fewer pieces that keep the tolerance too, by bisection from what the errors say is needed."""
+    least = max(math.ceil(((errors(cuts) / tolerance) ** (1 / order)).sum()), 1)
+    while least < len(cuts) - 1:
+        middle = (least + len(cuts) - 1) // 2
+        tried, _, enough = _alike(errors, cuts, middle, order, tolerance)
+        if enough:
+            cuts = tried
+        else:
+            least = middle + 1
+    return cuts
+
+
+def _alike(
+    errors: Callable[[Floats], Floats], cuts: Floats, n: int, order: float, tolerance: float
+) -> tuple[Floats, Floats, bool]:
+    """Cuts of n pieces that err alike as far as a few rounds go; their errors; whether that is enough."""
+    found = errors(cuts)
+    for _ in range(_ROUNDS):
+        if len(found) == n and found.max() <= tolerance:
+            break
+        cuts = _cut_alike(cuts, (found / tolerance) ** (1 / order), n)
+        found = errors(cuts)
+    return cuts, found, len(found) == n and bool(found.max() <= tolerance)
+
+
+def _cut_alike(cuts: Floats, share: Floats, n: int) -> Floats:
+    """Cuts of n pieces with equal parts of the shares, spread evenly within each old piece."""
+    width = np.diff(cuts) / (cuts[-1] - cuts[0])
+    weight = share / max(share.sum(), 1e-300) + _FLOOR * width
+    total = np.concatenate([[0.0], np.cumsum(weight)])
+    new = np.interp(np.linspace(0, total[-1], n + 1), total, cuts)
+    new[0], new[-1] = cuts[0], cuts[-1]
+    return np.asarray(new)
+
+
+# Error of a chord by its length.
+_CHORD_ORDER = 2.0
+
+# Shares of a chord at which it is compared with the curve; the largest distance is near the middle.
+_CHORD_SHARES = np.linspace(0.05, 0.95, 19)
+
+
+def polyline(track: Track, tolerance: float) -> Outline:
+    """Approximate a curve by chords.
+
+    Parameters
+    ----------
+    track : Track
+        The curve.
+    tolerance : float
+        Largest distance from the curve [m].
+
+    Returns
+    -------
+    Outline
+        Lines only; as few as equal errors give.
+
+    Raises
+    ------
+    ConvergenceError
+        The tolerance asks for too many chords.
+    """
+    vertices = np.concatenate([_corners(part, tolerance) for part in track.parts])
+    return Outline(vertices, np.zeros(len(vertices)))
+
+
+def _corners(part: Stretch, tolerance: float) -> Floats:
+    """Starts of the chords of a stretch, (n, 2)."""
+
+    def errors(cuts: Floats) -> Floats:
+        """Largest distance of the curve from each chord, at samples."""
+        p = part.points(cuts)
+        chords = Sides(p[:-1], np.diff(p, axis=0), np.zeros(len(p) - 1))
+        places = part.points(cuts[:-1, None] + np.diff(cuts)[:, None] * _CHORD_SHARES)
+        return np.asarray(chords.distances(places).max(axis=1))
+
+    cuts = equal_errors(errors, part.low, part.high, _CHORD_ORDER, tolerance)
+    return part.points(cuts[:-1])
+
 
 # Error of a biarc by its length.
 _ORDER = 3.0

@@ -5,18 +5,20 @@ each side of the path belongs to the part of the curve between its ends, and bot
 other: places of the side with the nearest of the curve, places of the curve with the nearest of the side.
 Where the distance is largest, it is looked for closer. The nearest is looked for between those ends only, so
 that at the places looked at the result is never less than the distance of the two sets (Hausdorff).
+
+An outline as a file holds it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.manufacture.track import Track
+from linkwright.cam.manufacture.curve import Track
 from linkwright.kernel.errors import ExchangeError
 
 Floats = NDArray[np.float64]
@@ -165,3 +167,18 @@ def _most(distance: Floats, tau: Floats, u: Floats) -> tuple[Floats, Floats, Flo
     column = distance.argmax(axis=1)[:, None]
     most, share, at = (np.take_along_axis(each, column, axis=1)[:, 0] for each in (distance, u, tau))
     return most, share, at
+
+
+class FileOutline(NamedTuple):
+    """An outline of a file.
+
+    Attributes
+    ----------
+    path : Path
+        To be compared with the curve.
+    form : str
+        How the file holds it, such as ``LWPOLYLINE``.
+    """
+
+    path: Path
+    form: str

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from typing import Literal
 
-from linkwright.cam.manufacture.arcs import arcs
-from linkwright.cam.manufacture.curve import size
+from linkwright.cam.manufacture.arcs import arcs, polyline
+from linkwright.cam.manufacture.curve import Track, size
 from linkwright.cam.manufacture.deviation import Deviation, deviation
-from linkwright.cam.manufacture.hermite import spline
 from linkwright.cam.manufacture.outline import Outline
-from linkwright.cam.manufacture.polyline import polyline
-from linkwright.cam.manufacture.spline import Spline
-from linkwright.cam.manufacture.track import Track
+from linkwright.cam.manufacture.spline import Spline, spline
 from linkwright.kernel.errors import ConvergenceError, InputError
 
 Form = Literal["arcs", "spline", "cubic", "polyline"]

@@ -15,8 +15,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.manufacture.sides import cross, dot
-from linkwright.cam.manufacture.track import Track
+from linkwright.cam.manufacture.curve import Track
+from linkwright.cam.manufacture.outline import cross, dot
 from linkwright.kernel.errors import ExchangeError, InputError, require_within
 from linkwright.kernel.files.csv_text import csv_text
 from linkwright.kernel.files.output import write_file

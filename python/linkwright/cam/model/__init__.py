@@ -4,8 +4,7 @@
 | --- | --- |
 | `cam` | A cam on the crankshaft and the follower that it moves |
 | `follower` | The follower of a cam in the mechanism |
-| `follower_motion` | How the follower of a cam moves over one revolution |
-| `follower_train` | The train between a cam and the mass that it moves, as one mass on one stiffness |
+| `follower_motion` | The motion of a follower: sections as one law, and the lift of its elastic train |
 | `motion_law` | The motion law of a section, as it is written in a machine file |
 | `motion_section` | A motion programme as it is written in a machine file |
 | `point_law` | Laws through points, as they are written in a machine file: splines and tables |

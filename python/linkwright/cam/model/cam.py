@@ -21,8 +21,7 @@ import numpy as np
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.cam.model.follower_motion import FollowerMotion, follower_motion
-from linkwright.cam.model.follower_train import FollowerTrain
+from linkwright.cam.model.follower_motion import FollowerMotion, FollowerTrain, follower_motion
 from linkwright.cam.model.motion_section import MotionSection
 from linkwright.cam.model.section_faults import section_faults
 from linkwright.kernel.description.base import CheckedDescription, Description, fault

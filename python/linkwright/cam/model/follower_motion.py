@@ -1,23 +1,139 @@
-"""How the follower of a cam moves: its programme over one revolution, from the base circle, and its peaks.
+r"""The motion of a follower: sections as one law, and the lift of its elastic train.
+
+The lift that moves an elastic follower exactly by a wanted law at one speed.
+
+For one mass on a train of stiffness k without damper of its own, with a closing spring k_r and a damper to
+the frame,
+
+.. math:: s = \frac1\kappa\left(x + 2\zeta_f\frac{\omega}{\Omega}\,x' + \frac{\omega^2}{\Omega^2}\,x''\right),
+    \qquad \kappa = \frac{k}{k + k_r}, \qquad \Omega^2 = \frac{k + k_r}{m}
+
+Source: W. M. Dudley, *New methods in valve cam design*, SAE Quarterly Transactions 2, 1948, 19–33;
+D. A. Stoddart, *Polydyne cam design*, Machine Design 25, 1953.
+
+The train between a cam and the mass that it moves, as one mass on one stiffness; the lift made for it.
+
+How the follower of a cam moves: its programme over one revolution, from the base circle, and its peaks.
 
 The same sections give the same motion, which is worked out once.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
-from linkwright.cam.model.follower_train import FollowerTrain
+from pydantic import Field
+from pydantic_core import InitErrorDetails
+
+from linkwright.cam.laws.motion_law import MotionLaw, combined
 from linkwright.cam.model.motion_section import Family, MotionSection, programme
+from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.plain import arrays
 from linkwright.kernel.description.text import join
 from linkwright.kernel.errors import ShapeError
+from linkwright.kernel.units import FORCE, MASS, RATIO, SPEED, STIFFNESS, Quantity, not_negative, positive
 
 if TYPE_CHECKING:
     from linkwright.cam.laws.motion_law import MotionLaw
     from linkwright.cam.laws.programme import Joint, Programme
+
+
+def polydyne_correction(wanted: MotionLaw, slow: float, damping_ratio: float) -> MotionLaw:
+    """What the lift is more than the wanted motion, both at the mass: κs − x.
+
+    Parameters
+    ----------
+    wanted : MotionLaw
+        x over the cam angle [m over rad].
+    slow : float
+        ω/Ω, speed of the cam over the natural frequency [–].
+    damping_ratio : float
+        ζ_f of the damper to the frame [–].
+
+    Returns
+    -------
+    MotionLaw
+        Over the cam angle [m over rad].
+    """
+    return combined((2 * damping_ratio * slow, wanted.derivative(1)), (slow**2, wanted.derivative(2)))
+
+
+def polydyne_lift(wanted: MotionLaw, slow: float, damping_ratio: float, share: float) -> MotionLaw:
+    """The lift.
+
+    Parameters
+    ----------
+    wanted : MotionLaw
+        x over the cam angle [m over rad].
+    slow : float
+        ω/Ω, speed of the cam over the natural frequency [–].
+    damping_ratio : float
+        ζ_f of the damper to the frame [–].
+    share : float
+        κ = k/(k + k_r) [–].
+
+    Returns
+    -------
+    MotionLaw
+        s over the cam angle [m over rad].
+    """
+    correction = polydyne_correction(wanted, slow, damping_ratio)
+    return combined((1.0, wanted), (1.0, correction)).scaled(1 / share)
+
+
+Ratio = Annotated[float, not_negative(RATIO)]
+
+
+class FollowerTrain(CheckedDescription):
+    """What vibrates between cam and load: one mass on one stiffness."""
+
+    mass: Annotated[float, positive(MASS)] = Field(description="Of all that moves, reduced to the follower.")
+    stiffness: Annotated[float, positive(STIFFNESS)] = Field(description="Between the cam and the mass.")
+    damping_ratio: Ratio = Field(0.0, description="Of the damper between the cam and the mass.")
+    damping_ratio_frame: Ratio = Field(0.0, description="Of the damper between the mass and the frame.")
+    spring_rate: Annotated[float, not_negative(STIFFNESS)] = Field(
+        0.0, description="Of the spring that closes."
+    )
+    preload: Annotated[float, Quantity(FORCE)] = Field(0.0, description="Of that spring at no lift.")
+    polydyne_speed: Annotated[float, positive(SPEED)] | None = Field(
+        None,
+        description="Speed at which the mass is to move exactly as the sections say: the cam gets the lift "
+        "for it. Without it the cam has the lift of the sections.",
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        both = self.damping_ratio + self.damping_ratio_frame
+        if both >= 1:
+            yield fault("damping_ratio", found=both, expected="less than 1, both together")
+        if self.polydyne_speed is not None and self.damping_ratio:
+            remedy = "behind a damper in the train the lift of a dwell would never fade"
+            yield fault(
+                "polydyne_speed", found=self.polydyne_speed, expected="a train without damper", remedy=remedy
+            )
+
+    def lift_for(self, wanted: MotionLaw) -> MotionLaw:
+        """The lift that makes the mass move by a law at the polydyne speed.
+
+        Parameters
+        ----------
+        wanted : MotionLaw
+            x over the cam angle [m over rad].
+
+        Returns
+        -------
+        MotionLaw
+            s, see `linkwright.cam.model.follower_motion`; the law itself without a polydyne speed.
+        """
+
+        if self.polydyne_speed is None:
+            return wanted
+        stiff = self.stiffness + self.spring_rate
+        slow = self.polydyne_speed / math.sqrt(stiff / self.mass)
+        return polydyne_lift(wanted, slow, self.damping_ratio_frame, self.stiffness / stiff)
 
 
 class FollowerMotion:

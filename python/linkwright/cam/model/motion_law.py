@@ -152,7 +152,7 @@ class PolynomialLaw(Law):
     )
 
     def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
-        from linkwright.cam.laws.shapes import by_conditions
+        from linkwright.cam.laws.boundary import by_conditions
 
         return by_conditions(task, self.continuity_start, self.continuity_end, self.powers)
 

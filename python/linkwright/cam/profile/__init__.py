@@ -2,12 +2,9 @@
 
 | module | |
 | --- | --- |
-| `checks` | Inputs that make no sense, told by name |
-| `contact` | Which followers touch which cam, and the curves that follow from it |
+| `contact` | Which followers touch which cam, with their curves; the distance of two on opposite sides |
 | `faults` | Is it undercut, pointed, crossed, too hollow for its cutter, too steep? |
-| `least_base` | How small may the base circle be, how large the roller? |
-| `least_sizes` | The smallest base circle for its limits, and the largest roller |
+| `least_sizes` | Minimum base circle and maximum roller within the limits of a cam |
 | `lift_steps` | Which derivatives of a lift jump, and where? |
-| `opposite` | Do two followers touch one cam at every angle? |
 | `profile` | A cam over one revolution: lift, pressure angle, curvature, and their extremes |
 """

@@ -29,7 +29,7 @@ import numpy as np
 from linkwright.cam.core import crossings
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.model.follower import start_of
-from linkwright.cam.profile.least_base import (
+from linkwright.cam.profile.least_sizes import (
     base_for_curvature,
     base_for_pressure_angle,
     base_without_crossing,

@@ -1,20 +1,210 @@
-"""How small a cam might be: the smallest base circle for each of its limits, and the largest roller."""
+"""Minimum base circle and maximum roller within the limits of a cam.
+
+How small the base circle may be, and how large the roller.
+
+Sound profiles, pressure angles and radii of curvature get better as the base circle grows, but for
+oscillating followers, whose arm starts from another angle then; so base radii are scanned from small to
+large, all at once, and the first that will do is located between its neighbours with exact extremes.
+
+How small a cam might be: the smallest base circle for each of its limits, and the largest roller.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Annotated
 
-from linkwright.cam.profile.least_base import (
-    base_for_curvature,
-    base_for_pressure_angle,
-    largest_roller,
-    least_sound_base,
-)
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.core import crossings
+from linkwright.cam.model.cam import Cam
+from linkwright.cam.model.follower import Sizes
+from linkwright.cam.profile.contact import CamCurve, Contact
 from linkwright.cam.profile.profile import CamProfile
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
+
+Floats = NDArray[np.float64]
+
+# Base radii that are scanned, each some 3 % larger than the one before: from a fiftieth of the size to twenty
+# times.
+_SCANNED = 240
+_FROM, _TO = 0.02, 20.0
+
+# Cam angles per revolution of the scan, and of the exact search.
+_COARSE, _FINE = 360, 720
+
+_TURN: Floats = 2 * np.pi / _FINE * np.arange(float(_FINE))
+
+# Halvings that take 3 % to rounding.
+_HALVINGS = 46
+
+
+def base_for_pressure_angle(cam: Cam, contact: Contact, limit: float) -> float | None:
+    """The smallest base radius whose pressure angle keeps a limit.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    contact : Contact
+        One of its contacts; all else stays as it is.
+    limit : float
+        Largest pressure angle allowed [rad].
+
+    Returns
+    -------
+    float or None
+        [m]; None if no base radius will do.
+    """
+    tangent = float(np.tan(limit))
+
+    def spare(contact: Contact) -> float:
+        shape = contact.kernel.shape(_FINE)
+        both = (shape.greatest["pressure_angle"], shape.least["pressure_angle"])
+        return limit - max(abs(each.value) for each in both)
+
+    return _first(cam, contact, lambda found: tangent - found[:, 0], spare)
+
+
+def base_for_curvature(cam: Cam, contact: Contact, limit: float) -> float | None:
+    """The smallest base radius whose convex parts have at least a radius of curvature.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    contact : Contact
+        One of its contacts; all else stays as it is.
+    limit : float
+        Minimum radius of curvature of the profile [m].
+
+    Returns
+    -------
+    float or None
+        [m]; None if no base radius will do.
+    """
+    if not contact.kernel.is_roller:
+        return _first(
+            cam,
+            contact,
+            lambda found: found[:, 3] - limit,
+            lambda contact: contact.kernel.shape(_FINE).least["bend"].value - limit,
+        )
+    size = contact.sizes.roller_radius + limit
+    return _first(
+        cam,
+        contact,
+        lambda found: 1.0 - size * found[:, 2],
+        lambda contact: 1.0 - size * contact.kernel.shape(_FINE).greatest["bend"].value,
+    )
+
+
+def least_sound_base(cam: Cam, contact: Contact) -> float | None:
+    """The smallest base radius without undercut.
+
+    Parameters
+    ----------
+    cam : Cam
+        The cam.
+    contact : Contact
+        One of its contacts; all else stays as it is.
+
+    Returns
+    -------
+    float or None
+        [m]; None if no base radius will do.
+    """
+    return base_for_curvature(cam, contact, 0.0)
+
+
+def base_without_crossing(contact: Contact) -> float | None:
+    """The smallest base radius from the present one on whose profile does not cross itself.
+
+    Parameters
+    ----------
+    contact : Contact
+        A contact whose profile does.
+
+    Returns
+    -------
+    float or None
+        [m], to a thousandth, as the crossing is that of a polygon; None if no base radius will do.
+    """
+    low = high = contact.sizes.base_radius
+    while _crosses(contact, high):
+        low, high = high, 1.05 * high
+        if high > _TO * contact.sizes.base_radius:
+            return None
+    while high - low > 1e-3 * low:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _crosses(contact, middle) else (low, middle)
+    return float(high)
+
+
+def _crosses(contact: Contact, base: float) -> bool:
+    """Whether the profile with another base radius crosses itself, or has no place."""
+    kernel = contact.kernel.with_sizes(contact.sizes._replace(base_radius=base))
+    points = CamCurve(replace(contact, kernel=kernel), -contact.sizes.roller_radius).points(_TURN)
+    return bool(np.isnan(points).any()) or len(crossings(points)) > 0
+
+
+def largest_roller(contact: Contact) -> float | None:
+    """Radius of the largest roller on the same pitch curve without undercut.
+
+    Parameters
+    ----------
+    contact : Contact
+        A contact with a roller or an edge.
+
+    Returns
+    -------
+    float or None
+        [m]; None where the pitch curve is nowhere convex.
+    """
+    bend = contact.kernel.shape(_FINE).greatest["bend"].value
+    return 1.0 / bend if bend > 0 else None
+
+
+def _first(
+    cam: Cam,
+    contact: Contact,
+    coarse: Callable[[Floats], Floats],
+    exact: Callable[[Contact], float],
+) -> float | None:
+    """The smallest base radius for which a margin is not negative, by a scan and halving."""
+    size = contact.sizes
+    scale = max(
+        size.base_radius,
+        cam.stroke * (size.arm or size.distance or 1.0) if cam.is_oscillating else cam.stroke,
+    )
+    radii = np.geomspace(_FROM * scale, _TO * scale, _SCANNED)
+    columns = [radii, *(np.full(1, value) for value in size[1:]), np.ones(1)]
+    with np.errstate(invalid="ignore"):
+        margin = coarse(contact.kernel.search(columns, _COARSE))
+    sound = np.flatnonzero(margin >= 0)
+    if not len(sound):
+        return None
+    high = float(radii[sound[0]])
+    low = float(radii[sound[0] - 1]) if sound[0] else 0.0
+
+    def is_sound(base: float) -> bool:
+        kernel = contact.kernel.with_sizes(Sizes(base, *size[1:]))
+        return exact(Contact(contact.name, contact.law, size, kernel, contact.start)) >= 0
+
+    # The scan sees extremes a little too small: the true radius may lie just above.
+    while not is_sound(high):
+        low, high = high, high * 1.001
+        if high > 2 * _TO * scale:
+            return None
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if is_sound(middle) else (middle, high)
+    # Where any will do, halving ends some 2⁻⁴⁶ above nothing.
+    return high if high > 2.0 ** (2 - _HALVINGS) * scale else 0.0
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from linkwright.cam.core import Extreme, Shape
 from linkwright.cam.model.cam import Cam
-from linkwright.cam.profile.contact import CamCurve, Contact, contacts
-from linkwright.cam.profile.opposite import Opposite, opposite
+from linkwright.cam.profile.contact import CamCurve, Contact, Opposite, contacts, opposite
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.profile.least_base import base_for_pressure_angle, largest_roller
+from linkwright.cam.profile.least_sizes import base_for_pressure_angle, largest_roller
 from linkwright.cam.profile.profile import CamProfile, cam_profile
 from linkwright.kernel.files.library import library_path
 from linkwright.kinetostatics.forces import forces

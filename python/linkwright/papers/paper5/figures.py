@@ -20,10 +20,9 @@ from linkwright.kernel.figure.style import (
     styled,
 )
 from linkwright.papers.paper5.step import factors
-from linkwright.topping.constant_speed import constant_speed_lengths
 from linkwright.topping.figures.lengths import COLOURS
-from linkwright.topping.head import head_diameter
-from linkwright.topping.published import length_consistent, length_published
+from linkwright.topping.required_length import constant_speed_lengths, length_consistent, length_published
+from linkwright.topping.roots import head_diameter
 from linkwright.topping.verdict import WAYS, bands_of, lengths_over
 
 if TYPE_CHECKING:

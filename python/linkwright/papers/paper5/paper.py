@@ -19,7 +19,7 @@ from linkwright.papers.paper5.step import condition_suffices, head_difference, s
 from linkwright.papers.paper5.surface import Surface, surfaces
 from linkwright.papers.paper5.verdict import ClaimVerdict, claim_verdict
 from linkwright.papers.words import shown
-from linkwright.topping.published import length_published
+from linkwright.topping.required_length import length_published
 from linkwright.topping.verdict import WAYS, Demand
 
 # Ways → names in sentences.

@@ -23,8 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.topping.constant_speed import constant_speed_lengths
-from linkwright.topping.published import length_consistent, length_published
+from linkwright.topping.required_length import constant_speed_lengths, length_consistent, length_published
 from linkwright.topping.verdict import Claim
 
 Floats = NDArray[np.float64]

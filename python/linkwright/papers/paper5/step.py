@@ -20,14 +20,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.topping.constant_speed import constant_speed_lengths
-from linkwright.topping.head import cap_volume, head_diameter
-from linkwright.topping.published import (
+from linkwright.topping.required_length import (
     PublishedLengths,
+    constant_speed_lengths,
     length_consistent,
     length_published,
     published_lengths,
 )
+from linkwright.topping.roots import cap_volume, head_diameter
 
 Floats = NDArray[np.float64]
 

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.topping.constant_speed import constant_speed_lengths
-from linkwright.topping.head import head_diameter
-from linkwright.topping.published import length_published
+from linkwright.topping.required_length import constant_speed_lengths, length_published
+from linkwright.topping.roots import head_diameter
 
 Floats = NDArray[np.float64]
 

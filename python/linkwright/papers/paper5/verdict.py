@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.result import finite
-from linkwright.topping.head import head_diameter
+from linkwright.topping.roots import head_diameter
 from linkwright.topping.verdict import (
     WAYS,
     Claim,

@@ -34,14 +34,11 @@ from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.topping.best.knife_search import MAP, KnifeGrid
-from linkwright.topping.best.knife_trial import Trial, Trials, thinned
-from linkwright.topping.best.limit_failure import LimitFailure, failing_limit
-from linkwright.topping.coverage import FINE
+from linkwright.topping.best.knife_trial import LimitFailure, Trial, Trials, failing_limit, thinned
+from linkwright.topping.coverage import FINE, Watch, pass_over
 from linkwright.topping.edge import require_topper
 from linkwright.topping.field import TopperField, field_result
-from linkwright.topping.model.limits import TopperLimits
-from linkwright.topping.model.motion import MemberKnife
-from linkwright.topping.passes import Watch, pass_over
+from linkwright.topping.model.topper import MemberKnife, TopperLimits
 from linkwright.topping.roots import draw_roots, field_of
 
 Floats = NDArray[np.float64]

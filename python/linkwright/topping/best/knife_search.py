@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.topping.best.knife_trial import Trial, Trials
-from linkwright.topping.model.motion import MemberKnife
-from linkwright.topping.model.topper import Topper
-from linkwright.topping.passes import Watch
+from linkwright.topping.coverage import Watch
+from linkwright.topping.model.topper import MemberKnife, Topper
 
 Floats = NDArray[np.float64]
 

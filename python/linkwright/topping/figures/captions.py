@@ -12,18 +12,22 @@ import numpy as np
 from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.machine.machine import Machine
+from linkwright.topping.charts import length_chart, verdict_chart
 from linkwright.topping.edge import Edge, edges_of
-from linkwright.topping.figures.lengths import length_chart_figure, verdict_figure
-from linkwright.topping.figures.phase import edge_use_figure, phase_figure, slicing_figure
+from linkwright.topping.figures.lengths import (
+    edge_use_figure,
+    length_chart_figure,
+    phase_figure,
+    slicing_figure,
+    verdict_figure,
+)
 from linkwright.topping.figures.view import top_view_figure
 from linkwright.topping.head_pass import head_pass, worse_edge
-from linkwright.topping.length_chart import length_chart
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.slicing import slicing_over_phase
 from linkwright.topping.tables.topper import mm, percent, shown_head, stroke_of
 from linkwright.topping.topper import TopperStudy, leaves
 from linkwright.topping.verdict import PAPER, WAYS, length_verdict
-from linkwright.topping.verdict_chart import verdict_chart
 
 # Phases of a curve.
 _PHASES = 361

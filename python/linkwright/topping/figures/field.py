@@ -1,21 +1,39 @@
-"""A topper over a field of roots: share of heads and what is left against the length, what roots lose."""
+"""Figures of a field, of sweeps and of the best knife.
+
+A topper over a field of roots: share of heads and what is left against the length, what roots lose.
+
+A topper over a field of roots with its knife varied: curves, maps, and the best knife.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.figure.style import BLUE, GREEN, INK, ORANGE, RED, legend_above, panels, styled
-from linkwright.topping.figures.sweep import AXES
+from linkwright.kernel.figure.style import (
+    BLUE,
+    GREEN,
+    INK,
+    MATH,
+    ORANGE,
+    PURPLE,
+    RED,
+    SOFT,
+    legend_above,
+    panels,
+    styled,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from linkwright.topping.best.best_knife import KnifeSearch
     from linkwright.topping.field import TopperField
     from linkwright.topping.sweep import FieldSweep
+
 
 Floats = NDArray[np.float64]
 
@@ -138,4 +156,180 @@ def field_haulm_figure(found: TopperField, over: FieldSweep) -> Figure:
     lost.axvline(1e6 * found.loss_mean, color=ORANGE, linewidth=1.4, label="mean")
     lost.set_xlabel("root above the cut [cm³]")
     legend_above(lost)
+    return figure
+
+
+# Label and factor to what is written at an axis.
+AXES = {
+    "edge_length": ("length of the edge L [mm]", 1e3),
+    "edge_angle": ("angle of the edge α [°]", 180 / np.pi),
+    "forward_speed": ("speed along the row v [m/s]", 1.0),
+    "knife_speed": ("speed of the knife $v_h$ [m/s]", 1.0),
+    "cut_height": ("mean height of the slice $h_p$ [mm]", 1e3),
+}
+
+# Numbers nearer to the rim of a map than this share of it are left out.
+_RIM = 0.05
+
+
+@styled
+def sweep_figure(swept: FieldSweep) -> Figure:
+    """Draw shares, haulm and lengths over one entry that varies.
+
+    Parameters
+    ----------
+    swept : FieldSweep
+        Over one entry.
+
+    Returns
+    -------
+    Figure
+        Two panels, and two below for what the length of the edge has no influence on.
+    """
+    (name,) = swept.entries
+    label, factor = AXES[name]
+    x = factor * swept.entries[name]
+    rows = 1 if name == "edge_length" else 2
+    figure, axes = panels(rows, height=2.5 * rows + 0.3, columns=2)
+    _banded(axes[0], x, "share_complete", swept, (BLUE, "heads cut right through [%]"))
+    _banded(axes[1], x, "haulm_mean", swept, (GREEN, "left of the head, mean [%]"))
+    if rows > 1:
+        axes[2].plot(x, 1e3 * _drawable(swept.length_for_95), color=PURPLE)
+        axes[2].set_ylabel("length for 95 % of heads [mm]")
+        _other(axes[3], x, swept, is_cut=name == "cut_height")
+    for each in axes[-2:]:
+        each.set_xlabel(label, **MATH)
+    for each in axes[1:]:
+        each.set_ylim(bottom=0)
+    return figure
+
+
+def _other(axes: Axes, x: Floats, swept: FieldSweep, *, is_cut: bool) -> None:
+    """What a deeper cut loses, or how the edge slices."""
+    values = 1e6 * swept.loss_mean if is_cut else swept.slicing_ratio_mean
+    axes.plot(x, values, color=ORANGE if is_cut else RED)
+    axes.set_ylabel("loss of a root [cm³]" if is_cut else "mean draw-cut ratio [–]")
+
+
+def _banded(axes: Axes, x: Floats, key: str, swept: FieldSweep, look: tuple[str, str]) -> None:
+    """A share with its interval."""
+    value, low, high = (100 * getattr(swept, f"{key}{end}") for end in ("", "_low", "_high"))
+    axes.fill_between(x, low, high, color=look[0], alpha=0.25, linewidth=0)
+    axes.plot(x, value, color=look[0])
+    axes.set_ylabel(look[1])
+
+
+def _drawable(values: Floats) -> Floats:
+    """Gaps in place of what is infinite."""
+    return np.where(np.isfinite(values), values, np.nan)
+
+
+@styled
+def sweep_map(swept: FieldSweep) -> Figure:
+    """Draw the share of heads and the length for 95 % of them over two entries that vary.
+
+    Parameters
+    ----------
+    swept : FieldSweep
+        Over two entries.
+
+    Returns
+    -------
+    Figure
+        Two maps.
+    """
+    figure, axes = panels(1, height=3.3, columns=2, shared=False)
+    maps = (
+        (100 * swept.share_complete, "heads cut right through [%]"),
+        (1e3 * swept.length_for_95, "length for 95 % of heads [mm]"),
+    )
+    for each, (values, title) in zip(axes, maps, strict=True):
+        first, second = (factor * np.unique(swept.entries[name]) for name, factor in _scales(swept))
+        _map(each, (first, second), _drawable(values).reshape(swept.shape), title)
+        across, up = swept.entries
+        each.set_xlabel(AXES[across][0], **MATH)
+        each.set_ylabel(AXES[up][0], **MATH)
+    return figure
+
+
+def _scales(swept: FieldSweep) -> list[tuple[str, float]]:
+    return [(name, AXES[name][1]) for name in swept.entries]
+
+
+def _map(axes: Axes, at: tuple[Floats, Floats], values: Floats, title: str) -> None:
+    """Filled contours with their lines and numbers; first values along x."""
+    axes.grid(False)
+    axes.set_title(title, loc="left")
+    finite = values[np.isfinite(values)]
+    if len(finite) and np.ptp(finite) > 1e-9 * abs(finite).max():
+        axes.contourf(*at, values.T, 12, cmap="Blues", alpha=0.75)
+        lines = axes.contour(*at, values.T, 6, colors=INK, linewidths=0.7)
+        for word in axes.clabel(lines, fontsize=7.5):
+            _drop_at_rim(axes, word, at)
+    else:
+        text = f"{finite[0]:.4g} everywhere" if len(finite) else "none anywhere"
+        axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", color=SOFT)
+        axes.set_xlim(at[0][0], at[0][-1])
+        axes.set_ylim(at[1][0], at[1][-1])
+
+
+def _drop_at_rim(axes: Axes, word: Any, at: tuple[Floats, Floats]) -> None:
+    """Take away a number that the rim of the map would cut off."""
+    for place, ends in zip(word.get_position(), at, strict=True):
+        if min(place - ends[0], ends[-1] - place) < _RIM * (ends[-1] - ends[0]):
+            word.set_visible(False)
+
+
+def sweep_figures(swept: FieldSweep) -> dict[str, Figure]:
+    """Figures of a sweep by name: curves over one entry, maps over two.
+
+    Parameters
+    ----------
+    swept : FieldSweep
+        What to draw.
+
+    Returns
+    -------
+    dict of str to Figure
+        None for a single variant.
+    """
+    if len(swept.shape) == 1 and swept.shape[0] > 1:
+        return {"sweep": sweep_figure(swept)}
+    return {"sweep": sweep_map(swept)} if len(swept.shape) == 2 and min(swept.shape) > 1 else {}
+
+
+@styled
+def best_knife_figure(found: KnifeSearch) -> Figure:
+    """Draw the minimum length over angle and speed of the knife, with the limits and the best.
+
+    Parameters
+    ----------
+    found : KnifeSearch
+        A search over several angles and speeds.
+
+    Returns
+    -------
+    Figure
+        A map; white where the edge runs backwards.
+    """
+    figure, (axes,) = panels(1, height=4.0)
+    at = (np.degrees(found.map_angle), found.map_speed)
+    share = 100 * found.limits.complete_min
+    _map(axes, at, 1e3 * _drawable(found.map_length), f"minimum edge [mm] for {share:.4g} % of the heads")
+    lines = [
+        (found.map_slicing, found.limits.slicing_min, RED, "minimum draw-cut ratio"),
+        (found.map_length, found.length_max, PURPLE, "maximum length"),
+    ]
+    for values, limit, colour, label in lines:
+        finite = values[np.isfinite(values)]
+        if limit is not None and len(finite) and finite.min() < limit < finite.max():
+            axes.contour(*at, _drawable(values).T, [limit], colors=colour, linewidths=1.8)
+            axes.plot([], [], color=colour, label=label)
+    if found.best is not None:
+        x, y = np.degrees(found.best.edge_angle), found.best.knife_speed
+        axes.plot(x, y, "o", color=ORANGE, markeredgecolor=INK, markersize=8, clip_on=False, label="best")
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, borderaxespad=0.2)
+    axes.set_xlabel(AXES["edge_angle"][0], **MATH)
+    axes.set_ylabel(AXES["knife_speed"][0], **MATH)
     return figure

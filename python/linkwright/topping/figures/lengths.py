@@ -1,7 +1,14 @@
-"""Lengths of the edge of a topper over root and knife speed, and for which heads published ones do."""
+"""Figures of required lengths, phases, slicing and use of the edge.
+
+Lengths of the edge of a topper over root and knife speed, and for which heads published ones do.
+
+Toppers over the phase of the knife: length that heads need, what is left of them, how the edge slices; and
+the use of the edge along its length.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,18 +23,24 @@ from linkwright.kernel.figure.style import (
     ORANGE,
     PURPLE,
     RED,
+    SKY,
+    legend_above,
     level,
     panels,
+    roomy,
     styled,
+    turn_axis,
 )
+from linkwright.topping.topper import NOTHING
 from linkwright.topping.verdict import WAYS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from linkwright.topping.length_chart import LengthChart, Lines
-    from linkwright.topping.verdict_chart import VerdictChart
+    from linkwright.topping.charts import LengthChart, Lines, VerdictChart
+    from linkwright.topping.topper import TopperStudy
+
 
 Floats = NDArray[np.float64]
 
@@ -152,3 +165,158 @@ def _heads(axes: Axes, chart: VerdictChart) -> None:
     axes.set_xlabel("cut height $h_p$ [mm]", **MATH)
     axes.set_ylabel("offset Δ [mm]")
     axes.set_title(f"at α = {np.degrees(chart.edge_angle):.4g}°")
+
+
+_PHASE = "phase of the knife when it is abreast of the head [°]"
+
+# Lengths beyond so many times those of heads and edge are not drawn.
+_FAR_BEHIND = 1.8
+
+# A draw-cut ratio beyond this says no more than that the edge hardly advances.
+_RATIO = 10.0
+
+
+@styled
+def phase_figure(study: TopperStudy, edge_length: float, phase: float | None = None) -> Figure:
+    """Draw the length that heads need over the phase of the knife; if the edge is short, what it leaves too.
+
+    Parameters
+    ----------
+    study : TopperStudy
+        What to draw.
+    edge_length : float
+        Of the edge [m].
+    phase : float, optional
+        The only phase in which heads come [rad].
+
+    Returns
+    -------
+    Figure
+        One panel, or two.
+    """
+    leaves = float(study.uncut_by_phase.max()) > NOTHING
+    figure, axes = panels(2 if leaves else 1, height=5.2 if leaves else 3.4)
+    degrees, needed = np.degrees(study.phase), _MILLI * study.length_by_phase
+    axes[0].plot(degrees, needed, color=GREEN, label="needed")
+    lines = [
+        (edge_length, "the edge", INK),
+        (study.length_exact_constant_speed, "exact, constant speed", BLUE),
+        (study.length_consistent, "from (4)", PURPLE),
+        (study.length_published, "printed (10)", ORANGE),
+    ]
+    far = _FAR_BEHIND * max(edge_length, float(needed[np.isfinite(needed)].max(initial=0.0)) / _MILLI)
+    shown = [each for each in lines if each[0] <= far]
+    for value, words, colour in shown:
+        level(axes[0], _MILLI * value, words, colour)
+    finite = needed[np.isfinite(needed)]
+    roomy(axes[0], np.append(finite, [_MILLI * value for value, _, _ in shown]))
+    axes[0].set_ylabel("length of the edge L [mm]")
+    axes[0].legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=5, borderaxespad=0.2, handlelength=1.8)
+    if leaves:
+        _share(axes[1], degrees, 100 * study.uncut_by_phase)
+    for each in axes:
+        _only(each, phase)
+        turn_axis(each, label=False)
+    axes[-1].set_xlabel(_PHASE)
+    figure.align_ylabels()
+    return figure
+
+
+def _share(axes: Axes, degrees: Floats, share: Floats) -> None:
+    """What is left, in percent."""
+    axes.fill_between(degrees, 0, share, color=RED, alpha=0.2, linewidth=0)
+    axes.plot(degrees, share, color=RED)
+    axes.set_ylim(0, 1.1 * share.max())
+    axes.set_ylabel("left of the head [%]")
+
+
+def _only(axes: Axes, phase: float | None) -> None:
+    """An upright line at the given phase."""
+    if phase is not None:
+        axes.axvline(np.degrees(phase) % 360, color=INK, linewidth=1.1, linestyle=(0, (1, 2)))
+
+
+@styled
+def slicing_figure(phases: Floats, ratio: Floats, speed: Floats) -> Figure:
+    """Draw the draw-cut ratio and the cutting speed over the phase.
+
+    Parameters
+    ----------
+    phases : ndarray, shape (n,)
+        Of the knife [rad].
+    ratio, speed : ndarray, shape (n,)
+        Draw-cut ratio [–], NaN where the edge retreats, and speed against the head [m/s].
+
+    Returns
+    -------
+    Figure
+        Two panels.
+    """
+    figure, axes = panels(2, height=4.0)
+    degrees, drawn = np.degrees(phases), np.where(ratio < _RATIO, ratio, np.nan)
+    for each, values, colour, label in (
+        (axes[0], drawn, BLUE, "draw-cut ratio [–]"),
+        (axes[1], speed, GREEN, "cutting speed [m/s]"),
+    ):
+        each.plot(degrees, values, color=colour)
+        each.set_ylabel(label)
+        turn_axis(each, label=False)
+    retreats = np.isnan(ratio)
+    if retreats.any():
+        top = axes[0].get_xaxis_transform()
+        axes[0].fill_between(
+            degrees, 0, 1, where=retreats, transform=top, color=RED, alpha=0.15, linewidth=0, label="retreats"
+        )
+        legend_above(axes[0])
+    if np.isfinite(drawn).any():
+        axes[0].set_ylim(0, 1.1 * float(np.nanmax(drawn)) or 1.0)
+    roomy(axes[1], speed)
+    axes[1].set_xlabel("phase of the knife [°]")
+    figure.align_ylabels()
+    return figure
+
+
+@styled
+def edge_use_figure(place: Floats, use: Floats, edge_length: float, diameter: float) -> Figure:
+    """Draw how much of a head each place of a long edge cuts.
+
+    Parameters
+    ----------
+    place : ndarray, shape (n,)
+        From the middle of the edge to its left end [m].
+    use : ndarray, shape (n,)
+        Way through a head on average [m].
+    edge_length, diameter : float
+        L and d [m].
+
+    Returns
+    -------
+    Figure
+        One panel; beyond the ends of the edge, what it does not cut is shaded.
+    """
+    figure, (axes,) = panels(1, height=3.0)
+    x, y, half = _MILLI * place, _MILLI * use, 0.5 * _MILLI * edge_length
+    inside = np.abs(x) <= half
+    _shade(axes, x, y, [inside], SKY, "cut by the edge")
+    _shade(axes, x, y, [(x > half), (x < -half)], RED, "beyond its ends")
+    axes.plot(x, y, color=BLUE)
+    for end in (-half, half):
+        axes.axvline(end, color=INK, linewidth=1.4)
+    level(axes, _MILLI * diameter, "head diameter d")
+    reach = 1.04 * max(half, float(x[-1]))
+    axes.set_xlim(-reach, reach)
+    axes.set_ylim(0, 1.12 * max(float(y.max()), _MILLI * diameter))
+    axes.set_xlabel("position along the edge from its middle [mm], its left end on the right")
+    axes.set_ylabel("mean path through a head\n[mm]")
+    legend_above(axes)
+    return figure
+
+
+def _shade(
+    axes: Axes, x: Floats, y: Floats, parts: Sequence[NDArray[np.bool_]], colour: str, words: str
+) -> None:
+    """Areas under the curve, with one entry in the legend."""
+    for part in parts:
+        if part.any() and y[part].any():
+            label = None if words in axes.get_legend_handles_labels()[1] else words
+            axes.fill_between(x, 0, y, where=part, color=colour, alpha=0.3, linewidth=0, label=label)

@@ -1,4 +1,10 @@
-r"""The topper of a root-crop harvester: a knife that reciprocates across the row and slices heads off.
+r"""The topper in a file: heads, knife, limits.
+
+What a knife of a topper shall reach, and the bounds within which the best is sought.
+
+How the knife of a topper is moved back and forth across the row.
+
+The topper of a root-crop harvester: a knife that reciprocates across the row and slices heads off.
 
 | letter of paper 5 | is | key |
 | --- | --- | --- |
@@ -22,18 +28,118 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import CheckedDescription, fault, suggestion
+from linkwright.kernel.description.base import CheckedDescription, Description, fault, suggestion
 from linkwright.kernel.description.plain import look
-from linkwright.kernel.units import ANGLE, LENGTH, VELOCITY, Bound, Quantity, not_negative, positive
+from linkwright.kernel.units import (
+    ANGLE,
+    INSIDE_ONE,
+    LENGTH,
+    RATIO,
+    VELOCITY,
+    Angle,
+    Bound,
+    Quantity,
+    not_negative,
+    positive,
+    worded,
+)
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.topping.model.field import AnyField, field_faults
-from linkwright.topping.model.limits import TopperLimits
-from linkwright.topping.model.motion import AnyKnifeMotion, ConstantKnife, MemberKnife
+
+# An edge along the row crosses nothing ahead of it; beyond 80° it would be six times as long as across.
+_STEEPEST = math.radians(80)
+_SLANT = Bound(
+    " between -80 and 80 deg,",
+    {"minimum": -_STEEPEST, "maximum": _STEEPEST},
+    lambda value: abs(value) <= _STEEPEST + 1e-12,
+)
+Slant = Annotated[float, Quantity(ANGLE, _SLANT)]
+Share = Annotated[float, Quantity(RATIO, INSIDE_ONE)]
+Speed = Annotated[float, not_negative(VELOCITY)]
+
+
+class TopperLimits(CheckedDescription):
+    """Limits of the best knife, and where it is sought."""
+
+    complete_min: Share = Field(0.95, description="Share of heads that have to be cut right through.")
+    haulm_max: Share | None = Field(
+        None, description="Maximum mean share of the head that may be left. Without it, any."
+    )
+    slicing_min: Annotated[float, not_negative(RATIO)] | None = Field(
+        None,
+        description="Minimum mean draw-cut ratio: speed along the edge over that normal to it. Without it, "
+        "the shortest edge rests across the row.",
+    )
+    length_max: PositiveLength | None = Field(
+        None,
+        description="Maximum length of the edge. Without it, any; for the fastest, edge_length.",
+    )
+    angle_min: Slant = Field(0.0, description="Minimum angle of the edge.")
+    angle_max: Slant = Field(math.radians(60), description="Maximum angle of the edge.")
+    knife_speed_min: Speed = Field(0.0, description="Minimum speed of the knife.")
+    knife_speed_max: Speed = Field(1.0, description="Maximum speed of the knife.")
+    forward_speed_min: Annotated[float, positive(VELOCITY)] = Field(
+        0.5, description="Minimum speed along the row, where the fastest is sought."
+    )
+    forward_speed_max: Annotated[float, positive(VELOCITY)] = Field(
+        4.0, description="Maximum speed along the row, likewise."
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        for key, kind in (("angle", ANGLE), ("knife_speed", VELOCITY), ("forward_speed", VELOCITY)):
+            least, greatest = getattr(self, f"{key}_min"), getattr(self, f"{key}_max")
+            if least > greatest:
+                expected = f"at least {key}_min, {worded(least, kind)}"
+                yield fault(f"{key}_max", found=greatest, expected=expected)
+
+
+class KnifeMotion(Description):
+    """What all motions have."""
+
+    phase: Angle | None = Field(
+        None,
+        description="Phase of the motion when the middle of the edge is abreast of the head's centre. "
+        "Without it, every phase is looked at.",
+    )
+
+
+class ConstantKnife(KnifeMotion, CheckedDescription):
+    """The same speed across the row, back and forth."""
+
+    kind: Literal["constant"] = Field(description="Constant speed.")
+    stroke: PositiveLength | None = Field(
+        None,
+        description="Distance between the ends. Without it, the knife does not turn back over a head: the "
+        "worse of the two directions is looked at.",
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.phase is not None and self.stroke is None:
+            remedy = "a knife that does not turn back has no phase: give the stroke, or leave the phase out"
+            yield fault("phase", found=self.phase, expected="nothing", remedy=remedy)
+
+
+class HarmonicKnife(KnifeMotion):
+    """A sine."""
+
+    kind: Literal["harmonic"] = Field(description="A sine.")
+    stroke: PositiveLength = Field(description="Distance between the ends.")
+
+
+class MemberKnife(KnifeMotion):
+    """The knife is a slide of the mechanism, moved by the crank at its design speed."""
+
+    kind: Literal["member"] = Field(description="Moved by the mechanism.")
+    of: str = Field(description="Coordinate along a guide: a slider, yoke, rack, linear driver or follower.")
+
+
+AnyKnifeMotion = Annotated[ConstantKnife | HarmonicKnife | MemberKnife, Field(discriminator="kind")]
+
 
 # An edge along the row crosses nothing ahead of it.
 _ACROSS = Bound(

@@ -1,7 +1,13 @@
-"""``linkwright topper field FILE``: a topper over a field of roots."""
+"""``linkwright topper``: field, sweep, best knife.
+
+``linkwright topper field FILE``: a topper over a field of roots.
+
+``linkwright topper best FILE``: the best knife of a topper within its limits.
+"""
 
 from __future__ import annotations
 
+from enum import StrEnum
 from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -19,8 +25,10 @@ if TYPE_CHECKING:
 
     from linkwright.kernel.page.table import Table
     from linkwright.machine.machine import Machine
+    from linkwright.topping.best.best_knife import KnifeSearch
     from linkwright.topping.field import TopperField
     from linkwright.topping.sweep import FieldSweep
+
 
 Over = Annotated[
     list[str] | None,
@@ -70,9 +78,9 @@ def field(
     """
     from linkwright.kernel.command.bar import bar
     from linkwright.machine.read import read
+    from linkwright.topping.cautions import field_cautions, field_findings
     from linkwright.topping.edge import edges_of, require_topper
     from linkwright.topping.field import topper_field
-    from linkwright.topping.field_verdict import field_cautions, field_findings
     from linkwright.topping.sweep import sweep_field
 
     folder = output_folder(out, force=force)
@@ -178,8 +186,12 @@ def _files(found: TopperField, over: FieldSweep, swept: FieldSweep | None) -> di
 
 def _figures(found: TopperField, over: FieldSweep, swept: FieldSweep | None) -> dict[str, Figure]:
     """Figures by name."""
-    from linkwright.topping.figures.field import field_haulm_figure, field_length_figure, field_share_figure
-    from linkwright.topping.figures.sweep import sweep_figures
+    from linkwright.topping.figures.field import (
+        field_haulm_figure,
+        field_length_figure,
+        field_share_figure,
+        sweep_figures,
+    )
 
     figures = {
         "share": field_share_figure(found),
@@ -187,3 +199,90 @@ def _figures(found: TopperField, over: FieldSweep, swept: FieldSweep | None) -> 
         "haulm_and_loss": field_haulm_figure(found, over),
     }
     return figures if swept is None else figures | sweep_figures(swept)
+
+
+class Objective(StrEnum):
+    """What is best."""
+
+    shortest = "shortest"
+    fastest = "fastest"
+
+
+Best = Annotated[
+    Objective,
+    typer.Option(
+        "--objective",
+        help="The shortest edge at the forward speed of the file, or the maximum forward speed with an edge "
+        "of at most length_max.",
+    ),
+]
+
+
+def best(
+    file: File,
+    objective: Best = Objective.shortest,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    seed: Seed = None,
+    json: Json = False,
+    out: Folder = None,
+    force: Force = False,
+) -> None:
+    """The best angle, length and speed of the knife for a field of roots, within [topper.limits].
+
+    What is found is looked at over other roots, and more finely. Exit code 1 if no knife keeps the limits.
+    """
+    from linkwright.kernel.command.bar import bar
+    from linkwright.machine.read import read
+    from linkwright.topping.best.best_knife import best_knife
+
+    folder = output_folder(out, force=force)
+    machine = read(file, set or [], allow_outside=allow_outside)
+    with bar("knives") as watch:
+        found = best_knife(machine, objective=objective.value, seed=seed, watch=watch)
+    hand_over(_answer(machine.name, found), json=json, folder=folder)
+
+
+def _answer(name: str, found: KnifeSearch) -> Answer:
+    """The best knife, also as lines of a machine file; or that none keeps the limits."""
+    from linkwright.topping.tables.field import best_lines, best_table, best_warnings
+
+    best, failing = found.best, found.failing
+    results: dict[str, Any] = {
+        "objective": found.objective,
+        "tried": found.tried,
+        **({} if best is None else best.to_dict()),
+        "failing": failing and {key: getattr(failing, key) for key in ("limit", "wanted", "reached")},
+    }
+    return Answer(
+        machine=name,
+        results=lambda _: {"topper_best": results},
+        findings=[] if failing is None else [failing.words + "."],
+        warnings=[] if failing else list(best_warnings(found)),
+        head=lambda: name,
+        tables=lambda: [] if best is None else [best_table(found, best)],
+        tail=lambda: "" if best is None else best_lines(best),
+        files=partial(_best_files, found),
+        figures=partial(_best_figures, found),
+    )
+
+
+def _best_files(found: KnifeSearch) -> dict[str, str]:
+    """The map, and the knife as lines of a machine file."""
+    from linkwright.topping.tables.field import best_lines, map_csv
+
+    texts = {"map.csv": map_csv(found)}
+    if found.best is not None:
+        texts["topper.toml"] = best_lines(found.best)
+    return texts
+
+
+def _best_figures(found: KnifeSearch) -> dict[str, Figure]:
+    """The map; a line is none, nor is a plane without any edge that would do."""
+    import numpy as np
+
+    if min(found.map_length.shape) < 2 or not np.isfinite(found.map_length).any():
+        return {}
+    from linkwright.topping.figures.field import best_knife_figure
+
+    return {"map": best_knife_figure(found)}

@@ -1,4 +1,42 @@
-r"""The working length of the edge by paper 5, and the bound that its own condition gives.
+r"""Required edge length: published formulas, constant speed, every phase.
+
+The exact length of the edge for a knife that keeps its speed over the head.
+
+The edge, along :math:`(\sin\alpha, \cos\alpha)`, moves with the velocity :math:`(v, \pm v_h)`. It sweeps a
+band whose width is its length seen along the way:
+
+.. math:: w = L\,\frac{|v\cos\alpha \mp v_h\sin\alpha|}{\sqrt{v^2 + v_h^2}}.
+
+Heads of diameter d whose centres lie up to Δ to either side of the row take the width
+:math:`d + 2\Delta\,v/\sqrt{v^2 + v_h^2}` of it. With the middle of the band over the row all of them are
+cut if
+
+.. math:: L \ge \frac{d\sqrt{v^2 + v_h^2} + 2\Delta v}{|v\cos\alpha \mp v_h\sin\alpha|}.
+
+The worse direction is that in which the knife moves towards its leading end. The edge hardly advances there
+if :math:`v_h\tan|\alpha|` comes near v: no length does for equality, and beyond it the edge runs backwards
+over the head.
+
+References
+----------
+.. [1] Derived here.
+
+The exact length of the edge for every phase of a knife that goes back and forth.
+
+Heads meet the knife as they may. A point of a head lies within d/2 + Δ of the axis of the row, the middle of
+the edge within half of the stroke S; where the edge crosses the point, both differ by the way from the middle
+of the edge, seen across the row. If the edge never retreats it crosses each point once, and at some head the
+knife is at one end of its stroke just as it crosses the point farthest to the other side:
+
+.. math:: L = \frac{S + d + 2\Delta}{\cos\alpha}.
+
+The speeds do not count. A retreating edge never needs more.
+
+References
+----------
+.. [1] Derived here.
+
+The working length of the edge by paper 5, and the bound that its own condition gives.
 
 While the machine goes on, the knife has to travel across the head; it must not be done before the head has
 been cut along the row, :math:`t_y \ge t_x` (1). With
@@ -37,6 +75,61 @@ from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 
 Floats = NDArray[np.float64]
+
+# Normal speed over the speed of the edge below which it moves along itself: the rounding of its terms.
+ALONG_ITSELF = 4e-16
+
+
+def constant_speed_lengths(
+    diameter: ArrayLike,
+    offset: ArrayLike,
+    edge_angle: ArrayLike,
+    forward_speed: ArrayLike,
+    knife_speed: ArrayLike,
+) -> Floats:
+    """Minimum length for each direction of the knife.
+
+    Parameters
+    ----------
+    diameter, offset : array_like, shape (...)
+        d of the head and maximum offset Δ [m].
+    edge_angle : array_like, shape (...)
+        α [rad].
+    forward_speed, knife_speed : array_like, shape (...)
+        v > 0 and v_h ≥ 0 [m/s]; all broadcast.
+
+    Returns
+    -------
+    ndarray, shape (2, ...)
+        Knife to the left, then to the right [m]; infinite where the edge moves along itself.
+    """
+    given = diameter, offset, edge_angle, forward_speed, knife_speed
+    d, delta, alpha, v, v_h = np.broadcast_arrays(*(np.asarray(each, dtype=float) for each in given))
+    speed = np.hypot(v, v_h)
+    along, across = v * np.cos(alpha), v_h * np.sin(alpha)
+    advance = np.abs(np.stack([along - across, along + across]))
+    with np.errstate(divide="ignore"):
+        found = (d * speed + 2 * delta * v) / advance
+    return np.where(advance > ALONG_ITSELF * speed, found, np.inf)
+
+
+def every_phase_length(
+    diameter: ArrayLike, offset: ArrayLike, edge_angle: ArrayLike, stroke: ArrayLike
+) -> Floats:
+    """Minimum length of an edge that never retreats.
+
+    Parameters
+    ----------
+    diameter, offset, edge_angle, stroke : array_like, shape (...)
+        d of the head and maximum offset Δ [m], α [rad], S [m]; they broadcast.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        [m]
+    """
+    band = np.asarray(diameter, dtype=float) + 2 * np.asarray(offset, dtype=float)
+    return np.asarray((np.asarray(stroke, dtype=float) + band) / np.cos(edge_angle))
 
 
 @dataclass(frozen=True)
