@@ -19,7 +19,8 @@ from linkwright.cam.laws.boundary import Boundary
 from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 from linkwright.cam.laws.handbook import modified_sine, modified_trapezoid
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.polynomial import polynomial, spline
+from linkwright.cam.laws.polynomial import polynomial
+from linkwright.cam.laws.spline import spline
 
 pi, sin, cos, sqrt = math.pi, math.sin, math.cos, math.sqrt
 FACTORS = cam_laws()

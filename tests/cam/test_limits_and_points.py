@@ -12,7 +12,7 @@ from scipy.interpolate import make_interp_spline
 
 from linkwright.cam.laws.boundary import Boundary
 from linkwright.cam.laws.limited import Limits, limited_section
-from linkwright.cam.laws.polynomial import spline
+from linkwright.cam.laws.spline import spline
 from linkwright.kernel.errors import LawError
 
 size = st.floats(0.2, 20.0)

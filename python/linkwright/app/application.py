@@ -50,8 +50,8 @@ GROUPS = {
         "torsion.commands.torsion:torsion",
     ),
     "topper": Group(
-        "topping.commands.field:topper",
-        ("topping.commands.field:field", "topping.commands.best:best"),
+        "topping.commands:topper",
+        ("topping.commands:field", "topping.commands:best"),
         "app.commands.run:run",
     ),
 }

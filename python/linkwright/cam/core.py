@@ -48,57 +48,31 @@ class Extreme(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A contact over one revolution.
+    """A contact over one revolution."""
 
-    Attributes
-    ----------
-    angle : ndarray, shape (n,)
-        Cam angles from the start of the programme [rad], increasing; each joint of the law stands twice.
-    piece : ndarray of int, shape (n,)
-        Piece of the law.
-    rows : dict of str to ndarray, shape (n,)
-        By the names of `ROWS`.
-    greatest, least : dict of str to Extreme
-        Of the pressure angle, of the bend, and of the place along a flat face (``along``).
-    passes : tuple of ndarray, shape (k, 2)
-        For each level asked for: angles, and +1 where the row is above the level from there on, −1 where
-        below.
-    """
-
+    # (n,): cam angles from the start of the programme [rad], increasing; each joint of the law stands twice.
     angle: Floats
-    piece: NDArray[np.uint32]
-    rows: dict[str, Floats]
+    piece: NDArray[np.uint32]  # (n,): piece of the law
+    rows: dict[str, Floats]  # (n,): by the names of `ROWS`
+    # greatest, least: of the pressure angle, of the bend, and of the place along a flat face (``along``).
     greatest: dict[str, Extreme]
     least: dict[str, Extreme]
+    # (k, 2): for each level asked for: angles, and +1 where the row is above the level from there on, −1
+    # where below.
     passes: tuple[Floats, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class CamKernel:
-    """One contact in the core's terms.
+    """One contact in the core's terms."""
 
-    Attributes
-    ----------
-    law : MotionLaw
-        Lift over the cam angle from 0 to 2π [m or rad].
-    kind : int
-        Of the follower, as the core counts them.
-    signs : tuple of float
-        Whether it is the opposite follower, −1 or 1, and stands on the left, 1 or −1.
-    size : ndarray, shape (6,)
-        Dimensions in the order of `linkwright.cam.model.follower.Sizes`.
-    is_roller : bool
-        Whether it is a roller or an edge; else a flat face.
-    core : _core.Cam
-        Made of law, kind and signs.
-    """
-
-    law: MotionLaw
-    kind: int
+    law: MotionLaw  # lift over the cam angle from 0 to 2π [m or rad]
+    kind: int  # of the follower, as the core counts them
+    # Whether it is the opposite follower, −1 or 1, and stands on the left, 1 or −1.
     signs: tuple[float, float]
-    size: Floats
-    is_roller: bool
-    core: _core.Cam = field(init=False, repr=False, compare=False)
+    size: Floats  # (6,): dimensions in the order of `linkwright.cam.model.follower.Sizes`
+    is_roller: bool  # whether it is a roller or an edge; else a flat face
+    core: _core.Cam = field(init=False, repr=False, compare=False)  # made of law, kind and signs
 
     def __post_init__(self) -> None:
         """Make the core's cam."""
@@ -155,21 +129,7 @@ def cam_kernel(
     opposite: bool = False,
     left: bool = True,
 ) -> CamKernel:
-    """A contact.
-
-    Parameters
-    ----------
-    law : MotionLaw
-        Lift over the cam angle from 0 to 2π [m or rad].
-    sizes : Sizes
-        Dimensions.
-    oscillating, roller : bool
-        What the follower does, and touches with.
-    opposite : bool
-        Whether the cam turns against the crankshaft.
-    left : bool
-        Side of the arm of an oscillating follower.
-    """
+    """A contact. ``law``: lift over the cam angle from 0 to 2π [m or rad]."""
     kind = 2 * oscillating + (not roller)
     signs = (-1.0 if opposite else 1.0, 1.0 if left else -1.0)
     return CamKernel(law, kind, signs, np.array(sizes, dtype=float), roller)

@@ -63,17 +63,7 @@ def cam_parts(machine: Machine, series: dict[str, int]) -> Iterator[Scene]:
 def cam_headings(machine: Machine, angles: Floats) -> dict[str, Floats]:
     """Angles of the cams at crank angles.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    angles : ndarray, shape (n,)
-        Crank angles [rad].
-
-    Returns
-    -------
-    dict of str to ndarray, shape (n,)
-        By the name of the cam's heading [rad].
+    ``angles`` (n,): crank angles [rad] → by the name of the cam's heading [rad], (n,).
     """
     sense = {"same": 1.0, "opposite": -1.0}
     return {

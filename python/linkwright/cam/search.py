@@ -74,17 +74,8 @@ class Cams(Result):
     def keeps(self, pressure_angle: float, curvature_radius: float = 0.0) -> NDArray[np.bool_]:
         """Which cams are sound and keep limits.
 
-        Parameters
-        ----------
-        pressure_angle : float
-            Largest pressure angle allowed [rad].
-        curvature_radius : float
-            Minimum convex radius of curvature allowed [m].
-
-        Returns
-        -------
-        ndarray of bool, shape (n,)
-            One for each cam.
+        ``pressure_angle``: largest pressure angle allowed [rad]; ``curvature_radius``: minimum convex radius
+        of curvature allowed [m] → one for each cam, (n,).
         """
         steep = self.pressure_angle_max <= pressure_angle
         found: NDArray[np.bool_] = self.is_sound & steep & (self.curvature_radius_min >= curvature_radius)
@@ -93,17 +84,7 @@ class Cams(Result):
     def smallest(self, keeps: NDArray[np.bool_], count: int = 1) -> NDArray[np.intp]:
         """The cams of minimum base radius among some, then of minimum pressure angle.
 
-        Parameters
-        ----------
-        keeps : ndarray of bool, shape (n,)
-            Which may be chosen.
-        count : int
-            How many, at most.
-
-        Returns
-        -------
-        ndarray of int
-            Their numbers.
+        ``keeps`` (n,): which may be chosen.
         """
         numbers = np.flatnonzero(keeps)
         base = self.entries.get("base_radius", np.zeros(len(keeps)))
@@ -172,29 +153,7 @@ def search_cams(
 
 
 def variant(machine: Machine, name: str, found: Cams, i: int) -> Machine:
-    """The machine with one of the cams.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine that was searched with.
-    name : str
-        The cam's name.
-    found : Cams
-        The search.
-    i : int
-        Number of the cam.
-
-    Returns
-    -------
-    Machine
-        A copy; a cam that was given by its breadth has the base radius instead, if that was varied.
-
-    Raises
-    ------
-    InputError
-        The distance of the pivots was varied, which is no entry of the cam but a place of its pivot.
-    """
+    """The machine with one of the cams."""
     if "distance" in found.entries:
         raise InputError(
             f"the distance of the pivots is no entry of cam {name}: move the point of its arm_pivot instead"

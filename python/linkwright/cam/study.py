@@ -15,20 +15,7 @@ from linkwright.machine.machine import Machine
 
 
 def sound_cams(machine: Machine, found: Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:
-    """All cams, and those that can be made; what makes one impossible is a finding.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    found : Findings
-        Where it is collected.
-
-    Returns
-    -------
-    tuple
-        Cams with a profile, and those of them without faults.
-    """
+    """All cams, and those that can be made; what makes one impossible is a finding."""
     looked = [found.of(cam_profile, machine, name) for name in machine.mechanism.cams]
     told = [(each, cam_faults(each)) for each in looked if each is not None]
     found.add(text for _, faults in told for text in faults)

@@ -36,22 +36,7 @@ _REST = 1e-9
 def cam_tables(
     cams: Sequence[CamProfile], sizes: Sequence[LeastSizes] = (), loaded: Sequence[LoadedCam] = ()
 ) -> Iterator[Table]:
-    """The tables of all cams of a machine.
-
-    Parameters
-    ----------
-    cams : sequence of CamProfile
-        The cams.
-    sizes : sequence of LeastSizes
-        How small they might be.
-    loaded : sequence of LoadedCam
-        Those that are known under load.
-
-    Yields
-    ------
-    Table
-        Of each cam: what it is, its joints, its forces; then the laws.
-    """
+    """The tables of all cams of a machine."""
     borne = {each.name: each for each in loaded}
     least = {each.name: each for each in sizes}
     for profile in cams:
@@ -67,18 +52,7 @@ def cam_tables(
 
 
 def profile_table(profile: CamProfile) -> Table:
-    """Sizes and extremes of a cam.
-
-    Parameters
-    ----------
-    profile : CamProfile
-        The cam.
-
-    Returns
-    -------
-    Table
-        Quantity, symbol, value, where.
-    """
+    """Sizes and extremes of a cam."""
     rows = [*_motion_rows(profile), *_size_rows(profile)]
     return Table(f"cam_{profile.name}", f"Cam {profile.name}", ("quantity", "", "value", "where"), rows)
 
@@ -130,18 +104,7 @@ def _size_rows(profile: CamProfile) -> Iterator[Row]:
 
 
 def size_table(sizes: LeastSizes) -> Table:
-    """Minimum dimensions of a cam, other parameters fixed.
-
-    Parameters
-    ----------
-    sizes : LeastSizes
-        Its minimum dimensions.
-
-    Returns
-    -------
-    Table
-        Quantity, symbol, value, what it is for.
-    """
+    """Minimum dimensions of a cam, other parameters fixed."""
     wanted = [
         (sizes.base_radius_sound, "without undercut"),
         (sizes.base_radius_pressure_angle, f"for {degrees(sizes.pressure_angle_limit)} pressure angle"),
@@ -159,18 +122,7 @@ def size_table(sizes: LeastSizes) -> Table:
 
 
 def joint_table(profile: CamProfile) -> Table:
-    """How smoothly the sections of a cam meet.
-
-    Parameters
-    ----------
-    profile : CamProfile
-        The cam.
-
-    Returns
-    -------
-    Table
-        A joint a row.
-    """
+    """How smoothly the sections of a cam meet."""
     unit = "rad" if profile.cam.is_oscillating else "m"
     rows: list[Row] = [
         (joint.words(unit).replace("-", "−"), "", degrees(joint.angle))
@@ -181,18 +133,7 @@ def joint_table(profile: CamProfile) -> Table:
 
 
 def force_table(loaded: LoadedCam) -> Table:
-    """Forces on a cam.
-
-    Parameters
-    ----------
-    loaded : LoadedCam
-        The cam under load.
-
-    Returns
-    -------
-    Table
-        Quantity, symbol, value, where.
-    """
+    """Forces on a cam."""
     rows: list[Row] = [
         (f"{word} contact force", symbol, with_unit(force, "N"), f"at φ = {degrees(angle)}")
         for word, symbol, force, angle in (
@@ -224,18 +165,7 @@ _FACTORS = {"C_v": "C_v", "C_a": "C_a", "C_j": "C_j", "C_M": "C_M", "jerk_square
 
 
 def comparison_table(profile: CamProfile) -> Table:
-    """The sections from rest to rest beside what other laws would make of them.
-
-    Parameters
-    ----------
-    profile : CamProfile
-        The cam.
-
-    Returns
-    -------
-    Table
-        Factors for a lift and a length of one; without rows if no section goes from rest to rest.
-    """
+    """The sections from rest to rest beside what other laws would make of them."""
     own = list(_own(profile))
     rows = [_factor_row(name, factors) for name, factors in own]
     if rows:
@@ -280,18 +210,7 @@ _COLUMNS = {
 
 
 def law_table(factors: Mapping[str, LawFactors]) -> Table:
-    """Factors of laws, a law a row.
-
-    Parameters
-    ----------
-    factors : Mapping of str to LawFactors
-        Name of the law → its factors.
-
-    Returns
-    -------
-    Table
-        Six digits; ∞ where something jumps.
-    """
+    """Factors of laws, a law a row."""
     rows = [
         (_named(name), _jumps(each), *(_shown(getattr(each, factor)) for factor in _COLUMNS))
         for name, each in factors.items()
@@ -301,13 +220,7 @@ def law_table(factors: Mapping[str, LawFactors]) -> Table:
 
 
 def bound_table() -> Table:
-    """Theoretical lower bounds, and which law gets there.
-
-    Returns
-    -------
-    Table
-        A bound a row.
-    """
+    """Theoretical lower bounds, and which law gets there."""
     rows: list[Row] = [
         (each.holds_for, _COLUMNS[each.name], number(each.value), _named(each.reached_by)) for each in BOUNDS
     ]

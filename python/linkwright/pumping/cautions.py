@@ -22,22 +22,7 @@ _FREE_FALL = 9.81
 def unit_cautions(
     machine: Machine, unit: PumpingUnitMotion | None, rotator: RodRotatorMotion | None
 ) -> tuple[str, ...]:
-    """All that should be known of a unit and its rotator.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    unit : PumpingUnitMotion or None
-        Motion of its polished rod.
-    rotator : RodRotatorMotion or None
-        Motion of its rotator.
-
-    Returns
-    -------
-    tuple of str
-        Sentences, empty if there is nothing to say.
-    """
+    """All that should be known of a unit and its rotator."""
     found: list[str] = []
     if unit is not None:
         found += _stroke(unit)

@@ -40,18 +40,7 @@ if TYPE_CHECKING:
 
 @styled
 def polished_rod_figure(unit: PumpingUnitMotion) -> Figure:
-    """Draw the rise of the polished rod and its torque factor; with a speed, velocity and acceleration.
-
-    Parameters
-    ----------
-    unit : PumpingUnitMotion
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Panels one above the other.
-    """
+    """Draw the rise of the polished rod and its torque factor; with a speed, velocity and acceleration."""
     curves = [
         ("rise $s$\n[m]", unit.rod_travel, GREEN),
         ("torque factor\n$dS/dθ$ [m]", unit.torque_factor, PURPLE),
@@ -72,18 +61,7 @@ def polished_rod_figure(unit: PumpingUnitMotion) -> Figure:
 
 @styled
 def gear_torque_figure(gear: GearTorque) -> Figure:
-    """Draw the load of the polished rod, and the torques at the crank.
-
-    Parameters
-    ----------
-    gear : GearTorque
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other.
-    """
+    """Draw the load of the polished rod, and the torques at the crank."""
     figure, (load, torque) = panels(2, height=4.4)
     degrees = np.degrees(gear.crank_angle)
     load.plot(degrees, gear.rod_load, color=RED)
@@ -106,18 +84,7 @@ def gear_torque_figure(gear: GearTorque) -> Figure:
 
 @styled
 def rotator_figure(rotator: RodRotatorMotion) -> Figure:
-    """Draw the lever's angle and its first and second transfer functions.
-
-    Parameters
-    ----------
-    rotator : RodRotatorMotion
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Three panels, one above the other; change points are marked.
-    """
+    """Draw the lever's angle and its first and second transfer functions."""
     figure, axes = panels(3, height=5.4)
     degrees = np.degrees(rotator.crank_angle)
     for panel, values, label, colour in (

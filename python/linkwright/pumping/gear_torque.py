@@ -151,21 +151,9 @@ def gear_torque(
 ) -> GearTorque:
     """Torque of the gearbox under the load of a unit.
 
-    Parameters
-    ----------
-    unit : PumpingUnit
-        The unit, with a load.
-    motion : callable
-        Rise of the polished rod and its derivatives at crank angles, (3, n) [m].
-    ends : tuple of float
-        Crank angles at the bottom and at the top of the stroke [rad].
-    angles : ndarray, shape (n + 1,)
-        Crank angles of the curves [rad].
-
-    Returns
-    -------
-    GearTorque
-        Curves at the angles; peaks and means do not depend on them.
+    ``motion``: rise of the polished rod and its derivatives at crank angles, (3, n) [m]; ``ends``: crank
+    angles at the bottom and at the top of the stroke [rad]; ``angles`` (n + 1,): crank angles of the curves
+    [rad].
     """
     load = unit.load
     assert load is not None, "a unit with a load"

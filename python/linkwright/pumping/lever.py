@@ -30,64 +30,31 @@ _ONCE = 1e-3
 
 @dataclass(frozen=True)
 class LeverMotion:
-    """Link and lever at crank angles, arrays (n,).
+    """Link and lever at crank angles, arrays (n,)."""
 
-    Attributes
-    ----------
-    angles : ndarray
-        Crank angles [rad].
-    link, lever : ndarray
-        φ_4 and φ_5, continuous over the angles [rad].
-    link_d1, link_d2, lever_d1, lever_d2 : ndarray
-        Their derivatives by the crank angle [–].
-    diagonal : ndarray
-        l_d [m].
-    residual : float
-        Maximum gap in the loop over the longest link [–].
-    """
-
-    angles: Floats
+    angles: Floats  # crank angles [rad]
+    # link, lever: φ_4 and φ_5, continuous over the angles [rad].
     link: Floats
     lever: Floats
+    # link_d1, link_d2, lever_d1, lever_d2: their derivatives by the crank angle [–].
     link_d1: Floats
     link_d2: Floats
     lever_d1: Floats
     lever_d2: Floats
-    diagonal: Floats
-    residual: float
+    diagonal: Floats  # l_d [m]
+    residual: float  # maximum gap in the loop over the longest link [–]
 
 
 @dataclass(frozen=True)
 class Lever:
-    """Link and lever of a rotator as functions of the crank angle.
+    """Link and lever of a rotator as functions of the crank angle."""
 
-    Attributes
-    ----------
-    compiled : Compiled
-        Unit and rotator alone.
-    lengths : Lengths
-        l_4 and l_5 [m].
-    """
-
-    compiled: Compiled
-    lengths: Lengths
+    compiled: Compiled  # unit and rotator alone
+    lengths: Lengths  # l_4 and l_5 [m]
 
     @classmethod
     def of(cls, machine: Machine, unit: PumpingUnit, rotator: RodRotator) -> Lever:
-        """The lever of a machine's rotator, whatever else the machine holds.
-
-        Parameters
-        ----------
-        machine : Machine
-            The machine.
-        unit, rotator : PumpingUnit, RodRotator
-            Its parts.
-
-        Raises
-        ------
-        AssemblyError
-            Link and lever cannot meet all round.
-        """
+        """The lever of a machine's rotator, whatever else the machine holds."""
         alone = machine.with_entries({"mechanism": Mechanism(), "bodies": {}, "loads": {}, "drive": None})
         compiled = compile_machine(alone)
         require_full_turn(compiled, alone)

@@ -267,20 +267,8 @@ def _change_points(known: Lengths, rod: PolishedRod, at_ends: Floats) -> tuple[f
 def verdict(known: Lengths, least: float, greatest: float) -> str:
     """Whether the lever turns, rocks, or does not close, and by which lengths.
 
-    Parameters
-    ----------
-    known : Lengths
-        l_4 and l_5 [m].
-    least, greatest : float
-        Extremes m and M of the diagonal [m].
+    ``known``: l_4 and l_5 [m]; ``least``, ``greatest``: extremes m and M of the diagonal [m].
 
-    Returns
-    -------
-    str
-        A sentence.
-
-    Notes
-    -----
     Grashof's rule speaks of four fixed lengths; here the diagonal changes, so the dyad must close at both of
     its extremes. The paper's (18), l_5 + l_6 > l_3 + l_4, speaks of one position and is not sufficient.
     """

@@ -17,27 +17,7 @@ _WORDS = {
 
 
 def unit_template(designation: str | None = None, hole: int | None = None) -> str:
-    """A machine file of a pumping unit.
-
-    Parameters
-    ----------
-    designation : str, optional
-        One of the catalogue; without it, the first.
-    hole : int, optional
-        Crank hole, 1 for the outermost, which is also taken without it.
-
-    Returns
-    -------
-    str
-        The text of the file.
-
-    Raises
-    ------
-    MachineError
-        There is no such unit; the remedy names close ones.
-    InputError
-        There is no such hole.
-    """
+    """A machine file of a pumping unit."""
     found = catalogue_unit(designation) if designation is not None else pumping_units()[0]
     number = 1 if hole is None else hole
     stroke = float(found.unit(number).stroke)

@@ -201,42 +201,18 @@ def _acceleration(rod: PolishedRod, speed: float | None, sign: int) -> float | N
 
 @dataclass(frozen=True)
 class PolishedRod:
-    """The polished rod of a unit as a function of the crank angle.
+    """The polished rod of a unit as a function of the crank angle."""
 
-    Attributes
-    ----------
-    compiled : Compiled
-        The unit alone.
-    unit : PumpingUnit
-        Its description.
-    stroke : float
-        [m].
-    bottom, top : float
-        Crank angles at the ends of the stroke, 0 to 2π [rad].
-    """
-
-    compiled: Compiled
+    compiled: Compiled  # the unit alone
     unit: PumpingUnit
-    stroke: float
+    stroke: float  # [m]
+    # bottom, top: crank angles at the ends of the stroke, 0 to 2π [rad].
     bottom: float
     top: float
 
     @classmethod
     def of(cls, machine: Machine, unit: PumpingUnit) -> PolishedRod:
-        """The polished rod of a machine's unit, whatever else the machine holds.
-
-        Parameters
-        ----------
-        machine : Machine
-            The machine.
-        unit : PumpingUnit
-            Its unit.
-
-        Raises
-        ------
-        AssemblyError
-            The crank cannot turn all round.
-        """
+        """The polished rod of a machine's unit, whatever else the machine holds."""
         alone = machine.with_entries(
             {"mechanism": Mechanism(), "rod_rotator": None, "bodies": {}, "loads": {}, "drive": None}
         )
@@ -274,17 +250,8 @@ def _end_angle(unit: PumpingUnit, psi: float, sign: int) -> float:
 def turn_extreme(of: Callable[[Floats], Floats], sign: int) -> tuple[float, float]:
     """Maximum (+1) or minimum (−1) value of a smooth quantity over the revolution, and its crank angle.
 
-    Parameters
-    ----------
-    of : callable
-        Values at crank angles [rad].
-    sign : int
-        +1 or −1.
-
-    Returns
-    -------
-    tuple of float
-        The value, and the first crank angle from 0 to 2π that has it [rad].
+    ``of``: values at crank angles [rad] → the value, and the first crank angle from 0 to 2π that has it
+    [rad].
     """
     turn = turn_curve(lambda phi: of(phi)[None], np.array([0.0, 2 * np.pi]), "motion")
     return turn.extreme(sign)

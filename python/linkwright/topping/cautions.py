@@ -22,20 +22,7 @@ _SAME = 1e-12
 
 
 def topper_findings(described: Topper, found: TopperStudy) -> Iterator[str]:
-    """What the knife does not do.
-
-    Parameters
-    ----------
-    described : Topper
-        The topper.
-    found : TopperStudy
-        Its study.
-
-    Yields
-    ------
-    str
-        Sentences.
-    """
+    """What the knife does not do."""
     length = described.edge_length
     if found.obstacle:
         yield found.obstacle
@@ -56,20 +43,7 @@ def _head(found: TopperStudy) -> str:
 
 
 def topper_cautions(described: Topper, found: TopperStudy) -> Iterator[str]:
-    """What should be known although every head is cut.
-
-    Parameters
-    ----------
-    described : Topper
-        The topper.
-    found : TopperStudy
-        The study.
-
-    Yields
-    ------
-    str
-        Sentences.
-    """
+    """What should be known although every head is cut."""
     if described.cut_height > 0.5 * described.root_diameter:
         yield (
             f"The cut passes below the middle of the root, {described.cut_height:.4g} m below its top: the "
@@ -89,20 +63,7 @@ _FEW, _WANDER, _SHARING = 4, 0.25, 4
 
 
 def field_findings(found: TopperField, topper: Topper) -> Iterator[str]:
-    """Limits of the machine file that are not kept; without any in the file, none.
-
-    Parameters
-    ----------
-    found : TopperField
-        The study.
-    topper : Topper
-        The topper.
-
-    Yields
-    ------
-    str
-        A sentence with both numbers.
-    """
+    """Limits of the machine file that are not kept; without any in the file, none."""
     if "limits" not in topper.model_fields_set:
         return
     limits = topper.limits
@@ -127,22 +88,7 @@ def field_findings(found: TopperField, topper: Topper) -> Iterator[str]:
 
 
 def field_cautions(found: TopperField, topper: Topper, knife: Knife) -> Iterator[str]:
-    """What the designer should know of a field.
-
-    Parameters
-    ----------
-    found : TopperField
-        The study.
-    topper : Topper
-        The topper.
-    knife : Knife
-        How its knife moves.
-
-    Yields
-    ------
-    str
-        A sentence with the numbers.
-    """
+    """What the designer should know of a field."""
     if topper.field is None:
         yield "There is no [topper.field]: all roots are alike, their axes even within the offset."
     if found.n_missed:

@@ -82,20 +82,7 @@ class LengthChart(Result):
 
 
 def length_chart(described: Topper, edges: Sequence[Edge]) -> LengthChart:
-    """Lengths about a topper's own numbers.
-
-    Parameters
-    ----------
-    described : Topper
-        The topper.
-    edges : sequence of Edge
-        Its edge, or the two directions of it.
-
-    Returns
-    -------
-    LengthChart
-        Lines over both axes.
-    """
+    """Lengths about a topper's own numbers."""
     D, v_h = described.root_diameter, edges[0].knife.mean_speed
     forward = tuple(share * described.forward_speed for share in _FORWARD)
     # Roots that the cut leaves whole have no head.
@@ -198,22 +185,7 @@ class VerdictChart(Result):
 
 
 def verdict_chart(described: Topper, stroke: Stroke | None = None, claim: Claim = PAPER) -> VerdictChart:
-    """Chart a claim about a machine.
-
-    Parameters
-    ----------
-    described : Topper
-        The topper.
-    stroke : Stroke, optional
-        Of its knife; without it there is no length for every phase.
-    claim : Claim
-        Ranges of speeds, and of the length.
-
-    Returns
-    -------
-    VerdictChart
-        Over angles, and over cut heights and offsets.
-    """
+    """Chart a claim about a machine."""
     root, delta = described.root_diameter, described.offset
     band = float(head_diameter(root, described.cut_height)) + 2 * delta
     ways = [way for way in WAYS if stroke or way != "every_phase"]

@@ -143,19 +143,13 @@ _PORTION = 8192
 
 @dataclass(frozen=True)
 class Pass:
-    """What an edge does to roots; arrays (n,), a root each.
+    """What an edge does to roots; arrays (n,), a root each."""
 
-    Attributes
-    ----------
-    length_needed : ndarray, shape (n,)
-        Minimum length that cuts the head right through [m]; infinite for a root that is missed, zero for one
-        that is lost.
-    left : ndarray, shape (n,)
-        Share of the head that is left [–]: all of one that is missed, nothing of one that is lost. Zero if
-        no length was given.
-    """
-
+    # (n,): minimum length that cuts the head right through [m]; infinite for a root that is missed, zero for
+    # one that is lost.
     length_needed: Floats
+    # (n,): share of the head that is left [–]: all of one that is missed, nothing of one that is lost. Zero
+    # if no length was given.
     left: Floats
 
 
@@ -169,29 +163,7 @@ def pass_over(
 ) -> Pass:
     """Let an edge go over roots.
 
-    Parameters
-    ----------
-    edges : sequence of Edge
-        The edge; of two directions, the first counts for the half turn about the phase 0, in which a knife
-        that turns back goes to the left.
-    roots : Roots
-        What it meets.
-    length : float, optional
-        Of the edge [m]; without it, only what is needed is looked at.
-    fine : int
-        Stations per revolution of the law.
-    watch : callable, optional
-        Told how much is done, from 0 to 1.
-
-    Returns
-    -------
-    Pass
-        A value for each root.
-
-    Raises
-    ------
-    FindingError
-        The edge runs over heads and back again and again, and hardly goes on.
+    ``length``: of the edge [m]; without it, only what is needed is looked at.
     """
     require_advance(edges, roots)
     phase = roots.phase(edges[0].knife.rate, edges[0].forward_speed)
@@ -214,20 +186,7 @@ def pass_over(
 
 
 def require_advance(edges: Sequence[Edge], roots: Roots) -> None:
-    """Refuse an edge that cannot be followed over the largest head farthest from the row.
-
-    Parameters
-    ----------
-    edges : sequence of Edge
-        The edge, or its two directions.
-    roots : Roots
-        The roots of a field.
-
-    Raises
-    ------
-    FindingError
-        It goes back and forth over that head too often; says how often.
-    """
+    """Refuse an edge that cannot be followed over the largest head farthest from the row."""
     largest, farthest = float(roots.diameter.max()), float(np.abs(roots.offset).max())
     for edge in edges:
         reason = hardly_goes_on(edge, largest, farthest)

@@ -138,23 +138,7 @@ class Edge:
 
 
 def require_topper(machine: Machine) -> Topper:
-    """The topper of a machine.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    Topper
-        Its topper.
-
-    Raises
-    ------
-    InputError
-        It has none.
-    """
+    """The topper of a machine."""
     if machine.topper is None:
         raise InputError(f"{machine.name} has no [topper]: describe one, as `linkwright new topper` does")
     return machine.topper
@@ -189,17 +173,7 @@ def edges_of(machine: Machine, described: Topper) -> list[Edge]:
 def hardly_goes_on(edge: Edge, diameter: float, offset: float) -> str | None:
     """Why an edge cannot be followed: its knife goes back and forth over a head again and again.
 
-    Parameters
-    ----------
-    edge : Edge
-        The edge.
-    diameter, offset : float
-        d and Δ [m].
-
-    Returns
-    -------
-    str or None
-        A sentence with its numbers; None for an edge that can be followed.
+    ``diameter``, ``offset``: d and Δ [m].
     """
     turns, most = edge.turns(diameter, offset), _TURNS_RETREATING if edge.retreats else _TURNS
     if turns <= most:

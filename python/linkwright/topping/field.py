@@ -229,26 +229,7 @@ def topper_field(
 def field_result(
     topper: Topper, edges: Sequence[Edge], roots: Roots, found: Pass, level: float = 0.95
 ) -> TopperField:
-    """Sum up a pass of an edge over roots.
-
-    Parameters
-    ----------
-    topper : Topper
-        With the length of the edge.
-    edges : sequence of Edge
-        The edge, in one or two directions.
-    roots : Roots
-        The roots.
-    found : Pass
-        What it does to them.
-    level : float
-        Probability that an interval holds the truth.
-
-    Returns
-    -------
-    TopperField
-        Shares and means with intervals.
-    """
+    """Sum up a pass of an edge over roots."""
     is_random = topper.field is None or topper.field.kind == "random"
     # Phases mean nothing to a knife that rests.
     are_free = roots.are_free or (is_random and not edges[0].knife.rate)

@@ -85,21 +85,8 @@ class HeadPass(Result):
 def head_pass(edge: Edge, diameter: float, offset: float, phase: float, length: float) -> HeadPass:
     """Follow the edge over a head.
 
-    Parameters
-    ----------
-    edge : Edge
-        The edge.
-    diameter, offset : float
-        d > 0, and place of the head's centre to the left of the row [m].
-    phase : float
-        Of the knife when the middle of the edge is abreast of the centre [rad].
-    length : float
-        Of the edge [m].
-
-    Returns
-    -------
-    HeadPass
-        From before the head to behind it.
+    ``diameter``, ``offset``: d > 0, and place of the head's centre to the left of the row [m]; ``phase``: of
+    the knife when the middle of the edge is abreast of the centre [rad]; ``length``: of the edge [m].
     """
     sin, cos = float(np.sin(edge.angle)), float(np.cos(edge.angle))
     end = _end(edge, 0.5 * diameter, abs(offset))
@@ -116,16 +103,8 @@ def head_pass(edge: Edge, diameter: float, offset: float, phase: float, length: 
 def worse_edge(edges: Sequence[Edge], diameter: float, offset: float, phase: float, length: float) -> Edge:
     """The worse of the two directions of an edge over a head: it leaves more, or else needs more.
 
-    Parameters
-    ----------
-    edges : sequence of Edge
-        One edge, or its two directions.
-    diameter, offset : float
-        d, and place of the head's centre to the left of the row [m].
-    phase : float
-        Of the knife when the middle of the edge is abreast of the centre [rad].
-    length : float
-        Of the edge [m].
+    ``diameter``, ``offset``: d, and place of the head's centre to the left of the row [m]; ``phase``: of the
+    knife when the middle of the edge is abreast of the centre [rad]; ``length``: of the edge [m].
     """
 
     def badness(edge: Edge) -> tuple[float, float]:

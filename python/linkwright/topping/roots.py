@@ -154,13 +154,7 @@ class Roots(Result):
 
 
 def field_of(topper: Topper) -> RandomField | MeasuredField:
-    """The field of a topper; without one, roots that differ in their offset alone.
-
-    Parameters
-    ----------
-    topper : Topper
-        The topper.
-    """
+    """The field of a topper; without one, roots that differ in their offset alone."""
     return topper.field or RandomField(kind="random")
 
 

@@ -54,26 +54,7 @@ _FINE = 1e-5
 
 
 def topper_scene(machine: Machine, described: Topper, found: TopperStudy) -> Scene | None:
-    """All that the moving top view needs, ready for JSON.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    described : Topper
-        Its topper.
-    found : TopperStudy
-        What that cuts.
-
-    Returns
-    -------
-    dict or None
-        ``law``, y over one revolution of the phase in even steps [m]; ``rate`` [rad/s], ``drift`` [m/s] and
-        ``phase`` at the time zero [rad]; ``angle``, ``length`` and ``speed`` of the edge [rad, m, m/s];
-        ``diameter``, ``offset`` and ``heads``, x and y of centres [m]; ``span``, first and last time [s];
-        ``box``, minimum and maximum x and y [m]; ``seconds`` that the page takes. None
-        where the edge cannot be followed.
-    """
+    """All that the moving top view needs, ready for JSON."""
     if found.obstacle:
         return None
     offset, phase = shown_head(found)

@@ -78,17 +78,8 @@ def slicing(edges: Sequence[Edge]) -> Slicing:
 def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
     """Draw-cut ratio and cutting speed in each phase of the knife.
 
-    Parameters
-    ----------
-    edge : Edge
-        The edge.
-    phases : ndarray, shape (n,)
-        [rad]
-
-    Returns
-    -------
-    ratio, speed : ndarray, shape (n,)
-        [–], NaN where the edge retreats; speed against the head [m/s].
+    ``phases`` (n,): [rad] → ratio, speed: [–], NaN where the edge retreats; speed against the head [m/s],
+    (n,).
     """
     along, normal = edge.velocity(0.0, phases)
     ahead = np.where(normal > 0, normal, np.nan)

@@ -222,20 +222,8 @@ def _variant(
 def edges_with(machine: Machine, topper: Topper, knife_speed: float | None) -> list[Edge]:
     """The edge of a topper whose knife goes at another speed.
 
-    Parameters
-    ----------
-    machine : Machine
-        What may move the knife.
-    topper : Topper
-        The topper, already with the speed where its knife goes by a law.
-    knife_speed : float or None
-        Mean speed [m/s] of a knife that a mechanism moves, whose crank turns the faster; at zero it rests in
-        mid-stroke. None for that of the drive.
-
-    Returns
-    -------
-    list of Edge
-        One, or both directions.
+    ``knife_speed``: mean speed [m/s] of a knife that a mechanism moves, whose crank turns the faster; at zero
+    it rests in mid-stroke. None for that of the drive.
     """
     if knife_speed is None or not isinstance(topper.motion, MemberKnife):
         return edges_of(machine, topper)

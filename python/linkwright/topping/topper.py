@@ -223,18 +223,7 @@ def topper(machine: Machine, *, charts: bool = True) -> TopperStudy:
 
 
 def leaves(found: TopperStudy) -> bool:
-    """Whether anything is left of a head.
-
-    Parameters
-    ----------
-    found : TopperStudy
-        The study.
-
-    Returns
-    -------
-    bool
-        False for a share that is rounding, and for one that could not be computed.
-    """
+    """Whether anything is left of a head."""
     return found.uncut_share > NOTHING
 
 

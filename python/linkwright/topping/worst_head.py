@@ -121,26 +121,7 @@ _MEAN_PHASES, _MEAN_OFFSETS = 90, 41
 
 
 def every_head(described: Topper, edges: list[Edge], d: float, *, charts: bool = True) -> dict[str, Any]:
-    """What heads need, and what is left of them.
-
-    Parameters
-    ----------
-    described : Topper
-        The topper.
-    edges : list of Edge
-        Its edge, or the two directions of it.
-    d : float
-        Diameter of the heads [m].
-    charts : bool
-        Whether to follow all phases; else only whether the edge is long enough, and what a shorter one
-        leaves.
-
-    Returns
-    -------
-    dict
-        Entries of `TopperStudy`, from ``phase`` to ``uncut_by_phase`` and from ``length_exact`` to
-        ``uncut_share_mean``.
-    """
+    """What heads need, and what is left of them. ``d``: diameter of the heads [m]."""
     found = unknown_heads() | _needed(described, edges, d)
     if charts or found["length_exact"] > described.edge_length:
         found |= _left(described, edges, d)

@@ -56,18 +56,7 @@ def turning_figures(found: TurningMomentDiagram) -> Iterator[Captioned]:
 
 @styled
 def diagram_figure(found: TurningMomentDiagram) -> Figure:
-    """Torques of driver and load, and the energy that the shaft takes up between them.
-
-    Parameters
-    ----------
-    found : TurningMomentDiagram
-        What to draw, with curves.
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other.
-    """
+    """Torques of driver and load, and the energy that the shaft takes up between them."""
     figure, (torque, energy) = panels(2, height=4.6)
     angle = np.degrees(found.crank_angle)
     torque.fill_between(angle, found.torque_driver, found.torque_load, color=GRID, linewidth=0)
@@ -88,18 +77,7 @@ def diagram_figure(found: TurningMomentDiagram) -> Figure:
 
 @styled
 def speed_figure(found: TurningMomentDiagram) -> Figure:
-    """Speed of the shaft over the cycle.
-
-    Parameters
-    ----------
-    found : TurningMomentDiagram
-        What to draw, with a moment of inertia.
-
-    Returns
-    -------
-    Figure
-        One panel.
-    """
+    """Speed of the shaft over the cycle."""
     figure, (speed,) = panels(1, height=2.4)
     angle = np.degrees(found.crank_angle)
     speed.plot(angle, found.speed, color=SPEED, label="speed")

@@ -41,62 +41,31 @@ Floats = NDArray[np.float64]
 
 
 class Push(NamedTuple):
-    """What a normal force of one does to the follower.
+    """What a normal force of one does to the follower."""
 
-    Attributes
-    ----------
-    along, across : ndarray, shape (n,)
-        α and τ.
-    friction : float
-        μ of the contact.
-    moving : ndarray, shape (n,)
-        σ_v, sign of the velocity; zero in a dwell.
-    """
-
+    # along, across: (n,): α and τ.
     along: Floats
     across: Floats
-    friction: float
-    moving: Floats
+    friction: float  # μ of the contact
+    moving: Floats  # (n,): σ_v, sign of the velocity; zero in a dwell
 
 
 class BearingReaction(NamedTuple):
-    """How a bearing answers to a normal force of one.
+    """How a bearing answers to a normal force of one."""
 
-    Attributes
-    ----------
-    gain : ndarray, shape (n,)
-        Force or torque along the way that is left of it [– or m].
-    near, far : ndarray, shape (n,)
-        Reactions at both ends of a guide, to where the cam's surface runs; of a pivot its force, and zero
-        [–].
-    loss : ndarray, shape (n,)
-        Force or torque of friction in the bearing, against the motion [– or m].
-    """
-
-    gain: Floats
+    gain: Floats  # (n,): force or torque along the way that is left of it [– or m]
+    # near, far: (n,): reactions at both ends of a guide, to where the cam's surface runs; of a pivot its
+    # force, and zero [–].
     near: Floats
     far: Floats
-    loss: Floats
+    loss: Floats  # (n,): force or torque of friction in the bearing, against the motion [– or m]
 
 
 def pushes(course: CamCourse, friction: float, side: Floats, moving: Floats) -> Push:
     """What a normal force of one does along and across the way.
 
-    Parameters
-    ----------
-    course : CamCourse
-        n angles.
-    friction : float
-        μ of the contact [–].
-    side : ndarray, shape (n,)
-        κ, 1 for the flank that lifts, −1 for the other.
-    moving : ndarray, shape (n,)
-        σ_v.
-
-    Returns
-    -------
-    Push
-        α and τ.
+    ``friction``: μ of the contact [–]; ``side`` (n,): κ, 1 for the flank that lifts, −1 for the other;
+    ``moving`` (n,): σ_v.
     """
     cos, sin = np.cos(course.pressure_angle), np.sin(course.pressure_angle)
     rub = friction * np.sign(course.sliding)

@@ -39,23 +39,7 @@ Floats = NDArray[np.float64]
 
 
 def alike(**values: ArrayLike) -> dict[str, Floats]:
-    """Arrays of one length; a single number stands for all places.
-
-    Parameters
-    ----------
-    **values : array_like, shape (n,) or ()
-        By name.
-
-    Returns
-    -------
-    dict of str to ndarray, shape (n,)
-        By name.
-
-    Raises
-    ------
-    ShapeError
-        The lengths differ, or an array is empty or has more than one dimension.
-    """
+    """Arrays of one length (n,) by name; a single number stands for all places."""
     arrays = {name: np.asarray(value, dtype=float) for name, value in values.items()}
     shapes = {name: array.shape for name, array in arrays.items() if array.shape != ()}
     if any(len(shape) > 1 or not shape[0] for shape in shapes.values()) or len(set(shapes.values())) > 1:

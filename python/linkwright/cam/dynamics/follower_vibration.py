@@ -90,16 +90,7 @@ class FollowerVibration(Result):
 class Train:
     """A follower train driven by a lift at one speed: the departure, and what follows from it.
 
-    Parameters
-    ----------
-    lift : MotionLaw
-        s over the cam angle [m].
-    model : OneMass
-        The follower.
-    speed : float
-        ω [rad/s].
-    ends : {"turn", "dwell"}
-        Whether the motion repeats, or begins from rest.
+    ``lift``: s over the cam angle [m]; ``speed``: ω [rad/s].
     """
 
     def __init__(self, lift: MotionLaw, model: OneMass, speed: float, ends: Ends) -> None:
@@ -118,17 +109,8 @@ class Train:
     def motion(self, step: Indices, phi: Floats) -> tuple[Floats, Floats, Floats]:
         """Place, velocity and acceleration of the mass.
 
-        Parameters
-        ----------
-        step : ndarray of int, shape (m,)
-            Step of the answer in which each angle lies.
-        phi : ndarray, shape (m,)
-            Cam angles [rad].
-
-        Returns
-        -------
-        position, velocity, acceleration : ndarray, shape (m,)
-            x, ẋ, ẍ [m, m/s, m/s²].
+        ``step`` (m,): step of the answer in which each angle lies; ``phi`` (m,): cam angles [rad] → position,
+        velocity, acceleration: x, ẋ, ẍ [m, m/s, m/s²], (m,).
         """
         parts = self.departure.at(step, phi)
         x, v, a = (self.model.share * self._lift(k, step, phi) + part for k, part in enumerate(parts))
@@ -137,34 +119,16 @@ class Train:
     def force(self, step: Indices, phi: Floats) -> Floats:
         """Force of the train on the cam.
 
-        Parameters
-        ----------
-        step : ndarray of int, shape (m,)
-            Step of the answer in which each angle lies.
-        phi : ndarray, shape (m,)
-            Cam angles [rad].
-
-        Returns
-        -------
-        ndarray, shape (m,)
-            F [N].
+        ``step`` (m,): step of the answer in which each angle lies; ``phi`` (m,): cam angles [rad] → F [N],
+        (m,).
         """
         return self._force(step, phi, 0) + self.model.preload
 
     def force_slope(self, step: Indices, phi: Floats) -> Floats:
         """Derivative of the force by the cam angle.
 
-        Parameters
-        ----------
-        step : ndarray of int, shape (m,)
-            Step of the answer in which each angle lies.
-        phi : ndarray, shape (m,)
-            Cam angles [rad].
-
-        Returns
-        -------
-        ndarray, shape (m,)
-            dF/dφ [N/rad].
+        ``step`` (m,): step of the answer in which each angle lies; ``phi`` (m,): cam angles [rad] → dF/dφ
+        [N/rad], (m,).
         """
         return self._force(step, phi, 1)
 

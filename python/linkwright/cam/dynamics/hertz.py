@@ -200,19 +200,10 @@ def axis_stress(depth: ArrayLike) -> tuple[Floats, Floats]:
     .. math:: \sigma_x = -\left(\frac{1+2\zeta^2}{\sqrt{1+\zeta^2}} - 2\zeta\right), \qquad
         \sigma_z = -\frac1{\sqrt{1+\zeta^2}}
 
-    Parameters
-    ----------
-    depth : array_like, shape (n,)
-        ζ, depth over the half width.
+    ``depth`` (n,): ζ, depth over the half width → along, down: across the line of contact in the surface, and
+    normal to the surface; tension is positive, (n,).
 
-    Returns
-    -------
-    along, down : ndarray, shape (n,)
-        Across the line of contact in the surface, and normal to the surface; tension is positive.
-
-    References
-    ----------
-    .. [1] Johnson, Contact Mechanics (1985), equations 4.46a, b.
+    Source: Johnson, Contact Mechanics (1985), equations 4.46a, b.
     """
     zeta = np.asarray(depth, dtype=float)
     w = np.hypot(1.0, zeta)
@@ -229,19 +220,9 @@ def von_mises_largest(poisson: float) -> tuple[float, float]:
 
     whose extremes are roots of the cubic κ(1+x)³ = 6x.
 
-    Parameters
-    ----------
-    poisson : float
-        Poisson's ratio ν [–].
+    ``poisson``: Poisson's ratio ν [–].
 
-    Returns
-    -------
-    stress, depth : float
-        Over the largest pressure, and over the half width.
-
-    References
-    ----------
-    .. [1] Johnson, Contact Mechanics (1985), equations 4.46, with σ_y = ν(σ_x + σ_z).
+    Source: Johnson, Contact Mechanics (1985), equations 4.46, with σ_y = ν(σ_x + σ_z).
     """
     kappa = 1 - poisson + poisson**2
     roots = np.roots([kappa, 3 * kappa, 3 * kappa - 6, kappa])

@@ -170,15 +170,8 @@ def _speed_at(lift: MotionLaw, follower: FollowerLoad, held: MotionLaw, place: E
 def speed_of_loss(still: ArrayLike, linear: ArrayLike, square: ArrayLike) -> Floats:
     """The minimum positive ω at which a force N₀ + N₁ω + N₂ω² that presses at rest becomes zero.
 
-    Parameters
-    ----------
-    still, linear, square : array_like, shape (n,) or ()
-        N₀, positive; N₁ and N₂ [N, N s/rad, N s²/rad²].
-
-    Returns
-    -------
-    ndarray, shape (n,) or ()
-        ω; infinite where there is none [rad/s].
+    ``still``, ``linear``, ``square`` (n,) or (): N₀, positive; N₁ and N₂ [N, N s/rad, N s²/rad²] → ω;
+    infinite where there is none [rad/s], (n,) or ().
     """
     c, b, a = (np.asarray(x, dtype=float) for x in (still, linear, square))
     inside = b * b - 4 * a * c

@@ -90,18 +90,7 @@ class OneMass:
 
 
 def one_mass(train: FollowerTrain) -> OneMass:
-    """The model of a follower train of a machine.
-
-    Parameters
-    ----------
-    train : FollowerTrain
-        As the machine file describes it.
-
-    Returns
-    -------
-    OneMass
-        The model.
-    """
+    """The model of a follower train of a machine."""
     return OneMass(
         mass=train.mass,
         stiffness=train.stiffness,

@@ -44,36 +44,15 @@ _RESONANCE = 1e-10
 
 
 def pole(ratio: float, damping_ratio: float) -> complex:
-    """μ = r(−ζ + i√(1−ζ²)).
-
-    Parameters
-    ----------
-    ratio : float
-        r, natural frequency over the speed of the argument.
-    damping_ratio : float
-        ζ, less than 1.
-    """
+    """μ = r(−ζ + i√(1−ζ²))."""
     return ratio * complex(-damping_ratio, math.sqrt(1 - damping_ratio**2))
 
 
 def nodes_for(law: MotionLaw, turn: float) -> tuple[Floats, Floats, Floats, Indices]:
     """Steps of a law, and nodes and weights for each of them.
 
-    Parameters
-    ----------
-    law : MotionLaw
-        What is integrated with the exponential.
-    turn : float
-        Rotation of the exponential over the whole law [rad].
-
-    Returns
-    -------
-    starts : ndarray, shape (n + 1,)
-        Ends of the steps.
-    nodes, weights : ndarray, shape (k,)
-        Over a step from 0 to 1.
-    pieces : ndarray of int, shape (n,)
-        Piece that each step is in.
+    ``turn``: rotation of the exponential over the whole law [rad] → starts: ends of the steps, (n + 1,);
+    nodes, weights: over a step from 0 to 1, (k,); pieces: piece that each step is in, (n,).
     """
     starts: list[float] = []
     pieces: list[int] = []
@@ -91,19 +70,7 @@ def nodes_for(law: MotionLaw, turn: float) -> tuple[Floats, Floats, Floats, Indi
 def in_pieces(law: MotionLaw, pieces: Indices, x: Floats) -> Floats:
     """Values of a law where the piece that counts is given.
 
-    Parameters
-    ----------
-    law : MotionLaw
-        The law.
-    pieces : ndarray of int, shape (n,)
-        Piece for each row of x.
-    x : ndarray, shape (n,) or (n, k)
-        Where.
-
-    Returns
-    -------
-    ndarray, shape (n,) or (n, k)
-        The values.
+    ``pieces`` (n,): piece for each row of x; ``x`` (n,) or (n, k): where → the values, (n,) or (n, k).
     """
     value = np.zeros_like(x)
     for i in np.unique(pieces):
@@ -115,49 +82,23 @@ def in_pieces(law: MotionLaw, pieces: Indices, x: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class Oscillation:
-    """The answer of an oscillator.
-
-    Attributes
-    ----------
-    drive : MotionLaw
-        g.
-    pole : complex
-        μ.
-    starts : ndarray, shape (n + 1,)
-        Ends of the steps.
-    pieces : ndarray of int, shape (n,)
-        Piece of the law that each step is in.
-    states : ndarray of complex, shape (n,)
-        q at the start of each step, after what jumps there.
-    final : complex
-        q at the end, after what jumps there.
-    nodes, weights : ndarray, shape (k,)
-        Over a step from 0 to 1.
-    """
+    """The answer of an oscillator."""
 
     drive: MotionLaw
     pole: complex
-    starts: Floats
-    pieces: Indices
-    states: Complexes
-    final: complex
+    starts: Floats  # (n + 1,): ends of the steps
+    pieces: Indices  # (n,): piece of the law that each step is in
+    states: Complexes  # (n,): q at the start of each step, after what jumps there
+    final: complex  # q at the end, after what jumps there
+    # nodes, weights: (k,): over a step from 0 to 1.
     nodes: Floats
     weights: Floats
 
     def at(self, steps: Indices, x: Floats) -> tuple[Floats, Floats, Floats]:
         """z, z′ and z″ inside given steps.
 
-        Parameters
-        ----------
-        steps : ndarray of int, shape (m,)
-            Number of the step for each place.
-        x : ndarray, shape (m,)
-            Places.
-
-        Returns
-        -------
-        z, z_d1, z_d2 : ndarray, shape (m,)
-            The answer and its derivatives.
+        ``steps`` (m,): number of the step for each place; ``x`` (m,): places → z, z_d1, z_d2: the answer and
+        its derivatives, (m,).
         """
         pieces = self.pieces[steps]
         length = x - self.starts[steps]
@@ -170,32 +111,13 @@ class Oscillation:
     def find(self, x: Floats) -> Indices:
         """The steps in which places lie; at a break the one after it.
 
-        Parameters
-        ----------
-        x : ndarray, shape (m,)
-            Places inside the law.
-
-        Returns
-        -------
-        ndarray of int, shape (m,)
-            Numbers of the steps.
+        ``x`` (m,): places inside the law → numbers of the steps, (m,).
         """
         found = np.searchsorted(self.starts, x, side="right") - 1
         return np.asarray(np.clip(found, 0, len(self.pieces) - 1))
 
     def extremes(self, value: Value, slope: Value) -> tuple[Extreme, Extreme]:
-        """Minimum and maximum of a quantity that is smooth inside the steps.
-
-        Parameters
-        ----------
-        value, slope : callable
-            The quantity and its derivative, from numbers of steps and places, both of shape (m,).
-
-        Returns
-        -------
-        tuple of Extreme
-            Minimum and maximum.
-        """
+        """Minimum and maximum of a quantity that is smooth inside the steps."""
         share = np.linspace(0, 1, _SAMPLES + 1)
         x = self.starts[:-1, None] + share * np.diff(self.starts)[:, None]
         step = np.broadcast_to(np.arange(len(x))[:, None], x.shape)
@@ -216,26 +138,7 @@ class Oscillation:
 def oscillation(drive: MotionLaw, pole: complex, kicks: Floats, *, periodic: bool) -> Oscillation:
     """Answer of an oscillator that is at rest beforehand, or that moves periodically.
 
-    Parameters
-    ----------
-    drive : MotionLaw
-        g.
-    pole : complex
-        μ.
-    kicks : ndarray, shape (pieces + 1,)
-        By how much z′ jumps at each break.
-    periodic : bool
-        Whether the motion repeats after the law; a kick at its start then counts, one at its end too.
-
-    Returns
-    -------
-    Oscillation
-        The answer.
-
-    Raises
-    ------
-    FindingError
-        Periodic, undamped, and driven at resonance.
+    ``kicks`` (pieces + 1,): by how much z′ jumps at each break.
     """
     starts, nodes, weights, pieces = nodes_for(drive, abs(pole) * drive.length)
     lengths = np.diff(starts)

@@ -56,18 +56,7 @@ _POINTS = 721
 
 @styled
 def lift_figure(profile: CamProfile) -> Figure:
-    """Draw lift, velocity, acceleration and jerk over the cam angle.
-
-    Parameters
-    ----------
-    profile : CamProfile
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Four panels; vertical lines at segment boundaries, gaps where a derivative jumps.
-    """
+    """Draw lift, velocity, acceleration and jerk over the cam angle."""
     figure, axes = panels(4, height=7.6)
     swings = profile.cam.is_oscillating
     scale, unit, letter = (180 / math.pi, "°", "ψ") if swings else (1e3, "mm", "s")
@@ -88,18 +77,7 @@ def lift_figure(profile: CamProfile) -> Figure:
 
 @styled
 def cam_figure(profile: CamProfile) -> Figure:
-    """Draw the cam with its followers, as it stands where the programme begins.
-
-    Parameters
-    ----------
-    profile : CamProfile
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        To scale: a panel for each cam.
-    """
+    """Draw the cam with its followers, as it stands where the programme begins."""
     parts = _parts(profile)
     figure, axes = panels(1, height=5.6 if len(parts) == 1 else 3.9, columns=len(parts), shared=False)
     for each, flank in zip(axes, parts, strict=True):
@@ -119,18 +97,7 @@ def cam_figure(profile: CamProfile) -> Figure:
 
 @styled
 def pressure_angle_figure(profile: CamProfile) -> Figure:
-    """Draw the pressure angle of each contact with its limit.
-
-    Parameters
-    ----------
-    profile : CamProfile
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        One panel; dots mark the extremes.
-    """
+    """Draw the pressure angle of each contact with its limit."""
     figure, (axes,) = panels(1, height=2.9)
     limit, drawn = math.degrees(profile.cam.limit), []
     for k, flank in enumerate(profile.flanks):
@@ -154,19 +121,7 @@ def pressure_angle_figure(profile: CamProfile) -> Figure:
 
 @styled
 def curvature_figure(profile: CamProfile) -> Figure:
-    """Draw the curvature of the profile with what it may be.
-
-    Parameters
-    ----------
-    profile : CamProfile
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        One panel: 1/ρ, positive where convex; limits of the file and of a cutter in hollow parts, if they are
-        near.
-    """
+    """Draw the curvature of the profile with what it may be."""
     figure, (axes,) = panels(1, height=2.9)
     drawn, parts = [], _parts(profile)
     for k, flank in enumerate(parts):
@@ -193,18 +148,7 @@ def curvature_figure(profile: CamProfile) -> Figure:
 
 @styled
 def cam_force_figure(loaded: LoadedCam) -> Figure:
-    """Draw the contact force, and the pressure by Hertz if there is one.
-
-    Parameters
-    ----------
-    loaded : LoadedCam
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        One or two panels over the crank angle.
-    """
+    """Draw the contact force, and the pressure by Hertz if there is one."""
     rows = 1 if loaded.pressure is None else 2
     figure, axes = panels(rows, height=2.7 * rows)
     angle = np.degrees(loaded.crank_angle)
@@ -329,18 +273,7 @@ _LABELS = ("lift f [–]", "velocity f′ [–]", "acceleration f″ [–]", "je
 
 @styled
 def motion_laws_figure(laws: Mapping[str, MotionLaw]) -> Figure:
-    """Draw laws and their first three derivatives over their length.
-
-    Parameters
-    ----------
-    laws : Mapping of str to MotionLaw
-        Name → law.
-
-    Returns
-    -------
-    Figure
-        Four panels, one above the other; jumps are upright lines, and a law rests before and after.
-    """
+    """Draw laws and their first three derivatives over their length."""
     figure, axes = panels(4, height=8.2)
     for n, (name, law) in enumerate(laws.items()):
         colour, dash = LINES[n % len(LINES)], _DASHES[n // len(LINES) % len(_DASHES)]

@@ -19,20 +19,7 @@ from linkwright.kernel.page.numbers import degrees, number
 
 
 def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) -> Iterator[Captioned]:
-    """The figures of all cams.
-
-    Parameters
-    ----------
-    cams : sequence of CamProfile
-        The cams.
-    loaded : sequence of LoadedCam
-        Those that are known under load.
-
-    Yields
-    ------
-    Captioned
-        Nothing without a cam.
-    """
+    """The figures of all cams."""
     borne = {each.name: each for each in loaded}
     for profile in cams:
         name = profile.name

@@ -40,18 +40,7 @@ Floats = NDArray[np.float64]
 
 @styled
 def contact_force_figure(found: ContactForce) -> Figure:
-    """Draw the normal force, by the flank that carries, and the torque of the cam shaft.
-
-    Parameters
-    ----------
-    found : ContactForce
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other.
-    """
+    """Draw the normal force, by the flank that carries, and the torque of the cam shaft."""
     figure, (force, torque) = panels(2, height=4.2)
     degrees = np.degrees(found.cam_angle)
     flanks = ((found.side > 0, BLUE, "flank that lifts"), (found.side < 0, RED, "other flank"))
@@ -78,19 +67,7 @@ def contact_force_figure(found: ContactForce) -> Figure:
 def pressure_figure(cam_angle: Floats, contact: LineContact, limit: float | None = None) -> Figure:
     """Draw the pressure by Hertz and the half width of the contact over the cam angle.
 
-    Parameters
-    ----------
-    cam_angle : ndarray, shape (n,)
-        φ [rad].
-    contact : LineContact
-        At these angles.
-    limit : float, optional
-        Pressure allowed [Pa].
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other.
+    ``cam_angle`` (n,): φ [rad]; ``limit``: pressure allowed [Pa].
     """
     figure, (pressure, width) = panels(2, height=4.2)
     degrees = np.degrees(cam_angle)
@@ -113,18 +90,7 @@ def pressure_figure(cam_angle: Floats, contact: LineContact, limit: float | None
 
 @styled
 def vibration_figure(found: FollowerVibration) -> Figure:
-    """Draw how far the follower's mass is from the lift, and the force of its train on the cam.
-
-    Parameters
-    ----------
-    found : FollowerVibration
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other.
-    """
+    """Draw how far the follower's mass is from the lift, and the force of its train on the cam."""
     figure, (place, force) = panels(2, height=4.2)
     degrees = np.degrees(found.cam_angle)
     place.plot(degrees, 1e3 * (found.position - found.lift), color=BLUE)
@@ -143,18 +109,7 @@ def vibration_figure(found: FollowerVibration) -> Figure:
 
 @styled
 def residual_figure(spectra: Mapping[str, ResidualSpectrum]) -> Figure:
-    """Draw the vibration that rises leave behind, over the ratio of rise time and natural period.
-
-    Parameters
-    ----------
-    spectra : mapping of str to ResidualSpectrum
-        By name of the law.
-
-    Returns
-    -------
-    Figure
-        Two panels: amplitude left after the rise, in a logarithmic scale, and largest acceleration during it.
-    """
+    """Draw the vibration that rises leave behind, over the ratio of rise time and natural period."""
     figure, (left, during) = panels(2, height=4.6)
     for (name, found), colour in zip(spectra.items(), LINES * len(spectra), strict=False):
         order = np.argsort(found.ratio)

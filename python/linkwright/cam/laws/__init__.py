@@ -9,7 +9,8 @@
 | `motion_law` | A motion law: lift over angle, or over time, in pieces that are polynomials and harmonics |
 | `optimal` | Laws with minimum mean square or minimum peak of a derivative |
 | `piece` | One stretch of a law, polynomial and harmonics, and where it is zero |
-| `polynomial` | Laws by conditions at their ends, and splines through points |
+| `polynomial` | Polynomials by conditions at their ends |
 | `programme` | sections over one revolution, and how smoothly they meet |
 | `ramps` | Ramps of the velocity, and laws that start, keep a velocity and stop |
+| `spline` | Splines through points |
 """

@@ -47,21 +47,14 @@ from linkwright.kernel.errors import LawError, Problem
 
 @dataclass(frozen=True)
 class Boundary:
-    """Lift over a section, and velocity and acceleration at its ends, by z.
+    """Lift over a section, and velocity and acceleration at its ends, by z."""
 
-    Attributes
-    ----------
-    lift : float
-        Change over the section [m or rad].
-    velocity_start, velocity_end : float
-        [m or rad].
-    acceleration_start, acceleration_end : float or None
-        [m or rad]; None leaves it to the law, which has none unless it says so.
-    """
-
-    lift: float
+    lift: float  # change over the section [m or rad]
+    # velocity_start, velocity_end: [m or rad].
     velocity_start: float = 0.0
     velocity_end: float = 0.0
+    # acceleration_start, acceleration_end: [m or rad]; None leaves it to the law, which has none unless it
+    # says so.
     acceleration_start: float | None = None
     acceleration_end: float | None = None
 
@@ -79,18 +72,7 @@ _REST = {0: 0.0, 1: 0.0, 2: 0.0}
 
 
 def half_law(law: MotionLaw) -> MotionLaw:
-    """The first half of a symmetric law, stretched to a section and to an end velocity of one.
-
-    Parameters
-    ----------
-    law : MotionLaw
-        Symmetric, from 0 to 1.
-
-    Returns
-    -------
-    MotionLaw
-        G, from 0 to 1; G′ goes from 0 to 1.
-    """
+    """The first half of a symmetric law, stretched to a section and to an end velocity of one."""
     middle = float(law.at(0.5, 1))
     return law.stretch(0.0, 0.5).placed(0.0, 1.0).scaled(2 / middle)
 
@@ -98,17 +80,7 @@ def half_law(law: MotionLaw) -> MotionLaw:
 def with_boundary(law: MotionLaw, task: Boundary) -> MotionLaw:
     """A symmetric law made to meet boundary values.
 
-    Parameters
-    ----------
-    law : MotionLaw
-        Symmetric, from 0 to 1.
-    task : Boundary
-        The boundary values. Accelerations that are None are those that come out.
-
-    Returns
-    -------
-    MotionLaw
-        x(z), from 0 to 1, beginning with 0.
+    ``task``: the boundary values. Accelerations that are None are those that come out.
     """
     moved = law.scaled(task.lift)
     if task.velocity_start or task.velocity_end:
@@ -142,25 +114,7 @@ def straight(task: Boundary) -> MotionLaw:
 
 
 def suited(law: MotionLaw, task: Boundary) -> MotionLaw:
-    """A law of rest to rest for any boundary values if it is symmetric, else for rest alone.
-
-    Parameters
-    ----------
-    law : MotionLaw
-        From 0 to 1.
-    task : Boundary
-        The boundary values.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-
-    Raises
-    ------
-    LawError
-        The law is not symmetric, and other boundary values than its own are asked for.
-    """
+    """A law of rest to rest for any boundary values if it is symmetric, else for rest alone."""
     return with_boundary(law, task) if is_symmetric(law) else at_rest_only(law, task)
 
 
@@ -171,25 +125,7 @@ def is_symmetric(law: MotionLaw) -> bool:
 
 
 def at_rest_only(law: MotionLaw, task: Boundary) -> MotionLaw:
-    """A law that cannot but begin and end at rest.
-
-    Parameters
-    ----------
-    law : MotionLaw
-        From 0 to 1.
-    task : Boundary
-        The boundary values.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-
-    Raises
-    ------
-    LawError
-        Other boundary values are asked for.
-    """
+    """A law that cannot but begin and end at rest."""
     own = law.scaled(task.lift)
     ends = (float(own.at(0.0, 2)), float(own.at(1.0, 2, "before")))
     wanted = (task.acceleration_start, task.acceleration_end)
@@ -210,24 +146,7 @@ def by_conditions(
 ) -> MotionLaw:
     """The polynomial that meets the boundary values.
 
-    Parameters
-    ----------
-    task : Boundary
-        The boundary values; accelerations that are None are zero.
-    continuity_start, continuity_end : int
-        Order of the highest derivative that is set there; those above the second are zero.
-    powers : sequence of int, optional
-        Powers to be used instead of 0, 1, 2, …
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-
-    Raises
-    ------
-    LawError
-        A velocity or acceleration is asked for that the order leaves out; powers that cannot do it.
+    ``task``: the boundary values; accelerations that are None are zero.
     """
     start = (0.0, task.velocity_start, task.acceleration_start or 0.0)
     end = (task.lift, task.velocity_end, task.acceleration_end or 0.0)

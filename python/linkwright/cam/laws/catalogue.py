@@ -184,24 +184,12 @@ LAWS: dict[str, Entry] = {
 
 
 class LowerBound(NamedTuple):
-    """A bound from below.
+    """A bound from below."""
 
-    Attributes
-    ----------
-    name : str
-        Of the factor.
-    value : float
-        The bound.
-    reached_by : str
-        Law of the catalogue that has this value.
-    holds_for : str
-        Laws that it holds for.
-    """
-
-    name: str
+    name: str  # of the factor
     value: float
-    reached_by: str
-    holds_for: str
+    reached_by: str  # law of the catalogue that has this value
+    holds_for: str  # laws that it holds for
 
 
 _REST = "velocity zero at both ends"

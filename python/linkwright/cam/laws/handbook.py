@@ -45,19 +45,7 @@ from linkwright.cam.laws.piece import Harmonic, Piece
 
 
 def rest_to_rest(*stretches: tuple[float, Piece]) -> MotionLaw:
-    """The law f(z), z and f from 0 to 1.
-
-    Parameters
-    ----------
-    *stretches : tuple of float and Piece
-        Length and course of the acceleration, one after the other; together they bring the velocity back to
-        zero.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-    """
+    """The law f(z), z and f from 0 to 1."""
     law = MotionLaw.of(0.0, *stretches).integral().integral().placed(0.0, 1.0)
     return law.scaled(1 / float(law.at(1.0)))
 
@@ -111,19 +99,7 @@ def _series(amplitudes: dict[int, float]) -> MotionLaw:
 
 
 def modified_sine(share: float = 1 / 8) -> MotionLaw:
-    """Modified sine.
-
-    Parameters
-    ----------
-    share : float
-        Of each of the two quarter sines in the whole, from 0, the harmonic law, to below 1/2; 1/4 is the
-        cycloidal law.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-    """
+    """Modified sine."""
     return rest_to_rest(
         (share, Piece((), (Harmonic(pi / 2, 0.0, 1.0),))),
         (1 - 2 * share, Piece((), (Harmonic(pi, 1.0, 0.0),))),
@@ -132,18 +108,7 @@ def modified_sine(share: float = 1 / 8) -> MotionLaw:
 
 
 def modified_trapezoid(share: float = 1 / 8) -> MotionLaw:
-    """Modified trapezoid.
-
-    Parameters
-    ----------
-    share : float
-        Of each of the four ramps in the whole, from 0, the parabola, to 1/4, the cycloidal law.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-    """
+    """Modified trapezoid."""
     flat = 0.5 - 2 * share
     up, down = Harmonic(pi / 2, 0.0, 1.0), Harmonic(pi / 2, 1.0, 0.0)
     return rest_to_rest(

@@ -37,21 +37,11 @@ _SHORTEST = 1e-8
 
 @dataclass(frozen=True)
 class Limits:
-    """What the follower is allowed.
+    """What the follower is allowed."""
 
-    Attributes
-    ----------
-    velocity : float
-        Maximum velocity [m/rad or –]; infinite without a limit.
-    acceleration : float
-        Maximum acceleration [m/rad² or 1/rad].
-    jerk : float
-        Maximum jerk [m/rad³ or 1/rad²]; infinite without a limit.
-    """
-
-    velocity: float
-    acceleration: float
-    jerk: float = inf
+    velocity: float  # maximum velocity [m/rad or –]; infinite without a limit
+    acceleration: float  # maximum acceleration [m/rad² or 1/rad]
+    jerk: float = inf  # maximum jerk [m/rad³ or 1/rad²]; infinite without a limit
 
     def ramp(self, v: float) -> float:
         """Minimum length in which the velocity v is reached from rest [rad]."""
@@ -81,24 +71,8 @@ def limited_section(
 ) -> MotionLaw:
     """The law of a section of rest to rest that keeps limits.
 
-    Parameters
-    ----------
-    task : Boundary
-        The boundary values.
-    angle : float
-        Of the section [rad].
-    velocity, acceleration, jerk : float or None
-        Maximum derivatives by the cam angle [m or rad, per rad, rad², rad³]; None without a limit.
-
-    Returns
-    -------
-    MotionLaw
-        x(z) from 0 to 1, beginning with 0.
-
-    Raises
-    ------
-    LawError
-        The section is too short, or does not begin and end at rest.
+    ``angle``: of the section [rad]; ``velocity``, ``acceleration``, ``jerk``: maximum derivatives by the cam
+    angle [m or rad, per rad, rad², rad³]; None without a limit.
     """
     ends = (task.velocity_start, task.velocity_end, task.acceleration_start, task.acceleration_end)
     if any(ends):
@@ -119,19 +93,8 @@ def limited_section(
 def limited(limits: Limits, lift: float, length: float) -> MotionLaw:
     """The law of a section that keeps limits.
 
-    Parameters
-    ----------
-    limits : Limits
-        By the cam angle.
-    lift : float
-        Size of the lift [m or rad], above zero.
-    length : float
-        Of the section [rad]; at least `Limits.shortest`.
-
-    Returns
-    -------
-    MotionLaw
-        x(z) from 0 to 1, from 0 to the lift.
+    ``lift``: size of the lift [m or rad], above zero; ``length``: of the section [rad]; at least
+    `Limits.shortest`.
     """
     least = limits.shortest(lift)
     low, high = lift / length, limits.fastest(lift)

@@ -79,27 +79,7 @@ def optimal(order: int, start: Conditions, end: Conditions) -> MotionLaw:
 def optimal_section(
     task: Boundary, order: int = 3, free_start: Collection[int] = (), free_end: Collection[int] = ()
 ) -> MotionLaw:
-    """The optimal law of a section.
-
-    Parameters
-    ----------
-    task : Boundary
-        The boundary values; derivatives above the second are zero.
-    order : int
-        n, from 1 to 5.
-    free_start, free_end : collection of int
-        Orders of derivatives that the minimum is left to choose there; the lift is always given.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-
-    Raises
-    ------
-    LawError
-        A velocity or an acceleration is asked for that is free, or that the order cannot meet.
-    """
+    """The optimal law of a section."""
     start = (0.0, task.velocity_start, task.acceleration_start or 0.0)
     end = (task.lift, task.velocity_end, task.acceleration_end or 0.0)
     sides = []
@@ -126,23 +106,7 @@ _NONE = 1e-9
 
 
 def minimum_acceleration(task: Boundary) -> MotionLaw:
-    """The law of minimum peak acceleration.
-
-    Parameters
-    ----------
-    task : Boundary
-        The boundary values; accelerations at the ends come out as they are.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-
-    Raises
-    ------
-    LawError
-        Accelerations at the ends are asked for.
-    """
+    """The law of minimum peak acceleration."""
     q, change = _excess(task)
     A = 2 * q + copysign(sqrt(4 * q * q + change * change), q)
     for wanted, sign in ((task.acceleration_start, 1), (task.acceleration_end, -1)):
@@ -157,23 +121,7 @@ def minimum_acceleration(task: Boundary) -> MotionLaw:
 
 
 def minimum_jerk(task: Boundary) -> MotionLaw:
-    """The law of minimum peak jerk without acceleration at the ends.
-
-    Parameters
-    ----------
-    task : Boundary
-        The boundary values.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-
-    Raises
-    ------
-    LawError
-        Accelerations at the ends are asked for.
-    """
+    """The law of minimum peak jerk without acceleration at the ends."""
     q, change = _excess(task)
     J = 16 * q + copysign(sqrt(256 * q * q + 16 * change * change), q)
     if task.acceleration_start or task.acceleration_end:

@@ -40,22 +40,7 @@ _REAL = 1e-7
 
 
 def zeros(function: Callable[[Floats], Floats], degree: int, frequency: float = 0.0) -> list[float]:
-    """Zeros between 0 and 1, increasing.
-
-    Parameters
-    ----------
-    function : callable
-        Takes and gives arrays of shape (k,).
-    degree : int
-        Of the polynomial in it.
-    frequency : float
-        Of the fastest harmonic in it [rad].
-
-    Returns
-    -------
-    list of float
-        The zeros; good to rounding over the slope, and a zero that is also an extreme to the root of that.
-    """
+    """Zeros between 0 and 1, increasing. ``frequency``: of the fastest harmonic in it [rad]."""
     n = degree + (int(frequency) + _MORE if frequency else 1)
     series = _series(function, n)
     series = series[: _last(series) + 1]
@@ -83,17 +68,9 @@ def _last(series: Floats) -> int:
 
 
 class Harmonic(NamedTuple):
-    """a cos ku + b sin ku.
+    """a cos ku + b sin ku."""
 
-    Attributes
-    ----------
-    frequency : float
-        k [rad over the piece].
-    cosine, sine : float
-        a, b.
-    """
-
-    frequency: float
+    frequency: float  # k [rad over the piece]
     cosine: float
     sine: float
 

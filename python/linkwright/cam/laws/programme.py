@@ -174,18 +174,7 @@ def section_law(section: Section, task: Boundary) -> MotionLaw:
 
 
 def boundaries(sections: Sequence[Section]) -> list[Boundary]:
-    """What each section has to do, by its own z.
-
-    Parameters
-    ----------
-    sections : sequence of Section
-        In their order, going round.
-
-    Returns
-    -------
-    list of Boundary
-        One for each.
-    """
+    """What each section has to do, by its own z."""
     found = []
     for i, here in enumerate(sections):
         before, after = sections[i - 1], sections[(i + 1) % len(sections)]
@@ -204,20 +193,7 @@ def boundaries(sections: Sequence[Section]) -> list[Boundary]:
 
 
 def joints(law: MotionLaw, places: Sequence[float]) -> tuple[Joint, ...]:
-    """How smooth a periodic law is at some of its breaks.
-
-    Parameters
-    ----------
-    law : MotionLaw
-        Periodic.
-    places : sequence of float
-        Breaks of it; its start stands for its end too.
-
-    Returns
-    -------
-    tuple of Joint
-        One for each place.
-    """
+    """How smooth a periodic law is at some of its breaks."""
     jumps = []
     for order in range(ORDERS):
         after = law.at(np.array(places), order, "after")

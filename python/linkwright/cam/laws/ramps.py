@@ -79,23 +79,7 @@ RAMPS = ("optimal_jerk", "optimal_jerk_free", *SYMMETRIC)
 
 
 def ramp_of(name: str) -> MotionLaw:
-    """A ramp by its name.
-
-    Parameters
-    ----------
-    name : str
-        One of `RAMPS`.
-
-    Returns
-    -------
-    MotionLaw
-        G, from 0 to 1; G′ goes from 0 to 1.
-
-    Raises
-    ------
-    LawError
-        There is no such ramp.
-    """
+    """A ramp by its name."""
     own = {"optimal_jerk": optimal_jerk, "optimal_jerk_free": optimal_jerk_free}
     if name in own:
         return own[name]()
@@ -109,69 +93,17 @@ _ROUNDING = 1e-12
 
 
 def start_and_stop(start: float = 1 / 6, stop: float = 1 / 6, ramp: str = "optimal_jerk") -> MotionLaw:
-    """Start over a share, constant velocity, braking over a share.
-
-    Parameters
-    ----------
-    start, stop : float
-        Shares of the start and of the braking, 0 or more, together at most 1.
-    ramp : str
-        Course of the velocity, one of `ramps.RAMPS`.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-
-    Raises
-    ------
-    LawError
-        The shares are more than the whole, or there is no such ramp.
-    """
+    """Start over a share, constant velocity, braking over a share."""
     return _with_ramp(start, stop, ramp_of(ramp))
 
 
 def trapezoidal_velocity(start: float = 1 / 3, stop: float = 1 / 3) -> MotionLaw:
-    """Constant acceleration, constant velocity, constant deceleration.
-
-    Parameters
-    ----------
-    start, stop : float
-        Shares of acceleration and deceleration.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-
-    Raises
-    ------
-    LawError
-        The shares are more than the whole.
-    """
+    """Constant acceleration, constant velocity, constant deceleration."""
     return start_and_stop(start, stop, "parabolic")
 
 
 def s_curve(start: float = 1 / 3, stop: float = 1 / 3, rounding: float = 1 / 4) -> MotionLaw:
-    """Trapezoidal velocity with its corners rounded by parabolas: the jerk is constant there.
-
-    Parameters
-    ----------
-    start, stop : float
-        Shares of acceleration and deceleration.
-    rounding : float
-        Share of each of the two corners in its ramp, up to 1/2.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-
-    Raises
-    ------
-    LawError
-        The shares are more than the whole.
-    """
+    """Trapezoidal velocity with its corners rounded by parabolas: the jerk is constant there."""
     corner = (rounding, Piece((0.0, 1.0)))
     flat = (1 - 2 * rounding, Piece((1.0,)))
     rise = MotionLaw.of(0.0, corner, flat, (rounding, Piece((1.0, -1.0)))).integral()

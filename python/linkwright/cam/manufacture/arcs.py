@@ -52,29 +52,7 @@ _FLOOR = 0.02
 def equal_errors(
     errors: Callable[[Floats], Floats], low: float, high: float, order: float, tolerance: float
 ) -> Floats:
-    """Cuts between which no piece errs by more than the tolerance.
-
-    Parameters
-    ----------
-    errors : callable
-        From cuts (n + 1,) to the error of each piece, (n,), in the unit of the tolerance; not negative.
-    low, high : float
-        Ends of the stretch.
-    order : float
-        p: with which power of its length a short piece errs.
-    tolerance : float
-        How much a piece may err.
-
-    Returns
-    -------
-    ndarray, shape (n + 1,)
-        The cuts, with both ends.
-
-    Raises
-    ------
-    ConvergenceError
-        Even 200 000 pieces do not keep the tolerance.
-    """
+    """Cuts between which no piece errs by more than the tolerance, (n + 1,)."""
     cuts, enough = np.array([low, high]), False
     n = 1
     while not enough:
@@ -135,25 +113,7 @@ _CHORD_SHARES = np.linspace(0.05, 0.95, 19)
 
 
 def polyline(track: Track, tolerance: float) -> Outline:
-    """Approximate a curve by chords.
-
-    Parameters
-    ----------
-    track : Track
-        The curve.
-    tolerance : float
-        Largest distance from the curve [m].
-
-    Returns
-    -------
-    Outline
-        Lines only; as few as equal errors give.
-
-    Raises
-    ------
-    ConvergenceError
-        The tolerance asks for too many chords.
-    """
+    """Approximate a curve by chords. ``tolerance``: largest distance from the curve [m]."""
     vertices = np.concatenate([_corners(part, tolerance) for part in track.parts])
     return Outline(vertices, np.zeros(len(vertices)))
 
@@ -193,25 +153,7 @@ _SAMPLES = 257
 
 
 def arcs(track: Track, tolerance: float) -> Outline:
-    """Approximate a curve by arcs and lines.
-
-    Parameters
-    ----------
-    track : Track
-        The curve.
-    tolerance : float
-        Largest distance from the curve [m].
-
-    Returns
-    -------
-    Outline
-        Tangent-continuous but at the corners of the curve; as few sides as equal errors give.
-
-    Raises
-    ------
-    ConvergenceError
-        The tolerance asks for too many arcs.
-    """
+    """Approximate a curve by arcs and lines. ``tolerance``: largest distance from the curve [m]."""
     found = [_sides(part, tolerance) for part in track.parts]
     starts, bulges = (np.concatenate(each) for each in zip(*found, strict=True))
     return Outline(starts, np.where(np.abs(bulges) < _STRAIGHT, 0.0, bulges))

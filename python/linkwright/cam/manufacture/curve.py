@@ -62,17 +62,10 @@ class ClosedCurve(Protocol):
 
 @dataclass(frozen=True)
 class Stretch:
-    """A smooth part of a closed curve.
-
-    Attributes
-    ----------
-    curve : ClosedCurve
-        The curve.
-    low, high : float
-        Its ends [rad].
-    """
+    """A smooth part of a closed curve."""
 
     curve: ClosedCurve
+    # low, high: its ends [rad].
     low: float
     high: float
 
@@ -124,23 +117,7 @@ def size(curve: ClosedCurve) -> float:
 
 
 def stretches(curve: ClosedCurve) -> tuple[Stretch, ...]:
-    """The smooth parts of a curve that have a length, in order.
-
-    Parameters
-    ----------
-    curve : ClosedCurve
-        The curve.
-
-    Returns
-    -------
-    tuple of Stretch
-        They follow one another without gaps; where one stretch meets the next there may be a corner.
-
-    Raises
-    ------
-    ExchangeError
-        The curve has gaps, is not finite, or turns back on itself inside a stretch.
-    """
+    """The smooth parts of a curve that have a length, in order."""
     whole = size(curve)
     if not whole > 0:
         raise ExchangeError(f"the curve has no size ({whole:g} m): it is a point, or has no finite places")
@@ -211,11 +188,6 @@ class Track:
     """The stretches of a closed curve in a row; τ counts cam angles along them [rad].
 
     Without standstills τ is the cam angle.
-
-    Attributes
-    ----------
-    parts : tuple of Stretch
-        The stretches.
     """
 
     parts: tuple[Stretch, ...]
@@ -298,15 +270,7 @@ class Track:
     def nearest(self, places: Floats) -> tuple[Floats, Floats]:
         """The nearest places of the curve.
 
-        Parameters
-        ----------
-        places : ndarray, shape (n, 2)
-            Places [m].
-
-        Returns
-        -------
-        tuple of ndarray, shape (n,)
-            τ [rad], and distances [m].
+        ``places`` (n, 2): places [m] → τ [rad], and distances [m], (n,).
         """
         tau, samples = self.sampled
         blocks = np.array_split(places, max(1, len(places) // _BLOCK))
@@ -318,19 +282,9 @@ class Track:
     def project(self, places: Floats, start: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
         """The nearest places between two others, by Gauss–Newton from a guess.
 
-        Parameters
-        ----------
-        places : ndarray, shape (…, 2)
-            Places [m].
-        start : ndarray, shape (…)
-            First guesses of τ [rad].
-        low, high : ndarray
-            Between which τ to look [rad].
-
-        Returns
-        -------
-        tuple of ndarray, shape (…)
-            τ [rad], and distances [m]; a distance is that of a place of the curve, so never too small.
+        ``places`` (…, 2): places [m]; ``start`` (…): first guesses of τ [rad]; ``low``, ``high``: between
+        which τ to look [rad] → τ [rad], and distances [m]; a distance is that of a place of the curve, so
+        never too small, (…).
         """
         tau = best = np.clip(start, low, high)
         least = np.full(tau.shape, np.inf)

@@ -83,25 +83,7 @@ class Deviation:
 
 
 def deviation(path: Path, track: Track) -> Deviation:
-    """The largest distance between a path and a curve, both ways.
-
-    Parameters
-    ----------
-    path : Path
-        The path; it runs in the direction of the curve.
-    track : Track
-        The curve.
-
-    Returns
-    -------
-    Deviation
-        Measured.
-
-    Raises
-    ------
-    ExchangeError
-        The path's corners do not follow one another along the curve.
-    """
+    """The largest distance between a path and a curve, both ways."""
     low, high = _intervals(path.vertices, track)
 
     def from_path(which: Whole, u: Floats) -> tuple[Floats, Floats]:
@@ -170,15 +152,7 @@ def _most(distance: Floats, tau: Floats, u: Floats) -> tuple[Floats, Floats, Flo
 
 
 class FileOutline(NamedTuple):
-    """An outline of a file.
+    """An outline of a file."""
 
-    Attributes
-    ----------
-    path : Path
-        To be compared with the curve.
-    form : str
-        How the file holds it, such as ``LWPOLYLINE``.
-    """
-
-    path: Path
-    form: str
+    path: Path  # to be compared with the curve
+    form: str  # how the file holds it, such as ``LWPOLYLINE``

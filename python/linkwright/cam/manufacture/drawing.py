@@ -139,18 +139,10 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class TurnedCurve:
-    """A curve turned about the centre of the cam.
-
-    Attributes
-    ----------
-    curve : ClosedCurve
-        The curve.
-    angle : float
-        By how much [rad].
-    """
+    """A curve turned about the centre of the cam."""
 
     curve: ClosedCurve
-    angle: float
+    angle: float  # by how much [rad]
 
     @property
     def breaks(self) -> tuple[float, ...]:

@@ -48,19 +48,7 @@ _CLOSED = 1e-14
 def write_dxf(
     file: File, drawing: Drawing, paths: Mapping[str, Outline | Spline], notes: tuple[str, ...] = ()
 ) -> None:
-    """Write a drawing as DXF.
-
-    Parameters
-    ----------
-    file : path
-        The file; replaced if it exists.
-    drawing : Drawing
-        What is drawn.
-    paths : mapping of str to Outline or Spline
-        Layer → its outline as arcs, chords or spline.
-    notes : tuple of str
-        Lines of text under the outline, on a layer of their own.
-    """
+    """Write a drawing as DXF."""
     from ezdxf.filemanagement import new
 
     document = new(_VERSION, units=_MILLIMETRE)
@@ -118,25 +106,7 @@ def _add_notes(document: Document, drawing: Drawing, notes: tuple[str, ...]) -> 
 
 
 def read_dxf(file: File, layers: tuple[str, ...]) -> dict[str, FileOutline]:
-    """Read the outlines of a DXF file.
-
-    Parameters
-    ----------
-    file : path
-        The file.
-    layers : tuple of str
-        Which to look for.
-
-    Returns
-    -------
-    dict of str to FileOutline
-        Layer → its outline.
-
-    Raises
-    ------
-    ExchangeError
-        The file is no sound DXF in millimetres, or a layer does not hold one closed entity.
-    """
+    """Read the outlines of a DXF file."""
     from ezdxf.filemanagement import readfile
     from ezdxf.lldxf.const import DXFError
 

@@ -33,26 +33,7 @@ def fit(
 ) -> tuple[Outline | Spline, Deviation]:
     """Approximate a curve within a tolerance.
 
-    Parameters
-    ----------
-    track : Track
-        The curve.
-    form : {"arcs", "spline", "cubic", "polyline"}
-        Arcs and lines without kinks, a B-spline of degree 5 or of degree 3, or chords.
-    tolerance : float
-        Largest distance between curve and path, both ways [m].
-
-    Returns
-    -------
-    tuple of Outline or Spline, and Deviation
-        The path, and what was measured.
-
-    Raises
-    ------
-    InputError
-        Another form, or a tolerance that is not positive or finer than numbers can tell.
-    ConvergenceError
-        The tolerance asks for too many pieces.
+    ``tolerance``: largest distance between curve and path, both ways [m].
     """
     extent = size(track.parts[0].curve)
     _refuse(form, tolerance, extent)

@@ -27,21 +27,11 @@ _SMALL = 1e-2
 
 @dataclass(frozen=True)
 class Sides:
-    """Arcs and lines.
+    """Arcs and lines."""
 
-    Attributes
-    ----------
-    starts : ndarray, shape (n, 2)
-        Where they begin [m].
-    chords : ndarray, shape (n, 2)
-        From there to their ends [m].
-    bulges : ndarray, shape (n,)
-        tan(θ/4) of each.
-    """
-
-    starts: Floats
-    chords: Floats
-    bulges: Floats
+    starts: Floats  # (n, 2): where they begin [m]
+    chords: Floats  # (n, 2): from there to their ends [m]
+    bulges: Floats  # (n,): tan(θ/4) of each
 
     @property
     def turns(self) -> Floats:
@@ -85,18 +75,7 @@ class Sides:
         return Sides(self.starts[which], self.chords[which], self.bulges[which])
 
     def at(self, u: Floats) -> Floats:
-        """Places on them.
-
-        Parameters
-        ----------
-        u : ndarray, shape (n, m)
-            How far along each, from 0 to 1.
-
-        Returns
-        -------
-        ndarray, shape (n, m, 2)
-            [m].
-        """
+        """Places on them. ``u`` (n, m): how far along each, from 0 to 1 → [m], (n, m, 2)."""
         turn = self.turns[:, None]
         # The chord to the place at u is turned by −θ(1 − u)/2 from the whole chord, and sin(uθ/2)/sin(θ/2) of
         # it.
@@ -107,15 +86,8 @@ class Sides:
     def distances(self, places: Floats) -> Floats:
         """Distance of places from them.
 
-        Parameters
-        ----------
-        places : ndarray, shape (n, m, 2)
-            For each side its places [m].
-
-        Returns
-        -------
-        ndarray, shape (n, m)
-            To the arc where the place lies beside it, else to the nearer end [m].
+        ``places`` (n, m, 2): for each side its places [m] → to the arc where the place lies beside it, else
+        to the nearer end [m], (n, m).
         """
         from_start = places - self.starts[:, None]
         from_end = from_start - self.chords[:, None]
@@ -164,18 +136,10 @@ def turned(vector: Floats, angle: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class Outline:
-    """Arcs and lines, one after the other and back to the start.
+    """Arcs and lines, one after the other and back to the start."""
 
-    Attributes
-    ----------
-    vertices : ndarray, shape (n, 2)
-        Where they begin [m].
-    bulges : ndarray, shape (n,)
-        tan(θ/4) of each, where θ is the angle that it turns; zero for a line.
-    """
-
-    vertices: Floats
-    bulges: Floats
+    vertices: Floats  # (n, 2): where they begin [m]
+    bulges: Floats  # (n,): tan(θ/4) of each, where θ is the angle that it turns; zero for a line
 
     @cached_property
     def sides(self) -> Sides:
@@ -203,33 +167,14 @@ class Outline:
     def at(self, which: NDArray[np.intp], u: Floats) -> Floats:
         """Places on sides.
 
-        Parameters
-        ----------
-        which : ndarray, shape (k,)
-            Numbers of the sides.
-        u : ndarray, shape (k, m)
-            How far along each, from 0 to 1.
-
-        Returns
-        -------
-        ndarray, shape (k, m, 2)
-            [m].
+        ``which`` (k,): numbers of the sides; ``u`` (k, m): how far along each, from 0 to 1 → [m], (k, m, 2).
         """
         return self.sides.chosen(which).at(u)
 
     def distances(self, which: NDArray[np.intp], places: Floats) -> Floats:
         """Distance of places from sides.
 
-        Parameters
-        ----------
-        which : ndarray, shape (k,)
-            Numbers of the sides.
-        places : ndarray, shape (k, m, 2)
-            For each side its places [m].
-
-        Returns
-        -------
-        ndarray, shape (k, m)
-            [m].
+        ``which`` (k,): numbers of the sides; ``places`` (k, m, 2): for each side its places [m] → [m],
+        (k, m).
         """
         return self.sides.chosen(which).distances(places)

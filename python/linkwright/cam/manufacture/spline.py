@@ -41,21 +41,11 @@ _SAMPLES, _ROUNDS = 9, 4
 
 @dataclass(frozen=True)
 class Spline:
-    """A closed B-spline with equal weights.
+    """A closed B-spline with equal weights."""
 
-    Attributes
-    ----------
-    degree : int
-        3 or 5.
-    knots : ndarray, shape (n + degree + 1,)
-        [rad].
-    controls : ndarray, shape (n, 2)
-        Control points; the last is the first again [m].
-    """
-
-    degree: int
-    knots: Floats
-    controls: Floats
+    degree: int  # 3 or 5
+    knots: Floats  # (n + degree + 1,): [rad]
+    controls: Floats  # (n, 2): control points; the last is the first again [m]
 
     @cached_property
     def cuts(self) -> Floats:
@@ -70,15 +60,7 @@ class Spline:
     def values(self, x: Floats) -> tuple[Floats, Floats]:
         """Places and first derivatives by de Boor's recursion.
 
-        Parameters
-        ----------
-        x : ndarray, shape (…)
-            Values of the parameter [rad].
-
-        Returns
-        -------
-        tuple of ndarray, shape (…, 2)
-            [m], [m/rad].
+        ``x`` (…): values of the parameter [rad] → [m], [m/rad], (…, 2).
         """
         k, t = self.degree, self.knots
         span = np.clip(np.searchsorted(t, x, "right") - 1, k, len(self.controls) - 1)
@@ -108,17 +90,10 @@ class Spline:
 
 @dataclass(frozen=True)
 class EvaluatedSpline:
-    """A closed path in pieces, by whatever evaluates it.
+    """A closed path in pieces, by whatever evaluates it."""
 
-    Attributes
-    ----------
-    cuts : ndarray, shape (n + 1,)
-        Ends of the pieces, in the parameter of the path.
-    values : callable
-        From parameters of any shape to places [m] and first derivatives, (…, 2) each.
-    """
-
-    cuts: Floats
+    cuts: Floats  # (n + 1,): ends of the pieces, in the parameter of the path
+    # From parameters of any shape to places [m] and first derivatives, (…, 2) each.
     values: Callable[[Floats], tuple[Floats, Floats]]
 
     @cached_property
@@ -134,17 +109,8 @@ class EvaluatedSpline:
     def distances(self, which: Whole, places: Floats) -> Floats:
         """Distance of places from pieces, by Gauss–Newton from the nearest of samples.
 
-        Parameters
-        ----------
-        which : ndarray, shape (k,)
-            Numbers of pieces.
-        places : ndarray, shape (k, m, 2)
-            For each its places [m].
-
-        Returns
-        -------
-        ndarray, shape (k, m)
-            Never too small [m].
+        ``which`` (k,): numbers of pieces; ``places`` (k, m, 2): for each its places [m] → never too small
+        [m], (k, m).
         """
         low, high = self.cuts[which][:, None], self.cuts[which + 1][:, None]
         samples = low + (high - low) * np.linspace(0, 1, _SAMPLES)
@@ -171,29 +137,7 @@ _SMOOTH = 1e-9
 
 
 def spline(track: Track, tolerance: float, degree: int = 5) -> Spline:
-    """Approximate a curve by a B-spline.
-
-    Parameters
-    ----------
-    track : Track
-        The curve.
-    tolerance : float
-        Largest distance from the curve [m].
-    degree : int
-        5, with the curvature of the curve at the knots, or 3, with its tangents.
-
-    Returns
-    -------
-    Spline
-        With the cam angle as parameter; as few pieces as equal errors give.
-
-    Raises
-    ------
-    InputError
-        Another degree.
-    ConvergenceError
-        The tolerance asks for too many pieces.
-    """
+    """Approximate a curve by a B-spline. ``tolerance``: largest distance from the curve [m]."""
     if degree not in (3, 5):
         raise InputError(f"degree {degree} of a spline: expected 3 or 5")
     cuts = [_cuts(part, tolerance, degree) for part in track.parts]

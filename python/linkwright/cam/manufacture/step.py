@@ -43,26 +43,7 @@ def _kernel(module: str) -> Any:
 
 
 def write_step(file: File, name: str, path: Spline, width: float) -> None:
-    """Write a solid as STEP.
-
-    Parameters
-    ----------
-    file : path
-        The file; replaced if it exists.
-    name : str
-        Of the part.
-    path : Spline
-        Its outline.
-    width : float
-        Its width [m].
-
-    Raises
-    ------
-    InputError
-        The kernel is not installed.
-    ExchangeError
-        It does not make a solid of the outline, or does not write the file.
-    """
+    """Write a solid as STEP. ``width``: its width [m]."""
     build, static = _kernel("BRepBuilderAPI"), _kernel("Interface").Interface_Static
     wire = build.BRepBuilderAPI_MakeWire()
     wire.Add(_edge(path))
@@ -106,27 +87,7 @@ def _filled(kind: Any, values: list[Any]) -> Any:
 
 
 def read_step(file: File, sense: int) -> FileOutline:
-    """Read the outline of a solid from a STEP file: that of its lower face.
-
-    Parameters
-    ----------
-    file : path
-        The file.
-    sense : int
-        1 to follow it counter-clockwise, −1 clockwise.
-
-    Returns
-    -------
-    FileOutline
-        Its outline.
-
-    Raises
-    ------
-    InputError
-        The kernel is not installed.
-    ExchangeError
-        The file cannot be read, or holds no solid on the plane z = 0.
-    """
+    """Read the outline of a solid from a STEP file: that of its lower face."""
     reader = _kernel("STEPControl").STEPControl_Reader()
     done = _kernel("IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone
     if reader.ReadFile(str(file)) != done or not reader.TransferRoots():

@@ -42,17 +42,7 @@ _ARGUMENTS = {"M": 2, "L": 2, "A": 7, "Z": 0}
 
 
 def write_svg(file: File, drawing: Drawing, paths: Mapping[str, Outline]) -> None:
-    """Write a drawing as SVG.
-
-    Parameters
-    ----------
-    file : path
-        The file; replaced if it exists.
-    drawing : Drawing
-        What is drawn.
-    paths : mapping of str to Outline
-        Layer → its outline.
-    """
+    """Write a drawing as SVG."""
     r = 1e3 * drawing.radius * _SPACE
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{2 * r!r}mm" height="{2 * r!r}mm" '
@@ -73,18 +63,7 @@ def _element(layer: str, data: str) -> str:
 
 
 def path_data(outline: Outline) -> str:
-    """Path data of an outline, in millimetres with y down.
-
-    Parameters
-    ----------
-    outline : Outline
-        Arcs and lines.
-
-    Returns
-    -------
-    str
-        ``M … A … L … Z``; numbers that read back exactly.
-    """
+    """Path data of an outline, in millimetres with y down."""
     corners = np.column_stack([1e3 * outline.vertices[:, 0], -1e3 * outline.vertices[:, 1]]).tolist()
     parts = [f"M {corners[0][0]!r} {corners[0][1]!r}"]
     sides = outline.sides
@@ -98,25 +77,7 @@ def path_data(outline: Outline) -> str:
 
 
 def read_svg(file: File, layers: tuple[str, ...]) -> dict[str, FileOutline]:
-    """Read the outlines of an SVG file.
-
-    Parameters
-    ----------
-    file : path
-        The file.
-    layers : tuple of str
-        Which to look for.
-
-    Returns
-    -------
-    dict of str to FileOutline
-        Layer → its outline.
-
-    Raises
-    ------
-    ExchangeError
-        The file is no SVG at true scale, or has no single closed path of that name.
-    """
+    """Read the outlines of an SVG file."""
     try:
         root = ElementTree.parse(file).getroot()
     except (OSError, ElementTree.ParseError) as error:

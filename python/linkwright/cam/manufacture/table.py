@@ -39,24 +39,12 @@ _ROUNDS = 6
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of an outline; the last is the first, one revolution on.
+    """Rows of an outline; the last is the first, one revolution on."""
 
-    Attributes
-    ----------
-    phi : ndarray, shape (n,)
-        Cam angle [rad].
-    place : ndarray, shape (n, 2)
-        [m].
-    polar_angle : ndarray, shape (n,)
-        Of the place, continuous [rad].
-    curvature : ndarray, shape (n,)
-        Positive where convex [1/m]; at a joint that of the stretch that follows.
-    """
-
-    phi: Floats
-    place: Floats
-    polar_angle: Floats
-    curvature: Floats
+    phi: Floats  # (n,): cam angle [rad]
+    place: Floats  # (n, 2): [m]
+    polar_angle: Floats  # (n,): of the place, continuous [rad]
+    curvature: Floats  # (n,): positive where convex [1/m]; at a joint that of the stretch that follows
 
     @property
     def radius(self) -> Floats:
@@ -67,26 +55,7 @@ class Table:
 def table(track: Track, step: float, by: By = "cam") -> Table:
     """Places of a curve at equal steps.
 
-    Parameters
-    ----------
-    track : Track
-        The curve.
-    step : float
-        Step of the angle; a whole number of them makes a revolution [rad].
-    by : {"cam", "polar"}
-        Which angle has the steps: that of the cam from 0, or that of the place from the x axis.
-
-    Returns
-    -------
-    Table
-        One row a step and one more, which closes it.
-
-    Raises
-    ------
-    InputError
-        The step does not divide the revolution.
-    ExchangeError
-        The curve is not a function of its polar angle.
+    ``step``: step of the angle; a whole number of them makes a revolution [rad].
     """
     n = _count(step)
     angles: Floats = np.arange(n + 1, dtype=float) * (2 * math.pi / n)
@@ -102,17 +71,7 @@ def table(track: Track, step: float, by: By = "cam") -> Table:
 def curvature(track: Track, tau: Floats) -> Floats:
     """Curvature of a curve, positive where convex.
 
-    Parameters
-    ----------
-    track : Track
-        The curve.
-    tau : ndarray, shape (n,)
-        Where; at a joint the stretch that follows counts [rad].
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        [1/m].
+    ``tau`` (n,): where; at a joint the stretch that follows counts [rad] → [1/m], (n,).
     """
     t, t2 = track.tangents(tau), track.seconds(tau)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -155,15 +114,7 @@ def _at_polar_angles(track: Track, angles: Floats) -> Floats:
 
 
 def write_csv(file: File, rows: Table) -> None:
-    """Write a table as CSV, with numbers that read back exactly.
-
-    Parameters
-    ----------
-    file : path
-        The file; replaced if it exists.
-    rows : Table
-        The table.
-    """
+    """Write a table as CSV, with numbers that read back exactly."""
     columns = np.column_stack(
         [
             np.degrees(rows.phi),
@@ -177,23 +128,7 @@ def write_csv(file: File, rows: Table) -> None:
 
 
 def read_csv(file: File) -> Table:
-    """Read a table, and check that its columns agree with one another and that it is closed.
-
-    Parameters
-    ----------
-    file : path
-        The file.
-
-    Returns
-    -------
-    Table
-        As written.
-
-    Raises
-    ------
-    ExchangeError
-        The file has other columns or units, no numbers, is open, or its polar and Cartesian columns differ.
-    """
+    """Read a table, and check that its columns agree with one another and that it is closed."""
     try:
         with file.open(encoding="utf-8", newline="") as stream:
             head, *body = list(csv.reader(stream))

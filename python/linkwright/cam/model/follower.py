@@ -19,22 +19,15 @@ if TYPE_CHECKING:
 
 
 class Sizes(NamedTuple):
-    """Dimensions of a cam as the core has them; each a number or an array over many cams.
+    """Dimensions of a cam as the core has them; each a number or an array over many cams."""
 
-    Attributes
-    ----------
-    base_radius, roller_radius, offset, distance, arm : float
-        [m]
-    tilt : float
-        [rad]
-    """
-
+    # base_radius, roller_radius, offset, distance, arm: [m].
     base_radius: Any
     roller_radius: Any
     offset: Any
     distance: Any
     arm: Any
-    tilt: Any
+    tilt: Any  # [rad]
 
 
 class TranslatingFollower(LinearDriver):
@@ -59,22 +52,7 @@ class OscillatingFollower(Crank):
 
 
 def sizes(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> Sizes:
-    """Dimensions of a cam with its follower.
-
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    points : Mapping of str to FixedPoint
-        The fixed points.
-    origin : str
-        Name of the point of a cam without a pivot.
-
-    Returns
-    -------
-    Sizes
-        In SI.
-    """
+    """Dimensions of a cam with its follower."""
     distance: Any = 0.0
     if cam.is_oscillating:
         dx, dy = to_arm_pivot(cam, points, origin)
@@ -84,43 +62,14 @@ def sizes(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> Size
 
 
 def to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> tuple[Any, Any]:
-    """From the cam's centre to the follower's pivot.
-
-    Parameters
-    ----------
-    cam : Cam
-        A cam with an oscillating follower.
-    points : Mapping of str to FixedPoint
-        The fixed points.
-    origin : str
-        Name of the point of a cam without a pivot.
-
-    Returns
-    -------
-    x, y : float or ndarray, shape (rows,)
-        [m].
-    """
+    """From the cam's centre to the follower's pivot, (rows,) [m]."""
     centre, pivot = points.get(cam.pivot or origin), points[cam.arm_pivot or ""]
     x, y = (0.0, 0.0) if centre is None else (centre.x, centre.y)
     return pivot.x - x, pivot.y - y
 
 
 def start_of(cam: Cam, size: Sizes) -> Any:
-    """Place of the follower at zero lift; NaN where there is none.
-
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    size : Sizes
-        Its dimensions.
-
-    Returns
-    -------
-    float or ndarray
-        From the cam's centre along the follower's line [m], or angle of the arm from the line between the
-        pivots [rad].
-    """
+    """Place of the follower at zero lift; NaN where there is none [m or rad]."""
     prime = size.base_radius + size.roller_radius
     with np.errstate(invalid="ignore", divide="ignore"):
         if cam.is_oscillating:

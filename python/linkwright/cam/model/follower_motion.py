@@ -45,19 +45,8 @@ if TYPE_CHECKING:
 def polydyne_correction(wanted: MotionLaw, slow: float, damping_ratio: float) -> MotionLaw:
     """What the lift is more than the wanted motion, both at the mass: κs − x.
 
-    Parameters
-    ----------
-    wanted : MotionLaw
-        x over the cam angle [m over rad].
-    slow : float
-        ω/Ω, speed of the cam over the natural frequency [–].
-    damping_ratio : float
-        ζ_f of the damper to the frame [–].
-
-    Returns
-    -------
-    MotionLaw
-        Over the cam angle [m over rad].
+    ``wanted``: x over the cam angle [m over rad]; ``slow``: ω/Ω, speed of the cam over the natural frequency
+    [–]; ``damping_ratio``: ζ_f of the damper to the frame [–] → over the cam angle [m over rad].
     """
     return combined((2 * damping_ratio * slow, wanted.derivative(1)), (slow**2, wanted.derivative(2)))
 
@@ -65,21 +54,7 @@ def polydyne_correction(wanted: MotionLaw, slow: float, damping_ratio: float) ->
 def polydyne_lift(wanted: MotionLaw, slow: float, damping_ratio: float, share: float) -> MotionLaw:
     """The lift.
 
-    Parameters
-    ----------
-    wanted : MotionLaw
-        x over the cam angle [m over rad].
-    slow : float
-        ω/Ω, speed of the cam over the natural frequency [–].
-    damping_ratio : float
-        ζ_f of the damper to the frame [–].
-    share : float
-        κ = k/(k + k_r) [–].
-
-    Returns
-    -------
-    MotionLaw
-        s over the cam angle [m over rad].
+    ``wanted`` [m over rad]; ``slow`` [–]; ``damping_ratio`` [–]; ``share`` [–] → [m over rad].
     """
     correction = polydyne_correction(wanted, slow, damping_ratio)
     return combined((1.0, wanted), (1.0, correction)).scaled(1 / share)
@@ -118,15 +93,7 @@ class FollowerTrain(CheckedDescription):
     def lift_for(self, wanted: MotionLaw) -> MotionLaw:
         """The lift that makes the mass move by a law at the polydyne speed.
 
-        Parameters
-        ----------
-        wanted : MotionLaw
-            x over the cam angle [m over rad].
-
-        Returns
-        -------
-        MotionLaw
-            s, see `linkwright.cam.model.follower_motion`; the law itself without a polydyne speed.
+        ``wanted``: x over the cam angle [m over rad].
         """
 
         if self.polydyne_speed is None:
@@ -206,22 +173,7 @@ class FollowerMotion:
 def follower_motion(
     sections: tuple[MotionSection, ...], family: Family, train: FollowerTrain | None = None
 ) -> FollowerMotion:
-    """The motion of some sections; the same as before for the same tuple.
-
-    Parameters
-    ----------
-    sections : tuple of MotionSection
-        Without faults.
-    family : {"lift", "swing"}
-        What the follower does.
-    train : FollowerTrain or None
-        What vibrates behind the cam.
-
-    Returns
-    -------
-    FollowerMotion
-        Programme, lift and peaks.
-    """
+    """The motion of some sections; the same as before for the same tuple."""
     key = (id(sections), family, id(train))
     if key not in _known:
         if len(_known) >= _KNOWN_MAX:

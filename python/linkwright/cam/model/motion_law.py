@@ -59,39 +59,11 @@ class Law(CheckedDescription):
     """What all laws have in common."""
 
     def own_lift(self, angle: float, *, swing: bool) -> float | None:
-        """The lift that the law says itself [m or rad].
-
-        Parameters
-        ----------
-        angle : float
-            Of the section [rad].
-        swing : bool
-            Whether the follower swings.
-        """
+        """The lift that the law says itself [m or rad]. ``angle``: of the section [rad]."""
         return None
 
     def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
-        """The law of a section.
-
-        Parameters
-        ----------
-        task : Boundary
-            What the section has to do.
-        angle : float
-            Of the section [rad].
-        swing : bool
-            Whether the follower swings.
-
-        Returns
-        -------
-        MotionLaw
-            x(z) from 0 to 1, beginning with 0.
-
-        Raises
-        ------
-        LawError
-            The law cannot meet these boundary values.
-        """
+        """The law of a section. ``angle``: of the section [rad]."""
         from linkwright.cam.laws.catalogue import LAWS
 
         name: str = getattr(self, "kind")  # noqa: B009

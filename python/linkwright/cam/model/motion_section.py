@@ -124,36 +124,12 @@ class MotionSection(Description):
         return isinstance(self.law, PlainLaw) and self.law.kind == "constant_velocity"
 
     def end(self, name: str, family: Family) -> float | None:
-        """A derivative at an end.
-
-        Parameters
-        ----------
-        name : str
-            One of `ENDS`.
-        family : {"lift", "swing"}
-            What the follower does.
-
-        Returns
-        -------
-        float or None
-            By the cam angle [m/rad, m/rad², or –, 1/rad].
-        """
+        """A derivative at an end [m/rad, m/rad², or –, 1/rad]."""
         value: float | None = getattr(self, key_of(name, family))
         return value
 
     def change(self, family: Family) -> float | None:
-        """How far the section goes.
-
-        Parameters
-        ----------
-        family : {"lift", "swing"}
-            What the follower does.
-
-        Returns
-        -------
-        float or None
-            [m or rad]; None if nothing says it.
-        """
+        """How far the section goes [m or rad]."""
         given: float | None = getattr(self, family)
         if given is not None:
             return given
@@ -172,47 +148,14 @@ def key_of(name: str, family: Family) -> str:
 
 
 def programme(sections: Sequence[MotionSection], expected: Family = "lift") -> Programme:
-    """The motion that sections describe.
-
-    Parameters
-    ----------
-    sections : sequence of MotionSection
-        Without faults.
-    expected : {"lift", "swing"}
-        What the follower does.
-
-    Returns
-    -------
-    Programme
-        Over one revolution of the cam.
-
-    Raises
-    ------
-    InputError
-        The sections do not close.
-    LawError
-        A law cannot meet its boundary values.
-    """
+    """The motion that sections describe."""
     from linkwright.cam.laws.programme import programme as joined
 
     return joined([stretch(each, expected) for each in sections])
 
 
 def stretch(section: MotionSection, family: Family) -> Section:
-    """One section as mathematics.
-
-    Parameters
-    ----------
-    section : MotionSection
-        The section.
-    family : {"lift", "swing"}
-        What the follower does.
-
-    Returns
-    -------
-    Section
-        What it does, by the cam angle.
-    """
+    """One section as mathematics."""
     from linkwright.cam.laws.programme import Section
 
     if section.is_dwell:

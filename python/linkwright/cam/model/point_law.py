@@ -55,7 +55,7 @@ class PointLaw(Law):
             yield from curve_faults(self, "angle", ("lift", "swing"))
 
     def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
-        from linkwright.cam.laws.polynomial import spline
+        from linkwright.cam.laws.spline import spline
 
         values = self._values(swing)
         if values is None:

@@ -20,22 +20,7 @@ _SAME = 1e-9
 def section_faults(
     sections: Sequence[MotionSection], expected: Family = "lift", key: str = "sections"
 ) -> Iterator[InitErrorDetails]:
-    """What is wrong with the sections of a programme.
-
-    Parameters
-    ----------
-    sections : sequence of MotionSection
-        In their order.
-    expected : {"lift", "swing"}
-        What the follower does: it moves along a guide, or swings.
-    key : str
-        Key of the list of sections, from the description that reports them.
-
-    Yields
-    ------
-    InitErrorDetails
-        Each at its section and its entry. What needs the programme to close is only asked once it does.
-    """
+    """What is wrong with the sections of a programme."""
     if not sections:
         yield fault(key, found="an empty list", expected="at least one section")
         return

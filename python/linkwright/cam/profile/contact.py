@@ -48,46 +48,22 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Contact:
-    """A follower that touches a cam.
+    """A follower that touches a cam."""
 
-    Attributes
-    ----------
-    name : str
-        ``"cam"``, or ``"second cam"`` for the second of two contacts.
-    law : MotionLaw
-        Lift over the cam angle, minimum value zero [m or rad].
-    sizes : Sizes
-        Dimensions.
-    kernel : CamKernel
-        The same in the core.
-    start : float
-        Place of the follower at zero lift: from the cam's centre [m], or angle of the arm [rad].
-    turned : float
-        Angle of the contact's frame against that of the first [rad].
-    """
-
-    name: str
-    law: MotionLaw
+    name: str  # ``"cam"``, or ``"second cam"`` for the second of two contacts
+    law: MotionLaw  # lift over the cam angle, minimum value zero [m or rad]
     sizes: Sizes
-    kernel: CamKernel
-    start: float
-    turned: float = 0.0
+    kernel: CamKernel  # the same in the core
+    start: float  # place of the follower at zero lift: from the cam's centre [m], or angle of the arm [rad]
+    turned: float = 0.0  # angle of the contact's frame against that of the first [rad]
 
 
 @dataclass(frozen=True)
 class CamCurve:
-    """A closed curve beside the pitch curve, in its contact's frame.
-
-    Attributes
-    ----------
-    contact : Contact
-        The contact.
-    away : float
-        Distance from the pitch curve, outwards [m].
-    """
+    """A closed curve beside the pitch curve, in its contact's frame."""
 
     contact: Contact
-    away: float
+    away: float  # distance from the pitch curve, outwards [m]
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -95,54 +71,15 @@ class CamCurve:
         return self.contact.law.breaks
 
     def points(self, phi: Floats, side: Side = "after") -> Floats:
-        """Places.
-
-        Parameters
-        ----------
-        phi : ndarray, shape (n,)
-            Cam angles from the start of the programme [rad].
-        side : {"after", "before"}
-            What counts at a joint.
-
-        Returns
-        -------
-        ndarray, shape (n, 2)
-            [m].
-        """
+        """Places. ``phi`` (n,): cam angles from the start of the programme [rad] → [m], (n, 2)."""
         return self._of(0, phi, side)
 
     def tangents(self, phi: Floats, side: Side = "after") -> Floats:
-        """First derivatives by the cam angle.
-
-        Parameters
-        ----------
-        phi : ndarray, shape (n,)
-            Cam angles [rad].
-        side : {"after", "before"}
-            What counts at a joint.
-
-        Returns
-        -------
-        ndarray, shape (n, 2)
-            [m/rad].
-        """
+        """First derivatives by the cam angle. ``phi`` (n,): cam angles [rad] → [m/rad], (n, 2)."""
         return self._of(1, phi, side)
 
     def seconds(self, phi: Floats, side: Side = "after") -> Floats:
-        """Second derivatives by the cam angle.
-
-        Parameters
-        ----------
-        phi : ndarray, shape (n,)
-            Cam angles [rad].
-        side : {"after", "before"}
-            What counts at a joint.
-
-        Returns
-        -------
-        ndarray, shape (n, 2)
-            [m/rad²].
-        """
+        """Second derivatives by the cam angle. ``phi`` (n,): cam angles [rad] → [m/rad²], (n, 2)."""
         return self._of(2, phi, side)
 
     def _of(self, order: int, phi: Floats, side: Side) -> Floats:
@@ -151,18 +88,10 @@ class CamCurve:
 
 
 class Touch(NamedTuple):
-    """Where a follower touches its cam, in the ground's frame.
+    """Where a follower touches its cam, in the ground's frame."""
 
-    Attributes
-    ----------
-    pitch : ndarray, shape (n, 2)
-        Centre of the roller, the edge, or the point of contact under a flat face [m].
-    normal : ndarray, shape (n, 2)
-        Unit normal away from the cam: the way the cam pushes.
-    """
-
-    pitch: Floats
-    normal: Floats
+    pitch: Floats  # (n, 2): centre of the roller, the edge, or the point of contact under a flat face [m]
+    normal: Floats  # (n, 2): unit normal away from the cam: the way the cam pushes
 
 
 def touch(cam: Cam, contact: Contact, points: dict[str, FixedPoint], crank_angle: Floats) -> Touch:
@@ -211,20 +140,7 @@ def centre_of(cam: Cam, points: dict[str, FixedPoint]) -> tuple[float, float]:
 
 
 def frame_angle(cam: Cam, points: dict[str, FixedPoint]) -> float:
-    """Direction of the first contact's x axis on the ground.
-
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    points : dict of str to FixedPoint
-        The fixed points of its mechanism.
-
-    Returns
-    -------
-    float
-        Of a translating follower's line, or of the line from the cam's centre to the follower's pivot [rad].
-    """
+    """Direction of the first contact's x axis on the ground [rad]."""
     if not cam.is_oscillating:
         return float(cam.direction)
     return float(np.arctan2(*to_arm_pivot(cam, points)[::-1]))
@@ -336,20 +252,10 @@ _CONSTANT = 1e-12
 
 @dataclass(frozen=True)
 class Opposite:
-    """The diameter of a cam between two followers.
+    """The diameter of a cam between two followers."""
 
-    Attributes
-    ----------
-    breadth : float
-        Distance of the followers [m].
-    diameter : MotionLaw
-        Distance of two followers that touch the cam, over half a revolution [m].
-    least, greatest : Extreme
-        Its extremes.
-    """
-
-    breadth: float
-    diameter: MotionLaw
+    breadth: float  # distance of the followers [m]
+    diameter: MotionLaw  # distance of two followers that touch the cam, over half a revolution [m]
     least: Extreme
     greatest: Extreme
 
@@ -361,20 +267,7 @@ class Opposite:
 
 
 def opposite(cam: Cam, contact: Contact) -> Opposite:
-    """The diameter over the revolution, with its extremes located exactly.
-
-    Parameters
-    ----------
-    cam : Cam
-        A cam between two followers.
-    contact : Contact
-        The first of them.
-
-    Returns
-    -------
-    Opposite
-        Breadth and diameter.
-    """
+    """The diameter over the revolution, with its extremes located exactly."""
     factor = 1.0 if cam.is_roller else float(np.cos(cam.face_tilt))
     place = contact.law.scaled(factor, contact.start * factor)
     both = combined((1.0, place), (1.0, place.shifted(np.pi)))

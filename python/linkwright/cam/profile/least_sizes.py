@@ -73,19 +73,7 @@ def base_for_pressure_angle(cam: Cam, contact: Contact, limit: float) -> float |
 def base_for_curvature(cam: Cam, contact: Contact, limit: float) -> float | None:
     """The smallest base radius whose convex parts have at least a radius of curvature.
 
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    contact : Contact
-        One of its contacts; all else stays as it is.
-    limit : float
-        Minimum radius of curvature of the profile [m].
-
-    Returns
-    -------
-    float or None
-        [m]; None if no base radius will do.
+    ``limit``: minimum radius of curvature of the profile [m] → [m]; None if no base radius will do.
     """
     if not contact.kernel.is_roller:
         return _first(
@@ -104,36 +92,12 @@ def base_for_curvature(cam: Cam, contact: Contact, limit: float) -> float | None
 
 
 def least_sound_base(cam: Cam, contact: Contact) -> float | None:
-    """The smallest base radius without undercut.
-
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    contact : Contact
-        One of its contacts; all else stays as it is.
-
-    Returns
-    -------
-    float or None
-        [m]; None if no base radius will do.
-    """
+    """The smallest base radius without undercut [m]."""
     return base_for_curvature(cam, contact, 0.0)
 
 
 def base_without_crossing(contact: Contact) -> float | None:
-    """The smallest base radius from the present one on whose profile does not cross itself.
-
-    Parameters
-    ----------
-    contact : Contact
-        A contact whose profile does.
-
-    Returns
-    -------
-    float or None
-        [m], to a thousandth, as the crossing is that of a polygon; None if no base radius will do.
-    """
+    """The smallest base radius from the present one on whose profile does not cross itself [m]."""
     low = high = contact.sizes.base_radius
     while _crosses(contact, high):
         low, high = high, 1.05 * high

@@ -18,23 +18,7 @@ _ROUNDING = 1e-9
 
 
 def steps(law: MotionLaw, order: int, ends: Ends) -> Floats:
-    """By how much a derivative jumps at each break.
-
-    Parameters
-    ----------
-    law : MotionLaw
-        The lift.
-    order : int
-        Of the derivative.
-    ends : {"dwell", "turn"}
-        Whether the follower dwells before and after, or the law repeats; then the jump from its end to its
-        start is given at the start, and the end has none.
-
-    Returns
-    -------
-    ndarray, shape (pieces + 1,)
-        What is rounding is zero.
-    """
+    """By how much a derivative jumps at each break, (pieces + 1,)."""
     first, last = float(law.at(law.start, order)), float(law.at(law.end, order, "before"))
     outer = [first - last, 0.0] if ends == "turn" else [first, -last]
     found = np.concatenate([outer[:1], law.jumps(order), outer[1:]])
@@ -45,42 +29,14 @@ def steps(law: MotionLaw, order: int, ends: Ends) -> Floats:
 
 
 def size(law: MotionLaw, order: int) -> float:
-    """How large a derivative becomes, by itself or by what it would be for so much lift.
-
-    Parameters
-    ----------
-    law : MotionLaw
-        The lift.
-    order : int
-        Of the derivative.
-
-    Returns
-    -------
-    float
-        In the unit of the derivative.
-    """
+    """How large a derivative becomes, by itself or by what it would be for so much lift."""
     places = np.linspace(law.start, law.end, 65)
     heights = [float(np.ptp(law.at(places))) / law.length**order, float(np.abs(law.at(places, order)).max())]
     return max(heights)
 
 
 def continuity(law: MotionLaw, ends: Ends, most: int = 6) -> int:
-    """The highest order up to which the law and all its derivatives have no jump.
-
-    Parameters
-    ----------
-    law : MotionLaw
-        The lift.
-    ends : {"dwell", "turn"}
-        What comes before and after it.
-    most : int
-        Highest order looked at.
-
-    Returns
-    -------
-    int
-        −1 if the law itself jumps.
-    """
+    """The highest order up to which the law and all its derivatives have no jump."""
     for order in range(most + 1):
         if steps(law, order, ends).any():
             return order - 1
@@ -88,20 +44,7 @@ def continuity(law: MotionLaw, ends: Ends, most: int = 6) -> int:
 
 
 def without_steps(law: MotionLaw, ends: Ends) -> None:
-    """Raise if the lift itself jumps.
-
-    Parameters
-    ----------
-    law : MotionLaw
-        The lift.
-    ends : {"dwell", "turn"}
-        What comes before and after it.
-
-    Raises
-    ------
-    InputError
-        It does, or a law that should repeat is not one revolution long.
-    """
+    """Raise if the lift itself jumps."""
     if ends == "turn" and abs(law.length - 2 * np.pi) > 1e-9:
         raise InputError(
             f"lift: found a law over {law.length:.9g} rad, expected one revolution, {2 * np.pi:.9g} rad"

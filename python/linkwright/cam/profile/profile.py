@@ -302,21 +302,7 @@ def cam_profile(machine: Machine, name: str | None = None, *, n: int = ANGLES) -
 
 
 def profile_of(name: str, cam: Cam, touching: tuple[Contact, ...], speed: float | None, n: int) -> CamProfile:
-    """The same from contacts.
-
-    Parameters
-    ----------
-    name : str
-        The cam's name.
-    cam : Cam
-        The cam.
-    touching : tuple of Contact
-        Its contacts.
-    speed : float or None
-        Design speed [rad/s].
-    n : int
-        Cam angles per revolution.
-    """
+    """The same from contacts. ``speed``: design speed [rad/s]."""
     flanks = tuple(_flank(contact, n) for contact in touching)
     first = flanks[0]
     rows, size = first.shape.rows, first.contact.sizes

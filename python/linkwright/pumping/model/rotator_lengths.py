@@ -58,14 +58,9 @@ _CLOSE = 1e-14
 
 
 class Lengths(NamedTuple):
-    """Lengths of a rotator.
+    """Lengths of a rotator."""
 
-    Attributes
-    ----------
-    link, lever : float
-        l_4 and l_5 [m].
-    """
-
+    # link, lever: l_4 and l_5 [m].
     link: Any
     lever: Any
 
@@ -73,19 +68,8 @@ class Lengths(NamedTuple):
 def diagonal(unit: PumpingUnit, rotator: RodRotator, front: Any) -> tuple[Any, Any]:
     """Distance from the pin to the hanger along x, and the hanger below the pin.
 
-    Parameters
-    ----------
-    unit : PumpingUnit
-        The unit.
-    rotator : RodRotator
-        The rotator.
-    front : float or ndarray, shape (n,)
-        Angle of the front arm above the horizontal [rad].
-
-    Returns
-    -------
-    tuple
-        l_dx and l_dy of paper 4 [m]; x points to the well.
+    ``front`` (n,): angle of the front arm above the horizontal [rad] → l_dx and l_dy of paper 4 [m]; x points
+    to the well.
     """
     top = unit.front_angle(unit.psi_top)
     l_3 = rotator.pin_distance
@@ -101,25 +85,7 @@ def diagonal_extremes(unit: PumpingUnit, rotator: RodRotator) -> tuple[Any, Any]
 
 
 def lengths(unit: PumpingUnit, rotator: RodRotator) -> Lengths:
-    """Link and lever, given or made for the unit and the regime.
-
-    Parameters
-    ----------
-    unit : PumpingUnit
-        The unit; its numbers, and the rotator's, may be arrays over many machines.
-    rotator : RodRotator
-        The rotator.
-
-    Returns
-    -------
-    Lengths
-        l_4 and l_5, above zero [m]; NaN in the rows of a batch that have none.
-
-    Raises
-    ------
-    AssemblyError
-        No lengths do what is wanted; says which swings can be had.
-    """
+    """Link and lever, given or made for the unit and the regime [m]."""
     if rotator.link_length is not None:
         return Lengths(rotator.link_length, rotator.lever_length)
     m, M = diagonal_extremes(unit, rotator)
@@ -197,18 +163,10 @@ def _range(spread: Any) -> tuple[float, float]:
 
 
 class _Stroke(NamedTuple):
-    """Places over the stroke from bottom to top, (rows, places).
+    """Places over the stroke from bottom to top, (rows, places)."""
 
-    Attributes
-    ----------
-    distance : ndarray
-        l_d [m].
-    lean : ndarray
-        Angle of the diagonal, in the sense in which the lever turns away from it [rad].
-    """
-
-    distance: Any
-    lean: Any
+    distance: Any  # l_d [m]
+    lean: Any  # angle of the diagonal, in the sense in which the lever turns away from it [rad]
 
     @classmethod
     def of(cls, unit: PumpingUnit, rotator: RodRotator) -> _Stroke:
@@ -258,9 +216,7 @@ class _Stroke(NamedTuple):
 def _false_position(function: Callable[[Any], Any], low: Any, high: Any) -> Any:
     """Root between two places in each row, (rows, 1), by the false position in the Illinois form.
 
-    References
-    ----------
-    .. [1] Dowell, Jarratt, A modified regula falsi method, BIT 11 (1971) 168–174.
+    Source: Dowell, Jarratt, A modified regula falsi method, BIT 11 (1971) 168–174.
     """
     at_low, at_high = function(low), function(high)
     middle = high

@@ -201,21 +201,11 @@ class PumpingUnit(Description):
 
 
 class Rating(NamedTuple):
-    """What the designation of a unit says.
+    """What the designation of a unit says."""
 
-    Attributes
-    ----------
-    torque : float
-        Peak torque of the gearbox [N m].
-    load : float
-        Maximum load of the polished rod [N].
-    stroke : float
-        Longest nominal stroke [m].
-    """
-
-    torque: float
-    load: float
-    stroke: float
+    torque: float  # peak torque of the gearbox [N m]
+    load: float  # maximum load of the polished rod [N]
+    stroke: float  # longest nominal stroke [m]
 
 
 # Type, gear rating with D for double reduction, load, stroke; makers put further letters before the numbers.

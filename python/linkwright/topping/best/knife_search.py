@@ -39,16 +39,7 @@ def _is_moved(topper: Topper) -> bool:
 class KnifeGrid:
     """Knives within bounds, of which the shortest or the fastest is sought.
 
-    Parameters
-    ----------
-    trials : Trials
-        Looks at each.
-    length_max : float
-        Maximum length of the edge [m].
-    objective : str
-        ``"shortest"`` or ``"fastest"``, for what is reported of the progress.
-    watch : callable or None
-        Told how much is done, from 0 to 1.
+    ``length_max``: maximum length of the edge [m].
     """
 
     def __init__(self, trials: Trials, length_max: float, objective: str, watch: Watch | None) -> None:
@@ -68,19 +59,8 @@ class KnifeGrid:
     ) -> list[list[Trial]]:
         """All knives of a grid.
 
-        Parameters
-        ----------
-        forward_speed : float
-            v [m/s].
-        numbers : tuple of int
-            Angles, and knife speeds.
-        low, high : ndarray, shape (2,)
-            Ends of both [rad, m/s]; one value where they are the same.
-
-        Returns
-        -------
-        list of list of Trial
-            A list for each angle.
+        ``forward_speed``: v [m/s]; ``low``, ``high`` (2,): ends of both [rad, m/s]; one value where they are
+        the same.
         """
         axes = [
             np.linspace(a, b, n if b > a else 1).tolist() for a, b, n in zip(low, high, numbers, strict=True)
@@ -90,36 +70,14 @@ class KnifeGrid:
     def shortest(self, forward_speed: float, first: Sequence[Trial] | None = None) -> Trial:
         """The knife of the shortest edge; the one nearest to the draw-cut asked for if all lack it.
 
-        Parameters
-        ----------
-        forward_speed : float
-            v [m/s].
-        first : sequence of Trial, optional
-            Of the whole grid; without it, a coarse one is made.
-
-        Returns
-        -------
-        Trial
-            The best that was found.
+        ``forward_speed``: v [m/s].
         """
         if first is None:
             first = _listed(self.grid(forward_speed, _COARSE, self.low, self.high))
         return self._about(min(first, key=self._order), _ROUNDS)
 
     def settled(self, chosen: Trial) -> Trial:
-        """The best about a knife that was found with a part of the roots.
-
-        Parameters
-        ----------
-        chosen : Trial
-            That knife; where it cannot be had at its forward speed, and the fastest is sought, a slower one
-            is taken.
-
-        Returns
-        -------
-        Trial
-            The knife over all roots.
-        """
+        """The best about a knife that was found with a part of the roots."""
         best = self._settled(chosen, chosen.forward_speed)
         slow = max(self.speeds[0], chosen.forward_speed - (self.speeds[1] - self.speeds[0]) / (_SPEEDS - 1))
         if not self.is_fastest or self.keeps(best) or slow >= chosen.forward_speed:
@@ -168,13 +126,7 @@ class KnifeGrid:
         return best
 
     def keeps(self, trial: Trial) -> bool:
-        """Whether a knife keeps all limits.
-
-        Parameters
-        ----------
-        trial : Trial
-            The knife.
-        """
+        """Whether a knife keeps all limits."""
         long_enough = math.isfinite(trial.length) and trial.length <= self.length_max
         return long_enough and trial.lack(self._slicing) == 0
 

@@ -31,26 +31,16 @@ _HALVINGS = 14
 
 @dataclass(frozen=True)
 class Trial:
-    """A knife that was looked at.
+    """A knife that was looked at."""
 
-    Attributes
-    ----------
-    edge_angle : float
-        α [rad].
-    knife_speed, forward_speed : float
-        v_h and v [m/s].
-    length : float
-        Minimum edge that keeps the limits of heads and haulm [m]; infinite if none does, NaN if it runs
-        backwards at times.
-    slicing : float
-        Mean draw-cut ratio [–]; NaN likewise.
-    """
-
-    edge_angle: float
+    edge_angle: float  # α [rad]
+    # knife_speed, forward_speed: v_h and v [m/s].
     knife_speed: float
     forward_speed: float
+    # Minimum edge that keeps the limits of heads and haulm [m]; infinite if none does, NaN if it runs
+    # backwards at times.
     length: float
-    slicing: float
+    slicing: float  # mean draw-cut ratio [–]; NaN likewise
 
     @property
     def retreats(self) -> bool:
@@ -58,35 +48,12 @@ class Trial:
         return math.isnan(self.slicing)
 
     def lack(self, slicing_min: float | None) -> float:
-        """How much the draw-cut ratio lacks.
-
-        Parameters
-        ----------
-        slicing_min : float or None
-            What is asked for.
-
-        Returns
-        -------
-        float
-            Zero if it is enough, infinite for an edge that runs backwards.
-        """
+        """How much the draw-cut ratio lacks."""
         return math.inf if self.retreats else max(0.0, (slicing_min or 0.0) - self.slicing)
 
 
 class Trials:
-    """Knives over the same roots.
-
-    Parameters
-    ----------
-    machine : Machine
-        What may move the knife.
-    topper : Topper
-        With its limits.
-    roots : Roots
-        What all of them meet.
-    count : int
-        Knives that were looked at before.
-    """
+    """Knives over the same roots."""
 
     def __init__(self, machine: Machine, topper: Topper, roots: Roots, count: int = 0) -> None:
         self.topper, self.roots, self.count = topper, roots, count
@@ -96,12 +63,7 @@ class Trials:
     def edges(self, angle: float, knife_speed: float, forward_speed: float) -> list[Edge]:
         """An edge, in one or two directions.
 
-        Parameters
-        ----------
-        angle : float
-            α [rad].
-        knife_speed, forward_speed : float
-            v_h and v [m/s].
+        ``angle``: α [rad]; ``knife_speed``, ``forward_speed``: v_h and v [m/s].
         """
         if knife_speed not in self._knives:
             changed = self.topper.with_entries({"knife_speed": knife_speed})
@@ -111,15 +73,7 @@ class Trials:
         return [Edge(knife, angle, forward_speed) for knife in self._knives[knife_speed]]
 
     def at(self, angle: float, knife_speed: float, forward_speed: float) -> Trial:
-        """Look at a knife.
-
-        Parameters
-        ----------
-        angle : float
-            α [rad].
-        knife_speed, forward_speed : float
-            v_h and v [m/s].
-        """
+        """Look at a knife. ``angle``: α [rad]; ``knife_speed``, ``forward_speed``: v_h and v [m/s]."""
         self.count += 1
         edges = self.edges(angle, knife_speed, forward_speed)
         if any(edge.retreats for edge in edges):
@@ -128,13 +82,7 @@ class Trials:
         return Trial(angle, knife_speed, forward_speed, length, slicing(edges).ratio_mean)
 
     def length(self, edges: list[Edge]) -> float:
-        """Minimum edge for the share of heads, and for the haulm that may be left [m].
-
-        Parameters
-        ----------
-        edges : list of Edge
-            In one or two directions.
-        """
+        """Minimum edge for the share of heads, and for the haulm that may be left [m]."""
         limits = self.topper.limits
         needed = np.sort(pass_over(edges, self.roots).length_needed)
         enough = math.ceil(limits.complete_min * len(needed) - 1e-9) - 1
@@ -161,15 +109,7 @@ class Trials:
 
 
 def thinned(roots: Roots, most: int) -> Roots:
-    """Some of the roots, evenly among all of them.
-
-    Parameters
-    ----------
-    roots : Roots
-        All.
-    most : int
-        How many are enough.
-    """
+    """Some of the roots, evenly among all of them."""
     n = len(roots.start)
     if n <= most:
         return roots
@@ -201,16 +141,7 @@ class LimitFailure:
 def failing_limit(chosen: Trial, roots: Roots, limits: TopperLimits, length_max: float) -> LimitFailure:
     """The limit that the knife which comes closest does not keep.
 
-    Parameters
-    ----------
-    chosen : Trial
-        The knife.
-    roots : Roots
-        What it met.
-    limits : TopperLimits
-        What it should keep.
-    length_max : float
-        Maximum length of the edge [m].
+    ``length_max``: maximum length of the edge [m].
     """
     place = (
         f"α = {math.degrees(chosen.edge_angle):.4g}°, v_h = {chosen.knife_speed:.4g} m/s, "

@@ -45,18 +45,7 @@ _BINS = 60
 
 @styled
 def field_share_figure(found: TopperField) -> Figure:
-    """Draw the share of heads that are cut right through against the length of the edge.
-
-    Parameters
-    ----------
-    found : TopperField
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        The share with its interval, the edge, and the lengths for some shares.
-    """
+    """Draw the share of heads that are cut right through against the length of the edge."""
     figure, (axes,) = panels(1, height=3.8)
     length = 1e3 * found.length
     axes.fill_between(
@@ -92,18 +81,7 @@ def _edge(axes: Axes, length: float) -> None:
 
 @styled
 def field_length_figure(found: TopperField) -> Figure:
-    """Draw how the lengths that heads need are distributed.
-
-    Parameters
-    ----------
-    found : TopperField
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        A histogram of those that can be cut.
-    """
+    """Draw how the lengths that heads need are distributed."""
     figure, (axes,) = panels(1, height=3.0)
     finite = 1e3 * found.length_needed[np.isfinite(found.length_needed)]
     _histogram(axes, finite, found.n_roots)
@@ -127,20 +105,7 @@ def _histogram(axes: Axes, values: Floats, total: int) -> None:
 
 @styled
 def field_haulm_figure(found: TopperField, over: FieldSweep) -> Figure:
-    """Draw what is left of the heads against the length, and what the roots lose.
-
-    Parameters
-    ----------
-    found : TopperField
-        The field.
-    over : FieldSweep
-        The same over the length of the edge.
-
-    Returns
-    -------
-    Figure
-        Two panels.
-    """
+    """Draw what is left of the heads against the length, and what the roots lose."""
     figure, (left, lost) = panels(1, height=3.0, columns=2, shared=False)
     length = 1e3 * over.entries["edge_length"]
     left.fill_between(
@@ -174,18 +139,7 @@ _RIM = 0.05
 
 @styled
 def sweep_figure(swept: FieldSweep) -> Figure:
-    """Draw shares, haulm and lengths over one entry that varies.
-
-    Parameters
-    ----------
-    swept : FieldSweep
-        Over one entry.
-
-    Returns
-    -------
-    Figure
-        Two panels, and two below for what the length of the edge has no influence on.
-    """
+    """Draw shares, haulm and lengths over one entry that varies."""
     (name,) = swept.entries
     label, factor = AXES[name]
     x = factor * swept.entries[name]
@@ -226,18 +180,7 @@ def _drawable(values: Floats) -> Floats:
 
 @styled
 def sweep_map(swept: FieldSweep) -> Figure:
-    """Draw the share of heads and the length for 95 % of them over two entries that vary.
-
-    Parameters
-    ----------
-    swept : FieldSweep
-        Over two entries.
-
-    Returns
-    -------
-    Figure
-        Two maps.
-    """
+    """Draw the share of heads and the length for 95 % of them over two entries that vary."""
     figure, axes = panels(1, height=3.3, columns=2, shared=False)
     maps = (
         (100 * swept.share_complete, "heads cut right through [%]"),
@@ -281,18 +224,7 @@ def _drop_at_rim(axes: Axes, word: Any, at: tuple[Floats, Floats]) -> None:
 
 
 def sweep_figures(swept: FieldSweep) -> dict[str, Figure]:
-    """Figures of a sweep by name: curves over one entry, maps over two.
-
-    Parameters
-    ----------
-    swept : FieldSweep
-        What to draw.
-
-    Returns
-    -------
-    dict of str to Figure
-        None for a single variant.
-    """
+    """Figures of a sweep by name: curves over one entry, maps over two."""
     if len(swept.shape) == 1 and swept.shape[0] > 1:
         return {"sweep": sweep_figure(swept)}
     return {"sweep": sweep_map(swept)} if len(swept.shape) == 2 and min(swept.shape) > 1 else {}
@@ -300,18 +232,7 @@ def sweep_figures(swept: FieldSweep) -> dict[str, Figure]:
 
 @styled
 def best_knife_figure(found: KnifeSearch) -> Figure:
-    """Draw the minimum length over angle and speed of the knife, with the limits and the best.
-
-    Parameters
-    ----------
-    found : KnifeSearch
-        A search over several angles and speeds.
-
-    Returns
-    -------
-    Figure
-        A map; white where the edge runs backwards.
-    """
+    """Draw the minimum length over angle and speed of the knife, with the limits and the best."""
     figure, (axes,) = panels(1, height=4.0)
     at = (np.degrees(found.map_angle), found.map_speed)
     share = 100 * found.limits.complete_min

@@ -57,18 +57,7 @@ _FAR = 2.2
 
 @styled
 def length_chart_figure(chart: LengthChart) -> Figure:
-    """Draw lengths over root diameter and over knife speed: printed, consistent and exact side by side.
-
-    Parameters
-    ----------
-    chart : LengthChart
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Two rows of three panels with one scale; a line for each forward speed.
-    """
+    """Draw lengths over root diameter and over knife speed: printed, consistent and exact side by side."""
     figure, axes = panels(2, height=5.4, columns=3, shared=False)
     top = _top(chart)
     rows = (
@@ -114,18 +103,7 @@ def _top(chart: LengthChart) -> float:
 
 @styled
 def verdict_figure(chart: VerdictChart) -> Figure:
-    """Draw for which heads each way of computing gives lengths within the range that is claimed.
-
-    Parameters
-    ----------
-    chart : VerdictChart
-        What to draw.
-
-    Returns
-    -------
-    Figure
-        Bands over the angle, and offsets over the cut height at the machine's angle; dots for the machine.
-    """
+    """Draw for which heads each way of computing gives lengths within the range that is claimed."""
     figure, (bands, heads) = panels(1, height=3.9, columns=2)
     _bands(bands, chart)
     _heads(heads, chart)
@@ -180,19 +158,7 @@ _RATIO = 10.0
 def phase_figure(study: TopperStudy, edge_length: float, phase: float | None = None) -> Figure:
     """Draw the length that heads need over the phase of the knife; if the edge is short, what it leaves too.
 
-    Parameters
-    ----------
-    study : TopperStudy
-        What to draw.
-    edge_length : float
-        Of the edge [m].
-    phase : float, optional
-        The only phase in which heads come [rad].
-
-    Returns
-    -------
-    Figure
-        One panel, or two.
+    ``edge_length``: of the edge [m]; ``phase``: the only phase in which heads come [rad].
     """
     leaves = float(study.uncut_by_phase.max()) > NOTHING
     figure, axes = panels(2 if leaves else 1, height=5.2 if leaves else 3.4)
@@ -240,17 +206,8 @@ def _only(axes: Axes, phase: float | None) -> None:
 def slicing_figure(phases: Floats, ratio: Floats, speed: Floats) -> Figure:
     """Draw the draw-cut ratio and the cutting speed over the phase.
 
-    Parameters
-    ----------
-    phases : ndarray, shape (n,)
-        Of the knife [rad].
-    ratio, speed : ndarray, shape (n,)
-        Draw-cut ratio [–], NaN where the edge retreats, and speed against the head [m/s].
-
-    Returns
-    -------
-    Figure
-        Two panels.
+    ``phases`` (n,): of the knife [rad]; ``ratio``, ``speed`` (n,): draw-cut ratio [–], NaN where the edge
+    retreats, and speed against the head [m/s].
     """
     figure, axes = panels(2, height=4.0)
     degrees, drawn = np.degrees(phases), np.where(ratio < _RATIO, ratio, np.nan)
@@ -280,19 +237,8 @@ def slicing_figure(phases: Floats, ratio: Floats, speed: Floats) -> Figure:
 def edge_use_figure(place: Floats, use: Floats, edge_length: float, diameter: float) -> Figure:
     """Draw how much of a head each place of a long edge cuts.
 
-    Parameters
-    ----------
-    place : ndarray, shape (n,)
-        From the middle of the edge to its left end [m].
-    use : ndarray, shape (n,)
-        Way through a head on average [m].
-    edge_length, diameter : float
-        L and d [m].
-
-    Returns
-    -------
-    Figure
-        One panel; beyond the ends of the edge, what it does not cut is shaded.
+    ``place`` (n,): from the middle of the edge to its left end [m]; ``use`` (n,): way through a head on
+    average [m]; ``edge_length``, ``diameter``: L and d [m].
     """
     figure, (axes,) = panels(1, height=3.0)
     x, y, half = _MILLI * place, _MILLI * use, 0.5 * _MILLI * edge_length

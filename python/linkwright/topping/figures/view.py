@@ -42,19 +42,8 @@ def top_view_figure(
 ) -> Figure:
     """Draw the pass of an edge over a head from above, the row to the right.
 
-    Parameters
-    ----------
-    seen : HeadPass
-        The pass.
-    greatest_offset : float
-        Heads at this distance on both sides of the row are drawn lightly [m].
-    last : tuple of float, optional
-        The point that is reached last, x and y from the head's centre [m].
-
-    Returns
-    -------
-    Figure
-        One panel, to scale.
+    ``greatest_offset``: heads at this distance on both sides of the row are drawn lightly [m]; ``last``: the
+    point that is reached last, x and y from the head's centre [m].
     """
     figure, (axes,) = panels(1, height=5.2)
     shown = _shown(seen)

@@ -154,35 +154,14 @@ AnyField = Annotated[RandomField | MeasuredField, Field(discriminator="kind")]
 
 
 def even_offset(greatest: float) -> UniformScatter:
-    """Axes of roots evenly to both sides of the row.
-
-    Parameters
-    ----------
-    greatest : float
-        Δ [m].
-    """
+    """Axes of roots evenly to both sides of the row. ``greatest``: Δ [m]."""
     return UniformScatter(kind="uniform", least=-greatest, greatest=greatest)
 
 
 def field_faults(
     field: RandomField | MeasuredField, *, has_cycle: bool, phase: float | None
 ) -> Iterator[InitErrorDetails]:
-    """What is wrong between a field and the knife.
-
-    Parameters
-    ----------
-    field : RandomField or MeasuredField
-        The field.
-    has_cycle : bool
-        Whether the knife goes back and forth, or rests.
-    phase : float or None
-        Phase in which it meets all heads [rad].
-
-    Yields
-    ------
-    InitErrorDetails
-        Phases cannot follow from the spacing.
-    """
+    """What is wrong between a field and the knife. ``phase``: phase in which it meets all heads [rad]."""
     if field.spacing is None:
         return
     if phase is not None:

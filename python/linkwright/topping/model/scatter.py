@@ -65,15 +65,7 @@ class Scatter(CheckedDescription):
     def values(self, shares: ArrayLike) -> Floats:
         """The values below which shares of all lie: the inverse of the distribution function.
 
-        Parameters
-        ----------
-        shares : array_like, shape (n,)
-            Between 0 and 1; random ones give random values.
-
-        Returns
-        -------
-        ndarray, shape (n,)
-            [m]
+        ``shares`` (n,): between 0 and 1; random ones give random values → [m], (n,).
         """
         raise NotImplementedError
 

@@ -47,18 +47,7 @@ _UNITS = {
 
 
 def field_tables(found: TopperField) -> Iterator[Table]:
-    """Shares, haulm, loss, and lengths.
-
-    Parameters
-    ----------
-    found : TopperField
-        What to write.
-
-    Yields
-    ------
-    Table
-        For terminal and report.
-    """
+    """Shares, haulm, loss, and lengths."""
     each = "rows" if found.clusters == "rows" else "measured roots, each in many phases"
     title = (
         f"Field: {found.n_roots} heads of {found.n_clusters} {each}; edge of {number(found.edge_length)} m"
@@ -115,18 +104,7 @@ def _length(value: float) -> str:
 
 
 def sweep_table(swept: FieldSweep) -> Table:
-    """Variants of a knife over the same roots.
-
-    Parameters
-    ----------
-    swept : FieldSweep
-        What to write.
-
-    Returns
-    -------
-    Table
-        Of many variants, some evenly among all.
-    """
+    """Variants of a knife over the same roots."""
     n = len(swept.share_complete)
     kept = np.unique(np.linspace(0, n - 1, min(n, _ROWS)).astype(int))
     names = list(swept.entries)
@@ -162,36 +140,12 @@ def _shown(name: str, value: float) -> str:
 
 
 def field_csv(columns: Mapping[str, Floats]) -> str:
-    """Columns of a field, of a sweep or of a search as CSV.
-
-    Parameters
-    ----------
-    columns : mapping of str to ndarray, shape (n,)
-        By name.
-
-    Returns
-    -------
-    str
-        SI, with the unit of each column in its head.
-    """
+    """Columns of a field, of a sweep or of a search as CSV. ``columns`` (n,): by name."""
     return columns_csv({f"{name} [{_UNITS.get(name, '-')}]": column for name, column in columns.items()})
 
 
 def best_table(found: KnifeSearch, best: BestKnife) -> Table:
-    """The best knife, over the roots that it was sought with and over others.
-
-    Parameters
-    ----------
-    found : KnifeSearch
-        The search.
-    best : BestKnife
-        What it found.
-
-    Returns
-    -------
-    Table
-        For terminal and report.
-    """
+    """The best knife, over the roots that it was sought with and over others."""
     limits = found.limits
     rows: list[Row] = [
         ("edge angle", "α", f"{number(math.degrees(best.edge_angle))}°", "", ""),
@@ -231,18 +185,7 @@ def _at_most(value: float, unit: str) -> str:
 
 
 def best_warnings(found: KnifeSearch) -> Iterator[str]:
-    """What to know of the best knife.
-
-    Parameters
-    ----------
-    found : KnifeSearch
-        The search.
-
-    Yields
-    ------
-    str
-        A sentence.
-    """
+    """What to know of the best knife."""
     best = found.best
     if best is None:
         return
@@ -272,18 +215,7 @@ def best_warnings(found: KnifeSearch) -> Iterator[str]:
 
 
 def best_lines(best: BestKnife) -> str:
-    """The best knife as entries of a machine file.
-
-    Parameters
-    ----------
-    best : BestKnife
-        What to write.
-
-    Returns
-    -------
-    str
-        TOML.
-    """
+    """The best knife as entries of a machine file."""
     entries = {
         "edge_angle": best.edge_angle,
         "edge_length": best.edge_length,
@@ -298,18 +230,7 @@ def best_lines(best: BestKnife) -> str:
 
 
 def map_csv(found: KnifeSearch) -> str:
-    """The map of a search as CSV.
-
-    Parameters
-    ----------
-    found : KnifeSearch
-        The search.
-
-    Returns
-    -------
-    str
-        A line for each knife; empty cells where the edge runs backwards.
-    """
+    """The map of a search as CSV."""
     angle, speed = np.meshgrid(found.map_angle, found.map_speed, indexing="ij")
     columns = {"edge_angle": angle, "knife_speed": speed, "length": found.map_length}
     columns["slicing_ratio_mean"] = found.map_slicing

@@ -36,18 +36,7 @@ def topper_tables(described: Topper, found: TopperStudy) -> Iterator[Table]:
 
 
 def edge_csv(found: TopperStudy) -> str:
-    """The use of a topper's edge along its length as CSV: a curve of its own length.
-
-    Parameters
-    ----------
-    found : TopperStudy
-        The study of the topper.
-
-    Returns
-    -------
-    str
-        Two columns.
-    """
+    """The use of a topper's edge along its length as CSV: a curve of its own length."""
     return columns_csv({head(found, name): getattr(found, name) for name in ("edge_place", "edge_use")})
 
 

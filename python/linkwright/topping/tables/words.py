@@ -84,18 +84,7 @@ def topper_formulas(described: Topper, found: TopperStudy | None) -> list[Formul
 
 
 def topper_assumptions(described: Topper) -> Iterator[str]:
-    """What was taken for granted about heads and knife.
-
-    Parameters
-    ----------
-    described : Topper
-        The topper.
-
-    Yields
-    ------
-    str
-        Sentences.
-    """
+    """What was taken for granted about heads and knife."""
     yield (
         "A root is a sphere, and its slice has the height h_p everywhere: the copier keeps the plane of the "
         "cut at that height below the top. The head is the disc in which this plane meets the root."
