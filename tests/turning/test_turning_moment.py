@@ -13,6 +13,10 @@ from scipy.integrate import solve_ivp
 
 import linkwright as lw
 from linkwright.kernel.errors import FindingError, InputError, MachineError
+from linkwright.kernel.numerics.turn_curve import TurnCurve
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.page.csv import curves_csv
+from linkwright.turning import diagram
 
 
 def machine(**diagram: Any) -> lw.Machine:
@@ -163,3 +167,29 @@ def test_what_contradicts_itself_is_told_with_its_key(diagram: dict[str, Any], k
 def test_a_machine_without_the_table_is_refused() -> None:
     with pytest.raises(InputError, match="turning_moment"):
         lw.turning_moment(lw.read("machines/roller_one_cart.toml"))
+
+
+def test_a_shaft_without_inertia_has_no_curve_of_speed() -> None:
+    found = lw.turning_moment(machine(speed=10, driver=formula("100 + 50*sin(2*phi)")))
+    assert found.inertia is None
+    assert not len(found.speed)
+    assert list(found.curves()) == ["crank_angle", "torque_driver", "torque_load", "energy"]
+    assert "nan" not in curves_csv(found).lower()
+    assert ",," not in curves_csv(found)
+
+
+def test_one_torque_is_fitted_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = []
+
+    def counted(*given: Any) -> TurnCurve:
+        calls.append(given)
+        return turn_curve(*given)
+
+    monkeypatch.setattr(diagram, "turn_curve", counted)
+    wave = "100 + 50*sin(2*phi)"
+    alone = lw.turning_moment(machine(speed=10, load=formula(wave), inertia=20.0))
+    assert len(calls) == 1
+    # Against a driver of the same mean, given as such, fitted beside it.
+    both = lw.turning_moment(machine(speed=10, load=formula(wave), driver=formula("100"), inertia=20.0))
+    assert alone.energy_fluctuation == pytest.approx(both.energy_fluctuation, rel=1e-13)
+    assert alone.speed == pytest.approx(both.speed, rel=1e-13)

@@ -18,7 +18,7 @@ References
 
 from __future__ import annotations
 
-import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Annotated, NamedTuple
 
@@ -179,7 +179,7 @@ class TurningMomentDiagram(Result):
         Floats, Shown("energy that the shaft has taken up", "E", "J", "From the start of the cycle.")
     ] = field(default_factory=_nothing)
     speed: Annotated[
-        Floats, Shown("speed of the shaft", "ω", "rad/s", "NaN without a moment of inertia.")
+        Floats, Shown("speed of the shaft", "ω", "rad/s", "Empty without a moment of inertia.")
     ] = field(default_factory=_nothing)
 
 
@@ -292,24 +292,33 @@ def _of_curves(described: TurningMoment, n: int) -> TurningMomentDiagram:
         torque_driver=T,
         torque_load=M,
         energy=E,
-        speed=_speed(E - least, evened, len(phi)),
+        speed=_speed(E - least, evened),
     )
 
 
 def _curves(described: TurningMoment) -> TurnCurve:
     """Excess, driver and load over the cycle; what is left out is the mean of the other."""
     cycle, driver, load = described.cycle, described.driver, described.load
-    given = [each for each in (driver, load) if each is not None]
-    kinks = np.unique(np.concatenate([[0.0, cycle], *(each.kinks(cycle) for each in given)]))
-    if len(given) == 1:
-        alone = given[0]
-        mean = float(turn_curve(lambda phi: alone.at(phi, cycle)[None], kinks, "turning moment").mean()[0])
+    kinks = [torque.kinks(cycle) for torque in (driver, load) if torque is not None]
+    ends = np.unique(np.concatenate([[0.0, cycle], *kinks]))
 
-    def torques(phi: Floats) -> Floats:
-        T, M = (np.full(len(phi), mean) if each is None else each.at(phi, cycle) for each in (driver, load))
-        return np.stack([T - M, T, M])
+    def fit(of: Callable[[Floats], tuple[Floats, ...]]) -> TurnCurve:
+        return turn_curve(lambda phi: np.stack(of(phi)), ends, "turning moment")
 
-    return turn_curve(torques, kinks, "turning moment")
+    if driver is not None and load is not None:
+        return fit(lambda phi: _excess(driver.at(phi, cycle), load.at(phi, cycle)))
+    alone = driver or load
+    assert alone is not None
+    fitted = fit(lambda phi: (alone.at(phi, cycle),))
+    mean = float(fitted.mean()[0])
+    if driver is not None:
+        return fitted.combined(np.array([[1.0], [1.0], [0.0]]), np.array([-mean, 0.0, mean]))
+    return fitted.combined(np.array([[-1.0], [0.0], [1.0]]), np.array([mean, mean, 0.0]))
+
+
+def _excess(driver: Floats, load: Floats) -> tuple[Floats, ...]:
+    """Excess, driver and load [N m], (n,) each."""
+    return driver - load, driver, load
 
 
 def _require_balance(driver: float, load: float, curves: TurnCurve, described: TurningMoment) -> None:
@@ -363,9 +372,8 @@ def _areas(curves: TurnCurve, energy: TurnCurve, cycle: float) -> tuple[dict[str
     )
 
 
-def _speed(above: Floats, evened: _Evened, n: int) -> Floats:
-    """Speed by the energy above its minimum."""
+def _speed(above: Floats, evened: _Evened) -> Floats:
+    """Speed by the energy above its minimum, (n,) [rad/s]; no curve without a moment of inertia."""
     if evened.inertia is None or evened.speed_min is None:
-        return np.full(n, math.nan)
-    found: Floats = np.sqrt(evened.speed_min**2 + 2 * np.maximum(above, 0.0) / evened.inertia)
-    return found
+        return _nothing()
+    return np.asarray(np.sqrt(evened.speed_min**2 + 2 * np.maximum(above, 0.0) / evened.inertia))

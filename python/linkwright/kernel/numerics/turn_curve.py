@@ -7,7 +7,7 @@ Source: L. N. Trefethen, Approximation Theory and Approximation Practice, 2013, 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -126,6 +126,14 @@ class TurnCurve:
         rising[:, :n] += factor * self.series[:, other]
         peak = np.abs(rising).sum(axis=1).max(keepdims=True)
         return TurnCurve(self.ends, rising[:, None], peak, peak, self.error[[k]])
+
+    def combined(self, weights: Floats, constants: Floats) -> TurnCurve:
+        """Sums of the quantities with weights (m, k), plus constants (m,)."""
+        series = np.einsum("mk,pkn->pmn", weights, self.series)
+        series[:, :, 0] += constants
+        values, quadrature = replace(self, series=series)._gauss(0.0)[:2]
+        peak, size = np.abs(values).max(axis=(0, 2)), np.einsum("pkn,pn->k", np.abs(values), quadrature)
+        return TurnCurve(self.ends, series, peak, size, np.abs(weights) @ self.error)
 
     def _gauss(self, order: float) -> tuple[Floats, Floats, Floats]:
         """Values (p, k, m), weights (p, m) and angles (p, m) of Gauss–Legendre quadrature.
