@@ -30,7 +30,7 @@ TOLERANCE = 1e-12
 _RUN = """
 import json, sys
 from linkwright.app import application
-from typer.testing import CliRunner
+from click.testing import CliRunner
 app, runner = application(), CliRunner()
 for command in json.loads(sys.argv[2]):
     answer = runner.invoke(app, [command, sys.argv[1], *(["--json"] if command != "check" else [])])

@@ -10,13 +10,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import click
 import numpy as np
 import pytest
-import typer
-from typer.testing import CliRunner, Result
+from click.testing import CliRunner, Result
 
 from linkwright.app.application import COMMANDS, GROUPS, application
 from linkwright.kernel.command.answer import Answer, hand_over, json_text
+from linkwright.kernel.command.group import Commands
 from linkwright.kernel.errors import InputError
 
 ROOT = Path(__file__).parents[2]
@@ -182,15 +183,16 @@ EXTRA = {"cam": {"files"}, "torsion": {"balance"}}
 
 def commands() -> dict[str, Any]:
     """Words of a command → what it is; a group's own words stand for what it does with a file."""
-    top = typer.main.get_command(application())
-    assert set(top.commands) == {*COMMANDS, *GROUPS}  # type: ignore[attr-defined]
+    top = application()
+    assert set(top.entries) == {*COMMANDS, *GROUPS}
     found: dict[str, Any] = {}
-    for name, command in top.commands.items():  # type: ignore[attr-defined]
-        inner = getattr(command, "commands", None)
-        if inner is None:
-            found[name] = command
+    for name in top.entries:
+        command = top.get_command(None, name)
+        if isinstance(command, Commands):
+            found |= {name: command.for_a_file} if command.for_a_file else {}
+            found |= {f"{name} {part}": command.get_command(None, part) for part in command.entries}
         else:
-            found |= {name if each.hidden else f"{name} {part}": each for part, each in inner.items()}
+            found[name] = command
     return found
 
 
@@ -305,7 +307,7 @@ def test_an_answer_on_standard_output_is_whole(tmp_path: Path, capsys: pytest.Ca
     with pytest.raises(InputError):
         hand_over(answer, json=True, out=taken)
     assert capsys.readouterr().out == ""
-    with pytest.raises(typer.Exit) as ended:
+    with pytest.raises(click.exceptions.Exit) as ended:
         hand_over(answer, json=True, out=taken, force=True)
     assert ended.value.exit_code == 1
     assert capsys.readouterr().out == json_text(answer)

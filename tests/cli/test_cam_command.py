@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner, Result
+from click.testing import CliRunner, Result
 
 from linkwright.app.application import application
 

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
+from typing import Annotated
 
+import click
 import pytest
-import typer
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
-from linkwright.app.application import _group, application
+from linkwright.app.application import application
 from linkwright.cam.laws.catalogue import LAWS
+from linkwright.kernel.command.common import File
+from linkwright.kernel.command.group import Commands, Entry
+from linkwright.kernel.command.parameter import Option, command
 
 RUNNER = CliRunner()
 
@@ -74,14 +79,20 @@ def test_an_unknown_law_and_a_folder_that_is_a_file(tmp_path: Path) -> None:
     assert "found a file, expected a folder for --out" in output
 
 
+def group(default: Callable[..., None] | None) -> Commands:
+    """A group with a command and perhaps one for what is none."""
+    load = None if default is None else lambda: command(default)
+    return Commands("group", "A group.", {"one": Entry("One.", lambda: command(one))}, load)
+
+
 def one() -> None:
     """One."""
-    typer.echo("one")
+    click.echo("one")
 
 
-def other(file: Path, fast: bool = False) -> None:
+def other(file: File, fast: Annotated[bool, Option("--fast")] = False) -> None:
     """Other."""
-    typer.echo(f"{file} {fast}")
+    click.echo(f"{file} {fast}")
 
 
 @pytest.mark.parametrize(
@@ -94,17 +105,17 @@ def other(file: Path, fast: bool = False) -> None:
     ],
 )
 def test_a_word_that_is_no_command_goes_to_the_default(words: list[str], output: str) -> None:
-    assert RUNNER.invoke(_group((one,), other), words).output == output
+    assert RUNNER.invoke(group(other), words).output == output
 
 
 def test_help_of_a_group_with_a_default_lists_its_commands() -> None:
     for words in (["--help"], []):
-        text = RUNNER.invoke(_group((one,), other), words).output
+        text = RUNNER.invoke(group(other), words).output
         assert "one" in text
         assert "a file" not in text
 
 
 def test_without_a_default_an_unknown_word_is_an_error() -> None:
-    result = RUNNER.invoke(_group((one,), None), ["two"])
+    result = RUNNER.invoke(group(None), ["two"])
     assert result.exit_code == 2
     assert "two" in result.output

@@ -9,7 +9,7 @@ from typing import Any
 
 import jsonschema
 import pytest
-from typer.testing import CliRunner, Result
+from click.testing import CliRunner, Result
 
 from linkwright.app.application import application
 

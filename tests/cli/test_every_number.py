@@ -14,7 +14,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 import linkwright as lw
 from linkwright.app.application import application

@@ -41,7 +41,7 @@ def _wait_for(program: subprocess.Popen[str], module: str) -> None:
     pytest.fail(f"{module} was never imported")
 
 
-@pytest.mark.parametrize("module", ["typer.core", "linkwright.app.application"])
+@pytest.mark.parametrize("module", ["click.core", "linkwright.app.application"])
 def test_while_it_imports(module: str) -> None:
     program = _start("run", "machines/roller_two_carts.toml", "--json")
     _wait_for(program, module)

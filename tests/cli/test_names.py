@@ -9,7 +9,7 @@ from io import StringIO
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 from linkwright.app.application import application
 from linkwright.kernel.errors import MachineFileError

@@ -13,9 +13,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, NoReturn
 
-import typer
+import click
 from broken import PromiseError, watched
-from typer.testing import CliRunner, Result
+from click.testing import CliRunner, Result
 
 from linkwright.app.application import application
 
@@ -27,7 +27,7 @@ _NO_NUMBER = re.compile(r"(?<![\w.\"'=-])-?(nan|inf)(?![\w\"'])")
 
 
 @lru_cache(maxsize=1)
-def _application() -> typer.Typer:
+def _application() -> click.Group:
     return application()
 
 

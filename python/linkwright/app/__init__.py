@@ -24,14 +24,14 @@ from typing import TYPE_CHECKING
 from linkwright.kernel.command.interrupt import Interrupts
 
 if TYPE_CHECKING:
-    import typer
+    from linkwright.kernel.command.group import Commands
 
 
-def application(only: str = "") -> typer.Typer:
-    """The command line with all its commands, or with the one that is named."""
+def application() -> Commands:
+    """The command line with all its commands."""
     from linkwright.app.application import application
 
-    return application(only)
+    return application()
 
 
 def main() -> None:
@@ -44,6 +44,12 @@ def main() -> None:
             sys.stdout.reconfigure(errors="backslashreplace")
         # A start makes some 100 000 objects that all stay; looking among them for rubbish takes time.
         gc.set_threshold(200_000)
-        app = application(sys.argv[1] if len(sys.argv) > 1 else "")
+        commands = application()
+        # The command that is asked for is imported while an interrupt still ends the program on the spot.
+        commands.get_command(None, *sys.argv[1:2] or [""])
         interrupts.raise_from_now_on()
-        app()
+        try:
+            commands()
+        finally:
+            # Nor is there a reason to look among them when the program ends.
+            gc.freeze()

@@ -1,142 +1,170 @@
 """All commands, and where they are: one that is asked for is imported, and no other.
 
-To add a command, write its file in the room of its subject and put it into `COMMANDS`, or into a group's.
+To add a command, write its file in the room of its subject and put it into `COMMANDS`, or into a group.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Mapping
+from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple
+from typing import Any, NamedTuple
 
-import typer
+import click
 
 from linkwright.kernel.command.common import reports_errors
-from linkwright.kernel.command.default_command import group_with_default
+from linkwright.kernel.command.completion import completion_options
+from linkwright.kernel.command.group import Commands, Entry
+from linkwright.kernel.command.parameter import command
 
-# Name → module and function, in the order of the help.
-COMMANDS = {
-    "run": "app.commands.run:run",
-    "check": "app.commands.check:check",
-    "motion": "linkages.commands:motion",
-    "forces": "kinetostatics.commands.forces:forces",
-    "balance": "kinetostatics.commands.balance:balance",
-    "size": "sizing.commands.size:size",
-    "motors": "sizing.commands.motors:motors",
-    "papers": "app.commands.papers:papers",
-    "new": "app.commands.new:new",
-    "schema": "app.commands.schema:schema",
-    "glossary": "app.commands.glossary:glossary",
-}
+
+class Place(NamedTuple):
+    """A command: one sentence for the list of commands, and its function as ``module:name``."""
+
+    about: str
+    function: str
 
 
 class Group(NamedTuple):
-    """What a group of commands is, its commands, and the one for a word that names none of them."""
+    """What a group is about, its help, its commands by name, and the function for a word that names none."""
 
     about: str
-    commands: tuple[str, ...]
+    help: str
+    commands: Mapping[str, Place]
     default: str = ""
 
 
+_ABOUT = "Computes how machines move: from the motor through gearbox and shaft to the mechanism and its work."
+
+# Name → command, in the order of the help.
+COMMANDS = {
+    "run": Place("Compute how a machine moves.", "app.commands.run:run"),
+    "check": Place("Check a machine file.", "app.commands.check:check"),
+    "motion": Place(
+        "Positions, velocities and accelerations of points and links.", "linkages.commands:motion"
+    ),
+    "forces": Place("Compute the forces in a machine.", "kinetostatics.commands.forces:forces"),
+    "balance": Place("Find counterweights.", "kinetostatics.commands.balance:balance"),
+    "size": Place("Choose motor and flywheel.", "sizing.commands.size:size"),
+    "motors": Place("List the motors of the catalogue.", "sizing.commands.motors:motors"),
+    "papers": Place("Recompute a published paper, compare with its results.", "app.commands.papers:papers"),
+    "new": Place("Write a machine file to start from.", "app.commands.new:new"),
+    "schema": Place("Print the JSON Schema of machine files.", "app.commands.schema:schema"),
+    "glossary": Place("Define the terms of tables, messages and reports.", "app.commands.glossary:glossary"),
+}
+
 GROUPS = {
     "synthesise": Group(
-        "synthesis.commands.synthesise:synthesise", ("synthesis.commands.synthesise:SYNTHESISE",)
+        "Find a linkage for poses, dead centres, a function, a path.",
+        "Find a linkage for poses, dead centres, a function, a path or a straight line; the result is a "
+        "machine file.",
+        {
+            "dead-centre": Place(
+                "Crank-rocker or slider-crank for stroke and time ratio.",
+                "synthesis.commands.synthesise:dead_centre",
+            ),
+            "motion": Place(
+                "Four-bar or slider-crank through two or three poses.", "synthesis.commands.synthesise:motion"
+            ),
+            "function": Place(
+                "Four-bar whose rocker follows a function of the crank angle.",
+                "synthesis.commands.synthesise:function",
+            ),
+            "path": Place(
+                "Four-bar whose coupler point passes given points.", "synthesis.commands.synthesise:path"
+            ),
+            "line": Place("Straight-line linkage from the catalogue.", "synthesis.commands.synthesise:line"),
+        },
     ),
-    "cam": Group("cam.commands.laws:cam", ("cam.commands.laws:CAM",), "cam.commands.file:cam_file"),
+    "cam": Group(
+        "Cams of a machine; motion laws; the smallest cams.",
+        "Analyse the cams of a machine, with FILE; or one of the commands below.",
+        {
+            "laws": Place(
+                "Factors of the motion laws, for a rise between two dwells.", "cam.commands.laws:laws"
+            ),
+            "search": Place(
+                "The smallest cams that keep their limits, among many.", "cam.commands.search:search"
+            ),
+        },
+        "cam.commands.file:cam_file",
+    ),
     "torsion": Group(
-        "torsion.commands.damper:torsion",
-        ("torsion.commands.damper:TORSION", "torsion.commands.diagnose:diagnose"),
+        "Torsional vibration of a train; dampers; weak cylinders.",
+        """Analyse the torsional vibration of a train, with FILE; or one of the commands below.
+
+        FILE gives natural frequencies, shapes and nodes; with torques and [train.run] also critical speeds,
+        torques, stresses, limits, barred speed ranges, speed fluctuation and heat. Exit code 1 if a limit is
+        exceeded.
+        """,
+        {
+            "damper": Place("The best damper for a mode.", "torsion.commands.damper:damper"),
+            "diagnose": Place(
+                "Which cylinder of an engine is weak, by the speed of a disc.",
+                "torsion.commands.diagnose:diagnose",
+            ),
+        },
         "torsion.commands.torsion:torsion",
     ),
     "topper": Group(
-        "topping.commands:topper",
-        ("topping.commands:field", "topping.commands:best"),
+        "Topper knives over fields of roots, and the best knife.",
+        """Topper knives over fields of roots, and the best knife; FILE alone gives the knife itself, as
+        `linkwright run FILE` does.
+
+        Roots are those of [topper.field] in the machine file: random ones by distributions, or measured ones.
+        """,
+        {
+            "field": Place("A field of roots: shares cut, haulm left, loss.", "topping.commands:field"),
+            "best": Place("The best angle, length and speed of the knife.", "topping.commands:best"),
+        },
         "app.commands.run:run",
     ),
 }
 
 
-def _found(place: str) -> Any:
-    """What stands at a place ``module:name`` below the package."""
+def application() -> Commands:
+    """The command line: its commands are imported when they are asked for."""
+    entries = _entries(COMMANDS)
+    entries |= {name: Entry(group.about, partial(_group, name, group)) for name, group in GROUPS.items()}
+    version = click.Option(
+        ["--version"],
+        is_flag=True,
+        is_eager=True,
+        expose_value=False,
+        callback=_version,
+        help="Print the version and end.",
+    )
+    return Commands("linkwright", _ABOUT, entries, params=(version, *completion_options()))
+
+
+def _group(name: str, group: Group) -> Commands:
+    """A group of commands, with a command for what is none of them."""
+    default = partial(_loaded, None, group.default) if group.default else None
+    return Commands(name, group.help, _entries(group.commands), default)
+
+
+def _entries(places: Mapping[str, Place]) -> dict[str, Entry]:
+    """Commands at places, each imported when it is asked for."""
+    return {
+        name: Entry(place.about, partial(_loaded, name, place.function)) for name, place in places.items()
+    }
+
+
+def _loaded(word: str | None, place: str) -> click.Command:
+    """The command at a place ``module:function`` below the package; its errors are messages."""
     module, _, name = place.partition(":")
-    return getattr(import_module(f"linkwright.{module}"), name)
+    function = getattr(import_module(f"linkwright.{module}"), name)
+    return command(reports_errors(function, _machine_name), word)
 
 
-def _listed(places: Iterable[str]) -> list[Callable[..., Any]]:
-    """Commands at places, each a command or several."""
-    found = map(_found, places)
-    return [command for each in found for command in (each if isinstance(each, tuple) else (each,))]
-
-
-def _version(wanted: bool) -> None:
+def _version(context: click.Context, option: click.Parameter, wanted: bool) -> None:
     """Print the version and end."""
     if wanted:
-        from importlib.metadata import PackageNotFoundError, version
+        from linkwright import __version__
 
-        try:
-            typer.echo(f"linkwright {version('linkwright')}")
-        except PackageNotFoundError:
-            typer.echo("linkwright, run from its source without being installed")
-        raise typer.Exit
-
-
-Version = Annotated[
-    bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and end.")
-]
-
-
-def _top(version: Version = False) -> None:
-    """Computes how machines move: from the motor through gearbox and shaft to the mechanism and its work."""
-
-
-def application(only: str = "") -> typer.Typer:
-    """The command line.
-
-    Parameters
-    ----------
-    only : str
-        Name of the only command that it needs; all of them if that names none.
-    """
-    # Plain help: the boxes of rich cost more time than the whole of `check`.
-    app = typer.Typer(
-        add_completion=False,
-        no_args_is_help=True,
-        rich_markup_mode=None,
-        pretty_exceptions_enable=False,
-        context_settings={"help_option_names": ["-h", "--help"]},
-    )
-    app.callback()(_top)
-    known = only in COMMANDS or only in GROUPS
-    for name, place in COMMANDS.items():
-        if name == only or not known:
-            app.command()(_reporting(_found(place)))
-    for name, group in GROUPS.items():
-        if name == only or not known:
-            default = _found(group.default) if group.default else None
-            app.add_typer(
-                _group(_listed(group.commands), default), name=name, help=_found(group.about).__doc__
-            )
-    return app
-
-
-def _group(commands: Iterable[Callable[..., Any]], default: Callable[..., Any] | None) -> typer.Typer:
-    """A group of commands, with a command for what is none of them."""
-    # Never a word that somebody writes: a blank is in it.
-    hidden = "a file"
-    kind = None if default is None else group_with_default(hidden)
-    group = typer.Typer(cls=kind, no_args_is_help=True, rich_markup_mode=None)
-    group.callback()(_nothing)
-    for command in commands:
-        group.command()(_reporting(command))
-    if default is not None:
-        group.command(hidden, hidden=True)(_reporting(default))
-    return group
-
-
-def _reporting(command: Callable[..., Any]) -> Callable[..., Any]:
-    """A command whose errors are messages, and findings answers about its machine."""
-    return reports_errors(command, _machine_name)
+        click.echo(f"linkwright {__version__}")
+        context.exit()
 
 
 def _machine_name(
@@ -152,7 +180,3 @@ def _machine_name(
         return read(file, set or (), allow_outside=allow_outside).name
     except LinkwrightError:
         return None
-
-
-def _nothing() -> None:
-    """A group with a single command is a group all the same."""

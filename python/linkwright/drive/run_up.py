@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Annotated
 
 import numpy as np
@@ -230,6 +229,6 @@ def _peak(motion: Transient, until: float) -> float:
 
 def _looks(motion: Transient, until: float = np.inf) -> Floats:
     """Eight looks a step of the solver, which itself takes some twenty a revolution, up to a time."""
-    even = [np.linspace(a, b, 8, endpoint=False) for a, b in pairwise(motion.time)]
-    every = np.concatenate([*even, motion.time[-1:]])
+    even = np.linspace(motion.time[:-1], motion.time[1:], 8, endpoint=False, axis=-1)
+    every = np.append(even, motion.time[-1])
     return np.append(every[every < until], min(until, float(every[-1])))

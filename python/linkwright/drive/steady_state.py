@@ -296,7 +296,8 @@ def _motor_extremes(
     assert machine.drive.motor is not None
     ratio = compiled.gear_factors[0]
     marks = np.array(machine.drive.motor.speed_marks) / ratio
-    ends = np.unique(np.concatenate([[low, high], marks[(low < marks) & (marks < high)]]))
+    # A set, since `np.unique` imports masked arrays, which takes as long as a small study.
+    ends = np.array(sorted({low, high, *marks[(low < marks) & (marks < high)].tolist()}))
 
     def torque(omega: Floats) -> Floats:
         return compiled.motor_torques(omega)[0]

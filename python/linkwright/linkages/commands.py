@@ -6,12 +6,13 @@ from math import degrees, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
+import click
 
 from linkwright.drive.crank_speed import CrankSpeed, crank_speed
 from linkwright.kernel.command.answer import Answer, json_text
 from linkwright.kernel.command.common import Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, Out, put
+from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import ROWS_OUT
 
@@ -23,11 +24,11 @@ if TYPE_CHECKING:
 
 At = Annotated[
     str | None,
-    typer.Option("--at", metavar="ANGLE", help="One pose, at this crank angle.", show_default=False),
+    Option("--at", metavar="ANGLE", help="One pose, at this crank angle.", show_default=False),
 ]
 Speed = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--speed",
         metavar="SPEED",
         help='Speed of the crank, such as "90 rpm", for --at and for a revolution without --law. Without it, '
@@ -37,7 +38,7 @@ Speed = Annotated[
 ]
 LawText = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--law",
         metavar="FORMULA|FILE",
         help='Crank angle [rad] over time t [s]: a formula as "2*pi*t", or a CSV file of times and angles.',
@@ -46,18 +47,16 @@ LawText = Annotated[
 ]
 Duration = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--duration",
         metavar="TIME",
         help="With --law as a formula: how long it is followed. Without it, 1 s.",
         show_default=False,
     ),
 ]
-Steps = Annotated[
-    int, typer.Option("--steps", metavar="N", help="Intervals of the revolution or of the time.")
-]
-Csv = Annotated[bool, typer.Option("--csv", help="CSV with all columns, in SI.")]
-File = Annotated[Path, typer.Argument(metavar="FILE", help="The machine file.", show_default=False)]
+Steps = Annotated[int, Option("--steps", metavar="N", help="Intervals of the revolution or of the time.")]
+Csv = Annotated[bool, Option("--csv", help="CSV with all columns, in SI.")]
+File = Annotated[Path, Argument(metavar="FILE", help="The machine file.")]
 
 
 def motion(
@@ -112,7 +111,7 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
     phi = found.crank_angle
     rows = [("crank angle", "φ [rad]", (phi, found.speed, found.acceleration)), *_pose_rows(found)]
     if csv:
-        typer.echo(speed, err=True)
+        click.echo(speed, err=True)
         heads = ("name", "quantity", "position", "velocity", "acceleration")
         # A transmission angle stands alone: rows are as long as the head all the same.
         empty = (float("nan"),) * 2
@@ -192,7 +191,7 @@ def _followed(
         moved = told | found.to_dict(curves=True) | _lists(found.curves())
         return json_text(Answer(machine=machine.name, results=lambda _: {"motion": moved}))
     if csv:
-        typer.echo(head, err=True)
+        click.echo(head, err=True)
         return curves_csv(found)
     return f"{head}\n{_table(found)}"
 

@@ -12,11 +12,10 @@ from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import FIELD_VARIANTS
 
@@ -32,7 +31,7 @@ if TYPE_CHECKING:
 
 Over = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--over",
         metavar="NAME=LOW:HIGH:N",
         help='What varies, such as edge_length=0.1:0.3:21 or edge_angle="0 deg":"40 deg":9: edge_length, '
@@ -41,10 +40,10 @@ Over = Annotated[
     ),
 ]
 Seed = Annotated[
-    int | None, typer.Option("--seed", metavar="N", help="In place of the field's.", show_default=False)
+    int | None, Option("--seed", metavar="N", help="In place of the field's.", show_default=False)
 ]
 Level = Annotated[
-    float, typer.Option("--level", metavar="P", help="Probability that the intervals hold the truth.")
+    float, Option("--level", metavar="P", help="Probability that the intervals hold the truth.")
 ]
 Folder = Annotated[
     Path | None, out_option("Write results.json, curves as CSV, and figures as SVG and PNG there.")
@@ -52,13 +51,6 @@ Folder = Annotated[
 
 # Lengths at which the haulm that is left is looked at for its figure.
 _LENGTHS = 31
-
-
-def topper() -> None:
-    """Topper knives over fields of roots, and the best knife; `linkwright run FILE` has the knife itself.
-
-    Roots are those of [topper.field] in the machine file: random ones by distributions, or measured ones.
-    """
 
 
 def field(
@@ -210,7 +202,7 @@ class Objective(StrEnum):
 
 Best = Annotated[
     Objective,
-    typer.Option(
+    Option(
         "--objective",
         help="The shortest edge at the forward speed of the file, or the maximum forward speed with an edge "
         "of at most length_max.",

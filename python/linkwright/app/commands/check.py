@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import typer
+import click
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets
@@ -36,7 +36,7 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Js
         machine=machine.name,
         results=lambda curves: {"checked": list(found.looked_at)},
         findings=found.findings,
-        show=lambda: typer.echo("\n".join(told)),
+        show=lambda: click.echo("\n".join(told)),
     )
     hand_over(answer, json=json)
 

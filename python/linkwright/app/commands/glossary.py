@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json
+from linkwright.kernel.command.parameter import Argument
 
 if TYPE_CHECKING:
     from linkwright.kernel.page.glossary import Term
 
 Words = Annotated[
     list[str] | None,
-    typer.Argument(
-        metavar="[WORD]...", help="A term, a symbol, a key or an older word; without it, all terms."
-    ),
+    Argument(metavar="[WORD]...", help="A term, a symbol, a key or an older word; without it, all terms."),
 ]
 
 

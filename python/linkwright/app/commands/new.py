@@ -4,27 +4,28 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
+import click
 
 from linkwright.kernel.command.out import Force, Out, put
+from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
 
 Template = Annotated[
     str | None,
-    typer.Argument(metavar="TEMPLATE", help="Name of the template; --list names them.", show_default=False),
+    Argument(metavar="TEMPLATE", help="Name of the template; --list names them."),
 ]
 List = Annotated[
-    bool, typer.Option("--list", help="Name the templates; with pumping-unit, the units of the catalogue.")
+    bool, Option("--list", help="Name the templates; with pumping-unit, the units of the catalogue.")
 ]
 Designation = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--designation", help="Of a pumping unit of the catalogue, such as C-114D-133-54.", show_default=False
     ),
 ]
 Hole = Annotated[
     int | None,
-    typer.Option("--hole", help="Crank hole of the pumping unit, 1 for the outermost.", show_default=False),
+    Option("--hole", help="Crank hole of the pumping unit, 1 for the outermost.", show_default=False),
 ]
 
 # The template that is filled from the catalogue of pumping units.
@@ -48,7 +49,7 @@ def new(
     from linkwright.pumping.template import unit_template
 
     if list or template is None:
-        typer.echo("\n".join(_units() if template == _UNIT else _rows(templates())))
+        click.echo("\n".join(_units() if template == _UNIT else _rows(templates())))
         return
     if template == _UNIT:
         put(unit_template(designation, hole), out, force=force)

@@ -7,12 +7,13 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
+import click
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json
 from linkwright.kernel.command.console import console, progress, styled
 from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.parameter import Argument
 
 if TYPE_CHECKING:
     from rich.table import Table as Grid
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 Number = Annotated[
     int | None,
-    typer.Argument(metavar="[N]", help="Number of the paper; without it, what there is.", show_default=False),
+    Argument(metavar="[N]", help="Number of the paper; without it, what there is."),
 ]
 Folder = Annotated[Path | None, out_option("Write figures as SVG and PNG and a page there.")]
 
@@ -40,7 +41,7 @@ def papers(number: Number = None, json: Json = False, out: Folder = None, force:
     if number is None:
         titles = {f"paper{n}": title for n, title in PAPERS.items()}
         listed = "\n".join(f"  {n}  {title}" for n, title in PAPERS.items())
-        answer = Answer(machine=None, results=lambda _: {"papers": titles}, show=lambda: typer.echo(listed))
+        answer = Answer(machine=None, results=lambda _: {"papers": titles}, show=lambda: click.echo(listed))
         hand_over(answer, json=json)
         return
     folder, known = output_folder(out, force=force), known_paper(number)

@@ -6,28 +6,23 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
-import typer
-
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, command_line, out_option, output_folder
+from linkwright.kernel.command.parameter import Option
 
 if TYPE_CHECKING:
     from linkwright.app.study import Study
     from linkwright.kernel.page.table import Table
 
-Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not scalars alone.")]
+Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not scalars alone.")]
 Folder = Annotated[Path | None, out_option("Write results.json, the curves as CSV and report.html there.")]
-Accuracy = Annotated[
-    float, typer.Option("--accuracy", metavar="X", help="Relative accuracy of the steady speed.")
-]
+Accuracy = Annotated[float, Option("--accuracy", metavar="X", help="Relative accuracy of the steady speed.")]
 Method = Annotated[
     Literal["newton", "baranov"],
-    typer.Option("--method", help="baranov: the published step method beside the exact solution."),
+    Option("--method", help="baranov: the published step method beside the exact solution."),
 ]
-Step = Annotated[
-    str, typer.Option("--step", metavar="ANGLE", help="Step of the crank angle for --method baranov.")
-]
+Step = Annotated[str, Option("--step", metavar="ANGLE", help="Step of the crank angle for --method baranov.")]
 
 
 def run(

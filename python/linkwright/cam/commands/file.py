@@ -6,11 +6,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
-import typer
-
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import ExchangeError, InputError
 
 if TYPE_CHECKING:
@@ -23,24 +22,24 @@ Folder = Annotated[
     Path | None, out_option("Write a report, results.json and the drawings of the cams there.")
 ]
 Tolerance = Annotated[
-    str, typer.Option("--tolerance", metavar="LENGTH", help="Largest distance of a drawing from its profile.")
+    str, Option("--tolerance", metavar="LENGTH", help="Largest distance of a drawing from its profile.")
 ]
-Step = Annotated[str, typer.Option("--step", metavar="ANGLE", help="Step of the tables.")]
+Step = Annotated[str, Option("--step", metavar="ANGLE", help="Step of the tables.")]
 By = Annotated[
-    str, typer.Option("--by", metavar="cam|polar", help="Whether it is one of the cam or of the polar angle.")
+    str, Option("--by", metavar="cam|polar", help="Whether it is one of the cam or of the polar angle.")
 ]
 Form = Annotated[
     str,
-    typer.Option(
+    Option(
         "--form",
         metavar="arcs|spline|cubic|polyline",
         help="Outlines in DXF: arcs without kinks, a spline of degree 5 or 3, or chords.",
     ),
 ]
 Formats = Annotated[
-    str, typer.Option("--formats", metavar="LIST", help="Which files, of dxf, csv, svg, step; with commas.")
+    str, Option("--formats", metavar="LIST", help="Which files, of dxf, csv, svg, step; with commas.")
 ]
-Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not scalars alone.")]
+Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not scalars alone.")]
 
 
 def cam_file(

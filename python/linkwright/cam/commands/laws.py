@@ -6,12 +6,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
-from linkwright.cam.commands.search import search
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json
 from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError
 
 if TYPE_CHECKING:
@@ -22,7 +20,7 @@ if TYPE_CHECKING:
 
 Names = Annotated[
     list[str] | None,
-    typer.Option("--law", metavar="NAME", help="This law alone. May be given again.", show_default=False),
+    Option("--law", metavar="NAME", help="This law alone. May be given again.", show_default=False),
 ]
 Folder = Annotated[
     Path | None, out_option("Write cam_laws.json and the laws in one figure, as SVG and PNG, there.")
@@ -30,10 +28,6 @@ Folder = Annotated[
 
 # Lines that can still be distinguished in one figure; without --law, these.
 _DRAWN = ("parabolic", "cycloidal", "modified_trapezoid", "modified_sine", "polynomial_3_4_5", "minimum_jerk")
-
-
-def cam() -> None:
-    """Cams: `linkwright cam FILE` analyses those of a machine; or one of these commands."""
 
 
 def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force = False) -> None:
@@ -59,7 +53,6 @@ def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force
 
 
 # In the order of the help.
-CAM = (laws, search)
 
 
 def _known(wanted: list[str], everything: dict[str, Any]) -> list[str]:

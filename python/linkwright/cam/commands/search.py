@@ -6,11 +6,10 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.console import console
+from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import CAM_VARIANTS, SHOWN
 
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 
 Vary = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--vary",
         metavar="NAME=LOW:HIGH:N",
         help='What varies, such as base_radius="20 mm":"60 mm":200 or lift_factor=1:1.2:5: base_radius, '
@@ -34,7 +33,7 @@ Vary = Annotated[
 ]
 Laws = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--law",
         metavar="NAME",
         help="A law of `linkwright cam laws` for all moving sections. May be given again. Without it, those "
@@ -42,20 +41,16 @@ Laws = Annotated[
         show_default=False,
     ),
 ]
-CamName = Annotated[
-    str | None, typer.Option("--cam", metavar="NAME", help="Which cam, if there are several.")
-]
+CamName = Annotated[str | None, Option("--cam", metavar="NAME", help="Which cam, if there are several.")]
 Steep = Annotated[
     str | None,
-    typer.Option("--pressure-angle", metavar="ANGLE", help="Largest one allowed. Without it, the cam's."),
+    Option("--pressure-angle", metavar="ANGLE", help="Largest one allowed. Without it, the cam's."),
 ]
 Tight = Annotated[
     str | None,
-    typer.Option("--curvature-radius", metavar="LENGTH", help="Minimum convex one allowed on the profile."),
+    Option("--curvature-radius", metavar="LENGTH", help="Minimum convex one allowed on the profile."),
 ]
-Count = Annotated[
-    int, typer.Option("--count", metavar="N", help="How many of the smallest are shown.", min=1)
-]
+Count = Annotated[int, Option("--count", metavar="N", help="How many of the smallest are shown.", min=1)]
 
 # Share by which a cam may pass a limit by rounding.
 _ROUNDING = 1e-12

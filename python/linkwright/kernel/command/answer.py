@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from json import dumps
 from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 
 from linkwright.kernel.command.out import put, write_folder
 
@@ -111,7 +111,7 @@ def print_answer(answer: Answer) -> None:
 
     print_tables(answer.head(), answer.tables(), answer.findings, answer.warnings)
     if tail := answer.tail():
-        typer.echo("\n" + tail, nl=False)
+        click.echo("\n" + tail, nl=False)
 
 
 def write(answer: Answer, folder: OutputFolder, *, quiet: bool) -> None:
@@ -143,11 +143,11 @@ def finish(answer: Answer) -> None:
 
     Raises
     ------
-    typer.Exit
+    click.exceptions.Exit
         There are findings.
     """
     if answer.findings:
-        raise typer.Exit(1)
+        raise click.exceptions.Exit(1)
 
 
 def hand_over(
@@ -181,7 +181,7 @@ def hand_over(
     ------
     InputError
         The folder or the file cannot be written to.
-    typer.Exit
+    click.exceptions.Exit
         There are findings.
     """
     if out is not None and answer.machine_file is not None:
@@ -191,5 +191,5 @@ def hand_over(
     if folder is not None:
         write(answer, folder, quiet=json)
     if json:
-        typer.echo(json_text(answer, curves=curves), nl=False)
+        click.echo(json_text(answer, curves=curves), nl=False)
     finish(answer)

@@ -16,10 +16,11 @@ from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
 
-import typer
+import click
 
 from linkwright.kernel.command.answer import Answer, json_text
 from linkwright.kernel.command.interrupt import EXIT_CODE
+from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, UnitError, plain
 
 if TYPE_CHECKING:
@@ -28,10 +29,10 @@ if TYPE_CHECKING:
 P = ParamSpec("P")
 R = TypeVar("R")
 
-File = Annotated[Path, typer.Argument(metavar="FILE", help="The machine file.", show_default=False)]
+File = Annotated[Path, Argument(metavar="FILE", help="The machine file.")]
 Sets = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--set",
         metavar="PATH=VALUE",
         help="Override an entry of the file, such as drive.gearbox.ratio=10 or "
@@ -41,11 +42,11 @@ Sets = Annotated[
 ]
 Outside = Annotated[
     bool,
-    typer.Option(
+    Option(
         "--allow-outside", help="Let entries `file` of the machine file lead out of the folder that it is in."
     ),
 ]
-Json = Annotated[bool, typer.Option("--json", help="Print one JSON object in SI, and nothing else.")]
+Json = Annotated[bool, Option("--json", help="Print one JSON object in SI, and nothing else.")]
 
 
 def reports_errors(
@@ -75,17 +76,17 @@ def reports_errors(
         except LinkwrightError as error:
             if kwargs.get("json") and isinstance(error, FindingError):
                 stopped = Answer(machine=machine_name(**kwargs), findings=[plain(str(error))])
-                typer.echo(json_text(stopped), nl=False)
-            typer.echo(plain(str(error)), err=True)
-            raise typer.Exit(error.exit_code) from None
+                click.echo(json_text(stopped), nl=False)
+            click.echo(plain(str(error)), err=True)
+            raise click.exceptions.Exit(error.exit_code) from None
         except BrokenPipeError:
             # Whoever read the output has enough.
             raise
         except OSError as error:
-            typer.echo(plain(f"cannot read or write: {error}"), err=True)
-            raise typer.Exit(InputError.exit_code) from None
+            click.echo(plain(f"cannot read or write: {error}"), err=True)
+            raise click.exceptions.Exit(InputError.exit_code) from None
         except KeyboardInterrupt:
-            raise typer.Exit(EXIT_CODE) from None
+            raise click.exceptions.Exit(EXIT_CODE) from None
 
     return run
 

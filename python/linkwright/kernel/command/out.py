@@ -6,7 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
+import click
+
+from linkwright.kernel.command.parameter import Option
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -17,7 +19,7 @@ if TYPE_CHECKING:
 def _place(text: str) -> Path:
     """A path that says something: an empty one would be the folder in which the command runs."""
     if not text.strip():
-        raise typer.BadParameter("found nothing, expected a path", param_hint="--out")
+        raise click.BadParameter("found nothing, expected a path", param_hint="--out")
     return Path(text)
 
 
@@ -31,11 +33,11 @@ def out_option(words: str, metavar: str = "DIR") -> Any:
     metavar : str
         ``"DIR"`` or ``"FILE"``.
     """
-    return typer.Option("--out", metavar=metavar, help=words, show_default=False, parser=_place)
+    return Option("--out", metavar=metavar, help=words, show_default=False, parser=_place)
 
 
 Out = Annotated[Path | None, out_option("Write there.", "FILE")]
-Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
+Force = Annotated[bool, Option("--force", help="Replace files that exist.")]
 
 
 def output_folder(out: Path | None, *, force: bool) -> OutputFolder | None:
@@ -106,7 +108,7 @@ def say_written(paths: Sequence[Path], *, quiet: bool, remarks: Mapping[str, str
     """
     words = remarks or {}
     rows = [f"  {path}" + (f": {words[path.name]}" if path.name in words else "") for path in paths]
-    typer.echo("Written:\n" + "\n".join(rows), err=quiet)
+    click.echo("Written:\n" + "\n".join(rows), err=quiet)
 
 
 def put(text: str, out: Path | None, *, force: bool = False) -> None:
@@ -127,7 +129,7 @@ def put(text: str, out: Path | None, *, force: bool = False) -> None:
         The file exists, or cannot be written.
     """
     if out is None:
-        typer.echo(text, nl=False)
+        click.echo(text, nl=False)
         return
     from linkwright.kernel.files.output import write_file
 

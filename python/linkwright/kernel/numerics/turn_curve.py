@@ -82,7 +82,8 @@ class TurnCurve:
         zeros = [_zeros(series) for series in self.series[:, k]]
         middle, half = 0.5 * (self.ends[1:] + self.ends[:-1]), self._half()
         inside = [m + h * x for m, h, x in zip(middle, half, zeros, strict=True)]
-        marks = np.unique(np.concatenate([self.ends, *inside]))
+        # A set, since `np.unique` imports masked arrays, which takes as long as a small study.
+        marks = np.array(sorted(set(np.concatenate([self.ends, *inside]).tolist())))
         value = self.at(0.5 * (marks[1:] + marks[:-1]))[k]
         # What is rounding has no sign.
         kept = np.flatnonzero(np.abs(value) > _SAME * self.peak[k])

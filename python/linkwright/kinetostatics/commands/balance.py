@@ -6,12 +6,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from linkwright.drive.crank_speed import speed_words, speeds_of
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, out_option
+from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError
 from linkwright.kinetostatics.commands.forces import Speed
 
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
 
 Links = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--links",
         metavar="LINK,…",
         help="Links with counterweights, such as A,R.rocker; they turn about fixed points.",
@@ -31,7 +30,7 @@ Links = Annotated[
 ]
 Partial = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--slider",
         metavar="SLIDER",
         help="Instead of --links: a counterweight on the crank against a share of this slider's mass.",
@@ -39,11 +38,11 @@ Partial = Annotated[
     ),
 ]
 Share = Annotated[
-    float, typer.Option("--share", metavar="X", help="With --slider: share of the reciprocating mass.")
+    float, Option("--share", metavar="X", help="With --slider: share of the reciprocating mass.")
 ]
 Radius = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--radius",
         metavar="LENGTH",
         help="Distance of the counterweights from their pivots. Without it, the length of the link.",

@@ -7,12 +7,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from linkwright.drive.crank_speed import speed_words, speeds_of
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError
 
 if TYPE_CHECKING:
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 
 Speed = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--speed",
         metavar="SPEED",
         help='Constant speed of the crank, such as "10 rad/s" or "90 rpm". Without it, the steady motion.',
@@ -32,7 +31,7 @@ Speed = Annotated[
 ]
 Span = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--angles",
         metavar='"FROM, TO"',
         help='With --speed: crank angles between these alone, such as "-20 deg, 50 deg", for a mechanism '
@@ -40,11 +39,11 @@ Span = Annotated[
         show_default=False,
     ),
 ]
-Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not peaks alone.")]
+Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not peaks alone.")]
 Folder = Annotated[Path | None, out_option("Write results.json, forces.csv and figures as SVG there.")]
 Cases = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--case",
         metavar='"NAME: PATH=VALUE; …"',
         help='A load case beside the others, such as "idle: loads.work.force=0". May be given again.',
@@ -53,7 +52,7 @@ Cases = Annotated[
 ]
 Frictions = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--friction",
         metavar='"PAIR: KEY=VALUE, …"',
         help='Friction of a pin, guide or slot, such as "A: radius=20 mm, coefficient=0.1" or "S.guide: '
@@ -61,7 +60,7 @@ Frictions = Annotated[
         show_default=False,
     ),
 ]
-Angle = Annotated[str, typer.Option("--pressure-angle", metavar="ANGLE", help="Pressure angle of all teeth.")]
+Angle = Annotated[str, Option("--pressure-angle", metavar="ANGLE", help="Pressure angle of all teeth.")]
 
 
 # Intervals between the ends of --angles.

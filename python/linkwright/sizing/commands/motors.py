@@ -6,24 +6,21 @@ from dataclasses import asdict
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, option_value
+from linkwright.kernel.command.parameter import Option
 
 if TYPE_CHECKING:
     from linkwright.drive.model.catalogue import CatalogueMotor
     from linkwright.kernel.page.table import Row, Table
 
 Poles = Annotated[
-    int | None, typer.Option("--poles", metavar="N", help="This number of poles alone.", show_default=False)
+    int | None, Option("--poles", metavar="N", help="This number of poles alone.", show_default=False)
 ]
 PowerMin = Annotated[
-    str, typer.Option("--power-min", metavar="POWER", help='Rated power at least, such as "5.5 kW".')
+    str, Option("--power-min", metavar="POWER", help='Rated power at least, such as "5.5 kW".')
 ]
-Series = Annotated[
-    str, typer.Option("--series", metavar="NAME", help="This series alone.", show_default=False)
-]
+Series = Annotated[str, Option("--series", metavar="NAME", help="This series alone.", show_default=False)]
 
 
 def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = "", json: Json = False) -> None:

@@ -8,12 +8,13 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-import typer
+import click
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.console import console, progress_bar, styled
 from linkwright.kernel.command.out import Force, out_option
+from linkwright.kernel.command.parameter import Option
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -26,11 +27,11 @@ if TYPE_CHECKING:
     from linkwright.sizing.motor import Candidate, MotorChoice
 
 Reserve = Annotated[
-    float, typer.Option("--power-reserve", metavar="X", help="Rated power over required power, at least.")
+    float, Option("--power-reserve", metavar="X", help="Rated power over required power, at least.")
 ]
 Unevenness = Annotated[
     float,
-    typer.Option(
+    Option(
         "--unevenness",
         metavar="X",
         help="Coefficient of speed fluctuation, (ω_max − ω_min)/ω_mean, to be reached by the flywheel.",
@@ -38,21 +39,21 @@ Unevenness = Annotated[
 ]
 By = Annotated[
     Literal["all", "fixed-start", "power"],
-    typer.Option(
+    Option(
         "--by",
         help="Checks that decide. fixed-start: all but the start from the worst angle. power: rated power "
         "and start alone, as is often done.",
     ),
 ]
 FreeRatio = Annotated[
-    bool, typer.Option("--free-ratio", help="Give each motor the ratio that suits it, not the file's.")
+    bool, Option("--free-ratio", help="Give each motor the ratio that suits it, not the file's.")
 ]
 Together = Annotated[
-    bool, typer.Option("--together", help="Judge each motor with its flywheel; a smaller one may do.")
+    bool, Option("--together", help="Judge each motor with its flywheel; a smaller one may do.")
 ]
 Inertia = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--inertia",
         metavar="TYPE=VALUE",
         help='Inertia of a rotor, such as 4A132S6U3="0.04 kg m^2". May be given again.',
@@ -106,7 +107,7 @@ def size(
         flywheel = choose_flywheel(motor.chosen.machine, unevenness)
     answer = _answer(machine, motor, flywheel)
     for reason in answer.findings:
-        typer.echo(reason, err=True)
+        click.echo(reason, err=True)
     hand_over(answer, json=json, out=out, force=force)
 
 

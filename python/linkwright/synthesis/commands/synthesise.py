@@ -9,12 +9,13 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
+import click
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets, option_value
 from linkwright.kernel.command.console import progress_bar
 from linkwright.kernel.command.out import Force, out_option
+from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError
 from linkwright.synthesis.commands.words import print_catalogue, words
 
@@ -23,65 +24,56 @@ if TYPE_CHECKING:
     from linkwright.machine.machine import Machine
 
 OutFile = Annotated[Path | None, out_option("Write the machine there.", "FILE")]
-Curves = Annotated[bool, typer.Option("--curves", help="With --json: curves too, not scalars alone.")]
+Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not scalars alone.")]
 TaskFile = Annotated[
     Path,
-    typer.Option("--task", metavar="FILE", help="The task: what the linkage shall do.", show_default=False),
+    Option("--task", metavar="FILE", help="The task: what the linkage shall do.", show_default=False),
 ]
 Swing = Annotated[
     str | None,
-    typer.Option(
-        "--swing", metavar="ANGLE", help="Swing of the rocker, for a crank-rocker.", show_default=False
-    ),
+    Option("--swing", metavar="ANGLE", help="Swing of the rocker, for a crank-rocker.", show_default=False),
 ]
 Stroke = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--stroke", metavar="LENGTH", help="Stroke of the slider, for a slider-crank.", show_default=False
     ),
 ]
 TimeRatio = Annotated[
     float,
-    typer.Option(
+    Option(
         "--time-ratio",
         metavar="X",
         help="Crank angle from outer to inner dead centre over the rest of the revolution.",
     ),
 ]
-Frame = Annotated[
-    str, typer.Option("--frame", metavar="LENGTH", help="Distance of the pivots of a crank-rocker.")
-]
+Frame = Annotated[str, Option("--frame", metavar="LENGTH", help="Distance of the pivots of a crank-rocker.")]
 CouplerMax = Annotated[
-    float, typer.Option("--coupler-max", metavar="X", help="Coupler over rocker of a crank-rocker, at most.")
+    float, Option("--coupler-max", metavar="X", help="Coupler over rocker of a crank-rocker, at most.")
 ]
 Rod = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--rod", metavar="LENGTH", help="Rod of a slider-crank; without it, the best one.", show_default=False
     ),
 ]
 Kind = Annotated[
     str | None,
-    typer.Option("--kind", metavar="KIND", help="Which linkage; --list names them.", show_default=False),
+    Option("--kind", metavar="KIND", help="Which linkage; --list names them.", show_default=False),
 ]
-Length = Annotated[str, typer.Option("--length", metavar="LENGTH", help="Length of the straight line.")]
+Length = Annotated[str, Option("--length", metavar="LENGTH", help="Length of the straight line.")]
 Proportions = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--proportion",
         metavar="NAME=X",
         help="A length other than usual; only ratios count. May be given again.",
     ),
 ]
-List = Annotated[bool, typer.Option("--list", help="The catalogue, for this length of line.")]
+List = Annotated[bool, Option("--list", help="The catalogue, for this length of line.")]
 
 # Seconds after which a bar shows how far it is.
 _PATIENCE = 1.0
-
-
-def synthesise() -> None:
-    """Find a linkage for poses, dead centres, a function, a path or a straight line; the result is a machine
-    file."""
 
 
 def dead_centre(
@@ -206,7 +198,6 @@ def line(
 
 
 # In the order of the help.
-SYNTHESISE = (dead_centre, motion, function, path, line)
 
 
 def _proportions(texts: list[str]) -> dict[str, float]:
@@ -266,9 +257,9 @@ def _finish(
 
 def _print(name: str, entries: dict[str, Any], warnings: list[str], out: Path | None) -> None:
     """A line for each entry, and where the machine file is."""
-    typer.echo(name)
+    click.echo(name)
     for key, value in entries.items():
-        typer.echo(f"  {key.replace('_', ' '):<26} {words(key, value)}")
+        click.echo(f"  {key.replace('_', ' '):<26} {words(key, value)}")
     for warning in warnings:
-        typer.echo(f"Warning: {warning}")
-    typer.echo(f"Written: {out}" if out else "--out FILE writes the machine file.")
+        click.echo(f"Warning: {warning}")
+    click.echo(f"Written: {out}" if out else "--out FILE writes the machine file.")

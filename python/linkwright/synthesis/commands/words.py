@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-import typer
+import click
 
 # Results that are angles, and plain numbers; other numbers are lengths.
 _ANGLES = ("angle", "swing", "start", "end", "direction")
@@ -47,14 +47,14 @@ def print_catalogue(lines: tuple[Any, ...]) -> None:
     """The straight-line linkages with what their lines are like."""
     from math import degrees
 
-    typer.echo(
+    click.echo(
         f"{'kind':<14} {'exact':<6} {'links':>5} {'deviation':>11} {'crank range':>20} "
         f"{'longest':>9}  rotates"
     )
     for each in lines:
         span = f"{degrees(each.crank_angle_start):.1f}° to {degrees(each.crank_angle_end):.1f}°"
         deviation = "0" if each.exact else f"{each.deviation:.3g} m"
-        typer.echo(
+        click.echo(
             f"{each.kind:<14} {words('', each.exact):<6} {each.links:>5} {deviation:>11} {span:>20} "
             f"{each.size:>7.3g} m  {words('', each.turns_fully)}"
         )

@@ -7,11 +7,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.parameter import Option
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,37 +26,20 @@ class Kind(StrEnum):
     rubber = "rubber"
 
 
-On = Annotated[
-    str, typer.Option("--on", metavar="DISC", help="The disc that carries it.", show_default=False)
-]
+On = Annotated[str, Option("--on", metavar="DISC", help="The disc that carries it.", show_default=False)]
 Ring = Annotated[
     str,
-    typer.Option(
-        "--ring-inertia", metavar="J", help='Of its ring, such as "0.4 kg m^2".', show_default=False
-    ),
+    Option("--ring-inertia", metavar="J", help='Of its ring, such as "0.4 kg m^2".', show_default=False),
 ]
-Mode = Annotated[int, typer.Option("--mode", metavar="N", help="Number of the mode, as f_N in the table.")]
-Kinds = Annotated[
-    Kind, typer.Option("--kind", help="Held by a fluid, by a spring and a fluid, or by rubber.")
-]
+Mode = Annotated[int, Option("--mode", metavar="N", help="Number of the mode, as f_N in the table.")]
+Kinds = Annotated[Kind, Option("--kind", help="Held by a fluid, by a spring and a fluid, or by rubber.")]
 Loss = Annotated[
     float | None,
-    typer.Option("--loss-factor", metavar="ETA", help="Of the rubber at hand.", show_default=False),
+    Option("--loss-factor", metavar="ETA", help="Of the rubber at hand.", show_default=False),
 ]
 Folder = Annotated[
     Path | None, out_option("Write damper.json, damper.toml and the response as SVG and PNG there.")
 ]
-
-
-def torsion() -> None:
-    """Torsional vibration: `linkwright torsion FILE` analyses a train; or one of these commands.
-
-    FILE gives natural frequencies, shapes and nodes; with torques and [train.run] also critical speeds,
-    torques, stresses, limits, barred speed ranges, speed fluctuation and heat. Exit code 1 if a limit is
-    exceeded.
-
-    With FILE: --set PATH=VALUE, --json, --holzer HZ, --out DIR (report, drawings, JSON).
-    """
 
 
 def damper(
@@ -86,7 +68,6 @@ def damper(
 
 
 # In the order of the help.
-TORSION = (damper,)
 
 
 def _answer(name: str, found: DamperDesign) -> Answer:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
 
 if TYPE_CHECKING:
@@ -16,18 +15,15 @@ if TYPE_CHECKING:
 
 Measured = Annotated[
     Path,
-    typer.Argument(
+    Argument(
         metavar="CSV",
         help="Speed over the crank angle, at even steps over whole cycles; head: angle [deg], speed [rpm].",
-        show_default=False,
     ),
 ]
-On = Annotated[
-    str, typer.Option("--on", metavar="DISC", help="The disc that was measured.", show_default=False)
-]
+On = Annotated[str, Option("--on", metavar="DISC", help="The disc that was measured.", show_default=False)]
 Noise = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--noise",
         metavar="SPEED",
         help='Standard deviation of a sample, such as "0.02 rad/s". Without it, from what is left over.',
@@ -36,7 +32,7 @@ Noise = Annotated[
 ]
 Zero = Annotated[
     int | None,
-    typer.Option(
+    Option(
         "--zero",
         metavar="CYLINDER",
         help="The angle is 0 at the firing dead centre of this cylinder. Without it, where throw 1 points to "
@@ -45,10 +41,10 @@ Zero = Annotated[
     ),
 ]
 Level = Annotated[
-    float, typer.Option("--level", metavar="P", help="Probability that the intervals hold the truth.")
+    float, Option("--level", metavar="P", help="Probability that the intervals hold the truth.")
 ]
 Rigid = Annotated[
-    bool, typer.Option("--rigid", help="Take the train as rigid, to see what neglecting torsion costs.")
+    bool, Option("--rigid", help="Take the train as rigid, to see what neglecting torsion costs.")
 ]
 
 

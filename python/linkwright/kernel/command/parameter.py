@@ -1,0 +1,150 @@
+"""A command from a function: what its parameters are on the command line stands at their types.
+
+    def check(file: Annotated[Path, Argument("FILE", "The machine file.")], json: Json = False) -> None:
+
+| type | on the command line |
+| --- | --- |
+| `bool` | a flag |
+| `int`, `float`, `str`, `Path`, or one of them or None | a value |
+| `Literal[...]`, an enumeration | one of these words |
+| `list[...]`, or that or None | an option that may be given again, an argument that takes all words |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import Enum
+from inspect import Parameter, cleandoc, signature
+from pathlib import Path
+from types import NoneType
+from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
+
+import click
+
+# How every command is asked for its help.
+HELP = {"help_option_names": ["-h", "--help"]}
+
+
+class Option(NamedTuple):
+    """Mark of a parameter that is an option.
+
+    Attributes
+    ----------
+    name : str
+        As it is written, such as ``"--json"``.
+    metavar : str or None
+        What its value is called in the help.
+    help : str
+        What it does, in sentences.
+    show_default : bool
+        Whether the help says what holds without it.
+    min : int or None
+        Of a whole number, the smallest.
+    parser : callable or None
+        Makes the value of the word that is given.
+    """
+
+    name: str
+    metavar: str | None = None
+    help: str = ""
+    show_default: bool = True
+    min: int | None = None
+    parser: Callable[[str], Any] | None = None
+
+
+class Argument(NamedTuple):
+    """Mark of a parameter that is given by its place.
+
+    Attributes
+    ----------
+    metavar : str
+        What it is called in usage and help.
+    help : str
+        What it is, in sentences.
+    """
+
+    metavar: str
+    help: str
+
+
+def command(function: Callable[..., Any], name: str | None = None) -> click.Command:
+    """The command that a function is.
+
+    Parameters
+    ----------
+    function : callable
+        Its parameters are marked; its docstring is the help.
+    name : str, optional
+        Name of the command; without it, that of the function.
+
+    Returns
+    -------
+    click.Command
+        With all options in the order of the parameters.
+
+    Raises
+    ------
+    TypeError
+        A parameter has no mark.
+    """
+    hints = get_type_hints(function, include_extras=True)
+    params = [_param(hints[each.name], each) for each in signature(function).parameters.values()]
+    about = cleandoc(function.__doc__ or "")
+    words = name or function.__name__.replace("_", "-")
+    return click.Command(words, params=params, help=about, callback=function, context_settings=HELP)
+
+
+def _param(hint: Any, parameter: Parameter) -> click.Parameter:
+    """Option or argument of the command line for a parameter."""
+    marks = getattr(hint, "__metadata__", ())
+    mark = next((each for each in marks if isinstance(each, Option | Argument)), None)
+    if mark is None or get_origin(hint) is not Annotated:
+        raise TypeError(f"{parameter.name}: its type has no mark Option or Argument")
+    kind, several = _kind(hint.__origin__)
+    optional = parameter.default is not Parameter.empty
+    given: dict[str, Any] = {"callback": _list} if several else {}
+    if optional and not several:
+        given["default"] = parameter.default
+    if isinstance(mark, Argument):
+        given |= {"nargs": -1} if several else {}
+        return click.Argument(
+            [parameter.name],
+            type=_converter(kind, None),
+            metavar=mark.metavar,
+            help=mark.help,
+            required=not optional,
+            **given,
+        )
+    given |= {"is_flag": True} if kind is bool else {"type": mark.parser or _converter(kind, mark.min)}
+    return click.Option(
+        [parameter.name, mark.name],
+        metavar=mark.metavar,
+        help=mark.help,
+        show_default=mark.show_default,
+        multiple=several,
+        required=not optional,
+        **given,
+    )
+
+
+def _kind(hint: Any) -> tuple[Any, bool]:
+    """The type of one value, and whether there are several."""
+    if NoneType in get_args(hint):
+        hint = next(each for each in get_args(hint) if each is not NoneType)
+    return (get_args(hint)[0], True) if get_origin(hint) is list else (hint, False)
+
+
+def _converter(kind: Any, low: int | None) -> Any:
+    """Makes a value of a word."""
+    if get_origin(kind) is Literal:
+        return click.Choice(get_args(kind))
+    if isinstance(kind, type) and issubclass(kind, Enum):
+        return click.Choice(kind)
+    if kind is Path:
+        return click.Path(path_type=Path)
+    return kind if low is None else click.IntRange(min=low)
+
+
+def _list(context: click.Context, parameter: click.Parameter, values: tuple[Any, ...]) -> list[Any] | None:
+    """What was given for several values; None where nothing was."""
+    return list(values) or None
