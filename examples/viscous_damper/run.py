@@ -35,7 +35,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """The resonance without and with the damper."""
-    from linkwright.torsion.figures.damper import damper_figure
+    from linkwright.torsion.figures.forced import damper_figure
 
     return damper_figure(lw.design_damper(machine, "engine", RING))
 

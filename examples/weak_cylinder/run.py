@@ -46,7 +46,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 def figure(machine: lw.Machine):
     """Speed fluctuation along the train."""
     from linkwright.torsion.figures.forced import torsion_unevenness_figure
-    from linkwright.torsion.figures.train_row import in_a_row
+    from linkwright.torsion.figures.modes import in_a_row
 
     found = forced_vibration(machine)
     return torsion_unevenness_figure(found, in_a_row(found.discs, lw.free_vibration(machine).joined), SPEED)

@@ -91,7 +91,7 @@ _HOME = {
     "mesh_torques": "torsion.response.mesh_torque",
     "engine_diagnosis": "torsion.diagnosis.engine_diagnosis",
     "measured_speed": "torsion.diagnosis.measured_speed",
-    "engine_data": "torsion.response.engine_data",
+    "engine_data": "torsion.response.engine_torques",
     "damped_vibration": "torsion.modes.damped",
     "campbell": "torsion.modes.campbell",
     "drive_line": "torsion.response.drive_line",
@@ -228,7 +228,7 @@ if TYPE_CHECKING:
     from linkwright.torsion.response.drive_line import drive_line as drive_line
     from linkwright.torsion.response.drive_line import mechanism_harmonics as mechanism_harmonics
     from linkwright.torsion.response.drive_line import station_damping as station_damping
-    from linkwright.torsion.response.engine_data import engine_data as engine_data
+    from linkwright.torsion.response.engine_torques import engine_data as engine_data
     from linkwright.torsion.response.forced import forced_vibration as forced_vibration
     from linkwright.torsion.response.mesh_torque import mesh_torques as mesh_torques
     from linkwright.torsion.response.stress import shaft_stress as shaft_stress

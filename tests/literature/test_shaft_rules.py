@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from linkwright.torsion.model.crankshaft_limit import crank_stress, crank_transient_stress
-from linkwright.torsion.model.propulsion_shaft import (
+from linkwright.torsion.model.permitted_stress import (
     DESIGN_FACTORS,
     barred_speeds,
     continuous_stress,
     counted_strength,
+    crank_stress,
+    crank_transient_stress,
     size_factor,
     speed_factor,
     transient_stress,

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from pydantic import TypeAdapter, ValidationError
 
 from linkwright.kernel.errors import Problem
-from linkwright.torsion.model.engine.any_gas import AnyGas
 from linkwright.torsion.model.engine.combustion import Combustion
 from linkwright.torsion.model.engine.cylinder import Cylinder
+from linkwright.torsion.model.engine.engine import AnyGas
 from linkwright.torsion.model.engine.indicator import Indicator
 
 Array = NDArray[np.float64]

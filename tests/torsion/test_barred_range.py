@@ -11,9 +11,9 @@ from scipy.optimize import brentq, minimize_scalar
 
 import linkwright as lw
 from linkwright.torsion.limits.barred_range import BarredRange, barred_ranges, together
-from linkwright.torsion.limits.exceedance import exceedances
-from linkwright.torsion.modes.resonance import resonances
+from linkwright.torsion.limits.criteria import exceedances
 from linkwright.torsion.response.excited_train import excited_train
+from linkwright.torsion.response.survey import resonances
 
 J_A, J_B, K, C, M, ORDER = 2.0, 3.0, 1e4, 4.0, 80.0, 2.0
 W = math.pi / 16 * 0.05**3

@@ -16,8 +16,7 @@ from linkwright.torsion.limits.barred_range import surveyed_ranges
 from linkwright.torsion.limits.criteria import VIBRATORY_STRESS
 from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.response.excited_train import is_excited
-from linkwright.torsion.response.peaks import torque_peaks
-from linkwright.torsion.response.survey import Survey, survey
+from linkwright.torsion.response.survey import Survey, survey, torque_peaks
 
 ROOT = Path(__file__).parents[2]
 FILES = [

@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError
-from linkwright.torsion.figures.campbell import campbell_figure
+from linkwright.torsion.figures.modes import campbell_figure
 from linkwright.torsion.response.forced import forced_vibration
 
 J1, J2, K = 2.0, 5.0, 3e4

@@ -14,13 +14,11 @@ from scipy.interpolate import CubicSpline
 
 from linkwright.kernel.errors import InputError, MachineError
 from linkwright.torsion.model.engine import cycle_mesh, speed_points
-from linkwright.torsion.model.engine.burnt_gas import GAS_CONSTANT, STOICHIOMETRIC, heat_ratio
-from linkwright.torsion.model.engine.closed_cycle import ClosedTrace
+from linkwright.torsion.model.engine.closed_cycle import GAS_CONSTANT, STOICHIOMETRIC, ClosedTrace, heat_ratio
 from linkwright.torsion.model.engine.combustion import Combustion
 from linkwright.torsion.model.engine.cycle_pressure import peak
-from linkwright.torsion.model.engine.gas_torque import GasTorque, gas_torque
-from linkwright.torsion.model.engine.wall_heat import GasState, Hohenberg, Woschni
-from linkwright.torsion.model.engine.wiebe import Wiebe
+from linkwright.torsion.model.engine.cylinder import GasTorque, gas_torque
+from linkwright.torsion.model.engine.heat import GasState, Hohenberg, Wiebe, Woschni
 from linkwright.torsion.model.engine.working_cycle import WorkingCycle
 
 SPEEDS = np.array([60.0, 150.0, 220.0])

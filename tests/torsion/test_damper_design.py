@@ -20,7 +20,7 @@ from linkwright.torsion.damper.damper_rules import (
     viscous_rule,
 )
 from linkwright.torsion.response.forced import forced_vibration
-from linkwright.torsion.tables.damper import damper_lines
+from linkwright.torsion.tables.engine import damper_lines
 
 Floats = NDArray[np.float64]
 

@@ -10,9 +10,8 @@ from scipy import stats
 
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.numerics.confidence import coverage_factor
-from linkwright.torsion.diagnosis.cylinder_factors import Diagnosis
-from linkwright.torsion.diagnosis.cylinder_response import cylinder_response
-from linkwright.torsion.diagnosis.diagnosis import diagnosis
+from linkwright.torsion.diagnosis.diagnosis import Diagnosis, diagnosis
+from linkwright.torsion.diagnosis.engine_speed import cylinder_response
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed, measured_speed
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.forced import forced_vibration

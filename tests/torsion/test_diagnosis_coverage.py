@@ -16,7 +16,7 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import ConvergenceError
 from linkwright.kernel.numerics.confidence import chance_of_ratio
-from linkwright.torsion.diagnosis.cylinder_factors import Diagnosis
+from linkwright.torsion.diagnosis.diagnosis import Diagnosis
 from linkwright.torsion.diagnosis.engine_diagnosis import fitted
 from linkwright.torsion.diagnosis.engine_speed import EngineSpeed
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed

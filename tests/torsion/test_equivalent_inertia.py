@@ -13,10 +13,9 @@ from scipy.integrate import quad
 import linkwright as lw
 from linkwright.kernel.errors import AssemblyError, ConvergenceError
 from linkwright.torsion.model.engine import equivalent_inertia as published
-from linkwright.torsion.model.engine.mean_inertia import central_mean_inertia, mean_inertia
+from linkwright.torsion.model.engine.equivalent_inertia import central_mean_inertia, mean_inertia
 from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
-from linkwright.torsion.model.engine.running_gear import RunningGear, throw_motion
-from linkwright.torsion.model.engine.throw_reduction import throw_reduction
+from linkwright.torsion.model.engine.running_gear import RunningGear, throw_motion, throw_reduction
 
 # Rounding of sums over a turn.
 ROUNDING = 1e-13

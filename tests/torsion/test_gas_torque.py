@@ -11,8 +11,7 @@ from scipy.integrate import quad
 
 from linkwright.kernel.errors import MachineError, ShapeError
 from linkwright.torsion.model.engine.cycle_pressure import CyclePressure
-from linkwright.torsion.model.engine.cylinder import Cylinder
-from linkwright.torsion.model.engine.gas_torque import gas_torque, torque_orders
+from linkwright.torsion.model.engine.cylinder import Cylinder, gas_torque, torque_orders
 
 AREA = math.pi / 4 * BORE**2
 SPEEDS = np.array([100.0, 150.0])

@@ -17,10 +17,10 @@ from linkwright.kernel.description.base import Description
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.errors import MachineError
 from linkwright.machine.read import read_as
-from linkwright.torsion.model.engine.any_gas import AnyGas
-from linkwright.torsion.model.engine.gas_torque import GasTorque, gas_torque
+from linkwright.torsion.model.engine.cycle_pressure import periodic_cubic
+from linkwright.torsion.model.engine.cylinder import GasTorque, gas_torque
+from linkwright.torsion.model.engine.engine import AnyGas
 from linkwright.torsion.model.engine.indicator import Indicator
-from linkwright.torsion.model.engine.periodic_cubic import periodic_cubic
 
 ROOT = Path(__file__).parents[2]
 SPEEDS = np.array([100.0, 200.0])

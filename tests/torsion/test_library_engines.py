@@ -10,8 +10,8 @@ import pytest
 from linkwright.kernel.files.library import library_path
 from linkwright.machine.read import read
 from linkwright.torsion.model.engine.combustion import Combustion
-from linkwright.torsion.model.engine.dead_centres import dead_centres
 from linkwright.torsion.model.engine.engine_motion import running_gears
+from linkwright.torsion.model.engine.running_gear import dead_centres
 from linkwright.torsion.study import torsion_study
 
 

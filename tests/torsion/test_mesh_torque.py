@@ -9,8 +9,8 @@ import pytest
 
 import linkwright as lw
 from linkwright.torsion.response.excited_train import excited_train, loaded
+from linkwright.torsion.response.forced import torsion_response
 from linkwright.torsion.response.mesh_torque import MeshTorque, mesh_torques, meshed
-from linkwright.torsion.response.torsion_response import torsion_response
 
 TRAIN = """
 format = 1

@@ -10,9 +10,9 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.files.templates import template
+from linkwright.torsion.diagnosis.measured_speed import recorded_speed
 from linkwright.torsion.diagnosis.record_diagnosis import record_diagnosis
-from linkwright.torsion.diagnosis.recorded_speed import recorded_speed
-from linkwright.torsion.model.engine.firing import firing_angles
+from linkwright.torsion.model.engine.engine import firing_angles
 from linkwright.torsion.response.forced import forced_vibration
 
 SPEED = 150.0

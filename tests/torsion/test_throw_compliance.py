@@ -17,8 +17,8 @@ from linkwright.torsion.model.engine.throw_compliance import (
     compliance,
     compliance_remarks,
     compliances,
+    restraint_length,
 )
-from linkwright.torsion.model.engine.throw_formulas import restraint_length
 
 # Rounding of the frame's elimination, which loses some digits to stiff bars.
 FRAME = 1e-9

@@ -13,7 +13,7 @@ from linkwright.kernel.core.curve import Curve, product, straight, switched
 from linkwright.kernel.core.periodic_table import smooth, spline, waves
 from linkwright.kernel.errors import InputError
 from linkwright.machine.program.compiled import compile_machine
-from linkwright.torsion.core.motor import motor_curve
+from linkwright.torsion.core.torque import motor_curve
 from linkwright.torsion.in_time.waterfall import waterfall
 
 # Rounding of a Fourier transform of some hundred samples, and of its second derivative.

@@ -11,7 +11,7 @@ import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineError
 from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import angular_deflection, forced_vibration
-from linkwright.torsion.response.synthesis import coefficients, orders_together, span, waveform
+from linkwright.torsion.response.harmonics import coefficients, orders_together, span, waveform
 
 
 def machine(**train: Any) -> lw.Machine:

@@ -14,9 +14,8 @@ from linkwright.app.application import application
 from linkwright.kernel.errors import ConvergenceError, InputError, MachineError
 from linkwright.machine.machine import Machine
 from linkwright.torsion.figures.transient import orders_figure, transient_figure, waterfall_figure
-from linkwright.torsion.in_time.balanced_start import balanced_start, mean_torques
-from linkwright.torsion.in_time.moving_engine import combustion_weight
-from linkwright.torsion.in_time.moving_train import moving_train
+from linkwright.torsion.in_time.moving_train import combustion_weight, moving_train
+from linkwright.torsion.in_time.steady_start import balanced_start, mean_torques
 from linkwright.torsion.in_time.transient import follow_train, torsion_transient
 from linkwright.torsion.in_time.waterfall import waterfall
 from linkwright.torsion.limits.peak_judgement import PeakJudgement

@@ -13,8 +13,7 @@ from linkwright.kernel.result import finite
 from linkwright.torsion.limits.criteria import Criterion, criteria
 from linkwright.torsion.limits.verdict import Judgement, Verdict, verdict
 from linkwright.torsion.response.excited_train import excited_train
-from linkwright.torsion.response.forced import forced_vibration
-from linkwright.torsion.response.torsion_response import torsion_response
+from linkwright.torsion.response.forced import forced_vibration, torsion_response
 
 TRAIN = """
 format = 1

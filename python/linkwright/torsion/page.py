@@ -14,7 +14,7 @@ from linkwright.kernel.page.numbers import number
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
 from linkwright.torsion.figures.captions import torsion_figures
-from linkwright.torsion.response.peaks import TorquePeaks
+from linkwright.torsion.response.survey import TorquePeaks
 from linkwright.torsion.study import TorsionStudy
 from linkwright.torsion.tables.torsion import study_tables
 

@@ -14,20 +14,18 @@ from linkwright.kernel.units import FREQUENCY, not_negative
 from linkwright.machine.machine import Machine
 from linkwright.torsion.in_time.transient import TorsionTransient, torsion_transient
 from linkwright.torsion.limits.verdict import Verdict, verdict
-from linkwright.torsion.model.engine.engine import ReciprocatingEngine
-from linkwright.torsion.model.engine.firing import firing_angles
+from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.modes.campbell import CampbellDiagram, campbell
 from linkwright.torsion.modes.damped import DampedVibration, damped_vibration
 from linkwright.torsion.modes.free import FreeVibration, free_vibration, train_of
 from linkwright.torsion.modes.holzer import HolzerTable, holzer_table
 from linkwright.torsion.modes.scheme import Scheme, scheme
-from linkwright.torsion.response.engine_data import EngineData, engine_data
+from linkwright.torsion.response.engine_torques import EngineData, engine_data
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, is_excited, pulsates
 from linkwright.torsion.response.forced import ForcedVibration, responded
-from linkwright.torsion.response.peaks import TorquePeaks, torque_peaks
 from linkwright.torsion.response.stress import ShaftStress, shaft_stress
-from linkwright.torsion.response.survey import survey
+from linkwright.torsion.response.survey import TorquePeaks, survey, torque_peaks
 from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
 
 # Share by which loads may be off what the engine gives without a word.

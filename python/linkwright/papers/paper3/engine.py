@@ -13,7 +13,7 @@ from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.engine.engine_motion import own_inertia, running_gears, throw_stiffness
-from linkwright.torsion.model.engine.mean_inertia import mean_inertia
+from linkwright.torsion.model.engine.equivalent_inertia import mean_inertia
 from linkwright.torsion.model.engine.rod import ArticulatedRod
 from linkwright.torsion.model.engine.running_gear import RunningGear
 from linkwright.torsion.modes.free import FreeVibration, free_vibration

@@ -9,19 +9,20 @@ from typing import Any
 import numpy as np
 
 from linkwright.papers.paper3.engine import Shift, TrialEngine
-from linkwright.torsion.model.engine.dead_centres import dead_centres
 from linkwright.torsion.model.engine.equivalent_inertia import (
     articulated_inertia,
+    central_mean_inertia,
     disc_by_distribution,
     disc_by_two_masses,
+    mean_inertia,
     printed_disc,
     published_piston_speed,
     published_throw_inertia,
 )
-from linkwright.torsion.model.engine.mean_inertia import central_mean_inertia, mean_inertia
 from linkwright.torsion.model.engine.pendulum import PRINTED_GRAVITY
 from linkwright.torsion.model.engine.rod import Rod
 from linkwright.torsion.model.engine.rod_motion import slider_crank
+from linkwright.torsion.model.engine.running_gear import dead_centres
 
 # Crank angles at which speeds are compared.
 _ANGLES = 3600

@@ -7,8 +7,7 @@ from typing import Any
 
 from linkwright.papers.paper3.engine import Shift, TrialEngine
 from linkwright.torsion.model.engine.throw import CrankThrow
-from linkwright.torsion.model.engine.throw_compliance import compliances
-from linkwright.torsion.model.engine.throw_formulas import restraint_length
+from linkwright.torsion.model.engine.throw_compliance import compliances, restraint_length
 from linkwright.torsion.model.engine.throw_inertia import published_inertia
 
 _NAMES = {

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.papers.paper3.engine import TrialEngine
-from linkwright.torsion.model.engine.firing import firing_angles
+from linkwright.torsion.model.engine.engine import firing_angles
 from linkwright.torsion.model.whole_train import throw_names
 from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import ForcedVibration, forced_vibration, responded
-from linkwright.torsion.response.synthesis import span
+from linkwright.torsion.response.harmonics import span
 from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
 
 Floats = NDArray[np.float64]

@@ -72,7 +72,7 @@ def damper(
 
 def _answer(name: str, found: DamperDesign) -> Answer:
     """The damper, also as lines of a machine file."""
-    from linkwright.torsion.tables.damper import damper_lines, damper_table
+    from linkwright.torsion.tables.engine import damper_lines, damper_table
 
     return Answer(
         machine=name,
@@ -87,6 +87,6 @@ def _answer(name: str, found: DamperDesign) -> Answer:
 
 def _figures(found: DamperDesign) -> dict[str, Figure]:
     """The response, with and without it."""
-    from linkwright.torsion.figures.damper import damper_figure
+    from linkwright.torsion.figures.forced import damper_figure
 
     return {"damper": damper_figure(found)}

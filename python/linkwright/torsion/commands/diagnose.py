@@ -81,7 +81,7 @@ def diagnose(
 
 def _answer(name: str, read: RecordDiagnosis, level: float) -> Answer:
     """What each cylinder gives, and what is wrong with which."""
-    from linkwright.torsion.tables.diagnosis import diagnosis_table, diagnosis_words
+    from linkwright.torsion.tables.engine import diagnosis_table, diagnosis_words
 
     found = read.found
     results = {

@@ -16,8 +16,8 @@ is :math:`\tfrac34\sqrt3/x''`, at a third of a period.
 
 References
 ----------
-.. [1] Concordia, Synchronous Machines: Theory and Performance, 1951, chapter 7: torque in short circuits
-from constant flux linkages.
+.. [1] Concordia, Synchronous Machines: Theory and Performance, 1951, chapter 7: torque in short circuits from
+   constant flux linkages.
 """
 
 from __future__ import annotations
@@ -26,8 +26,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from linkwright.kernel.core.curve import Curve
+from linkwright.drive.model.drive import Drive
+from linkwright.drive.model.motor import ConstantTorqueMotor, DcMotor, InductionMotor, TableMotor
+from linkwright.kernel.core.curve import Curve, smooth, straight
 from linkwright.kernel.core.periodic_table import PeriodicTable
+from linkwright.linkages.model.element import Crank
+from linkwright.linkages.model.mechanism import Mechanism
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
 
 
 @dataclass(frozen=True)
@@ -116,3 +122,35 @@ def short_circuit(
     if phases == 3:
         return (simple,)
     return simple, TrainTorque(name, on, -0.5 * size, replace(first, speed=2 * speed))
+
+
+# Points up to twice the synchronous speed: a hundred of them in the narrowest breakdown slip, so that cubics
+# between them err by less than 1e-6.
+_POINTS = 4001
+
+
+def motor_curve(motor: InductionMotor | DcMotor | TableMotor | ConstantTorqueMotor) -> Curve:
+    """Torque of a motor over its speed.
+
+    Torque [N m] over speed [rad/s]. That of an induction motor is held below rest and beyond twice its
+    synchronous speed.
+    """
+    match motor:
+        case ConstantTorqueMotor():
+            return straight([0.0], [motor.torque])
+        case DcMotor(speed_no_load=no_load, torque_stall=stall):
+            assert stall is not None
+            return straight([0.0, no_load], [stall, 0.0], beyond="straight")
+        case TableMotor():
+            return straight(motor.speed, motor.torque)
+    assert motor.speed_synchronous is not None
+    speeds = np.linspace(0.0, 2 * motor.speed_synchronous, _POINTS)
+    # The torque is the core's own, that of a machine with nothing but this motor.
+    bare = Machine(
+        format=1,
+        name="motor",
+        drive=Drive(motor=motor),
+        mechanism=Mechanism(cranks={"A": Crank(radius=1.0)}),
+    )
+    torque = compile_machine(bare).motor_torques(speeds)[0]
+    return smooth(speeds, torque, np.gradient(torque, speeds, edge_order=2), beyond="held")

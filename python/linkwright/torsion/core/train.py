@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 from linkwright import _core
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.torsion.model.train import GROUND, Shaft, Train, TrainGear
-from linkwright.torsion.model.train_speeds import parts_of, speeds
-from linkwright.torsion.model.whole_train import whole_train
+from linkwright.torsion.model.whole_train import parts_of, speeds, whole_train
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]

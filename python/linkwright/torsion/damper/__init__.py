@@ -2,7 +2,6 @@
 
 | module | |
 | --- | --- |
-| `damper_design` | The best damper for a mode of a train |
+| `damper_design` | The best damper for a mode of a train, by the mode alone and for the whole train |
 | `damper_rules` | Dampers of one mass on a spring in closed form |
-| `ring_on_train` | The best damper for a train |
 """

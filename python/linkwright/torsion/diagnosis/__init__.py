@@ -2,12 +2,9 @@
 
 | module | |
 | --- | --- |
-| `cylinder_factors` | Factors of the cylinders of an engine with their uncertainty, and whom they accuse |
-| `cylinder_response` | Harmonics of the speed of one disc |
-| `diagnosis` | Which cylinder is weak: the share of each in a measured speed, by least squares on orders |
+| `diagnosis` | Which cylinder is weak: factors with their uncertainty, by least squares on orders |
 | `engine_diagnosis` | Which cylinder of an engine is weak: its factors by Gauss and Newton's method |
-| `engine_speed` | What the speed of a disc is, however strongly |
-| `measured_speed` | A speed measured over a cycle, as harmonics |
+| `engine_speed` | Speed of one disc, however strongly each cylinder works; elastic train or rigid |
+| `measured_speed` | A speed measured over a cycle, or recorded over the crank angle, as harmonics |
 | `record_diagnosis` | Which cylinder of an engine is weak |
-| `recorded_speed` | A speed recorded over the crank angle, as harmonics |
 """

@@ -25,8 +25,7 @@ from linkwright.kernel.numerics.confidence import chance_of_ratio
 from linkwright.kernel.numerics.least_squares import Fit, least_squares, scaled
 from linkwright.kernel.public import public
 from linkwright.machine.machine import Machine
-from linkwright.torsion.diagnosis.cylinder_factors import Diagnosis
-from linkwright.torsion.diagnosis.diagnosis import diagnosed, equations, places
+from linkwright.torsion.diagnosis.diagnosis import Diagnosis, diagnosed, equations, places
 from linkwright.torsion.diagnosis.engine_speed import EngineSpeed
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
 

@@ -11,11 +11,10 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import refer
-from linkwright.torsion.diagnosis.cylinder_factors import Diagnosis
+from linkwright.torsion.diagnosis.diagnosis import Diagnosis
 from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis
-from linkwright.torsion.diagnosis.recorded_speed import recorded_speed
-from linkwright.torsion.model.engine.engine import ReciprocatingEngine
-from linkwright.torsion.model.engine.firing import firing_angles
+from linkwright.torsion.diagnosis.measured_speed import recorded_speed
+from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.modes.free import train_of
 from linkwright.torsion.response.excited_train import excited_train
 

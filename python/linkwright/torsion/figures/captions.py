@@ -9,7 +9,6 @@ import numpy as np
 
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.figure.captioned import Captioned
-from linkwright.torsion.figures.campbell import campbell_figure
 from linkwright.torsion.figures.forced import (
     heat_figure,
     orders_figure,
@@ -17,9 +16,8 @@ from linkwright.torsion.figures.forced import (
     stress_figure,
     torsion_unevenness_figure,
 )
-from linkwright.torsion.figures.modes import modes_figure
+from linkwright.torsion.figures.modes import campbell_figure, in_a_row, modes_figure
 from linkwright.torsion.figures.scheme import scheme_figure
-from linkwright.torsion.figures.train_row import in_a_row
 from linkwright.torsion.figures.transient import transient_figure, waterfall_figure
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.in_time.waterfall import waterfall

@@ -1,4 +1,4 @@
-"""Forced vibration of a train over its speeds: torques, stresses, amplitudes, speed fluctuation, heat."""
+"""Forced vibration of a train over its speeds: torques, stresses, amplitudes, heat; what a damper leaves."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from linkwright.kernel.figure.style import (
     SKY,
     SOFT,
     legend_above,
+    level,
     named,
     panels,
     styled,
@@ -27,9 +28,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from linkwright.torsion.damper.damper_design import DamperDesign
     from linkwright.torsion.limits.barred_range import BarredRange
     from linkwright.torsion.response.forced import ForcedVibration
     from linkwright.torsion.response.stress import ShaftStress
+
 
 Floats = NDArray[np.float64]
 
@@ -184,3 +187,27 @@ def _largest(rows: Floats, count: int = _LINES_MAX) -> list[int]:
     # A row that is nowhere finite has a resonance that nothing damps: it stays.
     size = np.nan_to_num(rows, nan=0.0, posinf=np.finfo(float).max).max(axis=1)
     return sorted(np.argsort(-size, kind="stable")[:count].tolist())
+
+
+# Height of the picture over the best damper's peak: the resonance without damping has no end.
+_TOP = 3.0
+
+
+@styled
+def damper_figure(found: DamperDesign) -> Figure:
+    """Draw the twist of the watched shaft over the frequency, without damper and with it."""
+    figure, (axes,) = panels(1, height=3.2)
+    lines = (
+        (found.response_bare, SOFT, "without damper"),
+        (found.response_rule, RED, "mode alone"),
+        (found.response_best, BLUE, "best"),
+    )
+    for response, colour, label in lines:
+        axes.plot(found.frequencies, response, color=colour, label=label)
+    level(axes, found.magnification, "promised")
+    axes.set_ylim(0, _TOP * max(found.magnification_best, found.magnification))
+    axes.set_xlim(found.frequencies[0], found.frequencies[-1])
+    axes.set_xlabel("frequency [Hz]")
+    axes.set_ylabel(f"twist of {found.watched}\nover that at rest [–]")
+    legend_above(axes)
+    return figure

@@ -1,17 +1,35 @@
-"""Torsional vibration: the shapes in which a train swings."""
+"""Mode shapes of a train, and Campbell's diagram: natural frequencies and orders over the speed."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from linkwright.kernel.figure.style import INK, LINES, SOFT, panels, styled, zero_line
-from linkwright.torsion.figures.train_row import in_a_row
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.figure.style import (
+    GRID,
+    INK,
+    LINES,
+    ORANGE,
+    RED,
+    SOFT,
+    WIDTH,
+    legend_above,
+    panels,
+    styled,
+    zero_line,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from linkwright.torsion.modes.campbell import CampbellDiagram
     from linkwright.torsion.modes.free import FreeVibration
+
 
 # Modes in one picture, which is then a page high.
 _MODES_MAX = 6
@@ -48,3 +66,169 @@ def _mode(axes: Axes, found: FreeVibration, k: int, colour: str) -> None:
     axes.set_ylim(-1.15, 1.15)
     axes.set_ylabel(f"{found.natural_frequencies[k]:.5g} Hz")
     zero_line(axes)
+
+
+def in_a_row(discs: Sequence[str], joined: Sequence[tuple[str, str]]) -> list[int]:
+    """Places of the discs along a chain, from the end that is nearer to the first."""
+    about: dict[str, list[str]] = {name: [] for name in discs}
+    for a, b in joined:
+        if a in about and b in about and b not in about[a]:
+            about[a].append(b)
+            about[b].append(a)
+    ends = [name for name in discs if len(about[name]) < 2]
+    if len(ends) != 2 or any(len(each) > 2 for each in about.values()):
+        return list(range(len(discs)))
+    # From the end that is nearer to the first disc of the file.
+    row = min((_from(end, about) for end in ends), key=lambda each: each.index(discs[0]))
+    place = {name: n for n, name in enumerate(discs)}
+    return [place[name] for name in row] if len(row) == len(discs) else list(range(len(discs)))
+
+
+def _from(end: str, about: Mapping[str, Sequence[str]]) -> list[str]:
+    """The chain from one of its ends."""
+    row, before = [end], ""
+    while after := [name for name in about[row[-1]] if name != before]:
+        before = row[-1]
+        row.append(after[0])
+    return row
+
+
+Floats = NDArray[np.float64]
+
+_RPM = 30 / math.pi
+
+# Areas of the points [pt²]: without severity, and of the most severe.
+_PLAIN, _LARGEST = 14.0, 150.0
+
+# Critical speeds that are reported beside their points.
+_TOLD = 6
+
+# Width and height of the words beside a point, as shares of the picture.
+_WORDS = (0.11, 0.045)
+
+# Room between numbers of orders along an edge, as a share of it.
+_APART = 0.035
+
+
+@styled
+def campbell_figure(diagram: CampbellDiagram, running: tuple[float, float] | None = None) -> Figure:
+    """Draw natural frequencies, the rays of the orders, and critical speeds.
+
+    Points are as large as their mode swings: at resonance where damping is known, else if the torque acted
+    slowly; without torques all are alike. `running`: [rad/s].
+    """
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(WIDTH, 5.0), layout="constrained")
+    axes = figure.subplots()
+    speeds = diagram.speeds * _RPM
+    axes.set_xlim(speeds[0], speeds[-1])
+    axes.set_ylim(0, _top(diagram))
+    if running is not None:
+        axes.axvspan(
+            *(speed * _RPM for speed in running), color=GRID, alpha=0.5, linewidth=0, label="running"
+        )
+    _rays(axes, diagram)
+    moving = [row for row in diagram.frequencies if row.max() > 0]
+    for nth, row in enumerate(moving):
+        axes.plot(speeds, row, color=LINES[nth % len(LINES)], linewidth=1.6)
+    _points(axes, diagram)
+    axes.set_xlabel("speed [rpm]")
+    axes.set_ylabel("frequency [Hz]")
+    if axes.get_legend_handles_labels()[0]:
+        legend_above(axes)
+    return figure
+
+
+def _top(diagram: CampbellDiagram) -> float:
+    """Frequency up to which there is something to see."""
+    ray = float(diagram.orders.max() * diagram.speeds[-1]) / (2 * math.pi)
+    reached = [row.max() for row in diagram.frequencies if 0 < row.min() <= ray]
+    return 1.12 * float(max(reached, default=ray))
+
+
+def _rays(axes: Axes, diagram: CampbellDiagram) -> None:
+    """Frequencies of the orders, with their numbers where they leave the picture."""
+    (left, right), top = axes.get_xlim(), axes.get_ylim()[1]
+    last = None
+    for order in sorted(diagram.orders.tolist()):
+        axes.plot(
+            [left, right],
+            [order * left / 60, order * right / 60],
+            color=SOFT,
+            linewidth=0.5,
+            alpha=0.6,
+            zorder=1,
+        )
+        x, y = (right, order * right / 60) if order * right / 60 <= top else (60 * top / order, top)
+        # Along the right edge upwards, then along the upper edge to the left.
+        along = y / top if x == right else 1 + (right - x) / (right - left)
+        if x < left or (last is not None and along - last < _APART):
+            continue
+        last = along
+        at_right = x == right
+        axes.annotate(
+            f"{order:g}",
+            (x, y),
+            xytext=(3, 0) if at_right else (0, 2),
+            textcoords="offset points",
+            ha="left" if at_right else "center",
+            va="center" if at_right else "bottom",
+            color=SOFT,
+            fontsize=7.5,
+        )
+
+
+def _points(axes: Axes, diagram: CampbellDiagram) -> None:
+    """Critical speeds, as large as they are severe."""
+    critical = diagram.critical
+    if not critical:
+        return
+    severity, name = _severity(diagram)
+    share = severity / severity.max() if severity.max() > 0 else np.zeros_like(severity)
+    x = np.array([each.speed for each in critical]) * _RPM
+    y = np.array([each.frequency for each in critical])
+    area = np.maximum(_LARGEST * share, 3.0) if name else np.full(len(x), _PLAIN)
+    axes.scatter(
+        x, y, s=area, facecolor=ORANGE, edgecolor=RED, linewidth=0.8, alpha=0.85, zorder=3, label=name
+    )
+    if name:
+        worst = [n for n in np.argsort(-severity, kind="stable").tolist() if share[n] > 0]
+        _told(axes, [(x[n], y[n], area[n], critical[n].order) for n in worst[:_TOLD]])
+
+
+def _told(axes: Axes, listed: list[tuple[float, float, float, float]]) -> None:
+    """Speed and order beside points of known area, the most severe first, where there is room."""
+    (left, right), top = axes.get_xlim(), axes.get_ylim()[1]
+    taken: list[tuple[float, float]] = []
+    for x, y, area, order in listed:
+        place = (x - left) / (right - left), y / top
+        if any(abs(place[0] - u) < _WORDS[0] and abs(place[1] - v) < _WORDS[1] for u, v in taken):
+            continue
+        taken.append(place)
+        side = "left" if place[0] < _WORDS[0] / 2 else "right" if place[0] > 1 - _WORDS[0] / 2 else "center"
+        axes.annotate(
+            f"{x:.4g} ({order:g})",
+            (x, y),
+            xytext=(0, 3 + math.sqrt(area) / 2),
+            textcoords="offset points",
+            ha=side,
+            fontsize=7.5,
+            color=INK,
+            zorder=4,
+        )
+
+
+def _severity(diagram: CampbellDiagram) -> tuple[Floats, str]:
+    """How severe critical speeds are, and by what; infinite ones as twice the largest that is not."""
+    for entry, name in (
+        ("resonance_amplitude", "critical: rpm (order), by amplitude at resonance"),
+        ("equilibrium_amplitude", "critical: rpm (order), by equilibrium amplitude"),
+    ):
+        found = [getattr(each, entry) for each in diagram.critical]
+        if all(value is not None for value in found) and any(found):
+            size = np.array(found, float)
+            finite = size[np.isfinite(size)]
+            if len(finite) and finite.max() > 0:
+                return np.where(np.isfinite(size), size, 2 * finite.max()), name
+    return np.ones(len(diagram.critical)), ""

@@ -9,8 +9,18 @@ import numpy as np
 
 from linkwright.kernel.figure.style import BLUE, GREEN, INK, PAPER, RED, SOFT, styled
 from linkwright.torsion.figures.scheme_layout import Bridge, Riser, Span
-from linkwright.torsion.figures.scheme_page import GAP, HALF, HIGH, LOW, MARGIN, Page, in_a_row, page
-from linkwright.torsion.figures.scheme_words import LINE, SIZE
+from linkwright.torsion.figures.scheme_page import (
+    GAP,
+    HALF,
+    HIGH,
+    LINE,
+    LOW,
+    MARGIN,
+    SIZE,
+    Page,
+    in_a_row,
+    page,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

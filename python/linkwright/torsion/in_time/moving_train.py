@@ -1,4 +1,12 @@
-"""A train of a machine file made ready to move in time: its parts, its torques, and what happens to them."""
+r"""A train of a machine file made ready to move in time: its parts, its engine, its torques, its events.
+
+An engine in motion is not linear: a throw at the angle φ + α has the inertia J(φ + α), and its swinging
+changes both. What linear vibration calls inertia torque, :math:`-\tfrac12 J'\Omega^2`, is part of the
+motion's own equation.
+
+A cylinder gives the torque of its gas without combustion, and on top of it, with a weight over time, what the
+combustion adds. Both are taken at one speed.
+"""
 
 from __future__ import annotations
 
@@ -7,34 +15,39 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.core.curve import Curve, odd, straight, switched
-from linkwright.kernel.core.periodic_table import PeriodicTable, waves
+from linkwright.kernel.core.curve import Curve, odd, product, straight, switched
+from linkwright.kernel.core.periodic_table import PeriodicTable, smooth, waves
 from linkwright.kernel.errors import InputError, MachineError, Problem
-from linkwright.torsion.core.motor import motor_curve
 from linkwright.torsion.core.torque import (
     DecayingTorque,
     GovernorTorque,
     OverSpeed,
     Power,
     TrainTorque,
+    motor_curve,
     short_circuit,
 )
 from linkwright.torsion.core.train import ReferredTrain, refer
-from linkwright.torsion.core.transient import MovingTrain, moving, viscous
-from linkwright.torsion.in_time.moving_engine import engine_motion_torques, throw_inertias
+from linkwright.torsion.core.transient import MovingTrain, VariableInertia, moving, variable_inertia, viscous
+from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
+from linkwright.torsion.model.engine.engine_motion import reduced_throw
 from linkwright.torsion.model.train import Train
-from linkwright.torsion.model.train_event import (
+from linkwright.torsion.model.train_torques import Harmonic, LoadHarmonic, TrainLoad
+from linkwright.torsion.model.train_transient import (
+    FuelSwitch,
     LoadStep,
+    Misfire,
     MotorSwitch,
     ShortCircuit,
     SpeedCourse,
     TorqueCourse,
     TorqueStep,
+    TrainTransient,
+    transient_faults,
 )
-from linkwright.torsion.model.train_torques import Harmonic, LoadHarmonic, TrainLoad
-from linkwright.torsion.model.train_transient import TrainTransient, transient_faults
 from linkwright.torsion.model.whole_train import whole_train
 from linkwright.torsion.modes.free import lead_speeds
+from linkwright.torsion.response.engine_torques import cylinder_torques
 from linkwright.torsion.response.excited_train import highest_order
 
 Floats = NDArray[np.float64]
@@ -214,3 +227,91 @@ def _events(manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainT
                     start=event.time,
                     end=event.end,
                 )
+
+
+# Name of what combustion adds in a cylinder, before its number.
+COMBUSTION = "combustion_"
+
+# Angles over one revolution at which a throw is reduced: far beyond its harmonics.
+_SAMPLES = 256
+
+
+def throw_inertias(engine: ReciprocatingEngine) -> list[VariableInertia]:
+    """Inertia of each throw with its rods and pistons over the angle."""
+    phi = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
+    reduced = reduced_throw(engine, phi)
+    first = variable_inertia(0, reduced.inertia_reduced, reduced.inertia_reduced_d1)
+    return [VariableInertia(n, first.table, angle) for n, angle in enumerate(engine.throws)]
+
+
+def engine_motion_torques(
+    engine: ReciprocatingEngine, manoeuvre: TrainTransient, speed: float, highest: float
+) -> list[TrainTorque]:
+    """Torques of gas and weight on the throws.
+
+    ``"gas_N"`` of each cylinder without combustion, ``"combustion_N"`` on top of it, ``"weight_N"`` of each
+    throw. `speed`: [rad/s].
+    """
+    fires, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
+    motored, added = _gas_tables(engine, speed, highest)
+    found = []
+    for n, (place, angle) in enumerate(zip(engine.places, fires, strict=True)):
+        number = n + 1
+        gas = TrainTorque(f"gas_{number}", place.throw, shape=motored[place.bank], phase=-float(angle))
+        factor = engine.factor(number)
+        burns = TrainTorque(
+            f"{COMBUSTION}{number}",
+            place.throw,
+            factor,
+            shape=added[place.bank],
+            phase=-float(angle),
+            weight=combustion_weight(manoeuvre, number),
+        )
+        found += [gas, burns]
+    return [*found, *_weights(engine)]
+
+
+def combustion_weight(manoeuvre: TrainTransient, cylinder: int) -> Curve | None:
+    """Share of the combustion in a cylinder over time. None if it burns all the time."""
+    fuel = [
+        (each.time, float(each.kind == "fuel_on"), each.over)
+        for each in manoeuvre.events
+        if isinstance(each, FuelSwitch)
+    ]
+    weight = switched(fuel, manoeuvre.fuel) if fuel or manoeuvre.fuel != 1.0 else None
+    for change in _misfires(manoeuvre, cylinder):
+        weight = change if weight is None else product(weight, change)
+    return weight
+
+
+def _misfires(manoeuvre: TrainTransient, cylinder: int) -> Iterator[Curve]:
+    """Share that each event leaves to a cylinder."""
+    for each in manoeuvre.events:
+        if isinstance(each, Misfire) and cylinder in each.cylinders:
+            end = [(each.end, 1.0, 0.0)] if np.isfinite(each.end) else []
+            yield switched([(each.time, each.factor, 0.0), *end])
+
+
+def _gas_tables(
+    engine: ReciprocatingEngine, speed: float, highest: float
+) -> tuple[list[PeriodicTable], list[PeriodicTable]]:
+    """Torque of a cylinder of each bank without combustion, and what the combustion adds."""
+    gas = cylinder_torques(engine, np.array([speed]), highest)
+    turns = engine.strokes // 2
+
+    def table(harmonics: NDArray[np.complex128]) -> PeriodicTable:
+        wave = harmonics[1:]
+        return waves(gas.orders[1:].tolist(), np.abs(wave), np.angle(wave), turns, float(harmonics[0].real))
+
+    motored = [table(each.motored[0]) for each in gas.banks]
+    added = [table(each.firing[0] - each.motored[0]) for each in gas.banks]
+    return motored, added
+
+
+def _weights(engine: ReciprocatingEngine) -> list[TrainTorque]:
+    """Torque of the weights of each throw."""
+    phi = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
+    table = smooth(reduced_throw(engine, phi).weight_torque)
+    return [
+        TrainTorque(f"weight_{n + 1}", n, shape=table, phase=angle) for n, angle in enumerate(engine.throws)
+    ]

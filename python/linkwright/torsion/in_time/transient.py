@@ -28,10 +28,9 @@ from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.transient import MovingTrain, TrainMotion
-from linkwright.torsion.in_time.balanced_start import balanced_start
-from linkwright.torsion.in_time.loaded_start import loaded_angles
 from linkwright.torsion.in_time.moving_drive import moving_drive
 from linkwright.torsion.in_time.moving_train import moving_train
+from linkwright.torsion.in_time.steady_start import balanced_start, loaded_angles
 from linkwright.torsion.limits.peak_judgement import PeakJudgement, judged
 from linkwright.torsion.model.train_transient import TrainTransient
 

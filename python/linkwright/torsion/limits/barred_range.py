@@ -26,9 +26,14 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-from linkwright.torsion.limits.criteria import PASSING_STRESS, VIBRATORY_STRESS, Criterion
-from linkwright.torsion.limits.exceedance import Exceedance, peaks_between
-from linkwright.torsion.model.propulsion_shaft import barred_speeds
+from linkwright.torsion.limits.criteria import (
+    PASSING_STRESS,
+    VIBRATORY_STRESS,
+    Criterion,
+    Exceedance,
+    peaks_between,
+)
+from linkwright.torsion.model.permitted_stress import barred_speeds
 from linkwright.torsion.response.survey import Survey, survey
 
 Floats = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""What is asked of the parts of a train: found against permitted, at any speeds.
+"""What is asked of the parts of a train, found against permitted, and where over the speed it is exceeded.
 
 | part | what | permitted by |
 | --- | --- | --- |
@@ -6,11 +6,13 @@
 | coupling | torque, vibratory torque, heat | its own entries |
 | damper | heat | `heat_permitted` |
 | gear stage | drop of the torque below its mean | the mean: beyond it teeth part |
+
+Found over permitted is known at some speeds and can be asked for at any other; many are asked for at once.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -18,14 +20,13 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.units import POWER, PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
-from linkwright.torsion.model.coupling import Coupling
-from linkwright.torsion.model.damper import Damper
+from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.model.train import Shaft, Train
 from linkwright.torsion.response.excited_train import ExcitedTrain
+from linkwright.torsion.response.forced import TorsionResponse
 from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
 from linkwright.torsion.response.stress import ShaftStress, shaft_stress
-from linkwright.torsion.response.torsion_response import TorsionResponse
 
 Floats = NDArray[np.float64]
 
@@ -113,3 +114,119 @@ def _contacts(gears: MeshTorque) -> Iterator[Criterion]:
             # A stage of a loop has no torque that statics knows.
             mean = np.where(np.isnan(gears.drop[g]), np.nan, mean)
             yield Criterion(name, CONTACT, TORQUE, gears.drop[g], mean)
+
+
+# Rows of curves at any speeds, (rows, speeds).
+Curves = Callable[[Floats], Floats]
+
+# Bounds are sought until the curve is as close to 1 as this, or the speeds as close together as that.
+_CLOSE = 1e-10
+_NARROW = 1e-10
+_BOUND_ROUNDS = 100
+
+# Points to which the neighbourhood of a peak is cut in one round, and rounds: to some 10⁻⁷ of it.
+_CUTS = 8
+_PEAK_ROUNDS = 12
+
+
+class Exceedance(NamedTuple):
+    """A range of speeds in which a curve lies above 1."""
+
+    row: int  # of the curve
+    # `low`, `high`: bounds [rad/s].
+    low: float
+    high: float
+    # `open_low`, `open_high`: whether it goes on beyond the speeds looked at.
+    open_low: bool
+    open_high: bool
+    peak: float  # speed of its highest value [rad/s]
+
+
+def exceedances(curves: Curves, speeds: Floats, values: Floats) -> list[Exceedance]:
+    """Ranges in which curves lie above 1.
+
+    By row, then by speed. `speeds`: (n,) [rad/s]; `values`: (rows, n).
+    """
+    runs = [(row, *run) for row, above in enumerate(values > 1) for run in _runs(above)]
+    last = len(speeds) - 1
+    edges = [(row, n, n - 1) for row, n, _ in runs if n > 0]
+    edges += [(row, n, n + 1) for row, _, n in runs if n < last]
+    bounds = _bounds(curves, [(row, speeds[inside], speeds[outside]) for row, inside, outside in edges])
+    bound = dict(zip(((row, inside, outside) for row, inside, outside in edges), bounds, strict=True))
+    tops = [(row, n + int(np.argmax(values[row, n : m + 1]))) for row, n, m in runs]
+    between = [(row, speeds[max(n - 1, 0)], speeds[min(n + 1, last)]) for row, n in tops]
+    peaks = peaks_between(curves, between, [(speeds[n], values[row, n]) for row, n in tops])
+    return [
+        Exceedance(
+            row,
+            float(bound.get((row, n, n - 1), speeds[n])),
+            float(bound.get((row, m, m + 1), speeds[m])),
+            n == 0,
+            m == last,
+            peak,
+        )
+        for (row, n, m), peak in zip(runs, peaks, strict=True)
+    ]
+
+
+def _runs(above: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
+    """First and last place of each run of true values."""
+    steps = np.flatnonzero(np.diff(np.concatenate([[0], above.astype(np.int8), [0]])))
+    yield from zip(steps[::2].tolist(), (steps[1::2] - 1).tolist(), strict=True)
+
+
+def _bounds(curves: Curves, edges: list[tuple[int, float, float]]) -> list[float]:
+    """Where curves pass 1 between a speed inside and one outside, all at once."""
+    if not edges:
+        return []
+    rows = np.array([row for row, _, _ in edges])
+    a, b = np.array([pair for _, *pair in edges], float).T
+    f_a, f_b = (_at(curves, rows, each[None])[0] - 1 for each in (a, b))
+    c, before = a, np.zeros(len(rows))
+    for n in range(_BOUND_ROUNDS):
+        with np.errstate(invalid="ignore"):
+            c = b - f_b * (b - a) / (f_b - f_a)
+        # Halved where a curve jumps, or is infinite.
+        c = np.where(np.isfinite(c) & (n % 3 < 2), c, 0.5 * (a + b))
+        f_c = _at(curves, rows, c[None])[0] - 1
+        if ((np.abs(f_c) < _CLOSE) | (np.abs(b - a) < _NARROW * np.abs(c))).all():
+            break
+        inside, side = f_c > 0, np.sign(f_c)
+        # An end that stays twice counts half: the Illinois form of the false position.
+        half = np.where(side == before, 0.5, 1.0)
+        f_a, f_b = np.where(inside, f_c, half * f_a), np.where(inside, half * f_b, f_c)
+        a, b, before = np.where(inside, c, a), np.where(inside, b, c), side
+    found: list[float] = c.tolist()
+    return found
+
+
+def peaks_between(
+    curves: Curves, between: list[tuple[int, float, float]], known: list[tuple[float, float]]
+) -> list[float]:
+    """Speeds of the highest values of curves between two speeds, all at once [rad/s].
+
+    `between`: [rad/s]; `known`: [rad/s].
+    """
+    if not between:
+        return []
+    rows = np.array([row for row, _, _ in between])
+    low, high = np.array([pair for _, *pair in between], float).T
+    best, value = np.array(known, float).T
+    for _ in range(_PEAK_ROUNDS):
+        points = np.linspace(low, high, _CUTS + 1)
+        found = np.nan_to_num(_at(curves, rows, points), nan=-np.inf, posinf=np.inf)
+        top, pick = np.argmax(found, axis=0), np.arange(len(rows))
+        better = found[top, pick] > value
+        best = np.where(better, points[top, pick], best)
+        value = np.where(better, found[top, pick], value)
+        step = (high - low) / _CUTS
+        low, high = np.maximum(best - step, low), np.minimum(best + step, high)
+    listed: list[float] = best.tolist()
+    return listed
+
+
+def _at(curves: Curves, rows: NDArray[np.int64], points: Floats) -> Floats:
+    """Values of one row for each column of points, (cuts, columns)."""
+    values = curves(points.ravel()).reshape(-1, *points.shape)
+    found: Floats = values[rows, :, np.arange(len(rows))].T
+    return found

@@ -20,8 +20,13 @@ from linkwright.kernel.result import Result
 from linkwright.kernel.units import PRESSURE, Kind
 from linkwright.machine.machine import Machine
 from linkwright.torsion.limits.barred_range import BarredRange, surveyed_ranges
-from linkwright.torsion.limits.criteria import CONTACT, PASSING_STRESS, VIBRATORY_STRESS, Criterion
-from linkwright.torsion.limits.exceedance import Exceedance
+from linkwright.torsion.limits.criteria import (
+    CONTACT,
+    PASSING_STRESS,
+    VIBRATORY_STRESS,
+    Criterion,
+    Exceedance,
+)
 from linkwright.torsion.response.survey import Survey, survey
 
 Floats = NDArray[np.float64]

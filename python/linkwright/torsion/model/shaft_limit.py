@@ -3,8 +3,8 @@
 | kind | vibratory stress permitted |
 | --- | --- |
 | `given` | as given |
-| `iacs_m68` | propulsion shafts of ships: IACS UR M68 (`propulsion_shaft`) |
-| `kr_crankshaft` | crankshafts of main engines: Korean Register (`crankshaft_limit`) |
+| `iacs_m68` | propulsion shafts of ships: IACS UR M68 (`permitted_stress`) |
+| `kr_crankshaft` | crankshafts of main engines: Korean Register (`permitted_stress`) |
 
 Torques and the maximum stress, mean and vibration together, may be limited with each kind.
 """
@@ -23,14 +23,17 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import FRACTION, PRESSURE, RATIO, SECTION_MODULUS, Quantity, positive
 from linkwright.linkages.model.element import PositiveLength
-from linkwright.torsion.model import propulsion_shaft
-from linkwright.torsion.model.crankshaft_limit import (
+from linkwright.torsion.model import permitted_stress
+from linkwright.torsion.model.permitted_stress import (
+    DESIGN_FACTORS,
     STRENGTH_COUNTED,
+    STRENGTH_MIN,
+    Design,
     Firing,
+    Steel,
     crank_stress,
     crank_transient_stress,
 )
-from linkwright.torsion.model.propulsion_shaft import DESIGN_FACTORS, STRENGTH_MIN, Design, Steel
 from linkwright.torsion.model.shaft_flexibility import polar_moment
 from linkwright.torsion.model.shaft_section import Bore, ShaftSection
 from linkwright.torsion.model.train_base import PositiveTorque
@@ -170,12 +173,12 @@ class ShaftLimit(CheckedDescription):
         steel = self.steel or "carbon"
         if self.kind == "kr_crankshaft":
             return min(self.tensile_strength, STRENGTH_COUNTED[steel])
-        return propulsion_shaft.counted_strength(self.tensile_strength, steel, self.design or "flange")
+        return permitted_stress.counted_strength(self.tensile_strength, steel, self.design or "flange")
 
     @property
     def barred_ratio_max(self) -> float:
         """Highest λ that speeds may be barred at in normal operation; infinite without a rule."""
-        return math.inf if self.kind == "given" else propulsion_shaft.RATIO_BARRED_MAX
+        return math.inf if self.kind == "given" else permitted_stress.RATIO_BARRED_MAX
 
     def permitted_stress(self, speed_ratio: Floats, diameter: float | None) -> tuple[Floats, Floats]:
         """Permitted amplitudes of the vibratory stress in continuous operation and in transient passage.
@@ -187,8 +190,8 @@ class ShaftLimit(CheckedDescription):
             assert self.counted_strength is not None
             assert diameter is not None
             C_K = self.shape_factor
-            found = propulsion_shaft.continuous_stress(self.counted_strength, diameter, C_K, speed_ratio)
-            return found, propulsion_shaft.transient_stress(found, C_K)
+            found = permitted_stress.continuous_stress(self.counted_strength, diameter, C_K, speed_ratio)
+            return found, permitted_stress.transient_stress(found, C_K)
         if self.kind == "kr_crankshaft":
             firing = self.firing or "other"
             found = crank_stress(speed_ratio, firing, self.counted_strength)
@@ -204,7 +207,7 @@ class ShaftLimit(CheckedDescription):
         """Stress over permitted stress, but for a factor, at a section."""
         size = 1.0
         if self.kind == "iacs_m68" and section.diameter is not None:
-            size = propulsion_shaft.size_factor(section.diameter)
+            size = permitted_stress.size_factor(section.diameter)
         return 1.0 / (section.section_modulus * size)
 
     def section(self, sections: Sequence[ShaftSection] | None) -> StressedSection | None:

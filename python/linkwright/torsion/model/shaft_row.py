@@ -1,7 +1,7 @@
 """Sections of a shaft in a row: their flexibilities with those of the steps between them.
 
 Sections in a row add their flexibilities. A step to the next section adds a length of the thinner one where a
-fillet is given, 0 for a sharp corner (`shaft_step`).
+fillet is given, 0 for a sharp corner (`shaft_flexibility`).
 """
 
 from __future__ import annotations
@@ -13,9 +13,8 @@ from itertools import pairwise
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault
-from linkwright.torsion.model.shaft_flexibility import polar_moment
+from linkwright.torsion.model.shaft_flexibility import polar_moment, step_length
 from linkwright.torsion.model.shaft_section import ShaftSection
-from linkwright.torsion.model.shaft_step import step_length
 
 
 def _step(first: ShaftSection, second: ShaftSection) -> tuple[float, float]:

@@ -13,9 +13,15 @@ from linkwright.kernel.description.plain import keys, look
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.kernel.limits import DISCS
 from linkwright.torsion.model.train import GROUND, Train
-from linkwright.torsion.model.train_speeds import Contradiction, parts_of, speeds
 from linkwright.torsion.model.train_transient import transient_faults
-from linkwright.torsion.model.whole_train import crank_names, throw_names, whole_train
+from linkwright.torsion.model.whole_train import (
+    Contradiction,
+    crank_names,
+    parts_of,
+    speeds,
+    throw_names,
+    whole_train,
+)
 
 # Tables whose entries join two discs, and those whose entries sit on one.
 _TABLES = ("shafts", "couplings", "gears")

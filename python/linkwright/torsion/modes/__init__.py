@@ -4,10 +4,8 @@
 | --- | --- |
 | `campbell` | Campbell's diagram of a train: natural frequencies over the speed, and where orders meet them |
 | `damped` | Free vibration of a train with damping: how fast each mode dies out |
-| `damped_modes` | The quadratic eigenvalue problem of a train with damping |
 | `free` | Natural frequencies, mode shapes, nodes, energy, and what changes them |
 | `holzer` | What a train needs to swing at any frequency |
 | `modes_over_speed` | Modes of a train at any speed |
-| `resonance` | What is asked, at which speeds, and where it is not kept |
 | `scheme` | Inertias, stiffnesses and equivalent lengths, own and referred |
 """

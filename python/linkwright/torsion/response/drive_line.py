@@ -29,6 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import law_harmonics, mean_laws, mean_over_turn
 from linkwright.drive.sound_loads import require_same_turns, require_sound_loads
+from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
@@ -37,6 +38,7 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
 from linkwright.torsion.model.drive_train import CRANK, MOTOR, STIFFNESS_KEYS, drive_train
 from linkwright.torsion.model.train import Train
+from linkwright.torsion.response.harmonics import Source
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -211,3 +213,37 @@ def _positive(speed: ArrayLike) -> Floats:
     if omega.ndim != 1 or not (np.isfinite(omega) & (omega > 0)).all():
         raise InputError(f"speed: found {omega.tolist()} rad/s, expected numbers greater than 0")
     return omega
+
+
+# Orders of the crank that count, and the share of the largest below which one does not.
+_ORDERS = 24
+_NEGLIGIBLE = 1e-12
+
+
+def mechanism_sources(
+    machine: Machine, turning: Floats, place: dict[str, int], speeds: Floats
+) -> tuple[list[Source], Floats]:
+    """Torque of a mechanism on its crank at constant speed.
+
+    Gives `sources`: on the crank; `damping`: (discs, speeds) of motor and mechanism where their torques fall
+    or rise with the speed; none where they would excite [N m s/rad]. `turning`: (discs,) speed of each disc
+    over that of the first; `speeds`: (speeds,) [rad/s].
+    """
+    n = turning[place[CRANK]]
+    of_crank = np.arange(_ORDERS + 1.0)
+    found = mechanism_harmonics(machine, n * speeds, of_crank)
+    size = np.abs(found).max(axis=1)
+    kept = (of_crank > 0) & (size > _NEGLIGIBLE * size.max())
+    damping = np.zeros((len(place), len(speeds)))
+    for station, c in station_damping(machine, n * speeds).items():
+        if station in place:
+            damping[place[station]] += np.maximum(c, 0.0)
+    return [Source(place[CRANK], n * of_crank[kept], found[kept], found[0].real)], damping
+
+
+def steady_speed(machine: Machine) -> float:
+    """Mean speed of the crank in rigid steady motion; without a motor its design speed [rad/s]."""
+    drive = machine.drive
+    if drive is not None and drive.motor is None and drive.speed is not None:
+        return drive.speed
+    return steady_state(machine).speed_mean_time

@@ -18,12 +18,11 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import Operating, by_equilibrium, tree_of
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.model.drive_train import CRANK
-from linkwright.torsion.model.train import Train
-from linkwright.torsion.model.train_run import TrainRun
+from linkwright.torsion.model.train import Train, TrainRun
 from linkwright.torsion.modes.free import lead_speeds, train_of
+from linkwright.torsion.response.drive_line import mechanism_sources, steady_speed
 from linkwright.torsion.response.engine_torques import engine_sources
-from linkwright.torsion.response.mechanism_torques import mechanism_sources, steady_speed
-from linkwright.torsion.response.torques import Source, Torques, torques_of
+from linkwright.torsion.response.harmonics import Source, Torques, torques_of
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]

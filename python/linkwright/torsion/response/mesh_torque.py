@@ -32,8 +32,8 @@ from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.modes.free import lead_speeds
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
-from linkwright.torsion.response.synthesis import span
-from linkwright.torsion.response.torsion_response import TorsionResponse, torsion_response
+from linkwright.torsion.response.forced import TorsionResponse, torsion_response
+from linkwright.torsion.response.harmonics import span
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]

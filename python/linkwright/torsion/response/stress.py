@@ -32,11 +32,11 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.model.drive_train import CRANK
 from linkwright.torsion.model.shaft_limit import ShaftLimit, StressedSection
 from linkwright.torsion.model.train import Shaft
-from linkwright.torsion.model.train_speeds import speeds as turning
+from linkwright.torsion.model.whole_train import speeds as turning
 from linkwright.torsion.modes.free import train_of
+from linkwright.torsion.response.drive_line import steady_speed
 from linkwright.torsion.response.excited_train import excited_train
-from linkwright.torsion.response.mechanism_torques import steady_speed
-from linkwright.torsion.response.torsion_response import TorsionResponse, torsion_response
+from linkwright.torsion.response.forced import TorsionResponse, torsion_response
 
 Floats = NDArray[np.float64]
 

@@ -9,20 +9,69 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeVar
+from typing import Annotated, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-from linkwright.torsion.limits.criteria import Criterion, criteria
-from linkwright.torsion.limits.exceedance import Exceedance, exceedances, peaks_between
-from linkwright.torsion.modes.resonance import Resonance, resonances
+from linkwright.torsion.limits.criteria import Criterion, Exceedance, criteria, exceedances, peaks_between
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, loaded
+from linkwright.torsion.response.forced import TorsionResponse, torsion_response
 from linkwright.torsion.response.stress import service_speed
-from linkwright.torsion.response.torsion_response import TorsionResponse, torsion_response
 
 Floats = NDArray[np.float64]
+
+# Share of the largest ω² below which a motion is without stiffness.
+_FREE = 1e-13
+
+
+class Resonance(NamedTuple):
+    """A speed at which an order meets a natural frequency."""
+
+    speed: float  # of the first disc [rad/s]
+    order: float  # cycles per revolution of the first disc
+    mode: int  # of the natural frequencies in increasing order, from 0
+
+
+def resonances(at: ExcitedTrain) -> tuple[Resonance, ...]:
+    """Resonances between the lowest and the highest speed, by speed.
+
+    Without damping, of all orders, however small their torque.
+    """
+    speeds = np.sort(at.torques.speeds)
+    omega = _frequencies(at)[np.argsort(at.torques.speeds)]
+    found = []
+    for mode in range(omega.shape[1]):
+        for order in at.torques.orders.tolist():
+            gap = omega[:, mode] - order * speeds
+            found += [Resonance(speed, order, mode) for speed in _zeros(speeds, gap)]
+    return tuple(sorted(found))
+
+
+def _frequencies(at: ExcitedTrain) -> Floats:
+    """Natural frequencies above zero at every speed, (speeds, modes) [rad/s]."""
+    # Rings in a fluid hang on nothing elastic: LAPACK takes what is no train in pieces.
+    columns, place = np.unique(at.operating.stiffness, axis=1, return_inverse=True)
+    scale = 1.0 / np.sqrt(at.referred.inertia)
+    matrices = np.array([replace(at.referred, stiffness=column).stiffness_matrix for column in columns.T])
+    square = np.linalg.eigvalsh(scale[:, None] * matrices * scale)
+    # Rounding leaves some 10⁻¹⁵ of the largest where a part turns freely.
+    moving = square.min(axis=0) > _FREE * square.max(initial=0.0)
+    found: Floats = np.sqrt(square[place.ravel()][:, moving])
+    return found
+
+
+def _zeros(x: Floats, y: Floats) -> list[float]:
+    """Where a curve through points passes zero."""
+    n = np.flatnonzero(y[:-1] * y[1:] < 0)
+    share = y[n] / (y[n] - y[n + 1])
+    between: list[float] = (x[n] + share * (x[n + 1] - x[n])).tolist()
+    return [*between, *x[y == 0].tolist()]
+
+
 Values = TypeVar("Values", NDArray[np.float64], NDArray[np.complex128])
 
 # Speeds that differ by a smaller share are one.
@@ -178,3 +227,56 @@ def _about(known: Floats, wanted: Floats) -> tuple[NDArray[np.intp], Floats]:
             if k != n:
                 weights[n] *= (wanted - x[k]) / (x[n] - x[k])
     return about, weights
+
+
+@dataclass(frozen=True)
+class TorquePeaks(Result):
+    """Where each shaft swings most."""
+
+    shafts: Annotated[tuple[str, ...], About("As in `ForcedVibration`.")]
+    vibratory: Annotated[
+        Floats,
+        Shown(
+            "vibratory torque in each shaft",
+            "",
+            "N m",
+            "Half the peak-to-peak torque; infinite at a resonance that nothing damps.",
+            shape="(shafts,)",
+            over="vibratory",
+        ),
+    ]
+    speed: Annotated[
+        Floats, Shown("speed of the first disc there", "ω", "rad/s", shape="(shafts,)", over="speed")
+    ]
+
+
+def torque_peaks(seen: Survey) -> TorquePeaks:
+    """Largest vibratory torques over the speeds of a run and all resonances between them.
+
+    The highest of all speeds and resonances, sought between its neighbours as well.
+    """
+    resonant = np.setdiff1d([each.speed for each in seen.resonances], seen.at.torques.speeds)
+    every, vibratory = seen.at.torques.speeds, seen.found.shaft_torque_vibratory
+    if len(resonant):
+        every = np.concatenate([every, resonant])
+        vibratory = np.concatenate([vibratory, seen.carried_at(resonant).shaft_torque_vibratory], axis=1)
+    order = np.argsort(every)
+    every, size = every[order], _finite(vibratory[:, order])
+    worst = size.argmax(axis=1)
+    about = np.clip(worst[:, None] + [-1, 1], 0, len(every) - 1)
+    speed = np.array(
+        peaks_between(
+            lambda at: _finite(seen.carried_at(at).shaft_torque_vibratory),
+            [(row, *every[pair].tolist()) for row, pair in enumerate(about)],
+            [(float(every[k]), float(size[row, k])) for row, k in enumerate(worst)],
+        )
+    )
+    rows = np.arange(len(size))
+    return TorquePeaks(
+        seen.found.shafts, _finite(seen.carried_at(speed).shaft_torque_vibratory)[rows, rows], speed
+    )
+
+
+def _finite(torque: Floats) -> Floats:
+    """Torques, infinite at a resonance that nothing damps."""
+    return np.where(np.isfinite(torque), torque, np.inf)

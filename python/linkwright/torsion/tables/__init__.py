@@ -2,7 +2,6 @@
 
 | module | |
 | --- | --- |
-| `damper` | Table of a damper for a mode of a train, and the damper as it stands in a machine file |
-| `diagnosis` | Table of the cylinders of an engine, and a sentence on the weak ones |
+| `engine` | Tables of an engine, of its cylinders, of a damper for its train |
 | `torsion` | Tables of the torsional vibration of a train |
 """

@@ -15,9 +15,9 @@ from linkwright.torsion.modes.campbell import CampbellDiagram
 from linkwright.torsion.modes.damped import DampedVibration
 from linkwright.torsion.modes.free import FreeVibration, Node
 from linkwright.torsion.modes.holzer import HolzerTable
-from linkwright.torsion.response.engine_data import EngineData
 from linkwright.torsion.response.forced import ForcedVibration
 from linkwright.torsion.study import TorsionStudy
+from linkwright.torsion.tables.engine import engine_table
 
 Floats = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
     if study.transient is not None and study.transient.judgements:
         yield _peak_judgements(study.transient)
     if study.engine is not None:
-        yield _engine(study.engine)
+        yield engine_table(study.engine)
     yield from torsion_tables(study.free)
     if study.damped is not None:
         yield _damped(study, study.damped)
@@ -90,46 +90,6 @@ def _peak_judgements(moved: TorsionTransient) -> Table:
     ]
     heads = ("limit", "", "found", "permitted", "at s", "verdict")
     return Table("manoeuvre_limits", "Limits in the manoeuvre", heads, rows)
-
-
-def _engine(data: EngineData) -> Table:
-    """Discs and stiffness of throws by every formula, and the gas."""
-    rows: list[Row] = [
-        ("rotating inertia of a throw", "J_k", with_unit(data.own_inertia, "kg m²"), ""),
-        ("disc of a throw, mean of the exact inertia", "J", with_unit(data.throw_inertia, "kg m²"), "used"),
-        _beside(
-            "disc of a throw as printed in paper 3, (7) and (12)",
-            data.throw_inertia_published,
-            data.throw_inertia,
-            "kg m²",
-        ),
-    ]
-    if data.stiffness is not None:
-        if data.stiffness_by == "given":
-            rows.append(("stiffness from throw to throw", "k", with_unit(data.stiffness, "N m/rad"), "given"))
-        for name, stiffness in data.stiffness_formulas.items():
-            word = f"stiffness by formula {name}"
-            if name == data.stiffness_by:
-                rows.append((word, "k", with_unit(stiffness, "N m/rad"), "used"))
-            else:
-                rows.append(_beside(word, stiffness, data.stiffness, "N m/rad"))
-    rows += [
-        (f"{word}, bank {n + 1}", "", with_unit(value / 1e5, "bar"), "")
-        for word, values in (
-            ("indicated mean pressure", data.mean_effective_pressure),
-            ("peak pressure", data.peak_pressure),
-        )
-        for n, value in enumerate(values)
-    ]
-    rows.append(("firing order", "", "-".join(data.firing), ""))
-    steps = sorted({f"{np.degrees(each):.5g}°" for each in data.intervals})
-    rows.append(("firing intervals", "", ", ".join(steps) or "a cycle", ""))
-    return Table("engine", f"Engine, gas at {_rpm(data.speed)} rpm", ("quantity", "", "value", ""), rows)
-
-
-def _beside(word: str, value: float, used: float, unit: str) -> Row:
-    """A value that is not used, and how far it is from the one that is."""
-    return word, "", with_unit(value, unit), f"{100 * (value / used - 1):+.3g} %"
 
 
 def _shown(value: float, unit: str) -> str:

@@ -8,11 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
-from linkwright.torsion.model.engine.mean_inertia import mean_inertia
-from linkwright.torsion.model.engine.running_gear import RunningGear, throw_motion
+from linkwright.torsion.model.engine.equivalent_inertia import mean_inertia
+from linkwright.torsion.model.engine.running_gear import (
+    RunningGear,
+    ThrowReduction,
+    throw_motion,
+    throw_reduction,
+)
 from linkwright.torsion.model.engine.throw_compliance import compliance
 from linkwright.torsion.model.engine.throw_inertia import throw_inertia
-from linkwright.torsion.model.engine.throw_reduction import ThrowReduction, throw_reduction
 
 Floats = NDArray[np.float64]
 

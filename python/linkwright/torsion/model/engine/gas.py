@@ -1,24 +1,161 @@
-"""What all descriptions of the gas in a cylinder share."""
+r"""What all descriptions of the gas in a cylinder share, and the load map of an engine.
+
+| kind | mean effective pressure |
+| --- | --- |
+| `constant` | the same at any speed |
+| `table` | linear between given points, end values held |
+| `propeller` | rises from the friction with a power of the speed through a rated point |
+
+.. math:: p_i = p_f + (p_{i,n} - p_f) \left(\frac{ω}{ω_n}\right)^2
+"""
 
 from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Iterator
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import CheckedDescription
+from linkwright.kernel.description.base import CheckedDescription, fault
+from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.errors import MachineError, Problem
-from linkwright.kernel.units import PRESSURE, RATIO, Bound, Quantity, not_negative
+from linkwright.kernel.units import (
+    PRESSURE,
+    RATIO,
+    SPEED,
+    Bound,
+    Pressures,
+    Quantity,
+    Speeds,
+    not_negative,
+    positive,
+)
 from linkwright.torsion.model.engine.cycle_pressure import CyclePressure
 from linkwright.torsion.model.engine.cylinder import Cylinder
-from linkwright.torsion.model.engine.gas_load import AnyGasLoad
 
 Array = NDArray[np.float64]
+PositivePressure = Annotated[float, positive(PRESSURE)]
+
+
+class GasLoad(CheckedDescription):
+    """Indicated mean effective pressure of all cylinders against the speed."""
+
+    @abstractmethod
+    def mean_effective(self, speeds: Array, rated: float) -> Array:
+        """Mean effective pressure at each speed, (n,).
+
+        p_i [Pa]. `speeds`: (n,) [rad/s]; `rated`: that of the gas as described [Pa].
+        """
+
+    @property
+    @abstractmethod
+    def rated(self) -> float | None:
+        """Maximum mean effective pressure of the map [Pa]; None where it is that of the gas as described."""
+
+    @property
+    def rated_speed(self) -> float:
+        """Speed at which the gas is as described [rad/s]."""
+        raise NotImplementedError
+
+    def charge(self, speeds: Array) -> Array | None:
+        """Charge pressure at each speed, shape (n,) [Pa]; None where the map does not say.
+
+        `speeds`: (n,) [rad/s].
+        """
+        return None
+
+    def kinks(self) -> tuple[float, ...]:
+        """Speeds at which the map has a corner [rad/s]."""
+        return ()
+
+
+class ConstantGasLoad(GasLoad):
+    """The same mean effective pressure at any speed."""
+
+    kind: Literal["constant"]
+    mean_effective_pressure: PositivePressure = Field(description="Indicated, at any speed.")
+
+    @property
+    def rated(self) -> float:
+        return self.mean_effective_pressure
+
+    def mean_effective(self, speeds: Array, rated: float) -> Array:
+        return np.full(len(speeds), self.mean_effective_pressure)
+
+
+class TableGasLoad(GasLoad):
+    """Mean effective pressure at given speeds, linear between them, held beyond them."""
+
+    kind: Literal["table"]
+    file: str | None = Field(
+        None,
+        description="File of comma-separated values beside the machine file, in place of the lists, with "
+        'units in its head: "speed [rpm], mean_effective_pressure [bar]".',
+    )
+    speed: Speeds = Field((), description="Of the crank, increasing.")
+    mean_effective_pressure: Pressures = Field((), description="Indicated, at each speed.")
+    charge_pressure: Pressures | None = Field(
+        None, description="Pressure in the cylinder as it closes, at each speed; else that of the model."
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.file is not None:
+            yield unread_file(self.file)
+            return
+        yield from curve_faults(self, "speed", ("mean_effective_pressure", "charge_pressure"))
+        for place, each in enumerate(self.charge_pressure or ()):
+            if each <= 0:
+                yield fault("charge_pressure", place, found=each, expected="an absolute pressure above 0")
+
+    @property
+    def rated(self) -> float:
+        return max(self.mean_effective_pressure)
+
+    def mean_effective(self, speeds: Array, rated: float) -> Array:
+        return np.asarray(np.interp(speeds, self.speed, self.mean_effective_pressure))
+
+    def charge(self, speeds: Array) -> Array | None:
+        if self.charge_pressure is None:
+            return None
+        return np.asarray(np.interp(speeds, self.speed, self.charge_pressure))
+
+    def kinks(self) -> tuple[float, ...]:
+        return self.speed
+
+
+class PropellerGasLoad(GasLoad):
+    """Mean effective pressure that rises with a power of the speed."""
+
+    kind: Literal["propeller"]
+    speed: Annotated[float, positive(SPEED)] = Field(description="Of the crank at the rated point.")
+    mean_effective_pressure: PositivePressure | None = Field(
+        None, description="Indicated, at the rated point. Without it, that of the gas as described."
+    )
+    friction_pressure: Annotated[float, not_negative(PRESSURE)] = Field(
+        0.0, description="Mean effective pressure of the engine's own friction, at any speed."
+    )
+    exponent: Annotated[float, positive(RATIO)] = Field(2.0, description="Of the speed; 2 for a propeller.")
+
+    @property
+    def rated(self) -> float | None:
+        return self.mean_effective_pressure
+
+    @property
+    def rated_speed(self) -> float:
+        return self.speed
+
+    def mean_effective(self, speeds: Array, rated: float) -> Array:
+        top = rated if self.mean_effective_pressure is None else self.mean_effective_pressure
+        rise: Any = (speeds / self.speed) ** self.exponent
+        return np.asarray(self.friction_pressure + (top - self.friction_pressure) * rise)
+
+
+AnyGasLoad = Annotated[ConstantGasLoad | TableGasLoad | PropellerGasLoad, Field(discriminator="kind")]
+
 
 ABOVE_ONE = Bound(" greater than 1,", {"exclusiveMinimum": 1}, lambda value: value > 1)
 CompressionRatio = Annotated[float, Quantity(RATIO, ABOVE_ONE)]

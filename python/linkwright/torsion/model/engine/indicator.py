@@ -37,12 +37,10 @@ from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.units import ANGLE, Angle, Angles, Pressures, positive
-from linkwright.torsion.model.engine.cycle_pressure import CyclePressure
+from linkwright.torsion.model.engine.cycle_pressure import CyclePressure, periodic_cubic
 from linkwright.torsion.model.engine.cylinder import Cylinder
-from linkwright.torsion.model.engine.gas import Exponent, Gas, below, check_reach
-from linkwright.torsion.model.engine.gas_load import TableGasLoad
+from linkwright.torsion.model.engine.gas import Exponent, Gas, TableGasLoad, below, check_reach
 from linkwright.torsion.model.engine.indicator_faults import diagram_faults, whole_cycle_faults
-from linkwright.torsion.model.engine.periodic_cubic import periodic_cubic
 
 Array = NDArray[np.float64]
 

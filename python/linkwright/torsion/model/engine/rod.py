@@ -46,8 +46,12 @@ from linkwright.kernel.units import (
     positive,
 )
 from linkwright.linkages.model.element import PositiveLength
-from linkwright.torsion.model.engine.pendulum import inertia_about_centre, two_point_centre
-from linkwright.torsion.model.engine.swing_test import Swing, TwoPointSwing
+from linkwright.torsion.model.engine.pendulum import (
+    Swing,
+    TwoPointSwing,
+    inertia_about_centre,
+    two_point_centre,
+)
 
 PositiveInertia = Annotated[float, positive(INERTIA)]
 

@@ -1,4 +1,4 @@
-r"""A whole working cycle at n operating points: the closed gas, then the gas exchange.
+r"""A whole working cycle at n operating points: the closed gas, then the gas exchange by valve timing.
 
 The work of the cycle is linear in the heat as the pressure is, so the heat for a mean effective pressure is
 
@@ -6,16 +6,32 @@ The work of the cycle is linear in the heat as the pressure is, so the heat for 
 
 with the mean effective pressures of p_a and p_b; for a peak pressure p̂ it is the minimum (p̂ - p_a)/p_b over
 the cycle.
+
+From opening on the pressure falls to that of the exhaust, in the course of a cosine over the blow-down;
+between the opening of the intake and the closing of the exhaust it goes over to that of the charge, and
+stays there until the cylinder is closed:
+
+.. math:: p = p_e + (p_c - p_e) s(φ) + (p_o - p_e) b(φ)
+
+with p_o the pressure at opening. It is a scheme, not gas dynamics: the pressures of the gas exchange are a
+few bars, those of combustion a hundred.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
+from pydantic_core import InitErrorDetails
 
+from linkwright.kernel.description.base import Description, fault
 from linkwright.kernel.errors import FindingError, MachineError, Problem
+from linkwright.kernel.units import ANGLE, positive
 from linkwright.torsion.model.engine.closed_cycle import (
     ClosedGas,
     ClosedTrace,
@@ -24,12 +40,109 @@ from linkwright.torsion.model.engine.closed_cycle import (
     closed_trace,
     no_heat,
 )
-from linkwright.torsion.model.engine.cycle_mesh import CycleMesh
-from linkwright.torsion.model.engine.cycle_pressure import peak
+from linkwright.torsion.model.engine.cycle_pressure import CycleMesh, peak
 from linkwright.torsion.model.engine.gas import check_reach
-from linkwright.torsion.model.engine.valves import Timing
 
 Array = NDArray[np.float64]
+PositiveAngle = Annotated[float, positive(ANGLE)]
+
+# Usual timing, in degrees after the dead centre of firing, by strokes.
+_USUAL = {
+    4: {"exhaust_opens": 130.0, "intake_opens": 350.0, "exhaust_closes": 370.0, "intake_closes": 580.0},
+    2: {"exhaust_opens": 110.0, "intake_opens": 140.0, "exhaust_closes": 250.0, "intake_closes": 220.0},
+}
+# A cylinder blows down within some fifty degrees, or before fresh charge enters it.
+_BLOWDOWN = math.radians(50.0)
+# Without overlap, the pressure still needs some angle to change.
+_CHANGE = math.radians(20.0)
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Crank angles from the top dead centre of firing, in order [rad]."""
+
+    closes: float  # the cylinder is closed, before the dead centre: negative
+    opens: float  # the exhaust opens
+    blown_down: float  # the pressure is that of the exhaust
+    # `intake_opens`, `charged`: the pressure begins to change to that of the charge, and is there.
+    intake_opens: float
+    charged: float
+    ends: float  # the cylinder closes again, a cycle after `closes`
+
+    @property
+    def corners(self) -> tuple[float, ...]:
+        """Where the pressure of the open cylinder has corners [rad]."""
+        return (self.blown_down, self.intake_opens, self.charged)
+
+    def blowdown(self, angle: Array) -> Array:
+        """Share b of the pressure at opening that is left, shape (m,).
+
+        `angle`: (m,) crank angles while the cylinder is open [rad].
+        """
+        return 1.0 - _rise(angle, self.opens, self.blown_down)
+
+    def charging(self, angle: Array) -> Array:
+        """Share s of the charge in the pressure, shape (m,).
+
+        `angle`: (m,) crank angles while the cylinder is open [rad].
+        """
+        return _rise(angle, self.intake_opens, self.charged)
+
+
+def _rise(angle: Array, start: float, end: float) -> Array:
+    """From 0 to 1 in the course of a cosine."""
+    return np.asarray(0.5 - 0.5 * np.cos(np.pi * np.clip((angle - start) / (end - start), 0.0, 1.0)))
+
+
+class Valves(Description):
+    """When valves or ports open and close, after the top dead centre of firing."""
+
+    exhaust_opens: PositiveAngle | None = Field(
+        None, description="Without it, 130 deg with four strokes, 110 deg with two."
+    )
+    exhaust_closes: PositiveAngle | None = Field(None, description="Without it, 370 deg; 250 deg with two.")
+    intake_opens: PositiveAngle | None = Field(None, description="Without it, 350 deg; 140 deg with two.")
+    intake_closes: PositiveAngle | None = Field(None, description="Without it, 580 deg; 220 deg with two.")
+    blowdown: PositiveAngle | None = Field(
+        None,
+        description="Angle in which the pressure falls to that of the exhaust; without it 50 deg, or less "
+        "where the intake opens earlier.",
+    )
+
+    def angle(self, name: str, strokes: int) -> float:
+        """One of the four angles, given or usual [rad]."""
+        given: float | None = getattr(self, name)
+        return math.radians(_USUAL[strokes][name]) if given is None else given
+
+    def timing(self, strokes: int) -> Timing:
+        """The angles in order."""
+        opens, intake = (self.angle(name, strokes) for name in ("exhaust_opens", "intake_opens"))
+        last = max(self.angle(name, strokes) for name in ("exhaust_closes", "intake_closes"))
+        blowdown = self.blowdown or min(_BLOWDOWN, intake - opens)
+        charged = min(max(self.angle("exhaust_closes", strokes), intake + _CHANGE), last)
+        return Timing(last - math.pi * strokes, opens, opens + blowdown, intake, charged, last)
+
+    def cycle_faults(self, strokes: int) -> Iterator[InitErrorDetails]:
+        """Angles that are not in their order, or not in the stroke that they belong to."""
+        cycle, opens = 180.0 * strokes, math.degrees(self.angle("exhaust_opens", strokes))
+        intake = math.degrees(self.angle("intake_opens", strokes))
+        yield from _outside("exhaust_opens", opens, 45.0, 216.0)
+        yield from _outside("intake_opens", intake, opens, cycle)
+        yield from _outside(
+            "exhaust_closes", math.degrees(self.angle("exhaust_closes", strokes)), opens, cycle - 45.0
+        )
+        yield from _outside(
+            "intake_closes", math.degrees(self.angle("intake_closes", strokes)), intake, cycle - 45.0
+        )
+        if self.blowdown is not None:
+            yield from _outside("blowdown", math.degrees(self.blowdown), 0.0, intake - opens)
+
+
+def _outside(name: str, found: float, low: float, high: float) -> Iterator[InitErrorDetails]:
+    """The fault of an angle [deg] outside its range."""
+    if not low < found <= high:
+        expected = f"between {low:.6g} and {high:.6g} deg after the dead centre of firing"
+        yield fault(name, found=f"{found:.6g} deg", expected=expected)
 
 
 @dataclass(frozen=True, eq=False)

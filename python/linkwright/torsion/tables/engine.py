@@ -1,0 +1,138 @@
+"""Tables of an engine: its data, its cylinders and the weak ones among them, a damper for its train."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.kernel.page.table import Row, Table, with_unit
+from linkwright.torsion.damper.damper_design import DamperDesign
+from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis
+from linkwright.torsion.response.engine_torques import EngineData
+
+
+def engine_table(data: EngineData) -> Table:
+    """Discs and stiffness of throws by every formula, and the gas."""
+    rows: list[Row] = [
+        ("rotating inertia of a throw", "J_k", with_unit(data.own_inertia, "kg m²"), ""),
+        ("disc of a throw, mean of the exact inertia", "J", with_unit(data.throw_inertia, "kg m²"), "used"),
+        _beside(
+            "disc of a throw as printed in paper 3, (7) and (12)",
+            data.throw_inertia_published,
+            data.throw_inertia,
+            "kg m²",
+        ),
+    ]
+    if data.stiffness is not None:
+        if data.stiffness_by == "given":
+            rows.append(("stiffness from throw to throw", "k", with_unit(data.stiffness, "N m/rad"), "given"))
+        for name, stiffness in data.stiffness_formulas.items():
+            word = f"stiffness by formula {name}"
+            if name == data.stiffness_by:
+                rows.append((word, "k", with_unit(stiffness, "N m/rad"), "used"))
+            else:
+                rows.append(_beside(word, stiffness, data.stiffness, "N m/rad"))
+    rows += [
+        (f"{word}, bank {n + 1}", "", with_unit(value / 1e5, "bar"), "")
+        for word, values in (
+            ("indicated mean pressure", data.mean_effective_pressure),
+            ("peak pressure", data.peak_pressure),
+        )
+        for n, value in enumerate(values)
+    ]
+    rows.append(("firing order", "", "-".join(data.firing), ""))
+    steps = sorted({f"{np.degrees(each):.5g}°" for each in data.intervals})
+    rows.append(("firing intervals", "", ", ".join(steps) or "a cycle", ""))
+    return Table(
+        "engine", f"Engine, gas at {data.speed * 30 / np.pi:.5g} rpm", ("quantity", "", "value", ""), rows
+    )
+
+
+def _beside(word: str, value: float, used: float, unit: str) -> Row:
+    """A value that is not used, and how far it is from the one that is."""
+    return word, "", with_unit(value, unit), f"{100 * (value / used - 1):+.3g} %"
+
+
+def diagnosis_table(read: RecordDiagnosis, level: float) -> Table:
+    """Each cylinder with its factor."""
+    found, words = read.found, dict(_verdicts(read, level))
+    half, relative = found.half_width(level), found.relative
+    rows: list[Row] = []
+    for n, name in enumerate(found.cylinders):
+        known = bool(np.isfinite(half[n]))
+        numbers = (found.factor[n], half[n], relative[n])
+        cells = [f"{value:.3f}" if known else "–" for value in numbers]
+        rows.append(
+            (f"cylinder {name}", "", *cells, words.get(name, "" if known else "cannot be determined"))
+        )
+    title = (
+        f"Share of the combustion, from {read.orders} orders of the speed of {read.disc}; crank at "
+        f"{read.speed * 30 / np.pi:.5g} rpm"
+    )
+    heads = ("", "", "factor", f"± ({100 * level:.4g} %)", "over their mean", "verdict")
+    return Table("cylinders", title, heads, rows)
+
+
+def _verdicts(read: RecordDiagnosis, level: float) -> Iterator[tuple[str, str]]:
+    """What is wrong with each cylinder that is accused."""
+    found = read.found
+    for n, name in enumerate(found.cylinders):
+        words = ["weak"] if name in read.weak(level) else []
+        if name in read.late(level) and found.delay is not None and found.delay_deviation is not None:
+            angle, half = np.degrees([found.delay[n], found.coverage(level) * found.delay_deviation[n]])
+            words.append(f"late by {angle:.2f}° ± {half:.2f}°")
+        if name in read.leaking(level) and found.compression is not None:
+            words.append(f"leaking, {found.compression[n]:.3f} of its compression")
+        if words:
+            yield name, "; ".join(words)
+
+
+def diagnosis_words(read: RecordDiagnosis, level: float) -> str:
+    """Which cylinders are weak, in a sentence."""
+    found, weak = read.found, read.weak(level)
+    if not read.is_plausible:
+        return "No cylinder is judged."
+    if not weak and (late := dict(_verdicts(read, level))):
+        return (
+            f"No cylinder is weak; {', '.join(f'cylinder {name} is {word}' for name, word in late.items())}."
+        )
+    if not weak:
+        return f"No cylinder is weak, as far as can be determined with {100 * level:.4g} %."
+    half = found.half_width(level)
+    places = map(found.cylinders.index, weak)
+    listed = [f"cylinder {found.cylinders[n]} at {found.factor[n]:.3f} ± {half[n]:.3f}" for n in places]
+    if len(weak) == len(found.cylinders):
+        return f"All cylinders burn less than the file says, most so {listed[0]} of its combustion."
+    return f"Weak, the weakest first: {', '.join(listed)} of its combustion."
+
+
+def damper_table(found: DamperDesign) -> Table:
+    """The damper by the mode alone and the best for the train, side by side."""
+    values = (
+        ("damping", "c [N m s/rad]", found.damping, found.damping_best),
+        ("stiffness", "k [N m/rad]", found.stiffness, found.stiffness_best),
+        ("loss factor", "η", found.loss_factor, found.loss_factor_best),
+        ("largest magnification", "", found.magnification_rule, found.magnification_best),
+    )
+    rows: list[Row] = [
+        (word, symbol, f"{rule:.6g}", f"{best:.6g}") for word, symbol, rule, best in values if best > 0
+    ]
+    title = (
+        f"Damper on {found.on} for mode {found.mode}, {found.natural_frequency:.6g} Hz; its ring of "
+        f"{found.ring_inertia:.6g} kg m² is {100 * found.mass_ratio:.4g} % of what swings there"
+    )
+    return Table("damper", title, ("", "", "by the mode alone", "best for the train"), rows)
+
+
+def damper_lines(found: DamperDesign) -> str:
+    """The best damper as a table of a machine file. TOML."""
+    entries = [f'on = "{found.on}"', f'kind = "{"viscous" if found.kind == "viscous" else "tuned"}"']
+    entries.append(f"ring_inertia = {found.ring_inertia!r}")
+    best = {
+        "damping": found.damping_best,
+        "stiffness": found.stiffness_best,
+        "loss_factor": found.loss_factor_best,
+    }
+    entries += [f"{key} = {float(f'{value:.6g}')!r}" for key, value in best.items() if value > 0]
+    return "\n".join(["[train.dampers.damper]", *entries]) + "\n"
