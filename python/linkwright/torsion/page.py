@@ -40,7 +40,10 @@ def torsion_html(study: TorsionStudy, *, command: str = "") -> str:
     str
         The page; the same study gives the same page.
     """
-    drawn = [(each, picture(each.figure, each.name, each.title)) for each in torsion_figures(study)]
+    drawn = [
+        (torsion_figure, picture(torsion_figure.figure, torsion_figure.name, torsion_figure.title))
+        for torsion_figure in torsion_figures(study)
+    ]
     context: dict[str, Any] = {
         "study": study,
         "machine": study.machine,

@@ -110,22 +110,22 @@ class TorsionStudy:
         """Results by name, ready for JSON but for numbers that it does not know."""
         free = self.free.to_dict(curves=True)
         free["nodes"] = [[node._asdict() for node in nodes] for nodes in self.free.nodes]
-        found: dict[str, Any] = {"free": free}
+        results: dict[str, Any] = {"free": free}
         if self.holzer:
-            found["holzer"] = [each.to_dict(curves=True) for each in self.holzer]
+            results["holzer"] = [table.to_dict(curves=True) for table in self.holzer]
         if self.damped is not None:
-            found["damped"] = self.damped.to_dict(curves=True)
+            results["damped"] = self.damped.to_dict(curves=True)
         parts = {"forced": self.forced, "peaks": self.peaks, "stress": self.stress, "verdict": self.verdict}
-        found |= {name: part.to_dict(curves=True) for name, part in parts.items() if part is not None}
+        results |= {name: part.to_dict(curves=True) for name, part in parts.items() if part is not None}
         if self.transient is not None:
-            found["transient"] = self.transient.to_dict()
+            results["transient"] = self.transient.to_dict()
         if self.campbell is not None:
-            found["campbell"] = self.campbell.to_dict()
+            results["campbell"] = self.campbell.to_dict()
         if self.engine is not None:
-            found["engine"] = self.engine.to_dict()
+            results["engine"] = self.engine.to_dict()
         if self.along is not None:
-            found["unevenness_along"] = self.along.to_dict(curves=True)
-        return found | {"scheme": self.scheme.to_dict(curves=True)}
+            results["unevenness_along"] = self.along.to_dict(curves=True)
+        return results | {"scheme": self.scheme.to_dict(curves=True)}
 
 
 @public
@@ -189,9 +189,9 @@ def _is_damped(machine: Machine) -> bool:
     """Whether anything of a train damps its vibration."""
     train = train_of(machine)
     loads = any(load.exponent > 0 and load.damping_factor > 0 for load in train.loads.values())
-    shafts = any(each.damping or each.loss_factor for each in train.shafts.values())
-    gears = any(each.damping or each.loss_factor for each in train.gears.values())
-    return loads or shafts or gears or any(each.damping for each in train.discs.values())
+    shafts = any(shaft.damping or shaft.loss_factor for shaft in train.shafts.values())
+    gears = any(gear.damping or gear.loss_factor for gear in train.gears.values())
+    return loads or shafts or gears or any(disc.damping for disc in train.discs.values())
 
 
 def _engine(machine: Machine) -> EngineData | None:
@@ -297,14 +297,14 @@ def _about_loads(study: TorsionStudy, at: ExcitedTrain) -> Iterator[str]:
 def _about_couplings(study: TorsionStudy, forced: ForcedVibration) -> Iterator[str]:
     """Couplings that carry more than their curve says."""
     couplings = {} if study.machine.train is None else study.machine.train.couplings
-    for name, each in couplings.items():
-        if each.torque is None:
+    for name, coupling in couplings.items():
+        if coupling.torque is None:
             continue
         carried = float(np.abs(forced.mean_torques[forced.shafts.index(name)]).max())
-        if carried > each.torque[-1]:
+        if carried > coupling.torque[-1]:
             yield (
-                f"Coupling {name} carries {carried:.4g} N m, its curve ends at {each.torque[-1]:.4g} N m: "
-                "its last slope is taken beyond."
+                f"Coupling {name} carries {carried:.4g} N m, but its curve ends at "
+                f"{coupling.torque[-1]:.4g} N m: its last slope is taken beyond."
             )
 
 
@@ -312,9 +312,9 @@ def _about_the_ends(study: TorsionStudy, forced: ForcedVibration) -> Iterator[st
     """Limits that are nearest to being broken at an end of the speeds."""
     rows = () if study.verdict is None else study.verdict.judgements
     ends = (forced.speeds[0], forced.speeds[-1])
-    near = [each for each in rows if each.speed in ends and each.found > _NEAR * each.permitted > 0]
+    near = [row for row in rows if row.speed in ends and row.found > _NEAR * row.permitted > 0]
     if near:
-        parts = ", ".join(dict.fromkeys(each.part for each in near))
+        parts = ", ".join(dict.fromkeys(judgement.part for judgement in near))
         yield (
             f"{parts}: most is asked for at an end of the speeds, and more may be beyond it; widen "
             "[train.run] to see."

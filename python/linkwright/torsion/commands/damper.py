@@ -63,30 +63,30 @@ def damper(
     folder = output_folder(out, force=force)
     machine = read(file, set or [], allow_outside=allow_outside)
     ring = option_value("--ring-inertia", ring_inertia, INERTIA)
-    found = design_damper(machine, on, ring, mode=mode, kind=kind.value, loss_factor=loss_factor)
-    hand_over(_answer(machine.name, found), json=json, folder=folder)
+    design = design_damper(machine, on, ring, mode=mode, kind=kind.value, loss_factor=loss_factor)
+    hand_over(_answer(machine.name, design), json=json, folder=folder)
 
 
 # In the order of the help.
 
 
-def _answer(name: str, found: DamperDesign) -> Answer:
+def _answer(name: str, design: DamperDesign) -> Answer:
     """The damper, also as lines of a machine file."""
     from linkwright.torsion.tables.engine import damper_lines, damper_table
 
     return Answer(
         machine=name,
-        results=lambda _: {"damper": found.to_dict(curves=True)},
-        tables=lambda: [damper_table(found)],
-        tail=partial(damper_lines, found),
+        results=lambda _: {"damper": design.to_dict(curves=True)},
+        tables=lambda: [damper_table(design)],
+        tail=partial(damper_lines, design),
         results_file="damper.json",
-        files=lambda: {"damper.toml": damper_lines(found)},
-        figures=partial(_figures, found),
+        files=lambda: {"damper.toml": damper_lines(design)},
+        figures=partial(_figures, design),
     )
 
 
-def _figures(found: DamperDesign) -> dict[str, Figure]:
+def _figures(design: DamperDesign) -> dict[str, Figure]:
     """The response, with and without it."""
     from linkwright.torsion.figures.forced import damper_figure
 
-    return {"damper": damper_figure(found)}
+    return {"damper": damper_figure(design)}

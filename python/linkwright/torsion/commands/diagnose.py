@@ -73,22 +73,22 @@ def diagnose(
         raise InputError(f"--noise: found {deviation:g} rad/s, expected more than 0")
     machine = read(file, set or [], allow_outside=allow_outside)
     columns = read_columns(measured, {"angle": ANGLE, "speed": SPEED})
-    found = record_diagnosis(
+    diagnosis = record_diagnosis(
         machine, on, columns["angle"], columns["speed"], noise=deviation, zero=zero, rigid=rigid
     )
-    hand_over(_answer(machine.name, found, level), json=json)
+    hand_over(_answer(machine.name, diagnosis, level), json=json)
 
 
 def _answer(name: str, read: RecordDiagnosis, level: float) -> Answer:
     """What each cylinder gives, and what is wrong with which."""
     from linkwright.torsion.tables.engine import diagnosis_table, diagnosis_words
 
-    found = read.found
+    diagnosis = read.found
     results = {
-        **found.to_dict(curves=True),
+        **diagnosis.to_dict(curves=True),
         "disc": read.disc,
         "speed": read.speed,
-        "half_width": found.half_width(level).tolist(),
+        "half_width": diagnosis.half_width(level).tolist(),
         "weak": list(read.weak(level)),
         "late": list(read.late(level)),
         "leaking": list(read.leaking(level)),

@@ -79,9 +79,9 @@ def respond(referred: ReferredTrain, at: Operating, orders: Floats, torques: Com
     n, speeds = len(referred.inertia), len(at.speeds)
 
     def table(values: Floats) -> Floats:
-        found = np.zeros((n + 1, speeds))
-        np.add.at(found, tree.row, values)
-        return found[:n].ravel()
+        summed = np.zeros((n + 1, speeds))
+        np.add.at(summed, tree.row, values)
+        return summed[:n].ravel()
 
     damping = np.broadcast_to(referred.damping[:, None], at.stiffness.shape)
     loss = referred.loss_factor[:, None] * at.stiffness
@@ -133,20 +133,20 @@ def by_equilibrium(referred: ReferredTrain, tree: Tree, stiffness: Complexes, fo
         below[:, tree.parent[row]] += below[:, row]
     # Of the two ends of a shaft the one that hangs is that of its row; the ground is no mass.
     place = np.append(np.argsort(tree.order), HELD)
-    found = np.zeros_like(stiffness)
+    carried = np.zeros_like(stiffness)
     for s, row in enumerate(tree.row.tolist()):
         if row < n:
             together = stiffness[:, tree.row == row].sum(axis=1)
             share = np.divide(stiffness[:, s], together, out=np.zeros_like(together), where=together != 0)
             sign = 1.0 if place[referred.ends[s, 0]] == row else -1.0
-            found[:, s] = sign * share * below[:, row]
-    return found
+            carried[:, s] = sign * share * below[:, row]
+    return carried
 
 
 def _whole(referred: ReferredTrain, at: Operating, orders: Floats, torques: Complexes) -> Complexes:
     """Amplitudes from the matrices, for trains with loops; not finite where they are singular."""
     n, speeds = len(referred.inertia), len(at.speeds)
-    found = np.empty((len(orders), n, speeds), complex)
+    q = np.empty((len(orders), n, speeds), complex)
     step = max(1, _BLOCK // (n * n))
     for m, order in enumerate(orders):
         for first in range(0, speeds, step):
@@ -157,15 +157,15 @@ def _whole(referred: ReferredTrain, at: Operating, orders: Floats, torques: Comp
             own = -(omega**2) * referred.inertia[:, None] + 1j * omega * at.disc_damping[:, part]
             matrix = np.einsum("si,sw,sj->wij", referred.joins, s, referred.joins)
             matrix[:, np.arange(n), np.arange(n)] += own.T
-            found[m, :, part] = _solved(matrix, torques[m, :, part].T).T
-    return found
+            q[m, :, part] = _solved(matrix, torques[m, :, part].T).T
+    return q
 
 
 def _solved(matrix: Complexes, torque: Complexes) -> Complexes:
     """Solutions one by one where one of them has none."""
     try:
-        found: Complexes = np.linalg.solve(matrix, torque[..., None])[..., 0].astype(complex, copy=False)
-        return found
+        solution: Complexes = np.linalg.solve(matrix, torque[..., None])[..., 0].astype(complex, copy=False)
+        return solution
     except np.linalg.LinAlgError:
         if len(matrix) == 1:
             return np.full(torque.shape, np.inf + 0j)
@@ -180,6 +180,6 @@ def extremes(coefficients: Complexes) -> Floats:
     """
     flat = np.ascontiguousarray(coefficients, complex).reshape(-1)
     waves = coefficients[0].size
-    found = _core.torsion_waves(flat.view(np.float64), waves)
-    rows = np.stack([found.greatest, found.greatest_at, found.least, found.least_at])
+    extrema = _core.torsion_waves(flat.view(np.float64), waves)
+    rows = np.stack([extrema.greatest, extrema.greatest_at, extrema.least, extrema.least_at])
     return rows.reshape(4, *coefficients.shape[1:])

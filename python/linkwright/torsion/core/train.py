@@ -55,11 +55,11 @@ class ReferredTrain:
     @cached_property
     def joins(self) -> Floats:
         """Connections, shape (shafts, masses): +1 at the first end of each shaft, −1 at the second."""
-        found = np.zeros((len(self.ends), len(self.inertia) + 1))
+        joins = np.zeros((len(self.ends), len(self.inertia) + 1))
         # The last column is that of the ground.
         for end, sign in zip(self.ends.T, (1.0, -1.0), strict=True):
-            np.add.at(found, (np.arange(len(found)), end), sign)
-        return found[:, :-1]
+            np.add.at(joins, (np.arange(len(joins)), end), sign)
+        return joins[:, :-1]
 
     @cached_property
     def stiffness_matrix(self) -> Floats:
@@ -79,19 +79,19 @@ class ReferredTrain:
     def _matrix(self, between: Floats) -> Floats:
         """The matrix of what acts between the ends of each shaft."""
         n = len(self.inertia)
-        found = np.zeros((n + 1, n + 1))
+        matrix = np.zeros((n + 1, n + 1))
         # The last row and column are those of the ground.
         a, b = self.ends.T
-        np.add.at(found, (a, a), between)
-        np.add.at(found, (b, b), between)
-        np.add.at(found, (a, b), -between)
-        np.add.at(found, (b, a), -between)
-        return found[:n, :n]
+        np.add.at(matrix, (a, a), between)
+        np.add.at(matrix, (b, b), between)
+        np.add.at(matrix, (a, b), -between)
+        np.add.at(matrix, (b, a), -between)
+        return matrix[:n, :n]
 
     def modes(self) -> tuple[Floats, Floats]:
         """Natural frequencies [rad/s], increasing, and shapes of the masses, a row each, with Σ J q² = 1."""
-        found = _core.torsion_modes(self.inertia, self.ends, self.stiffness)
-        return self._whole() if found is None else (found.omega, found.shapes)
+        core_modes = _core.torsion_modes(self.inertia, self.ends, self.stiffness)
+        return self._whole() if core_modes is None else (core_modes.omega, core_modes.shapes)
 
     def _whole(self) -> tuple[Floats, Floats]:
         """Modes from the matrices, for trains with loops: each part by itself, then put in order."""
@@ -127,9 +127,9 @@ def refer(train: Train) -> ReferredTrain:
     rigid = [gear.between for gear in train.gears.values() if gear.stiffness is None]
     masses = parts_of(train.discs, rigid)
     place = {name: k for k, part in enumerate(masses) for name in part}
-    elastic = {name: each for name, each in train.gears.items() if each.stiffness is not None}
+    elastic = {name: gear for name, gear in train.gears.items() if gear.stiffness is not None}
     twisting: dict[str, Shaft | TrainGear] = {**train.shafts, **elastic}
-    pairs = [each.between for each in twisting.values()]
+    pairs = [part.between for part in twisting.values()]
     # What counts is the end of a shaft that turns, and the first disc of a mesh.
     factor = np.array([n[a if a != GROUND else b] ** 2 for a, b in pairs])
 
@@ -144,10 +144,10 @@ def refer(train: Train) -> ReferredTrain:
         ends=_indices(pairs, place),
         tip=_indices(pairs, {name: k for k, name in enumerate(train.discs)}),
         inertia=summed("inertia"),
-        stiffness=factor * np.array([_rate(each) for each in twisting.values()]),
+        stiffness=factor * np.array([_rate(part) for part in twisting.values()]),
         disc_damping=summed("damping"),
-        damping=factor * np.array([each.damping for each in twisting.values()]),
-        loss_factor=np.array([each.loss_factor for each in twisting.values()], float),
+        damping=factor * np.array([part.damping for part in twisting.values()]),
+        loss_factor=np.array([part.loss_factor for part in twisting.values()], float),
     )
 
 
@@ -161,14 +161,14 @@ def _rate(part: Shaft | TrainGear) -> float:
 
 def _require_numbers(train: Train) -> None:
     """Refuse arrays over many machines, and numbers that no train has."""
-    entries = {f"train.discs.{name}.inertia": each.inertia for name, each in train.discs.items()}
-    entries |= {f"train.shafts.{name}": each.rate for name, each in train.shafts.items()}
+    entries = {f"train.discs.{name}.inertia": disc.inertia for name, disc in train.discs.items()}
+    entries |= {f"train.shafts.{name}": shaft.rate for name, shaft in train.shafts.items()}
     for name, gear in train.gears.items():
         ratio = gear.ratio if gear.ratio is not None else abs(gear.speed_ratio)
         entries |= {f"train.gears.{name}.ratio": ratio}
         entries |= {f"train.gears.{name}.stiffness": 1.0 if gear.stiffness is None else gear.stiffness}
     # A fluid alone, of a damper, has no stiffness.
-    fluids = {f"train.shafts.{name}" for name, each in train.shafts.items() if each.damping}
+    fluids = {f"train.shafts.{name}" for name, shaft in train.shafts.items() if shaft.damping}
     wrong = [
         Problem(key, f"{value!r}", "one finite number above zero")
         for key, value in entries.items()

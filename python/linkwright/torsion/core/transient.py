@@ -144,7 +144,7 @@ class MovingTrain:
     def mean_inertia(self) -> Floats:
         """Inertia of the discs, averaged over the revolution, (discs,) [kg m²]."""
         J = np.array(self.inertia, dtype=float)
-        np.add.at(J, [each.on for each in self.inertias], [each.table.mean for each in self.inertias])
+        np.add.at(J, [rotor.on for rotor in self.inertias], [rotor.table.mean for rotor in self.inertias])
         return J
 
     @cached_property
@@ -181,25 +181,25 @@ class MovingTrain:
             np.ascontiguousarray(each, dtype=np.float64) for each in (angle, speed, times)
         )
         end = float(sampled[-1])
-        found = self.system.follow(at, turning, sampled, start, end, accuracy, method, steps_max)
-        samples = found.samples
+        motion = self.system.follow(at, turning, sampled, start, end, accuracy, method, steps_max)
+        samples = motion.samples
         n, m = self.masses, len(self.shafts)
         return TrainMotion(
-            end=found.end,
-            method=found.method,
-            steps=found.steps,
-            rejected=found.rejected,
-            evaluations=found.evaluations,
-            time=found.time,
-            fastest=found.fastest,
-            energies=found.energies,
+            end=motion.end,
+            method=motion.method,
+            steps=motion.steps,
+            rejected=motion.rejected,
+            evaluations=motion.evaluations,
+            time=motion.time,
+            fastest=motion.fastest,
+            energies=motion.energies,
             angle=samples[:n],
             speed=samples[n : 2 * n],
             torque=samples[2 * n : 2 * n + m],
             kinetic=samples[-2],
             potential=samples[-1],
-            extremes=found.extremes,
-            work=found.work,
+            extremes=motion.extremes,
+            work=motion.work,
         )
 
 
@@ -267,8 +267,8 @@ def encoded(train: MovingTrain) -> _core.TorsionSystem:
         [*masses[ends], _place(curve, curves)]
         for ends, curve in zip(train.tip.tolist(), train.curves, strict=True)
     ]
-    rotors = [[train.mass[each.on], _place(each.table, tables)] for each in train.inertias]
-    torques = [_torque(train, each, tables, curves) for each in train.torques]
+    rotors = [[train.mass[rotor.on], _place(rotor.table, tables)] for rotor in train.inertias]
+    torques = [_torque(train, torque, tables, curves) for torque in train.torques]
     return _core.TorsionSystem(
         at_mass[0],
         at_mass[1],
@@ -276,7 +276,7 @@ def encoded(train: MovingTrain) -> _core.TorsionSystem:
         _ints(links),
         _floats(np.column_stack([train.lead, train.stiffness, train.shaft_damping])),
         _ints(rotors),
-        _floats([[n[each.on], each.phase] for each in train.inertias]),
+        _floats([[n[rotor.on], rotor.phase] for rotor in train.inertias]),
         _ints([row for row, _ in torques]),
         _floats([row for _, row in torques]),
         _starts([len(table.value) for table in tables]),

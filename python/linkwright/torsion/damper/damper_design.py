@@ -81,24 +81,24 @@ class RingSupport:
 class RingOnTrain:
     """Receptances of a train about a mode, at the frequencies of interest."""
 
-    def __init__(self, found: FreeVibration, on: int, mode: int, ring: float) -> None:
-        shape, natural = found.mode_shapes, found.angular_frequencies
+    def __init__(self, free: FreeVibration, on: int, mode: int, ring: float) -> None:
+        shape, natural = free.mode_shapes, free.angular_frequencies
         if abs(shape[mode, on]) < _AT_REST:
             raise FindingError(
-                f"{found.discs[on]} is at rest in mode {mode} at {found.natural_frequencies[mode]:.6g} Hz: a "
+                f"{free.discs[on]} is at rest in mode {mode} at {free.natural_frequencies[mode]:.6g} Hz: a "
                 "damper there does nothing; put it where the amplitude is large"
             )
-        shaft = int(np.argmax(found.potential_shares[mode]))
-        self.watched, self.ring = found.shafts[shaft], ring
-        self.modal_inertia = float(found.modal_inertia[mode] / shape[mode, on] ** 2)
+        shaft = int(np.argmax(free.potential_shares[mode]))
+        self.watched, self.ring = free.shafts[shaft], ring
+        self.modal_inertia = float(free.modal_inertia[mode] / shape[mode, on] ** 2)
         self.natural = float(natural[mode])
         self.omega = _range(natural, mode, ring / self.modal_inertia)
-        pole = found.modal_inertia[:, None] * (natural[:, None] ** 2 - self.omega**2)
+        pole = free.modal_inertia[:, None] * (natural[:, None] ** 2 - self.omega**2)
         self.on_on = (shape[:, on] ** 2) @ (1 / pole)
-        self.watch_on = (found.twists[:, shaft] * shape[:, on]) @ (1 / pole)
+        self.watch_on = (free.twists[:, shaft] * shape[:, on]) @ (1 / pole)
         # Torques Jθ of the mode, of which the unit is taken so that the twist at rest is one.
-        self.rest = found.modal_inertia[mode] * self.natural**2 / pole[mode]
-        self.amplitude = shape[mode, on] / found.twists[mode, shaft]
+        self.rest = free.modal_inertia[mode] * self.natural**2 / pole[mode]
+        self.amplitude = shape[mode, on] / free.twists[mode, shaft]
 
     def holding(self, rule: DamperRule) -> RingSupport:
         """A damper of these ratios in the mode."""
@@ -111,8 +111,8 @@ class RingOnTrain:
         joint = held.stiffness * (1 + 1j * held.loss_factor) + 1j * self.omega * held.damping
         D = ring_stiffness(joint, self.ring * self.omega**2)
         part = self.watch_on * D * self.amplitude / (1 + self.on_on * D)
-        found: Floats = np.abs(self.rest * (1 - part))
-        return found
+        twist: Floats = np.abs(self.rest * (1 - part))
+        return twist
 
     def peak(self, held: RingSupport) -> float:
         """Largest response, by the parabola through the highest points."""
@@ -289,8 +289,8 @@ def design_damper(
     .. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.6.
     """
     _require(ring_inertia, kind, loss_factor)
-    found = free_vibration(_without_dampers(machine))
-    train = RingOnTrain(found, _disc(found, on), _twisting(found, mode), ring_inertia)
+    free = free_vibration(_without_dampers(machine))
+    train = RingOnTrain(free, _disc(free, on), _twisting(free, mode), ring_inertia)
     mu = ring_inertia / train.modal_inertia
     rule = _RULES[kind](mu)
     first = train.holding(rule)
@@ -305,7 +305,7 @@ def design_damper(
         kind=kind,
         on=on,
         mode=mode,
-        natural_frequency=float(found.natural_frequencies[mode]),
+        natural_frequency=float(free.natural_frequencies[mode]),
         watched=train.watched,
         ring_inertia=float(ring_inertia),
         modal_inertia=train.modal_inertia,
@@ -329,16 +329,16 @@ def _without_dampers(machine: Machine) -> Machine:
     return machine.with_entries({"train": machine.train.with_entries({"dampers": {}})})
 
 
-def _disc(found: FreeVibration, on: str) -> int:
-    if on not in found.discs:
-        remedy = suggestion(on, found.discs)
+def _disc(free: FreeVibration, on: str) -> int:
+    if on not in free.discs:
+        remedy = suggestion(on, free.discs)
         raise InputError(f'on: found "{on}", expected the name of a disc' + (f"; {remedy}" if remedy else ""))
-    return found.discs.index(on)
+    return free.discs.index(on)
 
 
-def _twisting(found: FreeVibration, mode: int) -> int:
+def _twisting(free: FreeVibration, mode: int) -> int:
     """The number of a mode that twists the train."""
-    twisting = np.flatnonzero(found.natural_frequencies > 0)
+    twisting = np.flatnonzero(free.natural_frequencies > 0)
     if mode not in twisting:
         known = f"one of {twisting[0]} to {twisting[-1]}" if len(twisting) else "a train that twists"
         raise InputError(f"mode: found {mode}, expected {known}")

@@ -91,8 +91,8 @@ def magnification(rule: DamperRule, frequency: ArrayLike) -> Floats:
     mu = rule.mass_ratio
     held: Complex = mu * rule.tuning**2 * (1 + 1j * rule.loss_factor) + 2j * rule.damping_ratio * mu * g
     with np.errstate(divide="ignore"):
-        found: Floats = 1 / np.abs(1 - g**2 + ring_stiffness(held, mu * g**2))
-    return found
+        deflection: Floats = 1 / np.abs(1 - g**2 + ring_stiffness(held, mu * g**2))
+    return deflection
 
 
 def ring_stiffness(held: Complex, carried: Floats) -> Complex:
@@ -101,8 +101,8 @@ def ring_stiffness(held: Complex, carried: Floats) -> Complex:
     Torque on the disc against its angle, per angle [N m/rad]. `held`: (n,) [N m/rad]; `carried`: (n,) its
     inertia times ω² [N m/rad].
     """
-    found: Complex = -held * carried / (held - carried)
-    return found
+    stiffness: Complex = -held * carried / (held - carried)
+    return stiffness
 
 
 def viscous_heat(damping: float, omega: ArrayLike, twist: ArrayLike) -> float:

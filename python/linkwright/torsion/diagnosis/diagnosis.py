@@ -180,8 +180,8 @@ class Diagnosis(Result):
     @property
     def relative(self) -> Floats:
         """Factors over their mean, shape (cylinders,): where the load of the engine is not known."""
-        found: Floats = self.factor / self.factor.mean()
-        return found
+        relative: Floats = self.factor / self.factor.mean()
+        return relative
 
 
 Complexes = NDArray[np.complex128]
@@ -217,8 +217,8 @@ def equations(harmonics: Complexes, measured: MeasuredSpeed) -> Floats:
     Equations for least squares. `harmonics`: (..., orders) speeds at the orders measured [rad/s].
     """
     scaled = harmonics if measured.noise is None else harmonics / measured.noise
-    found: Floats = np.concatenate([scaled.real, scaled.imag], axis=-1)
-    return found
+    rows: Floats = np.concatenate([scaled.real, scaled.imag], axis=-1)
+    return rows
 
 
 def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpeed) -> Diagnosis:
@@ -231,7 +231,7 @@ def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpe
             f"{remedy}"
         )
     n, (delay, compression) = len(names), _further(fit, len(names))
-    found = Diagnosis(
+    diagnosis = Diagnosis(
         cylinders=names,
         factor=np.where(fit.is_open[:n], 1.0, 1 + fit.values[:n]),
         deviation=fit.deviation[:n],
@@ -246,7 +246,7 @@ def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpe
         compression=None if compression[0] is None else 1 + compression[0],
         compression_deviation=compression[1],
     )
-    return replace(found, warnings=tuple(_warnings(found, A[:, :n], fit.is_open[:n])))
+    return replace(diagnosis, warnings=tuple(_warnings(diagnosis, A[:, :n], fit.is_open[:n])))
 
 
 def _further(fit: Fit, n: int) -> list[tuple[Floats, Floats] | tuple[None, None]]:
@@ -256,9 +256,9 @@ def _further(fit: Fit, n: int) -> list[tuple[Floats, Floats] | tuple[None, None]
     return [(fit.values[at : at + n], fit.deviation[at : at + n]) for at in (n, 2 * n)]
 
 
-def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list[str]:
+def _warnings(diagnosis: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list[str]:
     """What limits a diagnosis."""
-    names = np.array(found.cylinders)
+    names = np.array(diagnosis.cylinders)
     listed = []
     if open_part.any():
         listed.append(
@@ -270,12 +270,12 @@ def _warnings(found: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list
     for a, b in np.argwhere(np.triu(cosine > _ALIKE, k=1)):
         if not (open_part[a] and open_part[b]):
             listed.append(f"cylinders {names[a]} and {names[b]} act alike (cosine {cosine[a, b]:.4f})")
-    blind = ~open_part & (found.half_width() > 1)
+    blind = ~open_part & (diagnosis.half_width() > 1)
     if blind.any():
         listed.append(f"cylinders {', '.join(names[blind])}: not even a misfire would show against the noise")
-    if found.is_refuted:
+    if diagnosis.is_refuted:
         listed.append(
-            f"what is left over is {found.misfit:.3g} times the noise: the train or its torques differ"
+            f"what is left over is {diagnosis.misfit:.3g} times the noise: the train or its torques differ"
         )
     return listed
 
@@ -303,5 +303,5 @@ def places(orders: Floats, measured: MeasuredSpeed) -> NDArray[np.intp]:
     if apart.any():
         order = measured.orders[apart][0]
         raise InputError(f"nothing in the train has the order {order:.6g}: leave it out of the measurement")
-    found: NDArray[np.intp] = place
-    return found
+    at: NDArray[np.intp] = place
+    return at

@@ -98,16 +98,16 @@ def fitted(model: EngineSpeed, measured: MeasuredSpeed) -> Diagnosis:
             fit, A = _linear_fit(model, measured, wider)
         else:
             warnings.append("factors do not explain what was measured, nor do delay and compression settle")
-    found = diagnosed(fit, A, names, measured)
-    if found.is_refuted:
+    diagnosis = diagnosed(fit, A, names, measured)
+    if diagnosis.is_refuted:
         # Noise is what neither the train nor its cylinders explain.
         spread = diagnosed(scaled(fit, fit.misfit), A, names, measured)
-        found = replace(found, deviation=spread.deviation, covariance=spread.covariance)
-        if found.delay is not None:
+        diagnosis = replace(diagnosis, deviation=spread.deviation, covariance=spread.covariance)
+        if diagnosis.delay is not None:
             further = (spread.delay_deviation, spread.compression_deviation)
-            found = replace(found, delay_deviation=further[0], compression_deviation=further[1])
+            diagnosis = replace(diagnosis, delay_deviation=further[0], compression_deviation=further[1])
         warnings.append("intervals count what is left over as noise")
-    return replace(found, warnings=(*found.warnings, *warnings))
+    return replace(diagnosis, warnings=(*diagnosis.warnings, *warnings))
 
 
 def _unsettled(values: Floats, asked: Floats) -> str:
@@ -174,8 +174,8 @@ def _size(measured: MeasuredSpeed) -> float:
 def _share(model: EngineSpeed, measured: MeasuredSpeed, values: Floats, step: Floats) -> float:
     """Share of a step, halved until the speed fits no worse than before."""
     shares = 0.5 ** np.arange(_HALVINGS)
-    orders, found = model.harmonics(values[:, None] + step[:, None] * np.append(0.0, shares))
-    left = equations(measured.harmonics - found[:, places(orders, measured)], measured)
+    orders, speed = model.harmonics(values[:, None] + step[:, None] * np.append(0.0, shares))
+    left = equations(measured.harmonics - speed[:, places(orders, measured)], measured)
     size = (left**2).sum(axis=1)
     fits = np.flatnonzero(size[1:] <= size[0] * (1 + _WORSE))
     return float(shares[fits[0] if len(fits) else -1])

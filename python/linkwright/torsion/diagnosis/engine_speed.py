@@ -32,8 +32,8 @@ def disc_speed(at: ExcitedTrain, disc: str, *, rigid: bool = False) -> Complexes
     else:
         q = responses(at)[:, at.referred.mass[place]]
     omega = at.torques.orders[:, None] * at.torques.speeds
-    found: Complexes = (1j * omega * at.referred.speed[place] * q).T
-    return found
+    speed: Complexes = (1j * omega * at.referred.speed[place] * q).T
+    return speed
 
 
 def cylinder_response(at: ExcitedTrain, sources: Complexes, disc: str, *, rigid: bool = False) -> Complexes:
@@ -55,8 +55,8 @@ def cylinder_response(at: ExcitedTrain, sources: Complexes, disc: str, *, rigid:
         q = _rigid(referred, same, orders, torques)
     else:
         q = respond(referred, same, orders, torques)[:, referred.mass[place]]
-    found: Complexes = (1j * orders[:, None] * same.speeds * referred.speed[place] * q).T
-    return found
+    speed: Complexes = (1j * orders[:, None] * same.speeds * referred.speed[place] * q).T
+    return speed
 
 
 def _place(referred: ReferredTrain, disc: str) -> int:
@@ -130,5 +130,5 @@ class EngineSpeed:
         other operating point [rad/s]. `values`: (kinds · cylinders,) as of `states`.
         """
         beside = values[:, None] + _STEP * np.eye(len(values))
-        orders, found = self.harmonics(np.column_stack([values, beside]))
-        return orders, found[0], (found[1:] - found[0]) / _STEP
+        orders, speed = self.harmonics(np.column_stack([values, beside]))
+        return orders, speed[0], (speed[1:] - speed[0]) / _STEP

@@ -132,8 +132,8 @@ class RecordedSpeed:
         """
         waves = orders * self.turns
         whole = np.abs(waves - np.rint(waves)) <= 1e-9 * np.maximum(waves, 1.0)
-        found: Floats = orders[whole & (waves >= 1) & (2 * waves < len(self.samples))]
-        return found
+        resolved: Floats = orders[whole & (waves >= 1) & (2 * waves < len(self.samples))]
+        return resolved
 
     def harmonics(self, disc: str, orders: Floats, noise: float | None = None) -> MeasuredSpeed:
         """Its harmonics over the crank angle.
@@ -141,9 +141,9 @@ class RecordedSpeed:
         With angle 0 where the crank angle is 0. `orders`: (orders,); `noise`: standard deviation of a sample
         [rad/s].
         """
-        found = measured_speed(disc, self.samples, self.turns, orders, noise)
-        turned = found.harmonics * np.exp(-1j * found.orders * self.start)
-        return MeasuredSpeed(disc, found.orders, turned, found.noise)
+        measured = measured_speed(disc, self.samples, self.turns, orders, noise)
+        turned = measured.harmonics * np.exp(-1j * measured.orders * self.start)
+        return MeasuredSpeed(disc, measured.orders, turned, measured.noise)
 
 
 def recorded_speed(angle: ArrayLike, speed: ArrayLike, turns: int) -> RecordedSpeed:

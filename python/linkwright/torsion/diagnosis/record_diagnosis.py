@@ -100,7 +100,7 @@ class RecordDiagnosis:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What limits the diagnosis, in sentences."""
-        listed = [f"{each}." for each in self.found.warnings]
+        listed = [f"{warning}." for warning in self.found.warnings]
         mean = float(self.found.factor.mean())
         if not self.is_plausible:
             worst = float(self.found.factor[np.argmax(np.abs(self.found.factor - 1))])

@@ -44,8 +44,8 @@ _HEIGHT = 2.7
 
 def _rpm(speeds: Floats) -> Floats:
     """Speeds as turns a minute."""
-    found: Floats = speeds * 30 / math.pi
-    return found
+    rpm: Floats = speeds * 30 / math.pi
+    return rpm
 
 
 def _over_speed(axes: Axes, speeds: Floats, label: str) -> None:
@@ -57,13 +57,13 @@ def _over_speed(axes: Axes, speeds: Floats, label: str) -> None:
 
 
 @styled
-def shaft_torques_figure(found: ForcedVibration) -> Figure:
+def shaft_torques_figure(forced: ForcedVibration) -> Figure:
     """Draw the vibratory torque of the shafts over the speed. The shafts with the largest torques."""
     figure, (axes,) = panels(1, height=_HEIGHT)
-    size = found.shaft_torque_vibratory
+    size = forced.shaft_torque_vibratory
     for s, colour in zip(_largest(size), LINES, strict=False):
-        axes.plot(_rpm(found.speeds), size[s] / 1e3, color=colour, label=found.shafts[s])
-    _over_speed(axes, found.speeds, "vibratory torque [kN m]")
+        axes.plot(_rpm(forced.speeds), size[s] / 1e3, color=colour, label=forced.shafts[s])
+    _over_speed(axes, forced.speeds, "vibratory torque [kN m]")
     axes.set_xlabel("speed of the first disc [rpm]")
     legend_above(axes)
     return figure
@@ -87,7 +87,7 @@ def stress_figure(stress: ShaftStress, barred: Sequence[BarredRange] = ()) -> Fi
         _limits(panel, stress, shafts[0])
         _over_speed(panel, stress.speeds, "stress [MPa]")
         names = [stress.shafts[s] for s in shafts]
-        _bar(panel, [each.barred for each in barred if each.shaft in names])
+        _bar(panel, [span.barred for span in barred if span.shaft in names])
         legend_above(panel)
     axes[-1].set_xlabel("speed of the first disc [rpm]")
     return figure
@@ -114,7 +114,7 @@ def _limits(axes: Axes, stress: ShaftStress, s: int) -> None:
 
 @styled
 def orders_figure(
-    found: ForcedVibration, single: Floats, total: Floats, label: str, factor: float = 1.0
+    forced: ForcedVibration, single: Floats, total: Floats, label: str, factor: float = 1.0
 ) -> Figure:
     """Draw a vibration over the speed, order by order and all together.
 
@@ -122,61 +122,61 @@ def orders_figure(
     (speeds,) all orders in phase.
     """
     figure, (axes,) = panels(1, height=_HEIGHT + 0.2)
-    rpm = _rpm(found.speeds)
+    rpm = _rpm(forced.speeds)
     named = _largest(single)
     for k in range(len(single)):
         if k not in named:
             axes.plot(rpm, single[k] * factor, color="#c3c9d0", linewidth=0.8)
     for k, colour in zip(named, LINES, strict=False):
-        axes.plot(rpm, single[k] * factor, color=colour, linewidth=1.3, label=f"order {found.orders[k]:.4g}")
+        axes.plot(rpm, single[k] * factor, color=colour, linewidth=1.3, label=f"order {forced.orders[k]:.4g}")
     axes.plot(rpm, total * factor, color=INK, linewidth=2.0, label="all orders")
-    _over_speed(axes, found.speeds, label)
+    _over_speed(axes, forced.speeds, label)
     axes.set_xlabel("speed of the first disc [rpm]")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.6)
     return figure
 
 
 @styled
-def torsion_unevenness_figure(found: ForcedVibration, row: list[int], speed: float) -> Figure:
+def torsion_unevenness_figure(forced: ForcedVibration, row: list[int], speed: float) -> Figure:
     """Draw the speed fluctuation along the train, and over the speed.
 
     Above along the train: all, as a whole, torsional; below over the speed at a few discs. `speed`: [rad/s].
     """
     figure, (along, over) = panels(2, height=5.0, shared=False)
-    at = int(np.argmin(np.abs(found.speeds - speed)))
-    x = np.arange(len(found.discs))
+    at = int(np.argmin(np.abs(forced.speeds - speed)))
+    x = np.arange(len(forced.discs))
     parts = (
-        (found.unevenness, "in all", BLUE),
-        (found.unevenness_rigid, "rigid-body rotation", ORANGE),
-        (found.unevenness_torsional, "torsional part", SKY),
+        (forced.unevenness, "in all", BLUE),
+        (forced.unevenness_rigid, "rigid-body rotation", ORANGE),
+        (forced.unevenness_torsional, "torsional part", SKY),
     )
     for n, (values, words, colour) in enumerate(parts):
         along.bar(x + 0.27 * (n - 1), values[row, at], width=0.25, color=colour, label=words)
-    turned = 30 if len(x) > 6 or max(map(len, found.discs)) > 9 else 0
-    along.set_xticks(x, [found.discs[d] for d in row], rotation=turned, ha="right" if turned else "center")
-    along.set_ylabel(f"δ at {_rpm(found.speeds)[at]:.0f} rpm")
+    turned = 30 if len(x) > 6 or max(map(len, forced.discs)) > 9 else 0
+    along.set_xticks(x, [forced.discs[d] for d in row], rotation=turned, ha="right" if turned else "center")
+    along.set_ylabel(f"δ at {_rpm(forced.speeds)[at]:.0f} rpm")
     along.grid(visible=False, axis="x")
     legend_above(along)
-    shown = dict.fromkeys([0, int(found.unevenness[:, at].argmax()), int(found.unevenness[:, at].argmin())])
+    shown = dict.fromkeys([0, int(forced.unevenness[:, at].argmax()), int(forced.unevenness[:, at].argmin())])
     for d, colour in zip(shown, (BLUE, RED, LINES[2]), strict=False):
-        over.plot(_rpm(found.speeds), found.unevenness[d], color=colour, label=found.discs[d])
-    rigid = found.unevenness_rigid[0]
-    over.plot(_rpm(found.speeds), rigid, color=SOFT, linestyle=(0, (5, 3)), label="rigid-body rotation")
-    _over_speed(over, found.speeds, "speed fluctuation δ")
+        over.plot(_rpm(forced.speeds), forced.unevenness[d], color=colour, label=forced.discs[d])
+    rigid = forced.unevenness_rigid[0]
+    over.plot(_rpm(forced.speeds), rigid, color=SOFT, linestyle=(0, (5, 3)), label="rigid-body rotation")
+    _over_speed(over, forced.speeds, "speed fluctuation δ")
     over.set_xlabel("speed of the first disc [rpm]")
     legend_above(over)
     return figure
 
 
 @styled
-def heat_figure(found: ForcedVibration, parts: list[str]) -> Figure:
+def heat_figure(forced: ForcedVibration, parts: list[str]) -> Figure:
     """Draw the heat of dampers and couplings over the speed."""
     figure, (axes,) = panels(1, height=_HEIGHT)
     for name, colour in zip(parts, LINES, strict=False):
         axes.plot(
-            _rpm(found.speeds), found.shaft_heat[found.shafts.index(name)], color=colour, label=named(name)
+            _rpm(forced.speeds), forced.shaft_heat[forced.shafts.index(name)], color=colour, label=named(name)
         )
-    _over_speed(axes, found.speeds, "heat [W]")
+    _over_speed(axes, forced.speeds, "heat [W]")
     axes.set_xlabel("speed of the first disc [rpm]")
     legend_above(axes)
     return figure
@@ -194,20 +194,20 @@ _TOP = 3.0
 
 
 @styled
-def damper_figure(found: DamperDesign) -> Figure:
+def damper_figure(design: DamperDesign) -> Figure:
     """Draw the twist of the watched shaft over the frequency, without damper and with it."""
     figure, (axes,) = panels(1, height=3.2)
     lines = (
-        (found.response_bare, SOFT, "without damper"),
-        (found.response_rule, RED, "mode alone"),
-        (found.response_best, BLUE, "best"),
+        (design.response_bare, SOFT, "without damper"),
+        (design.response_rule, RED, "mode alone"),
+        (design.response_best, BLUE, "best"),
     )
     for response, colour, label in lines:
-        axes.plot(found.frequencies, response, color=colour, label=label)
-    level(axes, found.magnification, "promised")
-    axes.set_ylim(0, _TOP * max(found.magnification_best, found.magnification))
-    axes.set_xlim(found.frequencies[0], found.frequencies[-1])
+        axes.plot(design.frequencies, response, color=colour, label=label)
+    level(axes, design.magnification, "promised")
+    axes.set_ylim(0, _TOP * max(design.magnification_best, design.magnification))
+    axes.set_xlim(design.frequencies[0], design.frequencies[-1])
     axes.set_xlabel("frequency [Hz]")
-    axes.set_ylabel(f"twist of {found.watched}\nover that at rest [–]")
+    axes.set_ylabel(f"twist of {design.watched}\nover that at rest [–]")
     legend_above(axes)
     return figure

@@ -38,33 +38,33 @@ _PANEL = 1.35
 
 
 @styled
-def modes_figure(found: FreeVibration, modes: int = 4) -> Figure:
+def modes_figure(free: FreeVibration, modes: int = 4) -> Figure:
     """Draw the amplitudes of the discs in the lowest modes that twist the train."""
-    twisting = [k for k, f in enumerate(found.natural_frequencies) if f > 0] or [0]
+    twisting = [k for k, f in enumerate(free.natural_frequencies) if f > 0] or [0]
     shown = twisting[: max(1, min(modes, _MODES_MAX))]
     figure, axes = panels(len(shown), height=0.9 + _PANEL * len(shown))
     for panel, k, colour in zip(axes, shown, LINES, strict=False):
-        _mode(panel, found, k, colour)
+        _mode(panel, free, k, colour)
     last = axes[-1]
-    names = [found.discs[d] for d in in_a_row(found.discs, found.joined)]
-    last.set_xticks(range(len(names)), names, rotation=30 if len(found.discs) > 8 else 0)
+    names = [free.discs[d] for d in in_a_row(free.discs, free.joined)]
+    last.set_xticks(range(len(names)), names, rotation=30 if len(free.discs) > 8 else 0)
     last.set_xlabel("disc")
     return figure
 
 
-def _mode(axes: Axes, found: FreeVibration, k: int, colour: str) -> None:
+def _mode(axes: Axes, free: FreeVibration, k: int, colour: str) -> None:
     """One shape: discs as stems, shafts as lines between them."""
-    row = in_a_row(found.discs, found.joined)
-    place = {found.discs[d]: n for n, d in enumerate(row)}
-    shape = found.mode_shapes[k][row]
-    for first, second in found.joined:
+    row = in_a_row(free.discs, free.joined)
+    place = {free.discs[d]: n for n, d in enumerate(row)}
+    shape = free.mode_shapes[k][row]
+    for first, second in free.joined:
         if first in place and second in place:
             x = (place[first], place[second])
             axes.plot(x, shape[list(x)], color=colour, linewidth=1.4)
     axes.vlines(range(len(shape)), 0, shape, color=SOFT, linewidth=0.8)
     axes.plot(range(len(shape)), shape, "o", color=INK, markersize=4)
     axes.set_ylim(-1.15, 1.15)
-    axes.set_ylabel(f"{found.natural_frequencies[k]:.5g} Hz")
+    axes.set_ylabel(f"{free.natural_frequencies[k]:.5g} Hz")
     zero_line(axes)
 
 
@@ -186,8 +186,8 @@ def _points(axes: Axes, diagram: CampbellDiagram) -> None:
         return
     severity, name = _severity(diagram)
     share = severity / severity.max() if severity.max() > 0 else np.zeros_like(severity)
-    x = np.array([each.speed for each in critical]) * _RPM
-    y = np.array([each.frequency for each in critical])
+    x = np.array([crossing.speed for crossing in critical]) * _RPM
+    y = np.array([crossing.frequency for crossing in critical])
     area = np.maximum(_LARGEST * share, 3.0) if name else np.full(len(x), _PLAIN)
     axes.scatter(
         x, y, s=area, facecolor=ORANGE, edgecolor=RED, linewidth=0.8, alpha=0.85, zorder=3, label=name
@@ -225,9 +225,9 @@ def _severity(diagram: CampbellDiagram) -> tuple[Floats, str]:
         ("resonance_amplitude", "critical: rpm (order), by amplitude at resonance"),
         ("equilibrium_amplitude", "critical: rpm (order), by equilibrium amplitude"),
     ):
-        found = [getattr(each, entry) for each in diagram.critical]
-        if all(value is not None for value in found) and any(found):
-            size = np.array(found, float)
+        amplitudes = [getattr(crossing, entry) for crossing in diagram.critical]
+        if all(value is not None for value in amplitudes) and any(amplitudes):
+            size = np.array(amplitudes, float)
             finite = size[np.isfinite(size)]
             if len(finite) and finite.max() > 0:
                 return np.where(np.isfinite(size), size, 2 * finite.max()), name

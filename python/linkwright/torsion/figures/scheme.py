@@ -35,13 +35,13 @@ _COLOURS = {"shaft": BLUE, "coupling": BLUE, "mesh": RED, "gears": RED, "damper"
 
 
 @styled
-def scheme_figure(found: Scheme) -> Figure:
+def scheme_figure(scheme: Scheme) -> Figure:
     """Draw the equivalent scheme of a train."""
     from matplotlib.figure import Figure
 
-    laid = page(found, turned=False)
+    laid = page(scheme, turned=False)
     if laid.width > _WIDE:
-        laid = min(laid, page(found, turned=True), key=lambda each: each.oversize)
+        laid = min(laid, page(scheme, turned=True), key=lambda each: each.oversize)
     levels, note = laid.levels(), laid.note()
     bottom = levels[-1][2] - 1.3 * LINE * len(note)
     figure = Figure(figsize=(laid.width, 2 * MARGIN - bottom))

@@ -42,11 +42,11 @@ def wide(line: str) -> float:
     return _LETTER * len(line)
 
 
-def disc_words(found: Scheme, n: int) -> Words:
+def disc_words(scheme: Scheme, n: int) -> Words:
     """Name, inertia, and where the speed is another one, the referred inertia in brackets."""
-    own = f"{found.inertia[n]:.4g} kg m²"
-    referred = () if _same(found.speed[n]) else (f"({found.inertia_referred[n]:.4g})",)
-    return Words((found.discs[n],), (own, *referred))
+    own = f"{scheme.inertia[n]:.4g} kg m²"
+    referred = () if _same(scheme.speed[n]) else (f"({scheme.inertia_referred[n]:.4g})",)
+    return Words((scheme.discs[n],), (own, *referred))
 
 
 def connection_words(each: Connection) -> Words:
@@ -129,12 +129,12 @@ class Page:
     def levels(self) -> list[tuple[float, float, float]]:
         """Height of the shafts of each row, of its upper and of its lower end."""
         rows = [row for _, row in self.places.discs.values()] + [span.row for span in self.places.spans]
-        found, y = [], 0.0
+        heights, y = [], 0.0
         for row in range(1 + max(rows)):
             above, below = self._above(row), self._below(row)
-            found.append((y - above, y, y - above - below))
+            heights.append((y - above, y, y - above - below))
             y -= above + below
-        return found
+        return heights
 
     def bridge_height(self, bridge: Bridge) -> float:
         """Of a bridge above the shafts of its row."""
@@ -192,7 +192,7 @@ class Page:
 
     def _entering(self, row: int, side: int) -> float:
         """What the words of gears take that enter a row from above (+1) or from below (−1)."""
-        entering = [each for each in self.places.risers if each.to_row == row and each.side == side]
+        entering = [riser for riser in self.places.risers if riser.to_row == row and riser.side == side]
         return max((self._beside(each.part) for each in entering), default=0.0)
 
     def _beside(self, part: Connection) -> float:
@@ -203,13 +203,13 @@ class Page:
         return wide(in_a_row(words)) if self.turned else LINE * len(words.below)
 
 
-def page(found: Scheme, *, turned: bool) -> Page:
+def page(scheme: Scheme, *, turned: bool) -> Page:
     """Lay a scheme out."""
-    discs = {name: disc_words(found, n) for n, name in enumerate(found.discs)}
-    parts = {each.name: connection_words(each) for each in found.connections}
-    lengths, broken = _lengths(found, discs, parts, turned)
+    discs = {name: disc_words(scheme, n) for n, name in enumerate(scheme.discs)}
+    parts = {part.name: connection_words(part) for part in scheme.connections}
+    lengths, broken = _lengths(scheme, discs, parts, turned)
     room = 1.5 * LINE if turned else 0.5 * max(words.width for words in discs.values())
-    return Page(found, discs, parts, layout(found.discs, found.connections, lengths, room), broken, turned)
+    return Page(scheme, discs, parts, layout(scheme.discs, scheme.connections, lengths, room), broken, turned)
 
 
 def in_a_row(words: Words) -> str:
@@ -218,13 +218,13 @@ def in_a_row(words: Words) -> str:
 
 
 def _lengths(
-    found: Scheme, discs: dict[str, Words], parts: dict[str, Words], turned: bool
+    scheme: Scheme, discs: dict[str, Words], parts: dict[str, Words], turned: bool
 ) -> tuple[dict[str, float], frozenset[str]]:
     """Drawn length of each part, as its compliance where words leave room; and which parts are broken."""
-    sides = _sides_turned(found) if turned else _sides(found, discs, parts)
-    least = {each.name: _least(each, parts[each.name], sides, turned) for each in found.connections}
-    rows = [each for each in found.connections if each.kind not in ("gears", "mesh")]
-    soft = dict.fromkeys(least, 0.0) | {each.name: each.equivalent_length or 0.0 for each in rows}
+    sides = _sides_turned(scheme) if turned else _sides(scheme, discs, parts)
+    least = {part.name: _least(part, parts[part.name], sides, turned) for part in scheme.connections}
+    rows = [part for part in scheme.connections if part.kind not in ("gears", "mesh")]
+    soft = dict.fromkeys(least, 0.0) | {row.name: row.equivalent_length or 0.0 for row in rows}
     known = [length for length in soft.values() if length > 0]
     if not known:
         return least, frozenset()
@@ -234,22 +234,22 @@ def _lengths(
     return drawn, frozenset(name for name in drawn if scale * soft[name] > 1.001 * drawn[name])
 
 
-def _sides(found: Scheme, discs: dict[str, Words], parts: dict[str, Words]) -> dict[str, float]:
+def _sides(scheme: Scheme, discs: dict[str, Words], parts: dict[str, Words]) -> dict[str, float]:
     """Room of a disc's words to each side: half of them, or all where a line leaves upwards or downwards."""
-    ends = Counter(end for each in found.connections for end in (each.first, each.second))
+    ends = Counter(end for part in scheme.connections for end in (part.first, part.second))
     sides = {name: words.width * (1.0 if ends[name] > 2 else 0.5) for name, words in discs.items()}
-    for each in found.connections:
-        if each.kind in ("gears", "mesh"):
-            for end in (each.first, each.second):
-                sides[end] = max(sides[end], discs[end].width + GAP, parts[each.name].width + 3 * GAP)
+    for part in scheme.connections:
+        if part.kind in ("gears", "mesh"):
+            for end in (part.first, part.second):
+                sides[end] = max(sides[end], discs[end].width + GAP, parts[part.name].width + 3 * GAP)
     return sides
 
 
-def _sides_turned(found: Scheme) -> dict[str, float]:
+def _sides_turned(scheme: Scheme) -> dict[str, float]:
     """The same of words that are written upwards: they step aside by a line."""
-    ends = Counter(end for each in found.connections for end in (each.first, each.second))
-    geared = [end for each in found.connections if each.kind in ("gears", "mesh") for end in each[2:4]]
-    return {name: LINE * (2.2 if ends[name] > 2 or name in geared else 1.0) for name in found.discs}
+    ends = Counter(end for part in scheme.connections for end in (part.first, part.second))
+    geared = [end for part in scheme.connections if part.kind in ("gears", "mesh") for end in part[2:4]]
+    return {name: LINE * (2.2 if ends[name] > 2 or name in geared else 1.0) for name in scheme.discs}
 
 
 def _least(part: Connection, words: Words, sides: dict[str, float], turned: bool) -> float:

@@ -35,7 +35,7 @@ _DECADES = 3.0
 
 @styled
 def transient_figure(
-    found: TorsionTransient,
+    motion: TorsionTransient,
     *,
     shafts: Sequence[str] | None = None,
     discs: Sequence[str] | None = None,
@@ -45,14 +45,14 @@ def transient_figure(
 
     `marks`: times [s] with words, such as those of events.
     """
-    shown = _known(shafts, found.shafts, "shafts") if shafts is not None else _loaded(found)
-    turning = _known(discs, found.discs, "discs") if discs is not None else [0, len(found.discs) - 1]
+    shown = _known(shafts, motion.shafts, "shafts") if shafts is not None else _loaded(motion)
+    turning = _known(discs, motion.discs, "discs") if discs is not None else [0, len(motion.discs) - 1]
     figure, axes = panels(1 + len(shown), height=1.9 + 1.35 * len(shown))
     for disc, colour in zip(dict.fromkeys(turning), LINES, strict=False):
-        _curve(axes[0], found.time, _RPM * found.speed[disc], colour, found.discs[disc])
+        _curve(axes[0], motion.time, _RPM * motion.speed[disc], colour, motion.discs[disc])
     axes[0].set_ylabel("speed [rpm]")
     for panel, shaft, colour in zip(axes[1:], shown, (*LINES, INK), strict=False):
-        _shaft(panel, found, shaft, colour)
+        _shaft(panel, motion, shaft, colour)
     for panel in axes:
         for time, _ in marks:
             panel.axvline(time, color=INK, linewidth=0.9, linestyle=":")
@@ -66,14 +66,14 @@ def transient_figure(
             fontsize=8,
         )
     legend_above(axes[0])
-    axes[-1].set_xlim(float(found.time[0]), float(found.time[-1]))
+    axes[-1].set_xlim(float(motion.time[0]), float(motion.time[-1]))
     axes[-1].set_xlabel("time t [s]")
     return figure
 
 
 @styled
 def waterfall_figure(
-    found: Waterfall, *, quantity: str = "amplitude", frequencies: Sequence[float] = ()
+    waterfall: Waterfall, *, quantity: str = "amplitude", frequencies: Sequence[float] = ()
 ) -> Figure:
     """Draw amplitudes over speed and order.
 
@@ -82,27 +82,27 @@ def waterfall_figure(
     from matplotlib.colors import LogNorm
 
     figure, (axes,) = panels(1, height=4.4)
-    rising = bool((np.diff(found.speed) > 0).all())
-    falling = bool((np.diff(found.speed) < 0).all())
-    up = _RPM * found.speed if rising or falling else found.time
-    largest = float(found.amplitudes.max()) or 1.0
+    rising = bool((np.diff(waterfall.speed) > 0).all())
+    falling = bool((np.diff(waterfall.speed) < 0).all())
+    up = _RPM * waterfall.speed if rising or falling else waterfall.time
+    largest = float(waterfall.amplitudes.max()) or 1.0
     shade = axes.pcolormesh(
-        found.orders,
+        waterfall.orders,
         up,
-        np.clip(found.amplitudes, largest * 10**-_DECADES, None),
+        np.clip(waterfall.amplitudes, largest * 10**-_DECADES, None),
         norm=LogNorm(largest * 10**-_DECADES, largest),
         cmap="magma_r",
         shading="nearest",
         rasterized=True,
     )
     figure.colorbar(shade, ax=axes, label=quantity, pad=0.02)
-    crossed = [f for f in frequencies if (2 * np.pi * f / found.speed).min() <= found.orders[-1]]
+    crossed = [f for f in frequencies if (2 * np.pi * f / waterfall.speed).min() <= waterfall.orders[-1]]
     for frequency, colour in zip(crossed, LINES, strict=False):
-        _line_of(axes, found, frequency, up, colour)
+        _line_of(axes, waterfall, frequency, up, colour)
     if crossed:
         legend_above(axes)
-    step = float(found.orders[0])
-    axes.set_xlim(0.5 * step, float(found.orders[-1]) + 0.5 * step)
+    step = float(waterfall.orders[0])
+    axes.set_xlim(0.5 * step, float(waterfall.orders[-1]) + 0.5 * step)
     axes.set_ylim(float(up.min()), float(up.max()))
     axes.set_xlabel("order ν [–]")
     axes.set_ylabel("speed [rpm]" if rising or falling else "time t [s]")
@@ -111,11 +111,11 @@ def waterfall_figure(
 
 
 @styled
-def orders_figure(found: Waterfall, orders: Sequence[float], *, quantity: str = "amplitude") -> Figure:
+def orders_figure(waterfall: Waterfall, orders: Sequence[float], *, quantity: str = "amplitude") -> Figure:
     """Draw the amplitudes of some orders over the speed. A line for each order."""
     figure, (axes,) = panels(1, height=3.0)
     for order, colour in zip(orders, LINES, strict=False):
-        axes.plot(_RPM * found.speed, found.order(order), color=colour, label=f"order {order:g}")
+        axes.plot(_RPM * waterfall.speed, waterfall.order(order), color=colour, label=f"order {order:g}")
     axes.set_ylim(bottom=0)
     axes.set_xlabel("speed [rpm]")
     axes.set_ylabel(quantity)
@@ -134,9 +134,9 @@ def _known(wanted: Sequence[str], names: Sequence[str], word: str) -> list[int]:
     return [names.index(name) for name in wanted]
 
 
-def _loaded(found: TorsionTransient) -> list[int]:
+def _loaded(motion: TorsionTransient) -> list[int]:
     """The shafts that swing most, in the order of the train."""
-    swing = found.torque_max - found.torque_min
+    swing = motion.torque_max - motion.torque_min
     return sorted(np.argsort(-swing, kind="stable")[:_SHAFTS].tolist())
 
 
@@ -152,17 +152,19 @@ def _curve(axes: Axes, time: Floats, values: Floats, colour: str, label: str | N
     axes.fill_between(at, parts.min(axis=1), parts.max(axis=1), color=colour, label=label, linewidth=0.6)
 
 
-def _shaft(axes: Axes, found: TorsionTransient, shaft: int, colour: str) -> None:
+def _shaft(axes: Axes, motion: TorsionTransient, shaft: int, colour: str) -> None:
     """Torque of one shaft, its extremes marked."""
-    _curve(axes, found.time, 1e-3 * found.torque[shaft], colour)
+    _curve(axes, motion.time, 1e-3 * motion.torque[shaft], colour)
     for time, value in (
-        (found.torque_max_time[shaft], found.torque_max[shaft]),
-        (found.torque_min_time[shaft], found.torque_min[shaft]),
+        (motion.torque_max_time[shaft], motion.torque_max[shaft]),
+        (motion.torque_min_time[shaft], motion.torque_min[shaft]),
     ):
         axes.plot([time], [1e-3 * value], "o", color=INK, markersize=3.5)
-    axes.set_ylabel(f"{found.shafts[shaft]}\n[kN m]")
+    axes.set_ylabel(f"{motion.shafts[shaft]}\n[kN m]")
     axes.annotate(
-        f"{1e-3 * found.torque_min[shaft]:.4g} … {1e-3 * found.torque_max[shaft]:.4g} kN m".replace("-", "−"),
+        f"{1e-3 * motion.torque_min[shaft]:.4g} … {1e-3 * motion.torque_max[shaft]:.4g} kN m".replace(
+            "-", "−"
+        ),
         (1, 1),
         xycoords="axes fraction",
         xytext=(0, 2),
@@ -174,7 +176,7 @@ def _shaft(axes: Axes, found: TorsionTransient, shaft: int, colour: str) -> None
     zero_line(axes)
 
 
-def _line_of(axes: Axes, found: Waterfall, frequency: float, up: Floats, colour: str) -> None:
+def _line_of(axes: Axes, waterfall: Waterfall, frequency: float, up: Floats, colour: str) -> None:
     """Where an order has a frequency: ν = 2πf/ω."""
-    orders = 2 * np.pi * frequency / found.speed
+    orders = 2 * np.pi * frequency / waterfall.speed
     axes.plot(orders, up, color=colour, linewidth=1.1, linestyle="--", label=f"{frequency:.4g} Hz")

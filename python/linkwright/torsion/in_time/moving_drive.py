@@ -63,17 +63,17 @@ def moving_drive(machine: Machine, manoeuvre: TrainTransient) -> tuple[MovingTra
         # Checked with the drive; as one of a train it is driven by the same characteristic.
         motors[MOTOR] = TrainMotor.model_construct(on=at, motor=drive.motor, on_at_start=True)
     given = manoeuvre.model_copy(update={"balanced": False, "motors": motors})
-    found = moving_train(train, given)
+    moving = moving_train(train, given)
     compiled = mechanism_alone(machine)
-    crank = found.discs.index(CRANK)
-    own = np.array(found.inertia)
+    crank = moving.discs.index(CRANK)
+    own = np.array(moving.inertia)
     # The rest is what turns with the crank beside the mechanism; of nothing, rounding is left.
     own[crank] = max(own[crank] - mean_inertia(machine), 0.0)
-    torques = tuple(_geared(each, machine) if each.name == MOTOR else each for each in found.torques)
+    torques = tuple(_geared(torque, machine) if torque.name == MOTOR else torque for torque in moving.torques)
     guess = compile_machine(machine).speed_guess
     return (
         replace(
-            found,
+            moving,
             inertia=own,
             inertias=(_inertia(compiled, crank),),
             torques=(*torques, *_resistance(compiled, crank, guess)),

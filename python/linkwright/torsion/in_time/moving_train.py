@@ -64,14 +64,14 @@ def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
     whole, referred = whole_train(train), refer(train)
     _require_fit(train, manoeuvre, tuple(whole.discs))
     place = {name: k for k, name in enumerate(whole.discs)}
-    own = np.array([each.inertia for each in whole.discs.values()])
+    own = np.array([disc.inertia for disc in whole.discs.values()])
     inertias = [] if train.engine is None else throw_inertias(train.engine)
     own[: len(inertias)] = 0.0
     damping, notes = _shaft_damping(referred, manoeuvre)
     return moving(
         referred,
         own,
-        swing_damping=[each.damping for each in whole.discs.values()],
+        swing_damping=[disc.damping for disc in whole.discs.values()],
         shaft_damping=damping,
         curves=[_coupling_curve(train, name) for name in referred.shafts],
         inertias=inertias,
@@ -84,7 +84,7 @@ def _require_fit(train: Train, manoeuvre: TrainTransient, discs: tuple[str, ...]
     """Refuse a manoeuvre that speaks of parts that are not there."""
     faults = list(transient_faults(train.model_copy(update={"transient": manoeuvre}), discs))
     if faults:
-        told = ((each["loc"], getattr(each["type"], "context", None) or {}) for each in faults)
+        told = ((wrong["loc"], getattr(wrong["type"], "context", None) or {}) for wrong in faults)
         raise MachineError([Problem(".".join(map(str, place)), **words) for place, words in told])
 
 
@@ -149,10 +149,10 @@ def _outside(whole: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> 
     """Loads, excitations and motors, as events switch them."""
     for name, load in whole.loads.items():
         yield from _load(name, load, manoeuvre, place[load.on])
-    for name, each in whole.excitations.items():
-        law = None if each.speed is None else Power(each.speed, each.exponent, is_even=True)
-        for shape, pitch, phase in _shapes(each.harmonics, 0.0):
-            yield TrainTorque(name, place[each.on], 1.0, law, shape, pitch, phase)
+    for name, excitation in whole.excitations.items():
+        law = None if excitation.speed is None else Power(excitation.speed, excitation.exponent, is_even=True)
+        for shape, pitch, phase in _shapes(excitation.harmonics, 0.0):
+            yield TrainTorque(name, place[excitation.on], 1.0, law, shape, pitch, phase)
     for name, motor in manoeuvre.motors.items():
         changes = [
             (event.time, float(event.kind == "motor_on"), 0.0)
@@ -187,9 +187,9 @@ def _shapes(
     harmonics: Sequence[Harmonic] | Sequence[LoadHarmonic], mean: float
 ) -> list[tuple[PeriodicTable, float, float]]:
     """Tables with pitch and phase: one for orders that repeat within some revolutions, else one each."""
-    orders = np.array([each.order for each in harmonics])
-    sizes = [each.torque if isinstance(each, Harmonic) else each.share for each in harmonics]
-    phases = [each.phase for each in harmonics]
+    orders = np.array([harmonic.order for harmonic in harmonics])
+    sizes = [harmonic.torque if isinstance(harmonic, Harmonic) else harmonic.share for harmonic in harmonics]
+    phases = [harmonic.phase for harmonic in harmonics]
     for turns in range(1, _TURNS_MAX + 1):
         if np.abs(orders * turns - np.round(orders * turns)).max() < 1e-9:
             whole = np.round(orders * turns) / turns
@@ -254,7 +254,7 @@ def engine_motion_torques(
     """
     fires, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
     motored, added = _gas_tables(engine, speed, highest)
-    found = []
+    torques = []
     for n, (place, angle) in enumerate(zip(engine.places, fires, strict=True)):
         number = n + 1
         gas = TrainTorque(f"gas_{number}", place.throw, shape=motored[place.bank], phase=-float(angle))
@@ -267,16 +267,16 @@ def engine_motion_torques(
             phase=-float(angle),
             weight=combustion_weight(manoeuvre, number),
         )
-        found += [gas, burns]
-    return [*found, *_weights(engine)]
+        torques += [gas, burns]
+    return [*torques, *_weights(engine)]
 
 
 def combustion_weight(manoeuvre: TrainTransient, cylinder: int) -> Curve | None:
     """Share of the combustion in a cylinder over time. None if it burns all the time."""
     fuel = [
-        (each.time, float(each.kind == "fuel_on"), each.over)
-        for each in manoeuvre.events
-        if isinstance(each, FuelSwitch)
+        (event.time, float(event.kind == "fuel_on"), event.over)
+        for event in manoeuvre.events
+        if isinstance(event, FuelSwitch)
     ]
     weight = switched(fuel, manoeuvre.fuel) if fuel or manoeuvre.fuel != 1.0 else None
     for change in _misfires(manoeuvre, cylinder):
@@ -286,10 +286,10 @@ def combustion_weight(manoeuvre: TrainTransient, cylinder: int) -> Curve | None:
 
 def _misfires(manoeuvre: TrainTransient, cylinder: int) -> Iterator[Curve]:
     """Share that each event leaves to a cylinder."""
-    for each in manoeuvre.events:
-        if isinstance(each, Misfire) and cylinder in each.cylinders:
-            end = [(each.end, 1.0, 0.0)] if np.isfinite(each.end) else []
-            yield switched([(each.time, each.factor, 0.0), *end])
+    for event in manoeuvre.events:
+        if isinstance(event, Misfire) and cylinder in event.cylinders:
+            end = [(event.end, 1.0, 0.0)] if np.isfinite(event.end) else []
+            yield switched([(event.time, event.factor, 0.0), *end])
 
 
 def _gas_tables(
@@ -303,8 +303,8 @@ def _gas_tables(
         wave = harmonics[1:]
         return waves(gas.orders[1:].tolist(), np.abs(wave), np.angle(wave), turns, float(harmonics[0].real))
 
-    motored = [table(each.motored[0]) for each in gas.banks]
-    added = [table(each.firing[0] - each.motored[0]) for each in gas.banks]
+    motored = [table(bank.motored[0]) for bank in gas.banks]
+    added = [table(bank.firing[0] - bank.motored[0]) for bank in gas.banks]
     return motored, added
 
 

@@ -56,91 +56,91 @@ def mean_torques(train: MovingTrain, speed: float, angle: float = 0.0) -> Floats
 
 
 def balanced_start(
-    found: MovingTrain, train: Train, manoeuvre: TrainTransient
+    moving: MovingTrain, train: Train, manoeuvre: TrainTransient
 ) -> tuple[MovingTrain, float, str]:
     """A train whose mean torques balance at the start, if they shall.
 
     Gives `train`: with a drive, with another combustion, or with other loads where that is asked for;
     `speed`: at the start [rad/s]; `told`: what was changed, in words; empty where nothing was.
     """
-    speed, is_free = manoeuvre.speed, not (found.tip < 0).any()
+    speed, is_free = manoeuvre.speed, not (moving.tip < 0).any()
     if not (manoeuvre.balanced and speed and is_free):
-        return found, speed, ""
-    left = _left(found, speed, manoeuvre.angle)
-    if abs(left) <= _ROUNDING * _size(found, speed, manoeuvre.angle):
-        return found, speed, ""
+        return moving, speed, ""
+    left = _left(moving, speed, manoeuvre.angle)
+    if abs(left) <= _ROUNDING * _size(moving, speed, manoeuvre.angle):
+        return moving, speed, ""
     if manoeuvre.loads_follow:
-        return _with_loads(found, train, speed, left)
-    if any(each.on_at_start for each in manoeuvre.motors.values()):
-        return _at_steady_speed(found, manoeuvre)
+        return _with_loads(moving, train, speed, left)
+    if any(motor.on_at_start for motor in manoeuvre.motors.values()):
+        return _at_steady_speed(moving, manoeuvre)
     if train.engine is not None:
-        return _with_combustion(found, manoeuvre, left)
+        return _with_combustion(moving, manoeuvre, left)
     if manoeuvre.motors:
-        return found, speed, f"nothing drives at the start: {left:.5g} N m slow the train down"
+        return moving, speed, f"nothing drives at the start: {left:.5g} N m slow the train down"
     name = train.driver or next(iter(train.discs))
-    driver = found.discs.index(name)
-    drive = TrainTorque("driver", driver, -left / float(found.speed[driver]))
+    driver = moving.discs.index(name)
+    drive = TrainTorque("driver", driver, -left / float(moving.speed[driver]))
     told = f"{name} is driven by a constant {drive.scale:.5g} N m, what the loads need at the start"
-    return replace(found, torques=(*found.torques, drive)), speed, told
+    return replace(moving, torques=(*moving.torques, drive)), speed, told
 
 
-def _left(found: MovingTrain, speed: float, angle: float) -> float:
+def _left(moving: MovingTrain, speed: float, angle: float) -> float:
     """Sum of the mean torques, at the speed of the first disc [N m]."""
-    return float(mean_torques(found, speed, angle).sum())
+    return float(mean_torques(moving, speed, angle).sum())
 
 
-def _size(found: MovingTrain, speed: float, angle: float) -> float:
+def _size(moving: MovingTrain, speed: float, angle: float) -> float:
     """Sum of the sizes of the mean torques [N m]."""
-    return float(np.abs(mean_torques(found, speed, angle)).sum())
+    return float(np.abs(mean_torques(moving, speed, angle)).sum())
 
 
-def _at_steady_speed(found: MovingTrain, manoeuvre: TrainTransient) -> tuple[MovingTrain, float, str]:
+def _at_steady_speed(moving: MovingTrain, manoeuvre: TrainTransient) -> tuple[MovingTrain, float, str]:
     """The speed next to that given at which torques balance, and to which the train comes back."""
     given, angle = manoeuvre.speed, manoeuvre.angle
     speeds = given * np.linspace(_LEAST, _MOST, _SPEEDS)
-    left = np.array([_left(found, each, angle) for each in speeds.tolist()])
+    left = np.array([_left(moving, speed, angle) for speed in speeds.tolist()])
     # Above it torques brake, below they drive.
     stable = np.flatnonzero((left[:-1] > 0) & (left[1:] <= 0))
     if not len(stable):
-        here = _left(found, given, angle)
+        here = _left(moving, given, angle)
         told = f"no speed near {_rpm(given)} balances the mean torques: {here:+.5g} N m are left at the start"
-        return found, given, told
+        return moving, given, told
     at = stable[np.abs(speeds[stable] - given).argmin()]
     low, high = float(speeds[at]), float(speeds[at + 1])
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if _left(found, middle, angle) > 0 else (low, middle)
+        low, high = (middle, high) if _left(moving, middle, angle) > 0 else (low, middle)
     told = f"the start is at {_rpm(low)}, where motor and loads balance, not at {_rpm(given)}"
-    return found, low, told if abs(low / given - 1) > 5e-5 else ""
+    return moving, low, told if abs(low / given - 1) > 5e-5 else ""
 
 
 def _with_combustion(
-    found: MovingTrain, manoeuvre: TrainTransient, left: float
+    moving: MovingTrain, manoeuvre: TrainTransient, left: float
 ) -> tuple[MovingTrain, float, str]:
     """Combustion as much stronger or weaker as balances."""
-    motored = replace(found, torques=tuple(each for each in found.torques if not _burns(each)))
+    motored = replace(moving, torques=tuple(torque for torque in moving.torques if not _burns(torque)))
     given = left - _left(motored, manoeuvre.speed, manoeuvre.angle)
     factor = 1 - left / given if given > 0 else 0.0
     if factor <= 0:
         told = f"no combustion balances the mean torques: {left:+.5g} N m are left over at the start"
-        return found, manoeuvre.speed, told
+        return moving, manoeuvre.speed, told
     told = f"combustion was scaled by {factor:.5g} at the start so that the mean torques balance"
-    return _scaled(found, [_burns(each) for each in found.torques], factor), manoeuvre.speed, told
+    return _scaled(moving, [_burns(torque) for torque in moving.torques], factor), manoeuvre.speed, told
 
 
 def _with_loads(
-    found: MovingTrain, train: Train, speed: float, left: float
+    moving: MovingTrain, train: Train, speed: float, left: float
 ) -> tuple[MovingTrain, float, str]:
     """Loads as much larger or smaller as balances, where that was asked for."""
     needed = 0.0
     for load in train.loads.values():
-        turning = float(found.speed[found.discs.index(load.on)])
+        turning = float(moving.speed[moving.discs.index(load.on)])
         needed += turning * load.resistance(turning * speed)
     factor = 1.0 + left / needed if needed else 0.0
     if factor <= 0:
-        return found, speed, f"no loads balance the mean torques: {left:+.5g} N m are left over at the start"
+        return moving, speed, f"no loads balance the mean torques: {left:+.5g} N m are left over at the start"
     told = f"loads were scaled by {factor:.5g} so that the mean torques balance (`loads_follow = true`)"
-    return _scaled(found, [each.name in train.loads for each in found.torques], factor), speed, told
+    return _scaled(moving, [torque.name in train.loads for torque in moving.torques], factor), speed, told
 
 
 def _burns(torque: TrainTorque) -> bool:
@@ -148,13 +148,13 @@ def _burns(torque: TrainTorque) -> bool:
     return torque.name.startswith(COMBUSTION)
 
 
-def _scaled(found: MovingTrain, which: list[bool], factor: float) -> MovingTrain:
+def _scaled(moving: MovingTrain, which: list[bool], factor: float) -> MovingTrain:
     """The train with some torques larger by a factor."""
     torques = tuple(
-        replace(each, scale=each.scale * factor) if chosen else each
-        for each, chosen in zip(found.torques, which, strict=True)
+        replace(torque, scale=torque.scale * factor) if chosen else torque
+        for torque, chosen in zip(moving.torques, which, strict=True)
     )
-    return replace(found, torques=torques)
+    return replace(moving, torques=torques)
 
 
 def _rpm(speed: float) -> str:

@@ -154,17 +154,17 @@ class TorsionTransient(Result):
     @property
     def findings(self) -> list[str]:
         """Limits that are exceeded, in sentences."""
-        return [f"{each.words}." for each in self.judgements if not each.is_kept]
+        return [f"{judgement.words}." for judgement in self.judgements if not judgement.is_kept]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Extremes by name of shaft and disc; with ``curves`` also the samples."""
-        found = super().to_dict(curves=curves) | {"work": self.work, "loss": self.loss}
-        found["judgements"] = [each.to_dict() for each in self.judgements]
+        results = super().to_dict(curves=curves) | {"work": self.work, "loss": self.loss}
+        results["judgements"] = [judgement.to_dict() for judgement in self.judgements]
         for names, kind in ((self.shafts, "torque"), (self.discs, "speed")):
             for end in ("max", "max_time", "min", "min_time"):
                 values = getattr(self, f"{kind}_{end}")
-                found[f"{kind}_{end}"] = dict(zip(names, values.tolist(), strict=True))
-        return found
+                results[f"{kind}_{end}"] = dict(zip(names, values.tolist(), strict=True))
+        return results
 
 
 @public
@@ -277,8 +277,8 @@ def _require(duration: float, accuracy: float, sample_time: float | None, settle
 def _require_inertia(train: MovingTrain) -> None:
     """Refuse masses whose inertia is not positive all over the revolution."""
     least = np.array(train.inertia, dtype=float)
-    for each in train.inertias:
-        least[each.on] += each.table.value.min()
+    for rotor in train.inertias:
+        least[rotor.on] += rotor.table.value.min()
     J = np.zeros(train.masses)
     np.add.at(J, train.mass, train.speed**2 * least)
     for mass in np.flatnonzero(~(J > 0)):

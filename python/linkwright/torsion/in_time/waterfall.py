@@ -69,8 +69,8 @@ class Waterfall(Result):
         ndarray, shape (windows,)
             In the unit of the signal.
         """
-        found: Floats = self.amplitudes[:, int(np.abs(self.orders - wanted).argmin())]
-        return found
+        amplitudes: Floats = self.amplitudes[:, int(np.abs(self.orders - wanted).argmin())]
+        return amplitudes
 
 
 @public
@@ -169,11 +169,11 @@ def _cubic(x: Floats, y: Floats, places: Floats) -> Floats:
     """Cubics through four samples about each place."""
     k = np.clip(np.searchsorted(x, places) - 2, 0, len(x) - 4)
     near = [x[k + n] for n in range(4)]
-    found = np.zeros_like(places)
+    values = np.zeros_like(places)
     for n in range(4):
         weight = np.ones_like(places)
         for m in range(4):
             if m != n:
                 weight *= (places - near[m]) / (near[n] - near[m])
-        found += weight * y[k + n]
-    return found
+        values += weight * y[k + n]
+    return values

@@ -176,18 +176,20 @@ def barred_ranges(machine: Machine) -> tuple[BarredRange, ...]:
 
 def surveyed_ranges(seen: Survey) -> tuple[BarredRange, ...]:
     """Barred ranges of a train that has been looked at."""
-    rows = [(each.part, each.what) for each in seen.criteria]
-    above = [each for each in seen.exceeded if rows[each.row][1] == VIBRATORY_STRESS]
+    rows = [(criterion.part, criterion.what) for criterion in seen.criteria]
+    above = [exceedance for exceedance in seen.exceeded if rows[exceedance.row][1] == VIBRATORY_STRESS]
     if not above:
         return ()
-    worst = seen.criteria_at(np.array([each.peak for each in above]))
+    worst = seen.criteria_at(np.array([exceedance.peak for exceedance in above]))
     peaks = _peaks(seen, above)
-    found = []
-    for column, each in enumerate(above):
-        row = rows.index((rows[each.row][0], PASSING_STRESS))
+    ranges = []
+    for column, exceedance in enumerate(above):
+        row = rows.index((rows[exceedance.row][0], PASSING_STRESS))
         passing = [other for other in seen.exceeded if other.row == row]
-        found.append(_range(seen, each, column, (worst[each.row], worst[row]), passing, peaks[column]))
-    return tuple(found)
+        ranges.append(
+            _range(seen, exceedance, column, (worst[exceedance.row], worst[row]), passing, peaks[column])
+        )
+    return tuple(ranges)
 
 
 def together(ranges: Iterable[BarredRange]) -> list[tuple[float, float]]:
@@ -195,13 +197,13 @@ def together(ranges: Iterable[BarredRange]) -> list[tuple[float, float]]:
 
     Lowest and highest of each, by speed [rad/s].
     """
-    found: list[tuple[float, float]] = []
-    for low, high in sorted(each.barred for each in ranges):
-        if found and low <= found[-1][1]:
-            found[-1] = (found[-1][0], max(found[-1][1], high))
+    joined: list[tuple[float, float]] = []
+    for low, high in sorted(span.barred for span in ranges):
+        if joined and low <= joined[-1][1]:
+            joined[-1] = (joined[-1][0], max(joined[-1][1], high))
         else:
-            found.append((low, high))
-    return found
+            joined.append((low, high))
+    return joined
 
 
 def _range(
@@ -215,7 +217,7 @@ def _range(
     """One range with its numbers."""
     for_ever, transient = worst
     critical, order = _critical(seen, above.row, peaks)
-    formula = [barred_speeds(each, seen.service) for each in peaks]
+    formula = [barred_speeds(peak, seen.service) for peak in peaks]
     limit = seen.at.train.shafts[for_ever.part].limit
     return BarredRange(
         shaft=for_ever.part,
@@ -228,9 +230,9 @@ def _range(
         continuous=float(for_ever.permitted[column]),
         transient=None if np.isnan(transient.permitted[column]) else float(transient.permitted[column]),
         not_passable=tuple(
-            (max(each.low, above.low), min(each.high, above.high))
-            for each in passing
-            if each.low < above.high and each.high > above.low
+            (max(exceedance.low, above.low), min(exceedance.high, above.high))
+            for exceedance in passing
+            if exceedance.low < above.high and exceedance.high > above.low
         ),
         critical_speed=critical,
         order=order,
@@ -247,20 +249,20 @@ def _peaks(seen: Survey, above: list[Exceedance]) -> list[list[float]]:
     def sizes(at: Floats) -> Floats:
         return np.array([_size(each) for each in seen.criteria_at(at)])
 
-    grids = [_grid(seen, each) for each in above]
+    grids = [_grid(seen, exceedance) for exceedance in above]
     every = np.split(sizes(np.concatenate(grids)), np.cumsum([len(grid) for grid in grids])[:-1], axis=1)
     tops = [
         (n, above[n].row, grid[k - 1 : k + 2], values[above[n].row, k])
         for n, (grid, values) in enumerate(zip(grids, every, strict=True))
         for k in _maxima(values[above[n].row])
     ]
-    found = peaks_between(
+    speeds = peaks_between(
         sizes,
         [(row, float(about[0]), float(about[2])) for _, row, about, _ in tops],
         [(float(about[1]), float(value)) for _, _, about, value in tops],
     )
     listed: list[list[float]] = [[] for _ in above]
-    for (n, *_), peak in zip(tops, found, strict=True):
+    for (n, *_), peak in zip(tops, speeds, strict=True):
         listed[n].append(peak)
     return listed
 
@@ -274,8 +276,8 @@ def _grid(seen: Survey, each: Exceedance) -> Floats:
 def _maxima(values: Floats) -> list[int]:
     """Places that are no lower than both their neighbours, and higher than one."""
     here, before, after = values[1:-1], values[:-2], values[2:]
-    found: list[int] = (1 + np.flatnonzero((here > before) & (here >= after))).tolist()
-    return found
+    maxima: list[int] = (1 + np.flatnonzero((here > before) & (here >= after))).tolist()
+    return maxima
 
 
 def _size(each: Criterion) -> Floats:

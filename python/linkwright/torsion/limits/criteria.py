@@ -54,17 +54,17 @@ class Criterion(NamedTuple):
 
 
 def criteria(
-    machine: Machine, at: ExcitedTrain, found: TorsionResponse, service: float | None = None
+    machine: Machine, at: ExcitedTrain, response: TorsionResponse, service: float | None = None
 ) -> list[Criterion]:
     """All that limits of a train ask for.
 
     Shafts, couplings, dampers, gear stages; the same in number and order at any speeds. `service`: [rad/s].
     """
     shafts = at.train.shafts
-    stress = shaft_stress(machine, found, service)
-    listed = [*_stresses(stress, shafts), *_torques(machine.train, shafts, found)]
-    listed += _heats(machine.train, found)
-    return [*listed, *_contacts(meshed(at, found))] if at.train.gears else listed
+    stress = shaft_stress(machine, response, service)
+    listed = [*_stresses(stress, shafts), *_torques(machine.train, shafts, response)]
+    listed += _heats(machine.train, response)
+    return [*listed, *_contacts(meshed(at, response))] if at.train.gears else listed
 
 
 def _stresses(stress: ShaftStress, shafts: dict[str, Shaft]) -> Iterator[Criterion]:
@@ -81,27 +81,27 @@ def _stresses(stress: ShaftStress, shafts: dict[str, Shaft]) -> Iterator[Criteri
             yield Criterion(name, "maximum stress", PRESSURE, stress.greatest[row], permitted)
 
 
-def _torques(train: Train | None, shafts: dict[str, Shaft], found: TorsionResponse) -> Iterator[Criterion]:
+def _torques(train: Train | None, shafts: dict[str, Shaft], response: TorsionResponse) -> Iterator[Criterion]:
     """Of shafts and couplings."""
     limits = {name: shaft.limit for name, shaft in shafts.items() if shaft.limit is not None}
     bearing: dict[str, ShaftLimit | Coupling] = {**limits, **(train.couplings if train else {})}
     for name, limit in bearing.items():
-        row = found.shafts.index(name)
+        row = response.shafts.index(name)
         for what, permitted, torque in (
-            ("torque", limit.torque_permitted, found.shaft_torque_max),
-            ("vibratory torque", limit.vibratory_torque_permitted, found.shaft_torque_vibratory),
+            ("torque", limit.torque_permitted, response.shaft_torque_max),
+            ("vibratory torque", limit.vibratory_torque_permitted, response.shaft_torque_vibratory),
         ):
             if permitted is not None:
-                yield Criterion(name, what, TORQUE, torque[row], np.full(len(found.speeds), permitted))
+                yield Criterion(name, what, TORQUE, torque[row], np.full(len(response.speeds), permitted))
 
 
-def _heats(train: Train | None, found: TorsionResponse) -> Iterator[Criterion]:
+def _heats(train: Train | None, response: TorsionResponse) -> Iterator[Criterion]:
     """Of couplings and dampers."""
     heated: dict[str, Coupling | Damper] = {**train.couplings, **train.dampers} if train else {}
-    for name, each in heated.items():
-        if each.heat_permitted is not None:
-            heat = found.shaft_heat[found.shafts.index(name)]
-            yield Criterion(name, "heat", POWER, heat, np.full(len(heat), each.heat_permitted))
+    for name, part in heated.items():
+        if part.heat_permitted is not None:
+            heat = response.shaft_heat[response.shafts.index(name)]
+            yield Criterion(name, "heat", POWER, heat, np.full(len(heat), part.heat_permitted))
 
 
 def _contacts(gears: MeshTorque) -> Iterator[Criterion]:
@@ -196,8 +196,8 @@ def _bounds(curves: Curves, edges: list[tuple[int, float, float]]) -> list[float
         half = np.where(side == before, 0.5, 1.0)
         f_a, f_b = np.where(inside, f_c, half * f_a), np.where(inside, half * f_b, f_c)
         a, b, before = np.where(inside, c, a), np.where(inside, b, c), side
-    found: list[float] = c.tolist()
-    return found
+    speeds: list[float] = c.tolist()
+    return speeds
 
 
 def peaks_between(
@@ -214,11 +214,11 @@ def peaks_between(
     best, value = np.array(known, float).T
     for _ in range(_PEAK_ROUNDS):
         points = np.linspace(low, high, _CUTS + 1)
-        found = np.nan_to_num(_at(curves, rows, points), nan=-np.inf, posinf=np.inf)
-        top, pick = np.argmax(found, axis=0), np.arange(len(rows))
-        better = found[top, pick] > value
+        heights = np.nan_to_num(_at(curves, rows, points), nan=-np.inf, posinf=np.inf)
+        top, pick = np.argmax(heights, axis=0), np.arange(len(rows))
+        better = heights[top, pick] > value
         best = np.where(better, points[top, pick], best)
-        value = np.where(better, found[top, pick], value)
+        value = np.where(better, heights[top, pick], value)
         step = (high - low) / _CUTS
         low, high = np.maximum(best - step, low), np.minimum(best + step, high)
     listed: list[float] = best.tolist()
@@ -228,5 +228,5 @@ def peaks_between(
 def _at(curves: Curves, rows: NDArray[np.int64], points: Floats) -> Floats:
     """Values of one row for each column of points, (cuts, columns)."""
     values = curves(points.ravel()).reshape(-1, *points.shape)
-    found: Floats = values[rows, :, np.arange(len(rows))].T
-    return found
+    chosen: Floats = values[rows, :, np.arange(len(rows))].T
+    return chosen

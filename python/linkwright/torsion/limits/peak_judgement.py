@@ -69,10 +69,10 @@ class PeakJudgement:
     def words(self) -> str:
         """The judgement as a sentence."""
         scale, unit = (1e6, "MPa") if self.kind is PRESSURE else (1.0, self.kind.unit)
-        found, permitted = self.found / scale, self.permitted / scale
+        reached, permitted = self.found / scale, self.permitted / scale
         verdict = "within limit" if self.is_kept else "limit exceeded"
         return (
-            f"{self.part}: {self.what} {found:.4g} {unit} in the manoeuvre at {self.time:.4g} s, permitted "
+            f"{self.part}: {self.what} {reached:.4g} {unit} in the manoeuvre at {self.time:.4g} s, permitted "
             f"{permitted:.4g} {unit}: {verdict}"
         )
 
@@ -93,8 +93,8 @@ def _torques(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgemen
     shafts = train_of(machine).shafts
     couplings = {} if machine.train is None else machine.train.couplings
     bearing = {name: shaft.limit for name, shaft in shafts.items() if shaft.limit is not None} | couplings
-    for name, each in bearing.items():
-        permitted = each.torque_permitted
+    for name, limit in bearing.items():
+        permitted = limit.torque_permitted
         if permitted is not None:
             torque, time = _largest(moved, name)
             yield PeakJudgement(name, "torque", TORQUE, torque, permitted, time)
@@ -117,8 +117,8 @@ def _stresses(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgeme
         known = np.flatnonzero(np.isfinite(permitted))
         if len(known):
             worst = known[np.argmax(factor * swings[known] / permitted[known])]
-            found, most = float(factor * swings[worst]), float(permitted[worst])
-            yield PeakJudgement(name, PASSING_STRESS, PRESSURE, found, most, float(times[worst]))
+            stress, most = float(factor * swings[worst]), float(permitted[worst])
+            yield PeakJudgement(name, PASSING_STRESS, PRESSURE, stress, most, float(times[worst]))
 
 
 def _largest(moved: TorsionTransient, name: str) -> tuple[float, float]:

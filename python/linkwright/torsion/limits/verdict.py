@@ -103,7 +103,7 @@ class Verdict(Result):
     def state(self) -> State:
         """The worst of all."""
         states: tuple[State, ...] = ("exceeds", "bar")
-        return next((each for each in states if any(row.state == each for row in self.judgements)), "ok")
+        return next((state for state in states if any(row.state == state for row in self.judgements)), "ok")
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -119,7 +119,7 @@ class Verdict(Result):
             {key: getattr(row, key) for key in keys} | {"unit": row.kind.unit, "ranges": _lists(row.ranges)}
             for row in self.judgements
         ]
-        barred = [each.to_dict() | {"not_passable": _lists(each.not_passable)} for each in self.barred]
+        barred = [span.to_dict() | {"not_passable": _lists(span.not_passable)} for span in self.barred]
         return {"state": self.state, "judgements": rows, "barred": barred, "notes": list(self.notes)}
 
 
@@ -131,15 +131,15 @@ def verdict(machine: Machine, seen: Survey | None = None) -> Verdict:
     """
     seen = survey(machine) if seen is None else seen
     barred = surveyed_ranges(seen)
-    peaks = np.array([each.peak for each in seen.exceeded])
+    peaks = np.array([exceedance.peak for exceedance in seen.exceeded])
     beside = seen.criteria_at(peaks) if len(peaks) else seen.criteria
     rows = []
-    for n, each in enumerate(seen.criteria):
+    for n, criterion in enumerate(seen.criteria):
         over = [column for column, one in enumerate(seen.exceeded) if one.row == n]
-        if each.what != PASSING_STRESS and not np.isnan(each.permitted).all():
+        if criterion.what != PASSING_STRESS and not np.isnan(criterion.permitted).all():
             # Peaks lie beside resonances, a little.
-            worst = _worst(each, seen.speeds) if not over else _worst(beside[n], peaks, over)
-            rows.append(_judged(each, worst, [seen.exceeded[column] for column in over], barred))
+            worst = _worst(criterion, seen.speeds) if not over else _worst(beside[n], peaks, over)
+            rows.append(_judged(criterion, worst, [seen.exceeded[column] for column in over], barred))
     return Verdict(tuple(rows), barred, tuple(_notes(seen)))
 
 
@@ -188,17 +188,17 @@ def _against_barring(each: BarredRange) -> str:
 def _notes(seen: Survey) -> Iterator[str]:
     """What was not judged, parts of which the same is said together."""
     said: dict[str, list[str]] = {}
-    for each in seen.criteria:
-        silent = np.isnan(each.permitted)
-        if each.what == CONTACT and silent.all():
+    for criterion in seen.criteria:
+        silent = np.isnan(criterion.permitted)
+        if criterion.what == CONTACT and silent.all():
             text = "in a loop of rigid stages, whose torques statics does not tell"
-        elif each.what == VIBRATORY_STRESS and silent.any():
-            limit = seen.at.train.shafts[each.part].limit
+        elif criterion.what == VIBRATORY_STRESS and silent.any():
+            limit = seen.at.train.shafts[criterion.part].limit
             rule = "" if limit is None else f" by {limit.kind}"
             text = f"nothing is said{rule} above {_rpm(float(seen.speeds[silent].min()))}"
         else:
             continue
-        said.setdefault(text, []).append(each.part)
+        said.setdefault(text, []).append(criterion.part)
     for name, shaft in seen.at.train.shafts.items():
         if shaft.limit is not None and shaft.limit.counted_strength != shaft.limit.tensile_strength:
             counted = (shaft.limit.counted_strength or 0.0) / 1e6
@@ -209,7 +209,7 @@ def _notes(seen: Survey) -> Iterator[str]:
 
 def _lists(ranges: tuple[tuple[float, float], ...]) -> list[list[float]]:
     """Ranges for JSON."""
-    return [list(each) for each in ranges]
+    return [list(span) for span in ranges]
 
 
 def _shown(value: float, kind: Kind) -> str:

@@ -93,8 +93,8 @@ class Coupling(CheckedDescription):
             return over
 
         z, _ = zeros(beyond, np.zeros_like(size), np.ones_like(size))
-        found: Floats = _hermite(z, *piece)[1] / h
-        return found
+        stiffness: Floats = _hermite(z, *piece)[1] / h
+        return stiffness
 
     def curve(self) -> tuple[Floats, Floats, Floats]:
         """Twists, torques and slopes at the points of its curve, from zero upwards, (points,).

@@ -140,15 +140,15 @@ def _gears(drive: Drive, at: dict[str, str]) -> TrainGear:
 
 def _shafts(drive: Drive, at: dict[str, str]) -> dict[str, Shaft]:
     """What twists between discs of the same speed."""
-    box, found = drive.gearbox, {}
+    box, shafts = drive.gearbox, {}
     if drive.motor_shaft is not None:
-        found[MOTOR_SHAFT] = _between(drive.motor_shaft, (at[MOTOR], at[GEARBOX]))
+        shafts[MOTOR_SHAFT] = _between(drive.motor_shaft, (at[MOTOR], at[GEARBOX]))
     if box.stiffness is not None and at[GEARBOX] == GROUND:
         # Teeth whose first side is held are a spring at the other.
-        found[GEARS] = Shaft(between=(GROUND, at[WHEEL]), stiffness=box.stiffness * box.ratio**2)
+        shafts[GEARS] = Shaft(between=(GROUND, at[WHEEL]), stiffness=box.stiffness * box.ratio**2)
     if drive.crankshaft is not None:
-        found[CRANKSHAFT] = _between(drive.crankshaft, (at[WHEEL], at[CRANK]))
-    return found
+        shafts[CRANKSHAFT] = _between(drive.crankshaft, (at[WHEEL], at[CRANK]))
+    return shafts
 
 
 def _between(shaft: ElasticShaft, ends: tuple[str, str]) -> Shaft:

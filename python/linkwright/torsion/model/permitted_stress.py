@@ -122,8 +122,8 @@ def continuous_stress(strength: float, diameter: float, design_factor: float, sp
     `diameter`: outside [m]; `design_factor`: C_K; `speed_ratio`: (n,) λ.
     """
     factors = design_factor * size_factor(diameter) * speed_factor(speed_ratio)
-    found: Floats = (strength / _MPA + 160) / 18 * factors * _MPA
-    return found
+    stress: Floats = (strength / _MPA + 160) / 18 * factors * _MPA
+    return stress
 
 
 def transient_stress(continuous: Floats, design_factor: float) -> Floats:
@@ -131,8 +131,8 @@ def transient_stress(continuous: Floats, design_factor: float) -> Floats:
 
     `continuous`: (n,) τ_C [Pa]; `design_factor`: C_K.
     """
-    found: Floats = 1.7 * continuous / np.sqrt(design_factor)
-    return found
+    stress: Floats = 1.7 * continuous / np.sqrt(design_factor)
+    return stress
 
 
 def barred_speeds(critical_speed: float, rated_speed: float) -> tuple[float, float]:
@@ -171,8 +171,8 @@ def crank_stress(speed_ratio: Floats, firing: Firing, strength: float | None = N
     below = 45 - _FALL[firing] * ratio**2
     above = _ABOVE[firing] + 237 * (ratio - 0.8) * np.sqrt(np.maximum(ratio - 1, 0.0))
     stress = np.where(ratio <= 1, below, above)
-    found: Floats = np.where(ratio <= CRANK_RATIO_MAX, stress, np.nan) * _strength_factor(strength) * _MPA
-    return found
+    amplitude: Floats = np.where(ratio <= CRANK_RATIO_MAX, stress, np.nan) * _strength_factor(strength) * _MPA
+    return amplitude
 
 
 def crank_transient_stress(

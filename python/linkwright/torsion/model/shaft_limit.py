@@ -190,14 +190,14 @@ class ShaftLimit(CheckedDescription):
             assert self.counted_strength is not None
             assert diameter is not None
             C_K = self.shape_factor
-            found = permitted_stress.continuous_stress(self.counted_strength, diameter, C_K, speed_ratio)
-            return found, permitted_stress.transient_stress(found, C_K)
+            continuous = permitted_stress.continuous_stress(self.counted_strength, diameter, C_K, speed_ratio)
+            return continuous, permitted_stress.transient_stress(continuous, C_K)
         if self.kind == "kr_crankshaft":
             firing = self.firing or "other"
-            found = crank_stress(speed_ratio, firing, self.counted_strength)
+            continuous = crank_stress(speed_ratio, firing, self.counted_strength)
             passing = crank_transient_stress(speed_ratio, firing, self.yield_strength)
             # Where speeds may not be barred, passing permits no more.
-            return found, np.where(np.isnan(passing), found, np.maximum(passing, found))
+            return continuous, np.where(np.isnan(passing), continuous, np.maximum(passing, continuous))
         low, high = (
             np.nan if each is None else each for each in (self.stress_permitted, self.stress_transient)
         )

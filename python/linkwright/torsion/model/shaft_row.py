@@ -32,12 +32,12 @@ def flexibilities(sections: Sequence[ShaftSection]) -> tuple[float, ...]:
 
     Of each section [1/m³].
     """
-    found = [each.flexibility for each in sections]
+    e = [section.flexibility for section in sections]
     for n, pair in enumerate(pairwise(sections)):
         before, after = _step(*pair)
-        found[n] += before
-        found[n + 1] += after
-    return tuple(found)
+        e[n] += before
+        e[n + 1] += after
+    return tuple(e)
 
 
 def fillet_faults(sections: Sequence[ShaftSection]) -> Iterator[InitErrorDetails]:
@@ -45,18 +45,18 @@ def fillet_faults(sections: Sequence[ShaftSection]) -> Iterator[InitErrorDetails
 
     Each with the number of its section and the key.
     """
-    for n, each in enumerate(sections):
-        if each.fillet is None or each.kind == "flange":
+    for n, section in enumerate(sections):
+        if section.fillet is None or section.kind == "flange":
             continue
         following = sections[n + 1] if n + 1 < len(sections) else None
         if following is None or following.kind not in ("cylinder", "taper"):
             expected = "a cylinder or a taper after this section, to which the step leads"
-            yield fault(n, "fillet", found=each.fillet, expected=expected)
-        elif each.fillet > _largest_fillet(each, following):
-            largest = _largest_fillet(each, following)
+            yield fault(n, "fillet", found=section.fillet, expected=expected)
+        elif section.fillet > _largest_fillet(section, following):
+            largest = _largest_fillet(section, following)
             expected = f"at most {largest:.6g} m: the height of the step, a quarter of the thinner diameter"
             remedy = "describe a larger rounding as a taper"
-            yield fault(n, "fillet", found=each.fillet, expected=expected, remedy=remedy)
+            yield fault(n, "fillet", found=section.fillet, expected=expected, remedy=remedy)
 
 
 def _largest_fillet(first: ShaftSection, second: ShaftSection) -> float:

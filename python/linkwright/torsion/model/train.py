@@ -121,8 +121,10 @@ class ElasticShaft(CheckedDescription):
         if limit is not None and limit.needs_section and not limit.has_section and self.sections is None:
             expected = "the diameter where the stress counts, as the shaft has no sections"
             yield fault("limit", "diameter", expected=expected)
-        for each in fillet_faults(self.sections or ()):
-            yield InitErrorDetails(type=each["type"], loc=("sections", *each["loc"]), input=each["input"])
+        for fillet_fault in fillet_faults(self.sections or ()):
+            yield InitErrorDetails(
+                type=fillet_fault["type"], loc=("sections", *fillet_fault["loc"]), input=fillet_fault["input"]
+            )
 
     @property
     def compliances(self) -> tuple[float, ...]:
@@ -130,7 +132,7 @@ class ElasticShaft(CheckedDescription):
         if self.sections is None:
             assert self.stiffness is not None
             return (1.0 / self.stiffness,)
-        return tuple(each / self.shear_modulus for each in flexibilities(self.sections))
+        return tuple(flexibility / self.shear_modulus for flexibility in flexibilities(self.sections))
 
     @property
     def rate(self) -> float:

@@ -77,7 +77,7 @@ class TrainLoad(CheckedDescription):
     harmonics: tuple[LoadHarmonic, ...] = Field((), description="Pulsation over its revolution.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        yield from _listed_twice([each.order for each in self.harmonics])
+        yield from _listed_twice([harmonic.order for harmonic in self.harmonics])
 
     def resistance(self, speed: float) -> float:
         """Mean torque at a speed of its disc above zero [N m]."""
@@ -109,7 +109,7 @@ class Excitation(CheckedDescription):
             yield fault("harmonics", found="an empty list", expected="a list of at least one order")
         if self.exponent and self.speed is None:
             yield fault("speed", expected="the speed at which the amplitudes hold, as they change with it")
-        yield from _listed_twice([each.order for each in self.harmonics])
+        yield from _listed_twice([harmonic.order for harmonic in self.harmonics])
 
     def factor(self, speed: float) -> float:
         """Amplitudes at a speed over those given."""

@@ -24,13 +24,13 @@ def whole_train(train: Train) -> Train:
 
     Of the same vibration: discs, then rings of dampers; shafts, then couplings, then what holds the rings.
     """
-    heavy = any(each.density is not None for each in train.shafts.values())
+    heavy = any(shaft.density is not None for shaft in train.shafts.values())
     if not (train.couplings or train.dampers or train.engine or heavy):
         return train
     throws, cranks = ({}, {}) if train.engine is None else _crankshaft(train.engine)
-    rings = {name: Disc(inertia=each.ring_inertia) for name, each in train.dampers.items()}
-    couplings = {name: _coupling(each) for name, each in train.couplings.items()}
-    held = {name: _spring(name, each) for name, each in train.dampers.items()}
+    rings = {name: Disc(inertia=damper.ring_inertia) for name, damper in train.dampers.items()}
+    couplings = {name: _coupling(coupling) for name, coupling in train.couplings.items()}
+    held = {name: _spring(name, damper) for name, damper in train.dampers.items()}
     return train.model_copy(
         update={
             "discs": _loaded({**throws, **train.discs, **rings}, train.shafts),
@@ -79,8 +79,8 @@ def _loaded(discs: dict[str, Disc], shafts: Mapping[str, Shaft]) -> dict[str, Di
 def _light(shafts: Mapping[str, Shaft]) -> dict[str, Shaft]:
     """Shafts whose inertia is counted with the discs."""
     return {
-        name: each if each.density is None else each.model_copy(update={"density": None})
-        for name, each in shafts.items()
+        name: shaft if shaft.density is None else shaft.model_copy(update={"density": None})
+        for name, shaft in shafts.items()
     }
 
 
@@ -169,12 +169,12 @@ def speeds(train: Train) -> tuple[dict[str, float], list[Contradiction]]:
     for each in listed:
         about[each.first].append((each.second, 1.0 / each.ratio))
         about[each.second].append((each.first, each.ratio))
-    found: dict[str, float] = {}
+    turning: dict[str, float] = {}
     for root in train.discs:
-        if root not in found:
-            _spread(root, about, found)
-    wrong = (_checked(each, found) for each in listed)
-    return {name: found[name] for name in train.discs}, [each for each in wrong if each is not None]
+        if root not in turning:
+            _spread(root, about, turning)
+    wrong = (_checked(each, turning) for each in listed)
+    return {name: turning[name] for name in train.discs}, [each for each in wrong if each is not None]
 
 
 def _spread(root: str, about: Mapping[str, list[tuple[str, float]]], found: dict[str, float]) -> None:

@@ -125,8 +125,8 @@ class CampbellDiagram(Result):
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Critical speeds by name, with ``curves`` also the arrays as lists."""
-        found = super().to_dict(curves=curves)
-        return found | {"critical": [each._asdict() for each in self.critical]}
+        results = super().to_dict(curves=curves)
+        return results | {"critical": [crossing._asdict() for crossing in self.critical]}
 
 
 @public
@@ -244,22 +244,22 @@ def _judged(
     """Critical speeds with how severe they are, under given torques (n, discs) or those of the machine."""
     if not len(at):
         return []
-    found = modes.shapes(at, mode)
+    mode_shapes = modes.shapes(at, mode)
     torques = modes.torques(at, orders) if given is None else given
-    work = None if torques is None else np.abs((torques * found.shapes).sum(axis=1))
-    zeta = found.damping_ratios if ratios is None else ratios[mode]
+    work = None if torques is None else np.abs((torques * mode_shapes.shapes).sum(axis=1))
+    zeta = mode_shapes.damping_ratios if ratios is None else ratios[mode]
     unknown = work is None or given is not None
-    growth = np.zeros(len(at)) if unknown else _growth(modes, at, orders, found.shapes)
+    growth = np.zeros(len(at)) if unknown else _growth(modes, at, orders, mode_shapes.shapes)
     listed = []
     for n, (speed, ν, k) in enumerate(zip(at.tolist(), orders.tolist(), mode.tolist(), strict=True)):
-        static = None if work is None else float(work[n] / found.stiffness[n])
+        static = None if work is None else float(work[n] / mode_shapes.stiffness[n])
         ratio = None if zeta is None else float(zeta[n])
         listed.append(
             CriticalSpeed(
                 speed=speed,
                 order=ν,
                 mode=k,
-                frequency=float(found.omega[n]) / (2 * math.pi),
+                frequency=float(mode_shapes.omega[n]) / (2 * math.pi),
                 vector_sum=None if work is None else float(work[n]),
                 equilibrium_amplitude=static,
                 damping_ratio=ratio,

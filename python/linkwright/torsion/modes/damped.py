@@ -146,8 +146,8 @@ class DampedVibration(Result):
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Scalars and tables by name, with ``curves`` also arrays as lists; complex ones as their parts."""
-        found = super().to_dict(curves=curves)
-        return {name: each for name, each in found.items() if name not in ("eigenvalues", "mode_shapes")}
+        results = super().to_dict(curves=curves)
+        return {name: each for name, each in results.items() if name not in ("eigenvalues", "mode_shapes")}
 
 
 @public
@@ -301,5 +301,5 @@ def _at_rest(omega: Floats, C: Floats, vectors: Complexes) -> Complexes:
     elastic = vectors[:n] / omega[:, None]
     free = m - n
     following = -(C[:free, free:] @ elastic) / np.diag(C)[:free, None]
-    found: Complexes = np.concatenate([following, elastic])
-    return found
+    p: Complexes = np.concatenate([following, elastic])
+    return p

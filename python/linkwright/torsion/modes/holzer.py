@@ -170,7 +170,7 @@ def _state(referred: ReferredTrain, square: float, end: int) -> tuple[Floats, fl
             f"at {math.sqrt(square) / (2 * math.pi):.6g} Hz the first disc is at rest whatever acts on the "
             "end; take another end"
         )
-    found: Floats = np.asarray(np.linalg.solve(system, -dynamic[:, 0]), dtype=float)
-    residual = float(found[0]) * scale
-    found[0] = 1.0
-    return found, residual
+    angles: Floats = np.asarray(np.linalg.solve(system, -dynamic[:, 0]), dtype=float)
+    residual = float(angles[0]) * scale
+    angles[0] = 1.0
+    return angles, residual

@@ -117,7 +117,7 @@ class _OfMachine(ModesAt):
     def _curved(self) -> bool:
         """Whether couplings change their stiffness under torque."""
         train = self.machine.train
-        return train is not None and any(each.twist is not None for each in train.couplings.values())
+        return train is not None and any(coupling.twist is not None for coupling in train.couplings.values())
 
     @cached_property
     def discs(self) -> tuple[str, ...]:
@@ -162,11 +162,11 @@ class _OfMachine(ModesAt):
         torques = self._at(speeds).torques
         if not len(torques.orders):
             return None
-        found = np.zeros((len(speeds), torques.harmonics.shape[1]), complex)
+        on_discs = np.zeros((len(speeds), torques.harmonics.shape[1]), complex)
         for n, order in enumerate(orders.tolist()):
             same = np.abs(torques.orders - order) <= _EQUAL * order
-            found[n] = torques.harmonics[same, :, n].sum(axis=0)
-        return found
+            on_discs[n] = torques.harmonics[same, :, n].sum(axis=0)
+        return on_discs
 
     def _at(self, speeds: Floats) -> ExcitedTrain:
         """The machine at some speeds."""

@@ -90,8 +90,8 @@ class Scheme(Result):
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """As of any result, each connection by the names of its entries."""
-        found = super().to_dict(curves=curves)
-        return found | {"connections": [each._asdict() for each in self.connections]}
+        results = super().to_dict(curves=curves)
+        return results | {"connections": [part._asdict() for part in self.connections]}
 
 
 @public

@@ -120,9 +120,9 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     nu, omega = _orders(orders), _positive(speed)
     compiled = mechanism_alone(machine)
     size = np.where(nu == 0, 1.0, 2.0) * (nu == np.round(nu))
-    found: Complex = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
-    found[nu == 0] -= compiled.speed_load(omega)
-    return found[:, 0] if np.ndim(speed) == 0 else found
+    M: Complex = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
+    M[nu == 0] -= compiled.speed_load(omega)
+    return M[:, 0] if np.ndim(speed) == 0 else M
 
 
 @public
@@ -176,9 +176,9 @@ def _resistance_harmonics(compiled: Compiled, nu: Floats, omega: Floats) -> Comp
     """Mean of what resists at constant speeds, inertia included, times e^{−iνφ}, (orders, speeds) [N m]."""
     turn = turn_curve(lambda phi: _parts(compiled, phi), compiled.kinks(), "torque of the mechanism")
     # Each part has its power of the speed.
-    found: Complex = turn.harmonics(nu).T @ np.array([omega**0, omega, omega**2])
-    found += law_harmonics(compiled, omega, nu).T
-    return found
+    M: Complex = turn.harmonics(nu).T @ np.array([omega**0, omega, omega**2])
+    M += law_harmonics(compiled, omega, nu).T
+    return M
 
 
 def _parts(compiled: Compiled, phi: Floats) -> Floats:
@@ -231,14 +231,14 @@ def mechanism_sources(
     """
     n = turning[place[CRANK]]
     of_crank = np.arange(_ORDERS + 1.0)
-    found = mechanism_harmonics(machine, n * speeds, of_crank)
-    size = np.abs(found).max(axis=1)
+    M = mechanism_harmonics(machine, n * speeds, of_crank)
+    size = np.abs(M).max(axis=1)
     kept = (of_crank > 0) & (size > _NEGLIGIBLE * size.max())
     damping = np.zeros((len(place), len(speeds)))
     for station, c in station_damping(machine, n * speeds).items():
         if station in place:
             damping[place[station]] += np.maximum(c, 0.0)
-    return [Source(place[CRANK], n * of_crank[kept], found[kept], found[0].real)], damping
+    return [Source(place[CRANK], n * of_crank[kept], M[kept], M[0].real)], damping
 
 
 def steady_speed(machine: Machine) -> float:

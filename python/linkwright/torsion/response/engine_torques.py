@@ -72,8 +72,8 @@ class CylinderStates:
             for each in np.broadcast_arrays(self.combustion, np.asarray(self.delay), self.compression)
         )
         late = np.exp(-1j * gas.orders[:, None] * delay)
-        found: Complexes = compression * gas.motored + combustion * late * (gas.firing - gas.motored)
-        return found
+        M: Complexes = compression * gas.motored + combustion * late * (gas.firing - gas.motored)
+        return M
 
 
 def cylinder_torques(engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0) -> CylinderTorques:
@@ -86,8 +86,8 @@ def cylinder_torques(engine: ReciprocatingEngine, speeds: Floats, highest: float
     fires, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
     phase = np.exp(-1j * np.outer(fires, orders))[:, :, None]
     of_bank = [place.bank for place in engine.places]
-    firing = np.stack([each.firing.T for each in banks])[of_bank] * phase
-    motored = np.stack([each.motored.T for each in banks])[of_bank] * phase
+    firing = np.stack([bank.firing.T for bank in banks])[of_bank] * phase
+    motored = np.stack([bank.motored.T for bank in banks])[of_bank] * phase
     return CylinderTorques(orders, firing, motored, tuple(banks))
 
 
@@ -107,12 +107,12 @@ def throw_sources(engine: ReciprocatingEngine, gas: CylinderTorques, states: Cyl
     """
     torque = states.torque(gas)
     moving = _moving_parts(engine, gas.banks[0].speeds, gas.orders)
-    found = []
+    sources = []
     for n, angle in enumerate(engine.throws):
         own = sum(torque[c] for c, place in enumerate(engine.places) if place.throw == n)
         total = own + moving * np.exp(1j * gas.orders * angle)[:, None]
-        found.append(Source(n, gas.orders[1:], total[1:], total[0].real))
-    return found
+        sources.append(Source(n, gas.orders[1:], total[1:], total[0].real))
+    return sources
 
 
 def _moving_parts(engine: ReciprocatingEngine, speeds: Floats, orders: Floats) -> Complexes:
@@ -122,13 +122,13 @@ def _moving_parts(engine: ReciprocatingEngine, speeds: Floats, orders: Floats) -
     throw = reduced_throw(engine, phi)
     curves = (throw.inertia_torque(1.0), throw.weight_torque)
     inertia, weight = (np.fft.rfft(curve) * 2 / samples for curve in curves)
-    found = np.zeros((len(orders), len(speeds)), complex)
+    M = np.zeros((len(orders), len(speeds)), complex)
     # A motion that repeats every revolution has whole orders alone.
     whole = np.flatnonzero(orders == np.round(orders))
     nu = orders[whole].astype(int)
-    found[whole] = inertia[nu, None] * speeds**2 + weight[nu, None]
-    found[0] *= 0.5
-    return found
+    M[whole] = inertia[nu, None] * speeds**2 + weight[nu, None]
+    M[0] *= 0.5
+    return M
 
 
 @dataclass(frozen=True)
@@ -208,7 +208,7 @@ def engine_data(engine: ReciprocatingEngine, speed: float) -> EngineData:
         ),
         stiffness=throw_stiffness(engine) if len(engine.throws) > 1 else None,
         stiffness_by="given" if given else engine.stiffness_formula,
-        stiffness_formulas={name: 1.0 / each for name, each in formulas.items()},
+        stiffness_formulas={name: 1.0 / formula for name, formula in formulas.items()},
         firing={str(number): angles[number - 1] for number in engine.firing_order},
         speed=speed,
         mean_effective_pressure=tuple(float(each.mean_effective_pressure[0]) for each in gas),

@@ -48,7 +48,7 @@ class ExcitedTrain:
     @cached_property
     def disc_damping(self) -> Floats:
         """Of each disc at its own speed, (discs, speeds) [N m s/rad]."""
-        own = np.array([each.damping for each in self.train.discs.values()])
+        own = np.array([disc.damping for disc in self.train.discs.values()])
         damping: Floats = own[:, None] + self.torques.damping
         return damping
 
@@ -114,7 +114,7 @@ def under(
 def _require_room(train: Train, sources: Sequence[Source], speeds: int) -> None:
     """Refuse more orders, discs and speeds than there is memory for."""
     own = [each for part in (train.excitations, train.loads) for each in part.values()]
-    orders = sum(len(each.harmonics) for each in own) + sum(len(each.orders) for each in sources)
+    orders = sum(len(each.harmonics) for each in own) + sum(len(source.orders) for source in sources)
     remedy = "take fewer train.run.points, or fewer orders"
     require_within(RESPONSE, orders * len(train.discs) * speeds, "train", remedy)
 
@@ -139,7 +139,7 @@ def is_excited(machine: Machine) -> bool:
 
 def pulsates(train: Train) -> bool:
     """Whether a train has torques that pulsate."""
-    waves = any(each.harmonics for each in train.loads.values())
+    waves = any(load.harmonics for load in train.loads.values())
     return bool(train.excitations) or waves or train.engine is not None
 
 
@@ -173,10 +173,10 @@ def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:
 
 def _onto_masses(referred: ReferredTrain, torques: Complexes) -> Complexes:
     """Torques on discs as torques on masses, (…, masses, speeds)."""
-    found = np.zeros((len(torques), len(referred.inertia), torques.shape[-1]), torques.dtype)
+    on_masses = np.zeros((len(torques), len(referred.inertia), torques.shape[-1]), torques.dtype)
     for disc, (mass, n) in enumerate(zip(referred.mass, referred.speed, strict=True)):
-        found[:, mass] += n * torques[:, disc]
-    return found
+        on_masses[:, mass] += n * torques[:, disc]
+    return on_masses
 
 
 def _mean_torques(referred: ReferredTrain, mean: Floats) -> Floats:

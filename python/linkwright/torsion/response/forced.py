@@ -272,21 +272,21 @@ def _unevenness(at: ExcitedTrain, orders: Orders, q: Complexes) -> tuple[Floats,
     whole = np.einsum("m,omw->ow", J, speed)[:, None] / J.sum()
     if not referred.is_free:
         whole = np.zeros_like(whole)
-    found = []
+    deltas = []
     for part in (speed, np.broadcast_to(whole, speed[:, :1].shape), speed - whole):
         greatest, least = span(orders, part)
-        found.append(greatest - least)
-    total, rigid, torsional = found
+        deltas.append(greatest - least)
+    total, rigid, torsional = deltas
     mass = referred.mass
     return total[mass], np.repeat(rigid, len(mass), axis=0), torsional[mass]
 
 
-def angular_deflection(found: ForcedVibration, disc: str) -> tuple[Floats, Floats]:
+def angular_deflection(forced: ForcedVibration, disc: str) -> tuple[Floats, Floats]:
     """Vibration of a disc at every speed, each order and all together.
 
     Gives `single`: (orders, speeds) amplitude of each order [rad]; `total`: (speeds,) half the peak-to-peak
     angle of all orders [rad].
     """
-    theta = found.amplitudes[:, found.discs.index(disc)]
-    greatest, least = span(found.together, theta)
+    theta = forced.amplitudes[:, forced.discs.index(disc)]
+    greatest, least = span(forced.together, theta)
     return np.abs(theta), 0.5 * (greatest - least)

@@ -77,9 +77,9 @@ def torques_of(
     `speeds`: (speeds,) [rad/s]; `damping`: (discs, speeds) [N m s/rad].
     """
     place = {name: k for k, name in enumerate(train.discs)}
-    found = [*sources, *_excitations(train, place, turning, speeds)]
+    every = [*sources, *_excitations(train, place, turning, speeds)]
     mean = np.zeros((len(place), len(speeds)))
-    for each in found:
+    for each in every:
         if each.mean is not None:
             mean[each.disc] += each.mean
     resistance, of_loads = _loads(train, place, turning, speeds)
@@ -93,10 +93,10 @@ def torques_of(
         elif not has_engine:
             driver = place[train.driver or next(iter(place))]
             mean[driver] += (needed - drive) / turning[driver]
-    found += _load_harmonics(train, place, turning, resistance)
-    orders = _orders(each.orders for each in found)
+    every += _load_harmonics(train, place, turning, resistance)
+    orders = _orders(each.orders for each in every)
     harmonics = np.zeros((len(orders), len(place), len(speeds)), complex)
-    for each in found:
+    for each in every:
         at = np.abs(orders[:, None] - each.orders).argmin(axis=0)
         np.add.at(harmonics, (at, each.disc), each.harmonics)
     own = of_loads if damping is None else of_loads + damping
@@ -106,37 +106,37 @@ def torques_of(
 
 def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> list[Source]:
     """Torques that the file gives by themselves."""
-    found = []
-    for each in train.excitations.values():
-        n = turning[place[each.on]]
-        size = np.array([wave.torque * np.exp(1j * wave.phase) for wave in each.harmonics])
-        factor = np.array([each.factor(n * speed) for speed in speeds.tolist()])
-        orders = n * np.array([wave.order for wave in each.harmonics])
-        found.append(Source(place[each.on], orders, size[:, None] * factor))
-    return found
+    sources = []
+    for excitation in train.excitations.values():
+        n = turning[place[excitation.on]]
+        size = np.array([wave.torque * np.exp(1j * wave.phase) for wave in excitation.harmonics])
+        factor = np.array([excitation.factor(n * speed) for speed in speeds.tolist()])
+        orders = n * np.array([wave.order for wave in excitation.harmonics])
+        sources.append(Source(place[excitation.on], orders, size[:, None] * factor))
+    return sources
 
 
 def _loads(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> tuple[Floats, Floats]:
     """Mean resistance and damping of the loads, (discs, speeds) each."""
     resistance = np.zeros((len(place), len(speeds)))
     damping = np.zeros_like(resistance)
-    for each in train.loads.values():
-        n, disc = turning[place[each.on]], place[each.on]
-        resistance[disc] += [each.resistance(n * speed) for speed in speeds.tolist()]
-        damping[disc] += [each.damping(n * speed) for speed in speeds.tolist()]
+    for load in train.loads.values():
+        n, disc = turning[place[load.on]], place[load.on]
+        resistance[disc] += [load.resistance(n * speed) for speed in speeds.tolist()]
+        damping[disc] += [load.damping(n * speed) for speed in speeds.tolist()]
     return resistance, damping
 
 
 def _load_harmonics(train: Train, place: dict[str, int], turning: Floats, resistance: Floats) -> list[Source]:
     """Pulsation of the loads: shares of what they resist."""
-    found = []
-    for each in train.loads.values():
-        if each.harmonics:
-            disc = place[each.on]
-            size = np.array([-wave.share * np.exp(1j * wave.phase) for wave in each.harmonics])
-            orders = turning[disc] * np.array([wave.order for wave in each.harmonics])
-            found.append(Source(disc, orders, size[:, None] * resistance[disc]))
-    return found
+    sources = []
+    for load in train.loads.values():
+        if load.harmonics:
+            disc = place[load.on]
+            size = np.array([-wave.share * np.exp(1j * wave.phase) for wave in load.harmonics])
+            orders = turning[disc] * np.array([wave.order for wave in load.harmonics])
+            sources.append(Source(disc, orders, size[:, None] * resistance[disc]))
+    return sources
 
 
 def _orders(listed: Iterable[Floats]) -> Floats:
@@ -221,10 +221,10 @@ def coefficients(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0
     count = int(orders.harmonic.max(initial=0)) + 1
     remedy = "lower the highest order, or train.run.points"
     require_within(RESPONSE, count * math.prod(amplitudes.shape[1:]), "forced response", remedy)
-    found = np.zeros((count, *amplitudes.shape[1:]), complex)
-    found[orders.harmonic[orders.together]] = amplitudes[orders.together]
-    found[0] = mean
-    return found
+    c = np.zeros((count, *amplitudes.shape[1:]), complex)
+    c[orders.harmonic[orders.together]] = amplitudes[orders.together]
+    c[0] = mean
+    return c
 
 
 def waveform(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0, points: int = 1440) -> Floats:
@@ -234,5 +234,5 @@ def waveform(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0, 
     """
     harmonic = coefficients(orders, amplitudes, mean)
     phase = 2j * np.pi * np.outer(np.arange(points) / points, np.arange(len(harmonic)))
-    found: Floats = np.tensordot(np.exp(phase), harmonic, axes=1).real
-    return found
+    wave: Floats = np.tensordot(np.exp(phase), harmonic, axes=1).real
+    return wave

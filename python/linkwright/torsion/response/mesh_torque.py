@@ -113,21 +113,21 @@ def mesh_torques(machine: Machine, speeds: Floats | None = None) -> MeshTorque:
     return meshed(at, torsion_response(at))
 
 
-def meshed(at: ExcitedTrain, found: TorsionResponse) -> MeshTorque:
+def meshed(at: ExcitedTrain, response: TorsionResponse) -> MeshTorque:
     """Torques of the gear stages of a train of which the vibration is there."""
     gears = at.train.gears
-    omega = found.orders[:, None, None] * found.speeds
+    omega = response.orders[:, None, None] * response.speeds
     J = np.array([disc.inertia for disc in at.train.discs.values()])[:, None]
-    theta = found.amplitudes
+    theta = response.amplitudes
     outside = at.torques.harmonics + (omega**2 * J - 1j * omega * at.disc_damping) * theta
-    waves = _stage_torques(at, outside, found.shaft_torques)
+    waves = _stage_torques(at, outside, response.shaft_torques)
     mean = _stage_torques(at, _mean_outside(at, J)[None], at.mean_torques[None].astype(complex))[0].real
-    greatest, least = span(found.together, waves, mean)
+    greatest, least = span(response.together, waves, mean)
     return MeshTorque(
-        speeds=found.speeds,
+        speeds=response.speeds,
         stages=tuple(gears),
-        toothed=tuple(each.kind in _TOOTHED for each in gears.values()),
-        orders=found.orders,
+        toothed=tuple(gear.kind in _TOOTHED for gear in gears.values()),
+        orders=response.orders,
         torques=waves,
         mean=mean,
         greatest=greatest,
@@ -153,16 +153,16 @@ def _stage_torques(at: ExcitedTrain, outside: Complexes | Floats, shafts: Comple
     for s, (first, second) in enumerate(referred.tip.tolist()):
         net[:, first] -= flow[:, s]
         net[:, second] += flow[:, s]
-    found = np.empty((len(outside), len(gears), outside.shape[-1]), complex)
-    rigid = [name for name, each in gears.items() if each.stiffness is None]
+    torques = np.empty((len(outside), len(gears), outside.shape[-1]), complex)
+    rigid = [name for name, gear in gears.items() if gear.stiffness is None]
     passed = _passed(at, rigid, net[:, :-1])
     for g, name in enumerate(gears):
         first_speed = referred.speed[referred.discs.index(gears[name].between[0])]
         if name in rigid:
-            found[:, g] = passed[:, rigid.index(name)] / first_speed
+            torques[:, g] = passed[:, rigid.index(name)] / first_speed
         else:
-            found[:, g] = shafts[:, referred.shafts.index(name)]
-    return found
+            torques[:, g] = shafts[:, referred.shafts.index(name)]
+    return torques
 
 
 def _passed(at: ExcitedTrain, rigid: list[str], net: Complexes) -> Complexes:

@@ -164,7 +164,7 @@ def stressed(shafts: dict[str, Shaft]) -> dict[str, tuple[StressedSection, Shaft
     """
     limits = {name: shaft.limit or ShaftLimit() for name, shaft in shafts.items()}
     sections = {name: limits[name].section(shaft.sections) for name, shaft in shafts.items()}
-    return {name: (each, limits[name]) for name, each in sections.items() if each is not None}
+    return {name: (section, limits[name]) for name, section in sections.items() if section is not None}
 
 
 def service_speed(machine: Machine, speeds: Floats) -> float:

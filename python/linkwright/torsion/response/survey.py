@@ -43,12 +43,12 @@ def resonances(at: ExcitedTrain) -> tuple[Resonance, ...]:
     """
     speeds = np.sort(at.torques.speeds)
     omega = _frequencies(at)[np.argsort(at.torques.speeds)]
-    found = []
+    crossings = []
     for mode in range(omega.shape[1]):
         for order in at.torques.orders.tolist():
             gap = omega[:, mode] - order * speeds
-            found += [Resonance(speed, order, mode) for speed in _zeros(speeds, gap)]
-    return tuple(sorted(found))
+            crossings += [Resonance(speed, order, mode) for speed in _zeros(speeds, gap)]
+    return tuple(sorted(crossings))
 
 
 def _frequencies(at: ExcitedTrain) -> Floats:
@@ -60,8 +60,8 @@ def _frequencies(at: ExcitedTrain) -> Floats:
     square = np.linalg.eigvalsh(scale[:, None] * matrices * scale)
     # Rounding leaves some 10⁻¹⁵ of the largest where a part turns freely.
     moving = square.min(axis=0) > _FREE * square.max(initial=0.0)
-    found: Floats = np.sqrt(square[place.ravel()][:, moving])
-    return found
+    frequencies: Floats = np.sqrt(square[place.ravel()][:, moving])
+    return frequencies
 
 
 def _zeros(x: Floats, y: Floats) -> list[float]:
@@ -118,7 +118,7 @@ class Survey:
         speeds, limits = self._joined(
             self.at.torques.speeds, criteria(self.machine, self.at, self.found, self.service), self._further
         )
-        places = [(n, k) for n, each in enumerate(limits) for k in _highest(each.ratio)]
+        places = [(n, k) for n, limit in enumerate(limits) for k in _highest(limit.ratio)]
         peaks = peaks_between(
             self._ratios,
             [(n, speeds[max(k - 1, 0)], speeds[min(k + 1, len(speeds) - 1)]) for n, k in places],
@@ -149,7 +149,7 @@ class Survey:
     @cached_property
     def exceeded(self) -> list[Exceedance]:
         """Ranges in which limits are not kept, by their place among the criteria."""
-        ratios = np.array([each.ratio for each in self.criteria]).reshape(-1, len(self.speeds))
+        ratios = np.array([criterion.ratio for criterion in self.criteria]).reshape(-1, len(self.speeds))
         return exceedances(self._ratios, self.speeds, ratios)
 
     def criteria_at(self, speeds: Floats) -> list[Criterion]:
@@ -171,11 +171,11 @@ class Survey:
     def _further(self) -> Floats:
         """Speeds of resonances that the run does not have."""
         run = self.at.torques.speeds
-        every = np.unique([each.speed for each in self.resonances])
+        every = np.unique([resonance.speed for resonance in self.resonances])
         every = every[np.diff(every, prepend=-1.0) > _EQUAL * every]
         apart = np.abs(every[:, None] - run).min(axis=1, initial=np.inf) > _EQUAL * every
-        found: Floats = every[apart]
-        return found
+        speeds: Floats = every[apart]
+        return speeds
 
 
 def _highest(ratio: Floats) -> list[int]:
@@ -203,8 +203,8 @@ def between(machine: Machine, at: ExcitedTrain, speeds: Floats) -> ExcitedTrain:
     about, weights = _about(at.torques.speeds, speeds)
 
     def there(values: Values) -> Values:
-        found: Values = sum(w * values[..., n] for n, w in zip(about, weights, strict=True))
-        return found
+        value: Values = sum(w * values[..., n] for n, w in zip(about, weights, strict=True))
+        return value
 
     torques = replace(
         at.torques,
@@ -255,7 +255,7 @@ def torque_peaks(seen: Survey) -> TorquePeaks:
 
     The highest of all speeds and resonances, sought between its neighbours as well.
     """
-    resonant = np.setdiff1d([each.speed for each in seen.resonances], seen.at.torques.speeds)
+    resonant = np.setdiff1d([resonance.speed for resonance in seen.resonances], seen.at.torques.speeds)
     every, vibratory = seen.at.torques.speeds, seen.found.shaft_torque_vibratory
     if len(resonant):
         every = np.concatenate([every, resonant])

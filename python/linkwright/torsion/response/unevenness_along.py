@@ -107,33 +107,33 @@ class UnevennessAlong(Result):
         self,
     ) -> Annotated[Floats, Shown("spread of the speed fluctuation", "s", "", shape="(discs,)")]:
         """s, largest minus smallest N_i, shape (discs,)."""
-        found: Floats = np.ptp(self.share, axis=1)
-        return found
+        spread: Floats = np.ptp(self.share, axis=1)
+        return spread
 
 
 def unevenness_along(
-    at: ExcitedTrain, found: ForcedVibration, firing: Mapping[str, float], turns: int, speed: float
+    at: ExcitedTrain, forced: ForcedVibration, firing: Mapping[str, float], turns: int, speed: float
 ) -> UnevennessAlong:
     """N at every disc.
 
     Of the orders that repeat with the cycle; others have no place in it. `firing`: [rad]; `speed`: [rad/s].
     """
     names, angles = _fired(firing, turns)
-    column = int(np.argmin(np.abs(found.speeds - speed)))
-    waves = found.orders * turns
+    column = int(np.argmin(np.abs(forced.speeds - speed)))
+    waves = forced.orders * turns
     fits = np.abs(waves - np.rint(waves)) <= _EQUAL * np.maximum(waves, 1.0)
-    orders = found.orders[fits]
+    orders = forced.orders[fits]
     # Speed over mean speed: iν θ/n, n being that of the disc.
-    relative = 1j * orders[:, None] * found.amplitudes[fits, :, column] / at.referred.speed
+    relative = 1j * orders[:, None] * forced.amplitudes[fits, :, column] / at.referred.speed
     whole = _as_a_whole(at, relative)
     parts = [_shares(orders, each, angles, turns) for each in (relative, whole, relative - whole)]
-    return UnevennessAlong(float(found.speeds[column]), found.discs, names, angles, *parts)
+    return UnevennessAlong(float(forced.speeds[column]), forced.discs, names, angles, *parts)
 
 
 def _mean(shares: Floats) -> Floats:
     """Mean over the cylinders."""
-    found: Floats = shares.mean(axis=1)
-    return found
+    mean: Floats = shares.mean(axis=1)
+    return mean
 
 
 def _fired(firing: Mapping[str, float], turns: int) -> tuple[tuple[str, ...], Floats]:
@@ -165,8 +165,8 @@ def _as_a_whole(at: ExcitedTrain, relative: Complexes) -> Complexes:
 def _shares(orders: Floats, waves: Complexes, firing: Floats, turns: int) -> Floats:
     """Largest less minimum value in each interval, (discs, cylinders)."""
     ends = np.append(firing[1:], firing[0] + 2 * np.pi * turns)
-    found = [_span(orders, waves, *interval) for interval in zip(firing, ends, strict=True)]
-    return np.array(found).reshape(len(firing), -1).T
+    swings = [_span(orders, waves, *interval) for interval in zip(firing, ends, strict=True)]
+    return np.array(swings).reshape(len(firing), -1).T
 
 
 def _span(orders: Floats, waves: Complexes, start: float, end: float) -> Floats:
@@ -176,7 +176,7 @@ def _span(orders: Floats, waves: Complexes, start: float, end: float) -> Floats:
     points = max(int(np.ceil((end - start) * orders.max() / (2 * np.pi) * _POINTS)), 2) + 1
     angle = np.linspace(start, end, points)
     values = _wave(orders, waves[:, :, None], angle)
-    found = []
+    tops = []
     for sign in (1.0, -1.0):
         best = np.argmax(sign * values, axis=1)
         top = sign * values[np.arange(len(best)), best]
@@ -185,8 +185,8 @@ def _span(orders: Floats, waves: Complexes, start: float, end: float) -> Floats:
             low, high = angle[np.maximum(start_at - 1, 0)], angle[np.minimum(start_at + 1, points - 1)]
             at = _flat(orders, waves, angle[start_at], low, high)
             top = np.maximum(top, sign * _wave(orders, waves, at))
-        found.append(top)
-    span: Floats = found[0] + found[1]
+        tops.append(top)
+    span: Floats = tops[0] + tops[1]
     return span
 
 
@@ -202,5 +202,5 @@ def _flat(orders: Floats, waves: Complexes, x: Floats, low: Floats, high: Floats
 def _wave(orders: Floats, waves: Complexes, angle: Floats) -> Floats:
     """Σ Re c e^{iνφ}: of (orders, discs) at an angle each, or of (orders, discs, 1) at all angles."""
     phase = np.exp(1j * orders.reshape(-1, *[1] * (waves.ndim - 1)) * angle)
-    found: Floats = (waves * phase).real.sum(axis=0)
-    return found
+    wave: Floats = (waves * phase).real.sum(axis=0)
+    return wave

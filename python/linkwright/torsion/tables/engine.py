@@ -42,7 +42,7 @@ def engine_table(data: EngineData) -> Table:
         for n, value in enumerate(values)
     ]
     rows.append(("firing order", "", "-".join(data.firing), ""))
-    steps = sorted({f"{np.degrees(each):.5g}°" for each in data.intervals})
+    steps = sorted({f"{np.degrees(interval):.5g}°" for interval in data.intervals})
     rows.append(("firing intervals", "", ", ".join(steps) or "a cycle", ""))
     return Table(
         "engine", f"Engine, gas at {data.speed * 30 / np.pi:.5g} rpm", ("quantity", "", "value", ""), rows
@@ -56,12 +56,12 @@ def _beside(word: str, value: float, used: float, unit: str) -> Row:
 
 def diagnosis_table(read: RecordDiagnosis, level: float) -> Table:
     """Each cylinder with its factor."""
-    found, words = read.found, dict(_verdicts(read, level))
-    half, relative = found.half_width(level), found.relative
+    diagnosis, words = read.found, dict(_verdicts(read, level))
+    half, relative = diagnosis.half_width(level), diagnosis.relative
     rows: list[Row] = []
-    for n, name in enumerate(found.cylinders):
+    for n, name in enumerate(diagnosis.cylinders):
         known = bool(np.isfinite(half[n]))
-        numbers = (found.factor[n], half[n], relative[n])
+        numbers = (diagnosis.factor[n], half[n], relative[n])
         cells = [f"{value:.3f}" if known else "–" for value in numbers]
         rows.append(
             (f"cylinder {name}", "", *cells, words.get(name, "" if known else "cannot be determined"))
@@ -76,21 +76,23 @@ def diagnosis_table(read: RecordDiagnosis, level: float) -> Table:
 
 def _verdicts(read: RecordDiagnosis, level: float) -> Iterator[tuple[str, str]]:
     """What is wrong with each cylinder that is accused."""
-    found = read.found
-    for n, name in enumerate(found.cylinders):
+    diagnosis = read.found
+    for n, name in enumerate(diagnosis.cylinders):
         words = ["weak"] if name in read.weak(level) else []
-        if name in read.late(level) and found.delay is not None and found.delay_deviation is not None:
-            angle, half = np.degrees([found.delay[n], found.coverage(level) * found.delay_deviation[n]])
+        if name in read.late(level) and diagnosis.delay is not None and diagnosis.delay_deviation is not None:
+            angle, half = np.degrees(
+                [diagnosis.delay[n], diagnosis.coverage(level) * diagnosis.delay_deviation[n]]
+            )
             words.append(f"late by {angle:.2f}° ± {half:.2f}°")
-        if name in read.leaking(level) and found.compression is not None:
-            words.append(f"leaking, {found.compression[n]:.3f} of its compression")
+        if name in read.leaking(level) and diagnosis.compression is not None:
+            words.append(f"leaking, {diagnosis.compression[n]:.3f} of its compression")
         if words:
             yield name, "; ".join(words)
 
 
 def diagnosis_words(read: RecordDiagnosis, level: float) -> str:
     """Which cylinders are weak, in a sentence."""
-    found, weak = read.found, read.weak(level)
+    diagnosis, weak = read.found, read.weak(level)
     if not read.is_plausible:
         return "No cylinder is judged."
     if not weak and (late := dict(_verdicts(read, level))):
@@ -99,40 +101,42 @@ def diagnosis_words(read: RecordDiagnosis, level: float) -> str:
         )
     if not weak:
         return f"No cylinder is weak, as far as can be determined with {100 * level:.4g} %."
-    half = found.half_width(level)
-    places = map(found.cylinders.index, weak)
-    listed = [f"cylinder {found.cylinders[n]} at {found.factor[n]:.3f} ± {half[n]:.3f}" for n in places]
-    if len(weak) == len(found.cylinders):
+    half = diagnosis.half_width(level)
+    places = map(diagnosis.cylinders.index, weak)
+    listed = [
+        f"cylinder {diagnosis.cylinders[n]} at {diagnosis.factor[n]:.3f} ± {half[n]:.3f}" for n in places
+    ]
+    if len(weak) == len(diagnosis.cylinders):
         return f"All cylinders burn less than the file says, most so {listed[0]} of its combustion."
     return f"Weak, the weakest first: {', '.join(listed)} of its combustion."
 
 
-def damper_table(found: DamperDesign) -> Table:
+def damper_table(design: DamperDesign) -> Table:
     """The damper by the mode alone and the best for the train, side by side."""
     values = (
-        ("damping", "c [N m s/rad]", found.damping, found.damping_best),
-        ("stiffness", "k [N m/rad]", found.stiffness, found.stiffness_best),
-        ("loss factor", "η", found.loss_factor, found.loss_factor_best),
-        ("largest magnification", "", found.magnification_rule, found.magnification_best),
+        ("damping", "c [N m s/rad]", design.damping, design.damping_best),
+        ("stiffness", "k [N m/rad]", design.stiffness, design.stiffness_best),
+        ("loss factor", "η", design.loss_factor, design.loss_factor_best),
+        ("largest magnification", "", design.magnification_rule, design.magnification_best),
     )
     rows: list[Row] = [
         (word, symbol, f"{rule:.6g}", f"{best:.6g}") for word, symbol, rule, best in values if best > 0
     ]
     title = (
-        f"Damper on {found.on} for mode {found.mode}, {found.natural_frequency:.6g} Hz; its ring of "
-        f"{found.ring_inertia:.6g} kg m² is {100 * found.mass_ratio:.4g} % of what swings there"
+        f"Damper on {design.on} for mode {design.mode}, {design.natural_frequency:.6g} Hz; its ring of "
+        f"{design.ring_inertia:.6g} kg m² is {100 * design.mass_ratio:.4g} % of what swings there"
     )
     return Table("damper", title, ("", "", "by the mode alone", "best for the train"), rows)
 
 
-def damper_lines(found: DamperDesign) -> str:
+def damper_lines(design: DamperDesign) -> str:
     """The best damper as a table of a machine file. TOML."""
-    entries = [f'on = "{found.on}"', f'kind = "{"viscous" if found.kind == "viscous" else "tuned"}"']
-    entries.append(f"ring_inertia = {found.ring_inertia!r}")
+    entries = [f'on = "{design.on}"', f'kind = "{"viscous" if design.kind == "viscous" else "tuned"}"']
+    entries.append(f"ring_inertia = {design.ring_inertia!r}")
     best = {
-        "damping": found.damping_best,
-        "stiffness": found.stiffness_best,
-        "loss_factor": found.loss_factor_best,
+        "damping": design.damping_best,
+        "stiffness": design.stiffness_best,
+        "loss_factor": design.loss_factor_best,
     }
     entries += [f"{key} = {float(f'{value:.6g}')!r}" for key, value in best.items() if value > 0]
     return "\n".join(["[train.dampers.damper]", *entries]) + "\n"

@@ -52,25 +52,25 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
         yield _discs(study, study.forced)
     if study.transient is not None:
         yield _manoeuvre(study.transient)
-    for each in study.holzer:
-        yield from holzer_tables(each)
+    for table in study.holzer:
+        yield from holzer_tables(table)
 
 
 _STATES = {"ok": "within limit", "bar": "barred speed range required", "exceeds": "limit exceeded"}
 
 
-def _judgements(found: Verdict) -> Table:
+def _judgements(verdict: Verdict) -> Table:
     """Each limit and whether it is kept."""
     rows: list[Row] = [
         (
-            f"{each.part}: {each.what}",
+            f"{judgement.part}: {judgement.what}",
             "",
-            _shown(each.found, each.kind.unit),
-            _shown(each.permitted, each.kind.unit),
-            _rpm(each.speed),
-            _STATES[each.state],
+            _shown(judgement.found, judgement.kind.unit),
+            _shown(judgement.permitted, judgement.kind.unit),
+            _rpm(judgement.speed),
+            _STATES[judgement.state],
         )
-        for each in found.judgements
+        for judgement in verdict.judgements
     ]
     return Table("limits", "Limits", ("limit", "", "found", "permitted", "at rpm", "verdict"), rows)
 
@@ -79,14 +79,14 @@ def _peak_judgements(moved: TorsionTransient) -> Table:
     """Each limit and whether the manoeuvre keeps it."""
     rows: list[Row] = [
         (
-            f"{each.part}: {each.what}",
+            f"{judgement.part}: {judgement.what}",
             "",
-            _shown(each.found, each.kind.unit),
-            _shown(each.permitted, each.kind.unit),
-            f"{each.time:.5g}",
-            _STATES["ok" if each.is_kept else "exceeds"],
+            _shown(judgement.found, judgement.kind.unit),
+            _shown(judgement.permitted, judgement.kind.unit),
+            f"{judgement.time:.5g}",
+            _STATES["ok" if judgement.is_kept else "exceeds"],
         )
-        for each in moved.judgements
+        for judgement in moved.judgements
     ]
     heads = ("limit", "", "found", "permitted", "at s", "verdict")
     return Table("manoeuvre_limits", "Limits in the manoeuvre", heads, rows)
@@ -105,7 +105,7 @@ def _manoeuvre(moved: TorsionTransient) -> Table:
     rows: list[Row] = [
         (name, "", *(_finite(value) for value in values))
         for name, values in zip(
-            moved.shafts, zip(*(each.tolist() for each in columns), strict=True), strict=True
+            moved.shafts, zip(*(column.tolist() for column in columns), strict=True), strict=True
         )
     ]
     heads = ("shaft", "", "maximum N m", "at s", "minimum N m", "at s")
@@ -113,17 +113,17 @@ def _manoeuvre(moved: TorsionTransient) -> Table:
     return Table("manoeuvre", title, heads, rows)
 
 
-def _damped(study: TorsionStudy, found: DampedVibration) -> Table:
+def _damped(study: TorsionStudy, damped: DampedVibration) -> Table:
     """Natural frequencies with their damping."""
     columns = (
-        found.natural_frequencies,
-        found.damped_frequencies,
-        found.damping_ratios,
-        found.logarithmic_decrements,
+        damped.natural_frequencies,
+        damped.damped_frequencies,
+        damped.damping_ratios,
+        damped.logarithmic_decrements,
     )
     rows: list[Row] = [
         (_kind(values[0], values[1]), "", *(_finite(value) for value in values))
-        for values in zip(*(each.tolist() for each in columns), strict=True)
+        for values in zip(*(column.tolist() for column in columns), strict=True)
     ]
     heads = ("motion", "", "Hz", "damped Hz", "ζ", "log. decrement")
     run = study.machine.train.run if study.machine.train is not None else None
@@ -138,26 +138,26 @@ def _kind(natural: float, damped: float) -> str:
     return "underdamped (oscillatory)" if damped > 0 else "overdamped (aperiodic)"
 
 
-def _critical(found: CampbellDiagram) -> Table:
+def _critical(diagram: CampbellDiagram) -> Table:
     """The most severe critical speeds, by speed."""
-    by_severity = sorted(found.critical, key=lambda each: each.resonance_amplitude or 0.0, reverse=True)
+    by_severity = sorted(diagram.critical, key=lambda each: each.resonance_amplitude or 0.0, reverse=True)
     kept = set(by_severity[:_CRITICAL])
     rows: list[Row] = [
         (
-            f"order {each.order:.4g}",
+            f"order {crossing.order:.4g}",
             "",
-            str(each.mode),
-            f"{each.frequency:.5g}",
-            _rpm(each.speed),
-            "–" if each.peak_speed is None else _rpm(each.peak_speed),
-            _amplitude(each.resonance_amplitude),
+            str(crossing.mode),
+            f"{crossing.frequency:.5g}",
+            _rpm(crossing.speed),
+            "–" if crossing.peak_speed is None else _rpm(crossing.peak_speed),
+            _amplitude(crossing.resonance_amplitude),
         )
-        for each in found.critical
-        if each in kept
+        for crossing in diagram.critical
+        if crossing in kept
     ]
     heads = ("order", "", "mode", "Hz", "rpm", "peaks at [rpm]", "amplitude [°]")
-    more = len(found.critical) - len(rows)
-    title = "Critical speeds" + (f", the most severe of {len(found.critical)}" if more else "")
+    more = len(diagram.critical) - len(rows)
+    title = "Critical speeds" + (f", the most severe of {len(diagram.critical)}" if more else "")
     return Table("critical_speeds", title, heads, rows)
 
 
@@ -225,23 +225,23 @@ def _finite(value: float, digits: int = 4) -> str:
     return number(value, digits) if np.isfinite(value) else "–"
 
 
-def torsion_tables(found: FreeVibration) -> Iterator[Table]:
+def torsion_tables(free: FreeVibration) -> Iterator[Table]:
     """Frequencies with nodes and energy; then the shapes."""
-    yield _frequencies(found)
-    for start in range(0, len(found.natural_frequencies), _SHAPES):
-        yield _shapes(found, range(start, min(start + _SHAPES, len(found.natural_frequencies))))
+    yield _frequencies(free)
+    for start in range(0, len(free.natural_frequencies), _SHAPES):
+        yield _shapes(free, range(start, min(start + _SHAPES, len(free.natural_frequencies))))
 
 
-def _frequencies(found: FreeVibration) -> Table:
+def _frequencies(free: FreeVibration) -> Table:
     rows: list[Row] = [
         (
-            _energy(found, k),
+            _energy(free, k),
             f"f_{k}",
             f"{f:.6g}",
             f"{60 * f:.6g}",
-            _nodes(found.nodes[k]) if f > 0 else "–",
+            _nodes(free.nodes[k]) if f > 0 else "–",
         )
-        for k, f in enumerate(found.natural_frequencies.tolist())
+        for k, f in enumerate(free.natural_frequencies.tolist())
     ]
     heads = ("dominant strain energy; kinetic energy", "", "Hz", "1/min", "nodes")
     return Table("natural_frequencies", "Natural frequencies", heads, rows)
@@ -258,14 +258,14 @@ def _node(node: Node) -> str:
     return node.at if node.share == 0 else f"{node.at} {node.share:.3f}"
 
 
-def _energy(found: FreeVibration, k: int) -> str:
+def _energy(free: FreeVibration, k: int) -> str:
     """The shafts that twist most and the discs that swing most."""
-    if found.natural_frequencies[k] == 0:
-        moving = [name for name, q in zip(found.discs, found.mode_shapes[k], strict=True) if q]
+    if free.natural_frequencies[k] == 0:
+        moving = [name for name, q in zip(free.discs, free.mode_shapes[k], strict=True) if q]
         return "rigid-body rotation" if len(moving) > 1 else f"{moving[0]} rotates alone"
     parts = (
-        _most(found.shafts, found.potential_shares[k]),
-        _most(found.discs, found.kinetic_shares[k]),
+        _most(free.shafts, free.potential_shares[k]),
+        _most(free.discs, free.kinetic_shares[k]),
     )
     return "; ".join(parts)
 
@@ -275,23 +275,23 @@ def _most(names: tuple[str, ...], shares: Floats) -> str:
     return ", ".join(f"{names[n]} {100 * shares[n]:.0f} %" for n in order if shares[n] >= _SHARE)
 
 
-def _shapes(found: FreeVibration, modes: range) -> Table:
+def _shapes(free: FreeVibration, modes: range) -> Table:
     rows: list[Row] = [
-        (name, "", *(f"{found.mode_shapes[k, n]:.6f}" for k in modes)) for n, name in enumerate(found.discs)
+        (name, "", *(f"{free.mode_shapes[k, n]:.6f}" for k in modes)) for n, name in enumerate(free.discs)
     ]
     heads = ("disc", "", *(f"mode {k}" for k in modes))
     return Table("mode_shapes", "Mode shapes, largest amplitude 1", heads, rows)
 
 
-def holzer_tables(found: HolzerTable) -> Iterator[Table]:
+def holzer_tables(table: HolzerTable) -> Iterator[Table]:
     """Holzer's table: discs, then shafts."""
-    columns = (found.inertia, found.inertia_squared, found.amplitude, found.torque)
+    columns = (table.inertia, table.inertia_squared, table.amplitude, table.torque)
     rows: list[Row] = [
-        (name, "", *(f"{column[n]:.6g}" for column in columns)) for n, name in enumerate(found.discs)
+        (name, "", *(f"{column[n]:.6g}" for column in columns)) for n, name in enumerate(table.discs)
     ]
-    rows.append(("left over at " + found.end, "", "", "", "", f"{found.residual_torque:.6g}"))
+    rows.append(("left over at " + table.end, "", "", "", "", f"{table.residual_torque:.6g}"))
     heads: Row = ("disc", "", "J [kg m²]", "J ω² [N m/rad]", "amplitude θ", "J ω² θ [N m]")
-    yield Table("holzer_discs", f"Holzer's table at {found.frequency:.6g} Hz", heads, rows)
-    of_shafts = (found.stiffness, found.twist, found.shaft_torque)
-    rows = [(name, "", *(f"{column[n]:.6g}" for column in of_shafts)) for n, name in enumerate(found.shafts)]
+    yield Table("holzer_discs", f"Holzer's table at {table.frequency:.6g} Hz", heads, rows)
+    of_shafts = (table.stiffness, table.twist, table.shaft_torque)
+    rows = [(name, "", *(f"{column[n]:.6g}" for column in of_shafts)) for n, name in enumerate(table.shafts)]
     yield Table("holzer_shafts", "Its shafts", ("shaft", "", "k [N m/rad]", "twist", "torque [N m]"), rows)

@@ -110,23 +110,24 @@ class Combustion(Gas):
                 found=" and ".join(given) or None,
                 expected="one of heat, mean_effective_pressure, peak_pressure, or a load map",
             )
-        whole = math.fsum(each.share for each in self.releases)
+        whole = math.fsum(release.share for release in self.releases)
         if abs(whole - 1) > _WHOLE:
             expected = "releases whose shares make 1"
             yield fault("releases", found=f"shares that make {whole:.6g}", expected=expected)
 
     def cycle_faults(self, strokes: int) -> Iterator[InitErrorDetails]:
         wrong = list(self.valves.cycle_faults(strokes))
-        yield from (below(found, "valves") for found in wrong)
+        yield from (below(problem, "valves") for problem in wrong)
         if wrong:
             return
         timing = self.valves.timing(strokes)
-        for i, each in enumerate(self.releases):
-            if each.start <= timing.closes or each.end >= timing.opens:
+        for i, release in enumerate(self.releases):
+            if release.start <= timing.closes or release.end >= timing.opens:
                 yield fault(
                     "releases",
                     i,
-                    found=f"heat from {math.degrees(each.start):.6g} to {math.degrees(each.end):.6g} deg",
+                    found=f"heat from {math.degrees(release.start):.6g} to "
+                    f"{math.degrees(release.end):.6g} deg",
                     expected=f"between {math.degrees(timing.closes):.6g} and "
                     f"{math.degrees(timing.opens):.6g} deg, while the cylinder is closed",
                 )
@@ -206,7 +207,7 @@ class Combustion(Gas):
     def _cycle(self, cylinder: Cylinder, speeds: Array, charge: Array) -> WorkingCycle:
         """The cycle at speeds with their charge pressures."""
         timing = self.valves.timing(cylinder.strokes)
-        spans = [(each.start, each.duration) for each in self.releases]
+        spans = [(release.start, release.duration) for release in self.releases]
         closed = mesh(closed_edges(timing.closes, timing.opens, spans))
         exchange = mesh(open_edges(timing.opens, timing.ends, timing.corners))
         back = _SILENCER + _TURBINE * np.maximum(charge - _AIR, 0.0)
@@ -229,8 +230,8 @@ class Combustion(Gas):
             mesh=closed,
             volume=volume,
             volume_d1=volume_d1,
-            released=np.sum([each.released(closed.angle) for each in self.releases], axis=0),
-            release=np.sum([each.rate(closed.angle) for each in self.releases], axis=0),
+            released=np.sum([release.released(closed.angle) for release in self.releases], axis=0),
+            release=np.sum([release.rate(closed.angle) for release in self.releases], axis=0),
             kept=kept,
             bore=cylinder.bore,
             swept_volume=cylinder.swept_volume,

@@ -93,7 +93,7 @@ def open_edges(start: float, end: float, corners: tuple[float, ...]) -> Array:
     Increasing [rad]. `start`, `end`: crank angles of opening and of closing [rad]; `corners`: where the
     pressure has corners [rad].
     """
-    ends = sorted({start, end, *(each for each in corners if start < each < end)})
+    ends = sorted({start, end, *(corner for corner in corners if start < corner < end)})
     return np.unique(np.concatenate([_even(a, b, _OPEN) for a, b in pairwise(ends)]))
 
 
@@ -177,7 +177,7 @@ class CyclePressure:
         Absolute pressure with combustion and without, shape (n, j) each [Pa]. `angle`: (j,) [rad].
         """
         cycle = float(self.weight.sum())
-        traces = np.array([periodic_cubic(self.angle, each, cycle, angle) for each in self.traces])
+        traces = np.array([periodic_cubic(self.angle, trace, cycle, angle) for trace in self.traces])
         return self.firing @ traces, self.motored @ traces
 
     @property

@@ -228,11 +228,11 @@ class ReciprocatingEngine(CheckedDescription):
 
     def _cycle_fault(self) -> Iterator[InitErrorDetails]:
         """An order that needs more, or fewer, turns than a cycle has."""
-        found, wanted = firing_angles(self.places, self.firing_order, self.cycle)[1], self.cycle
-        if abs(found - wanted) > _EQUAL:
+        angle, wanted = firing_angles(self.places, self.firing_order, self.cycle)[1], self.cycle
+        if abs(angle - wanted) > _EQUAL:
             yield fault(
                 "firing_order",
-                found=f"an order that repeats after {found / (2 * math.pi):.6g} revolutions",
+                found=f"an order that repeats after {angle / (2 * math.pi):.6g} revolutions",
                 expected=f"one of {wanted / (2 * math.pi):.6g}, a cycle of {self.strokes} strokes",
                 remedy="look at the angles of throws and banks, the sense of rotation, and the numbering",
             )

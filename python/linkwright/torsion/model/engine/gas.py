@@ -182,9 +182,9 @@ class Gas(CheckedDescription):
         """Pressure in a cylinder over the cycle. `speeds`: (n,) [rad/s]."""
 
 
-def below(found: InitErrorDetails, *place: str | int) -> InitErrorDetails:
+def below(wrong: InitErrorDetails, *place: str | int) -> InitErrorDetails:
     """The same fault, told by a description further up."""
-    return InitErrorDetails(type=found["type"], loc=(*place, *found.get("loc", ())), input=found["input"])
+    return InitErrorDetails(type=wrong["type"], loc=(*place, *wrong.get("loc", ())), input=wrong["input"])
 
 
 def check_reach(wanted: Array, motored: Array, speeds: Array) -> None:

@@ -154,14 +154,14 @@ class Indicator(Diagram, Gas):
     def cycle_faults(self, strokes: int) -> Iterator[InitErrorDetails]:
         cycle = math.pi * strokes
         yield from whole_cycle_faults(self.angle, self.pressure, cycle)
-        for i, each in enumerate(self.other_loads):
-            for found in whole_cycle_faults(each.angle, each.pressure, cycle):
-                yield below(found, "other_loads", i)
+        for i, other_load in enumerate(self.other_loads):
+            for problem in whole_cycle_faults(other_load.angle, other_load.pressure, cycle):
+                yield below(problem, "other_loads", i)
 
     def cycle_pressure(self, cylinder: Cylinder, speeds: Array) -> CyclePressure:
         angle = self._angles(cylinder.cycle)
         weight = np.full(len(angle), cylinder.cycle / len(angle))
-        fired = np.array([each.over(angle, cylinder.cycle) for each in (self, *self.other_loads)])
+        fired = np.array([other_load.over(angle, cylinder.cycle) for other_load in (self, *self.other_loads)])
         motored = np.array([self._motored(each, angle, cylinder) for each in fired])
         _, V_d1 = cylinder.volume(angle, self.compression_ratio)
         of_work = V_d1 * weight / cylinder.swept_volume
@@ -172,7 +172,7 @@ class Indicator(Diagram, Gas):
 
     def _angles(self, cycle: float) -> Array:
         """Even angles of a cycle, as close as the finest diagram has them."""
-        steps = [cycle / len(each.angle) for each in (self, *self.other_loads)]
+        steps = [cycle / len(other_load.angle) for other_load in (self, *self.other_loads)]
         n = round(cycle / max(_FINEST, min(_STEP, *steps)))
         return np.asarray(np.arange(n) * (cycle / n) - cycle / 2)
 

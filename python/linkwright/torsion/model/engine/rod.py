@@ -94,9 +94,9 @@ class Rod(CheckedDescription):
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         for faults in (self._key_faults, self._swing_faults, self._body_faults):
-            found = list(faults())
-            yield from found
-            if found:
+            problems = list(faults())
+            yield from problems
+            if problems:
                 return
 
     def _key_faults(self) -> Iterator[InitErrorDetails]:

@@ -75,15 +75,17 @@ def throw_motion(
 ) -> tuple[RodMotion, ...]:
     """Motion of all rods and pistons of one throw. `crank_radius`: r [m]; `crank_angle`: [rad]."""
     pin = crank_pin(crank_radius, crank_angle)
-    found: dict[int, RodMotion] = {}
+    motions: dict[int, RodMotion] = {}
     # Master rods come first, wherever they stand.
     for at, gear in sorted(enumerate(gears), key=lambda each: each[1].is_articulated):
         big_end = pin
         if isinstance(gear.rod, ArticulatedRod):
-            master = found[_master(gears, at)]
+            master = motions[_master(gears, at)]
             big_end = articulated_pin(master, gear.rod.pin_radius, gear.rod.pin_angle)
-        found[at] = rod_motion(big_end, crank_angle, gear.rod.length, gear.bank_angle, gear.offset, gear.name)
-    return tuple(found[at] for at in range(len(gears)))
+        motions[at] = rod_motion(
+            big_end, crank_angle, gear.rod.length, gear.bank_angle, gear.offset, gear.name
+        )
+    return tuple(motions[at] for at in range(len(gears)))
 
 
 def _master(gears: Sequence[RunningGear], at: int) -> int:
@@ -178,7 +180,7 @@ def dead_centres(crank_radius: float, gears: Sequence[RunningGear]) -> tuple[Dea
         return ()
     phi = np.linspace(0.0, 2.0 * math.pi, _SAMPLES, endpoint=False)
     samples = throw_motion(crank_radius, gears, phi)
-    start = np.array([[each.piston.argmax(), each.piston.argmin()] for each in samples])
+    start = np.array([[motion.piston.argmax(), motion.piston.argmin()] for motion in samples])
     angle, piston = _refined(crank_radius, gears, phi[start])
     return tuple(map(_counted, angle, piston, (gear.bank_angle for gear in gears)))
 

@@ -112,7 +112,7 @@ def free(throw: CrankThrow) -> float:
 def _fourths(throw: CrankThrow) -> tuple[float, float, float]:
     """D₁⁴ − d₁⁴, D₂⁴ − d₂⁴ and hB³ [m⁴]."""
     rings = (polar_moment(each.diameter, each.inner_diameter) for each in (throw.journal, throw.pin))
-    journal, pin = (32 / math.pi * each for each in rings)
+    journal, pin = (32 / math.pi * ring for ring in rings)
     return journal, pin, throw.web.thickness * throw.web.breadth**3
 
 
@@ -243,13 +243,13 @@ def compliance(throw: CrankThrow, formula: str = DEFAULT_FORMULA) -> float:
     Greater than 0.
     """
     chosen = compliance_formula(formula)
-    found = chosen.compliance(throw)
-    if found <= 0:
+    e = chosen.compliance(throw)
+    if e <= 0:
         why = chosen.remark(throw) or "check the sizes of the throw"
         raise InputError(
-            f"compliance of a throw by {formula}: found {found:.4g} rad/(N m), expected more than 0; {why}"
+            f"compliance of a throw by {formula}: found {e:.4g} rad/(N m), expected more than 0; {why}"
         )
-    return found
+    return e
 
 
 def compliances(throw: CrankThrow) -> dict[str, float]:
@@ -257,8 +257,8 @@ def compliances(throw: CrankThrow) -> dict[str, float]:
 
     By name of the formula; a formula that gives nothing positive is left out.
     """
-    found = {name: each.compliance(throw) for name, each in COMPLIANCE_FORMULAS.items()}
-    return {name: value for name, value in found.items() if value > 0}
+    by_formula = {name: formula.compliance(throw) for name, formula in COMPLIANCE_FORMULAS.items()}
+    return {name: value for name, value in by_formula.items() if value > 0}
 
 
 def compliance_remarks(throw: CrankThrow) -> dict[str, str]:
@@ -266,5 +266,5 @@ def compliance_remarks(throw: CrankThrow) -> dict[str, str]:
 
     By name of the formula; without those that have nothing to remark.
     """
-    remarks = ((name, each.remark(throw)) for name, each in COMPLIANCE_FORMULAS.items())
+    remarks = ((name, formula.remark(throw)) for name, formula in COMPLIANCE_FORMULAS.items())
     return {name: text for name, text in remarks if text}

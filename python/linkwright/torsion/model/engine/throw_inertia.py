@@ -75,13 +75,13 @@ def throw_inertia(throw: CrankThrow) -> ThrowInertia:
     Exact for the shapes as described; nothing is known of fillets and chamfers.
     """
     parts = tuple(_parts(throw))
-    mass, inertia = math.fsum(each.mass for each in parts), math.fsum(each.inertia for each in parts)
+    mass, inertia = math.fsum(part.mass for part in parts), math.fsum(part.inertia for part in parts)
     if mass <= 0 or inertia <= 0:
         raise InputError(
             f"crank throw: found {mass:.6g} kg and {inertia:.6g} kg m² left after drillings and bores, "
             "expected more than 0; check diameters, lengths and radii of the drillings"
         )
-    moment = tuple(math.fsum(each.mass * each.centre[n] for each in parts) for n in (0, 1))
+    moment = tuple(math.fsum(part.mass * part.centre[n] for part in parts) for n in (0, 1))
     return ThrowInertia(parts, mass, (moment[0], moment[1]), inertia)
 
 
@@ -170,7 +170,7 @@ def published_inertia(throw: CrankThrow) -> float:
         _ring_volume(journal) * (journal.diameter**2 + journal.inner_diameter**2) / 8,
         _volume(web.diameter, _WEBS * web.thickness) * (web.diameter**2 / 8 + throw.web_centre**2),
     ]
-    holes = ((each.diameter, each.length, each.radius) for each in throw.drillings)
+    holes = ((drilling.diameter, drilling.length, drilling.radius) for drilling in throw.drillings)
     terms += [-_volume(d, length) * (d**2 / 8 + at**2) for d, length, at in holes]
     return throw.density * math.fsum(terms)
 
