@@ -155,10 +155,10 @@ def test_cylinders_that_act_alike_are_told() -> None:
     harmonics = speed_of(WEAK, "flywheel", stiffness=3e7)[whole]
     part = MeasuredSpeed("flywheel", firing.ORDERS[whole], harmonics, np.full(6, NOISE))
     found = diagnosis(at, firing.sources(), part)
-    alike = [each for each in found.warnings if "act alike" in each]
+    alike = [each for each in found.warnings if "parallel responses" in each]
     assert {each.split(" (")[0] for each in alike} >= {
-        "cylinders 1 and 6 act alike",
-        "cylinders 2 and 5 act alike",
+        "cylinders 1 and 6 have parallel responses",
+        "cylinders 2 and 5 have parallel responses",
     }
     # What is the sum of two is known much better than each.
     both = np.array([1, 0, 0, 0, 0, 1])

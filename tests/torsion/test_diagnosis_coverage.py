@@ -126,13 +126,13 @@ def test_what_nothing_explains_widens_the_intervals() -> None:
     seen = measured("stiffening", "weak", np.random.default_rng(2).normal(0, 30 * NOISE, (2, 48)))
     found = fitted(engine("stiffening"), seen)
     assert found.is_refuted
-    assert "count what is left over as noise" in found.warnings[-1]
+    assert "treat the residual as noise" in found.warnings[-1]
     np.testing.assert_array_less(np.abs(found.factor - 1 - state("weak")[:8]), 3.5 * found.deviation)
 
 
 def test_factors_that_do_not_settle_are_a_finding(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("linkwright.torsion.diagnosis.engine_diagnosis._ROUNDS", 2)
-    with pytest.raises(ConvergenceError, match="factors do not settle"):
+    with pytest.raises(ConvergenceError, match="factors do not converge"):
         fitted(engine("progressive"), measured("progressive", "misfire"))
 
 

@@ -224,7 +224,7 @@ def test_ring_of_a_balanced_train_takes_nothing() -> None:
     ("entries", "word"),
     [
         ({}, None),
-        ({"loads": {}}, "speeds the train up"),
+        ({"loads": {}}, "accelerates the train"),
         ({"engine": {**V12, "factors": {str(n): 0.0 for n in range(1, 13)}}}, "taken to drive it"),
         # What is held neither speeds up nor is driven.
         ({"loads": {}, "shafts": HELD}, None),

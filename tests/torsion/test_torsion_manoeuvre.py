@@ -485,7 +485,7 @@ def test_what_cannot_be_followed_is_told() -> None:
         InputError, match=r"loads.rotor.exponent: found -1, expected 0 or more in a motion from rest"
     ):
         torsion_transient(falling, manoeuvre(duration=1))
-    with pytest.raises(ConvergenceError, match="after 10 steps: that many are allowed"):
+    with pytest.raises(ConvergenceError, match="after 10 steps: that is the maximum"):
         torsion_transient(lw.loads(PLAIN), manoeuvre(duration=1, speed=150, steps_max=10))
 
 

@@ -279,7 +279,7 @@ def test_stiff_shafts_take_implicit_steps() -> None:
     assert rigid.method == "explicit"
     assert found.torque[0] == pytest.approx(rigid.torque[0], abs=1e-4 * rigid.torque_max[0])
     with pytest.raises(
-        ConvergenceError, match=r"given up at .* after 2000 steps: .* d1 swings .* \"implicit\""
+        ConvergenceError, match=r"stopped at .* after 2000 steps: .* d1 swings .* \"implicit\""
     ):
         follow_train(chain(J, k, torques=[torque]), duration=0.5, method="explicit", steps_max=2000)
 
@@ -343,5 +343,5 @@ def test_wrong_numbers_are_told() -> None:
 def test_a_torque_that_is_no_number_is_told() -> None:
     curve = smooth([0.0, 1.0], [0.0, 1e308], [1e308, 1e308])
     train = chain([1.0, 1e-300], [1e4], curves=[curve])
-    with pytest.raises(ConvergenceError, match=r"given up at 0 s after 0 steps"):
+    with pytest.raises(ConvergenceError, match=r"stopped at 0 s after 0 steps"):
         follow_train(train, duration=1.0, angle=[9.0, 0.0])

@@ -95,7 +95,7 @@ def _largest_torque(peaks: TorquePeaks) -> Iterator[tuple[str, str, str]]:
     if np.isfinite(value):
         yield words, number(value, 4), "N m"
     else:
-        yield words, "without bound", ""
+        yield words, "unbounded", ""
 
 
 def _formulas(study: TorsionStudy) -> Iterator[Formula]:

@@ -252,7 +252,7 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     if not np.isfinite(forced.shaft_torque_max).all():
         rows = ~np.isfinite(forced.shaft_torque_max).all(axis=0)
         rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in forced.speeds[rows][:4])
-        yield f"Nothing damps a resonance that is met exactly, at {rpm} rpm: no amplitude there."
+        yield f"Speeds of {rpm} rpm are undamped resonances: the amplitude there is unbounded."
     run = None if train is None else train.run
     if run is not None and not run.speed_min <= run.service <= run.speed_max:
         near = min(max(run.service, run.speed_min), run.speed_max) * 30 / np.pi
@@ -265,20 +265,20 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     rest = forced.orders[~forced.together.together]
     if len(rest):
         listed = ", ".join(f"{order:.5g}" for order in rest[:4])
-        yield f"Orders {listed} have no common base with the others: their amplitudes are added up."
+        yield f"Orders {listed} have no common base with the others: their amplitudes are added."
 
 
 def _balance_warnings(engine: ReciprocatingEngine, train: Train, at: ExcitedTrain) -> Iterator[str]:
     """Loads that do not take what an engine gives."""
     if not train.loads:
-        yield "The engine drives no load: its mean torque speeds the train up, and so the shafts carry it."
+        yield "The engine drives no load: its mean torque accelerates the train, and the shafts carry it."
         return
     # Behind the throws there are loads alone, and all of them drive if one does.
     behind = slice(len(engine.throws), None)
     driven = at.referred.speed[behind] @ at.torques.mean[behind] > 0
     if driven.any():
         rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in at.torques.speeds[driven][:4])
-        yield f"The engine gives no torque in the mean, at {rpm} rpm: the loads are taken to drive it there."
+        yield f"The mean torque of the engine is not positive at {rpm} rpm: the loads drive the engine there."
 
 
 def _about_loads(study: TorsionStudy, at: ExcitedTrain) -> Iterator[str]:
@@ -289,7 +289,7 @@ def _about_loads(study: TorsionStudy, at: ExcitedTrain) -> Iterator[str]:
     # Loads that drive the engine are reported by themselves.
     if at.train.loads and factor > 0 and abs(factor - 1) > _FITS:
         yield (
-            f"At the speed of service the loads were scaled by {factor:.3g} to take the power of the engine. "
+            f"At the service speed the loads were scaled by {factor:.3g} to take the power of the engine. "
             "Check torque and speed of [train.loads], or the mean effective pressure of the gas."
         )
 
@@ -316,6 +316,6 @@ def _about_the_ends(study: TorsionStudy, forced: ForcedVibration) -> Iterator[st
     if near:
         parts = ", ".join(dict.fromkeys(judgement.part for judgement in near))
         yield (
-            f"{parts}: most is asked for at an end of the speeds, and more may be beyond it; widen "
-            "[train.run] to see."
+            f"{parts}: the utilisation is largest at an end of the speed range and may be larger beyond it; "
+            "widen [train.run]."
         )

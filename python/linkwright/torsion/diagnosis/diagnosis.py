@@ -227,8 +227,8 @@ def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpe
     if not is_known and fit.freedom < 1:
         remedy = f"measure more than {len(names) / 2:.4g} orders, or give the noise"
         raise InputError(
-            f"{len(measured.orders)} orders for {len(names)} cylinders leave nothing to tell noise by: "
-            f"{remedy}"
+            f"{len(measured.orders)} orders for {len(names)} cylinders leave no residual to "
+            f"estimate the noise from: {remedy}"
         )
     n, (delay, compression) = len(names), _further(fit, len(names))
     diagnosis = Diagnosis(
@@ -269,13 +269,16 @@ def _warnings(diagnosis: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> 
     cosine = np.abs(A.T @ A) / np.where(product > 0, product, 1.0)
     for a, b in np.argwhere(np.triu(cosine > _ALIKE, k=1)):
         if not (open_part[a] and open_part[b]):
-            listed.append(f"cylinders {names[a]} and {names[b]} act alike (cosine {cosine[a, b]:.4f})")
+            listed.append(
+                f"cylinders {names[a]} and {names[b]} have parallel responses (cosine {cosine[a, b]:.4f})"
+            )
     blind = ~open_part & (diagnosis.half_width() > 1)
     if blind.any():
         listed.append(f"cylinders {', '.join(names[blind])}: not even a misfire would show against the noise")
     if diagnosis.is_refuted:
         listed.append(
-            f"what is left over is {diagnosis.misfit:.3g} times the noise: the train or its torques differ"
+            f"the residual is {diagnosis.misfit:.3g} times the noise: the train or its torques differ "
+            "from the file"
         )
     return listed
 

@@ -97,7 +97,9 @@ def fitted(model: EngineSpeed, measured: MeasuredSpeed) -> Diagnosis:
         if is_settled:
             fit, A = _linear_fit(model, measured, wider)
         else:
-            warnings.append("factors do not explain what was measured, nor do delay and compression settle")
+            warnings.append(
+                "factors do not explain the measurement, and delay and compression do not converge"
+            )
     diagnosis = diagnosed(fit, A, names, measured)
     if diagnosis.is_refuted:
         # Noise is what neither the train nor its cylinders explain.
@@ -106,7 +108,7 @@ def fitted(model: EngineSpeed, measured: MeasuredSpeed) -> Diagnosis:
         if diagnosis.delay is not None:
             further = (spread.delay_deviation, spread.compression_deviation)
             diagnosis = replace(diagnosis, delay_deviation=further[0], compression_deviation=further[1])
-        warnings.append("intervals count what is left over as noise")
+        warnings.append("intervals treat the residual as noise")
     return replace(diagnosis, warnings=(*diagnosis.warnings, *warnings))
 
 
@@ -114,7 +116,7 @@ def _unsettled(values: Floats, asked: Floats) -> str:
     """One sentence on factors that do not belong to their own operating point."""
     worst = int(np.argmax(np.abs(asked - values)))
     return (
-        f"the factors do not settle: that of cylinder {worst + 1} goes from {1 + values[worst]:.4g} to "
+        f"the factors do not converge: that of cylinder {worst + 1} goes from {1 + values[worst]:.4g} to "
         f"{1 + asked[worst]:.4g} and back, as the stiffness of couplings follows the mean torque; look at "
         "[train.couplings] there, or take the coupling as linear"
     )

@@ -304,7 +304,7 @@ def _given_up(train: MovingTrain, moved: TrainMotion, accuracy: float) -> str:
             f"to the accuracy {accuracy:g}: its twist is lost in the rounding of the angles of its ends; "
             'take method "auto" or "implicit", or ask for less'
         )
-    when = f"the motion was given up at {moved.time:.6g} s after {moved.steps} steps"
+    when = f"the integration stopped at {moved.time:.6g} s after {moved.steps} steps"
     if moved.end == "not finite":
         return f"{when}: an acceleration is no finite number; look at the torques"
     frequency, disc = moved.fastest / (2 * np.pi), _fastest_disc(train)
@@ -314,7 +314,7 @@ def _given_up(train: MovingTrain, moved: TrainMotion, accuracy: float) -> str:
     else:
         remedy = "ask for less accuracy, or look for a torque that jumps back and forth"
     many = moved.end == "too many steps"
-    why = "that many are allowed" if many else f"no step keeps the accuracy {accuracy:g}"
+    why = "that is the maximum" if many else f"no step keeps the accuracy {accuracy:g}"
     return f"{when}: {why}, and {stiff}; {remedy}"
 
 

@@ -174,14 +174,14 @@ def _against_barring(each: BarredRange) -> str:
     """Why a range may not be barred and passed; empty if it may."""
     if each.not_passable:
         low, high = each.not_passable[0]
-        return f"not to be passed from {_rpm(low)} to {_rpm(high)}"
+        return f"passage not permitted from {_rpm(low)} to {_rpm(high)}"
     if each.is_passable is None:
         return "no stress permitted in transient passage is given"
     if not each.may_be_barred:
         highest = each.ratio_permitted
-        return f"speeds above {highest:.0%} of the speed of service may not be barred in normal operation"
+        return f"speeds above {highest:.0%} of the service speed may not be barred in normal operation"
     if each.barred[0] <= each.service_speed <= each.barred[1]:
-        return "the speed of service lies in it"
+        return "the range contains the service speed"
     return ""
 
 
@@ -191,11 +191,11 @@ def _notes(seen: Survey) -> Iterator[str]:
     for criterion in seen.criteria:
         silent = np.isnan(criterion.permitted)
         if criterion.what == CONTACT and silent.all():
-            text = "in a loop of rigid stages, whose torques statics does not tell"
+            text = "in a loop of rigid stages, whose torques are statically indeterminate"
         elif criterion.what == VIBRATORY_STRESS and silent.any():
             limit = seen.at.train.shafts[criterion.part].limit
             rule = "" if limit is None else f" by {limit.kind}"
-            text = f"nothing is said{rule} above {_rpm(float(seen.speeds[silent].min()))}"
+            text = f"no limit is given{rule} above {_rpm(float(seen.speeds[silent].min()))}"
         else:
             continue
         said.setdefault(text, []).append(criterion.part)
@@ -215,7 +215,7 @@ def _lists(ranges: tuple[tuple[float, float], ...]) -> list[list[float]]:
 def _shown(value: float, kind: Kind) -> str:
     """A quantity for people: stresses in MPa, all else SI, four digits."""
     if math.isinf(value):
-        return "without bound, as nothing damps a resonance,"
+        return "unbounded (undamped resonance)"
     if kind is PRESSURE:
         return f"{value / 1e6:.4g} MPa"
     return f"{value:.4g} {kind.unit}"

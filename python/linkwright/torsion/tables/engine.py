@@ -51,7 +51,7 @@ def engine_table(data: EngineData) -> Table:
 
 def _beside(word: str, value: float, used: float, unit: str) -> Row:
     """A value that is not used, and how far it is from the one that is."""
-    return word, "", with_unit(value, unit), f"{100 * (value / used - 1):+.3g} %"
+    return word, "", with_unit(value, unit), f"{100 * (value / used - 1):+.3g} %".replace("-", "−")
 
 
 def diagnosis_table(read: RecordDiagnosis, level: float) -> Table:
@@ -100,7 +100,7 @@ def diagnosis_words(read: RecordDiagnosis, level: float) -> str:
             f"No cylinder is weak; {', '.join(f'cylinder {name} is {word}' for name, word in late.items())}."
         )
     if not weak:
-        return f"No cylinder is weak, as far as can be determined with {100 * level:.4g} %."
+        return f"No cylinder is weak at a confidence level of {100 * level:.4g} %."
     half = diagnosis.half_width(level)
     places = map(diagnosis.cylinders.index, weak)
     listed = [
@@ -124,7 +124,7 @@ def damper_table(design: DamperDesign) -> Table:
     ]
     title = (
         f"Damper on {design.on} for mode {design.mode}, {design.natural_frequency:.6g} Hz; its ring of "
-        f"{design.ring_inertia:.6g} kg m² is {100 * design.mass_ratio:.4g} % of what swings there"
+        f"{design.ring_inertia:.6g} kg m² is {100 * design.mass_ratio:.4g} % of the modal inertia there"
     )
     return Table("damper", title, ("", "", "by the mode alone", "best for the train"), rows)
 

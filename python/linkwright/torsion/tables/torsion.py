@@ -220,6 +220,11 @@ def _rpm(speed: float) -> str:
     return f"{speed * 30 / np.pi:.5g}"
 
 
+def _signed(text: str) -> str:
+    """A number with a true minus sign."""
+    return text.replace("-", "−")
+
+
 def _finite(value: float, digits: int = 4) -> str:
     """A number, or a dash at a resonance that nothing damps."""
     return number(value, digits) if np.isfinite(value) else "–"
@@ -277,7 +282,8 @@ def _most(names: tuple[str, ...], shares: Floats) -> str:
 
 def _shapes(free: FreeVibration, modes: range) -> Table:
     rows: list[Row] = [
-        (name, "", *(f"{free.mode_shapes[k, n]:.6f}" for k in modes)) for n, name in enumerate(free.discs)
+        (name, "", *(_signed(f"{free.mode_shapes[k, n]:.6f}") for k in modes))
+        for n, name in enumerate(free.discs)
     ]
     heads = ("disc", "", *(f"mode {k}" for k in modes))
     return Table("mode_shapes", "Mode shapes, largest amplitude 1", heads, rows)
@@ -287,11 +293,16 @@ def holzer_tables(table: HolzerTable) -> Iterator[Table]:
     """Holzer's table: discs, then shafts."""
     columns = (table.inertia, table.inertia_squared, table.amplitude, table.torque)
     rows: list[Row] = [
-        (name, "", *(f"{column[n]:.6g}" for column in columns)) for n, name in enumerate(table.discs)
+        (name, "", *(_signed(f"{column[n]:.6g}") for column in columns)) for n, name in enumerate(table.discs)
     ]
-    rows.append(("left over at " + table.end, "", "", "", "", f"{table.residual_torque:.6g}"))
+    rows.append(("residual at " + table.end, "", "", "", "", _signed(f"{table.residual_torque:.6g}")))
     heads: Row = ("disc", "", "J [kg m²]", "J ω² [N m/rad]", "amplitude θ", "J ω² θ [N m]")
     yield Table("holzer_discs", f"Holzer's table at {table.frequency:.6g} Hz", heads, rows)
     of_shafts = (table.stiffness, table.twist, table.shaft_torque)
-    rows = [(name, "", *(f"{column[n]:.6g}" for column in of_shafts)) for n, name in enumerate(table.shafts)]
-    yield Table("holzer_shafts", "Its shafts", ("shaft", "", "k [N m/rad]", "twist", "torque [N m]"), rows)
+    rows = [
+        (name, "", *(_signed(f"{column[n]:.6g}") for column in of_shafts))
+        for n, name in enumerate(table.shafts)
+    ]
+    yield Table(
+        "holzer_shafts", "Holzer's table: shafts", ("shaft", "", "k [N m/rad]", "twist", "torque [N m]"), rows
+    )
