@@ -13,7 +13,7 @@ from scipy.integrate import cumulative_simpson, quad, solve_ivp
 from scipy.interpolate import CubicSpline
 
 from linkwright.kernel.errors import InputError, MachineError
-from linkwright.torsion.model.engine import cycle_mesh, speed_points
+from linkwright.torsion.model.engine import combustion, cycle_pressure
 from linkwright.torsion.model.engine.closed_cycle import GAS_CONSTANT, STOICHIOMETRIC, ClosedTrace, heat_ratio
 from linkwright.torsion.model.engine.combustion import Combustion
 from linkwright.torsion.model.engine.cycle_pressure import peak
@@ -179,8 +179,8 @@ def test_mesh_is_fine_enough(monkeypatch: pytest.MonkeyPatch) -> None:
     """Panels of a third of the width change no harmonic by more than 1e-8 of the largest."""
     gas = diesel(walls=WOSCHNI)
     coarse = torque(gas)
-    monkeypatch.setattr(cycle_mesh, "_CLOSED", math.radians(2.0))
-    monkeypatch.setattr(cycle_mesh, "_OPEN", math.radians(3.0))
+    monkeypatch.setattr(cycle_pressure, "_CLOSED", math.radians(2.0))
+    monkeypatch.setattr(cycle_pressure, "_OPEN", math.radians(3.0))
     fine = torque(gas)
     for each in ("firing", "motored"):
         # Orders beyond 24 are for those who ask; up to there the open cylinder's panels leave 1e-8.
@@ -201,7 +201,7 @@ def test_few_speeds_for_many(
     gas, speeds = diesel(mean_effective_pressure=16e5, **entries), np.linspace(least, 200, 60)
     few = gas.cycle_pressure(cylinder(), speeds)
     assert len(few.traces) == 14
-    monkeypatch.setattr(speed_points, "_ALONE", 100)
+    monkeypatch.setattr(combustion, "_ALONE", 100)
     all_of_them = gas.cycle_pressure(cylinder(), speeds)
     assert len(all_of_them.traces) == 120
     a, b = (gas_torque(each, cylinder()).firing for each in (few, all_of_them))
