@@ -147,6 +147,51 @@ fn flywheel_under_constant_torque_has_its_closed_form() {
     assert!((path.phi[n] / (0.5 * epsilon * t * t) - 1.0).abs() < 1e-12, "φ = {}", path.phi[n]);
 }
 
+/// A flywheel of 1 kg m² on a motor with the torque k (1 − ω/10): ω = 10 (1 − exp(−k t/10)), however steep, at the ends of the
+/// steps and between them; thousands of revolutions at a speed that does not change take few steps.
+#[test]
+fn a_steep_motor_follows_its_closed_form() {
+    for k in [1e2, 1e5, 1e8, 1e11] {
+        let mut b = Builder::new();
+        b.crank(0.1, 0.0);
+        let (torque, inverse_speed) = (b.number(k), b.number(0.1));
+        let built = b.finish(Motor::Line { torque, inverse_speed }, [1.0, 1.0, 1.0, 1.0, 10.0]);
+        let path = follow(&built.plan, &built.q, &from_rest(100.0, FOREVER));
+        assert_eq!(path.end, End::Time, "steepness {k:e}");
+        let exact = |t: f64| {
+            let (rate, gone) = (0.1 * k, (-0.1 * k * t).exp_m1());
+            [10.0 * (t + gone / rate), -10.0 * gone]
+        };
+        for i in 0..path.t.len() {
+            let (t, [angle, speed]) = (path.t[i], exact(path.t[i]));
+            // 1e-10 a step over some tens of steps.
+            assert!(
+                (path.omega[i] - speed).abs() < 1e-7,
+                "{k:e}: speed {} for {speed} at {t}",
+                path.omega[i]
+            );
+            assert!((path.phi[i] - angle).abs() < 1e-7, "{k:e}: angle {} for {angle} at {t}", path.phi[i]);
+        }
+        for (i, between) in path.between.iter().enumerate() {
+            let h = path.t[i + 1] - path.t[i];
+            for share in [0.03, 0.4, 0.77] {
+                let [angle, speed] = exact(path.t[i] + share * h);
+                let rise = |factors: &[f64; 7]| {
+                    let term = |(i, factor): (usize, &f64)| {
+                        factor * share.powi(i as i32 / 2 + 1) * (1.0 - share).powi((i as i32 + 1) / 2)
+                    };
+                    factors.iter().enumerate().map(term).sum::<f64>()
+                };
+                let off =
+                    [path.phi[i] + rise(&between[0]) - angle, path.omega[i] + rise(&between[1]) - speed];
+                assert!(off.iter().all(|off| off.abs() < 1e-7), "{k:e}: off by {off:?} inside step {i}");
+            }
+        }
+        assert!(path.t.len() < 200, "{k:e}: {} steps", path.t.len());
+        assert!(path.steps_implicit > 0, "{k:e}: {} implicit steps", path.steps_implicit);
+    }
+}
+
 /// Run-down under dry friction on the crank: stops after ω²J/(2M) radians, and stays.
 #[test]
 fn dry_brake_stops_after_its_closed_form() {

@@ -263,7 +263,8 @@ pub(crate) fn transient(
     let q = plan.parameters(&q)?;
     let start = Start { phi, omega, duration, turns, accuracy };
     let path = guarded(py, "motion in time", || follow(&plan.0, q, &start))?;
-    let Trajectory { t, phi, omega, epsilon, between, end, drive_torque, load_torque, evaluations } = path;
+    let Trajectory { t, phi, omega, epsilon, between, end, drive_torque, load_torque, evaluations, .. } =
+        path;
     let steps = between.len();
     let between = column(py, between.into_flattened().into_flattened()).reshape([steps, 14])?;
     Ok(MotionInTime {

@@ -102,6 +102,11 @@ class Transient(Result):
         return float(self.crank_angle[-1] - self.crank_angle[0]) / (2 * np.pi)
 
     @property
+    def steps(self) -> Annotated[int, Shown("steps", "", "")]:
+        """Steps of the solver."""
+        return len(self.time) - 1
+
+    @property
     def came_to_rest(self) -> bool:
         """Whether the machine never moved or came to rest."""
         return self.end in (End.DOES_NOT_START, End.STARTS_BACKWARDS, End.STALL, End.REVERSAL)
@@ -122,7 +127,7 @@ class Transient(Result):
         References
         ----------
         .. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.6: the polynomial of
-        order 7 of DOP853.
+        order 7 of DOP853; II.7: that of collocation.
         """
         t = np.asarray(time, dtype=np.float64)
         if len(self.time) == 1:
@@ -179,6 +184,7 @@ def transient(
     References
     ----------
     .. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5 (DOP853).
+    .. [2] Hairer, Wanner, Solving Ordinary Differential Equations II, IV.5 (Radau IIA, for stiff drives).
     """
     if duration == turns == np.inf:
         raise InputError("duration, turns: found neither, expected one of them as the end of the motion")
@@ -206,7 +212,7 @@ def transient(
         raise ConvergenceError(
             f"the motion was given up at {found.time[-1]:.6g} s: steps became too small or too many for an "
             f"accuracy of {accuracy:g}",
-            method="DOP853",
+            method="DOP853 and Radau IIA",
             iterations=len(found.time),
         )
     return Transient(

@@ -147,6 +147,11 @@ impl<Y: State> Stages<Y> {
         &mut self.k[S]
     }
 
+    /// The derivative at the end of the step, once it has been filled in.
+    pub fn end_rate(&self) -> Y {
+        self.k[S].clone()
+    }
+
     /// Lets the end of the step be the start of the next.
     pub fn advance(&mut self) {
         self.k.swap(0, S);
@@ -292,7 +297,12 @@ pub struct Trial<const N: usize> {
 /// Factor for the next step: nine tenths of the length that would just meet the tolerance, at most six times
 /// longer, at least a tenth.
 pub fn next_factor(error: f64) -> f64 {
-    if error.is_nan() { 0.1 } else { (0.9 * error.powf(-1.0 / 8.0)).clamp(0.1, 6.0) }
+    next_factor_of(error, 8.0)
+}
+
+/// The same for an error that grows with this power of the length.
+pub fn next_factor_of(error: f64, power: f64) -> f64 {
+    if error.is_nan() { 0.1 } else { (0.9 * error.powf(-1.0 / power)).clamp(0.1, 6.0) }
 }
 
 #[cfg(test)]

@@ -1,4 +1,6 @@
 //! Steps of any length from one instant, and the polynomial of the one that was tried last.
+//!
+//! [`Attempts`] is what events are met with; here by the explicit method, in [`super::stiff`] by the implicit one.
 
 use super::equation::{Equation, Y};
 use crate::kernel::rk::{Stages, Trial, over, worse};
@@ -6,44 +8,80 @@ use crate::kernel::rk::{Stages, Trial, over, worse};
 /// Share of the working speed that is added to a speed before the accuracy is taken of it.
 const SMALL: f64 = 0.01;
 
-/// Attempts from `(t, y)`.
-pub struct Attempt<'a, 'm> {
+/// A step, or a part of one, that one polynomial describes.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    /// Length \[s\].
+    pub h: f64,
+    /// State at its end.
+    pub y: Y,
+    /// Derivative there.
+    pub rate: Y,
+    /// Polynomials of angle and speed.
+    pub between: [[f64; 7]; 2],
+}
+
+/// Steps of any length from one instant.
+pub trait Attempts {
+    /// Tries a length.
+    fn to(&mut self, h: f64) -> Trial<2>;
+
+    /// Times since the start and speeds where the pieces of the length tried last end.
+    fn speeds(&self) -> Vec<(f64, f64)>;
+
+    /// Makes the polynomials of the length tried last, which led to `end`; the error on the way over the tolerance.
+    fn fill(&mut self, h: f64, end: &Y) -> f64;
+
+    /// The pieces, after [`Attempts::fill`].
+    fn pieces(&self) -> Vec<Piece>;
+
+    /// Order of the error that `fill` tells.
+    fn order(&self) -> f64;
+}
+
+/// Attempts from `(t, y)` by the explicit method.
+pub struct ExplicitAttempt<'a, 'm> {
     equation: &'a mut Equation<'m>,
     stages: Stages<Y>,
     from: (f64, Y),
     accuracy: f64,
-    speed_scale: f64,
+    aside: f64,
+    /// Length and end of what was tried last.
+    tried: (f64, Y),
 }
 
-impl<'a, 'm> Attempt<'a, 'm> {
+impl<'a, 'm> ExplicitAttempt<'a, 'm> {
     /// From an instant, its state and the derivative there.
-    pub fn new(
-        equation: &'a mut Equation<'m>,
-        (t, y, rate): (f64, &Y, &Y),
-        accuracy: f64,
-        speed_scale: f64,
-    ) -> Self {
+    pub fn new(equation: &'a mut Equation<'m>, (t, y, rate): (f64, &Y, &Y), accuracy: f64) -> Self {
         let mut stages = Stages::new(y);
         *stages.start() = *rate;
-        Attempt { equation, stages, from: (t, *y), accuracy, speed_scale }
+        let aside = aside_of(equation.speed_scale);
+        ExplicitAttempt { equation, stages, from: (t, *y), accuracy, aside, tried: (0.0, *y) }
     }
+}
 
-    /// Tries a length.
-    pub fn to(&mut self, h: f64) -> Trial<2> {
+impl Attempts for ExplicitAttempt<'_, '_> {
+    fn to(&mut self, h: f64) -> Trial<2> {
         let (t, y) = self.from;
-        let (accuracy, aside) = (self.accuracy, SMALL * self.speed_scale);
+        let (accuracy, aside) = (self.accuracy, self.aside);
         let mut end = y;
         let equation = &mut *self.equation;
         let mut f = |t: f64, y: &Y, to: &mut Y| *to = equation.derivative(t, y);
         let scale = |n: usize, size: f64| tolerance(accuracy, aside, n, size);
         let error = self.stages.try_step(&mut f, (t, &y), h, &scale, &mut end);
+        self.tried = (h, end);
         Trial { y: end, error }
     }
 
-    /// Makes the polynomial of the length tried last, which led to `end`; its error on the way over the tolerance.
-    pub fn fill(&mut self, h: f64, end: &Y) -> f64 {
+    fn speeds(&self) -> Vec<(f64, f64)> {
+        let (h, end) = self.tried;
+        vec![(h, end[1])]
+    }
+
+    fn fill(&mut self, h: f64, end: &Y) -> f64 {
+        self.tried = (h, *end);
         let (t, y) = self.from;
-        let (accuracy, aside) = (self.accuracy, SMALL * self.speed_scale);
+        let (accuracy, aside) = (self.accuracy, self.aside);
         let equation = &mut *self.equation;
         *self.stages.end() = equation.derivative(t + h, end);
         let mut f = |t: f64, y: &Y, to: &mut Y| *to = equation.derivative(t, y);
@@ -55,13 +93,23 @@ impl<'a, 'm> Attempt<'a, 'm> {
         self.stages.error_between(&mut f, (t, &y), h, &measure)
     }
 
-    /// Derivative at the end, and polynomials of angle and speed, after [`Attempt::fill`].
-    pub fn ended(&mut self) -> (Y, [[f64; 7]; 2]) {
-        (*self.stages.end(), [0, 1].map(|n| self.stages.polynomial(n)))
+    fn pieces(&self) -> Vec<Piece> {
+        let (h, y) = self.tried;
+        let between = [0, 1].map(|n| self.stages.polynomial(n));
+        vec![Piece { h, y, rate: self.stages.end_rate(), between }]
+    }
+
+    fn order(&self) -> f64 {
+        8.0
     }
 }
 
+/// Speed that is added to a speed before the accuracy is taken of it.
+pub fn aside_of(speed_scale: f64) -> f64 {
+    SMALL * speed_scale
+}
+
 /// Error that the angle (0) or the speed (1) may have.
-fn tolerance(accuracy: f64, aside: f64, n: usize, size: f64) -> f64 {
+pub fn tolerance(accuracy: f64, aside: f64, n: usize, size: f64) -> f64 {
     if n == 0 { accuracy } else { accuracy * (size + aside) }
 }

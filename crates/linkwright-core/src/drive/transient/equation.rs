@@ -2,7 +2,9 @@
 
 use crate::drive::cycle::Machine;
 use crate::drive::law::Given;
+use crate::kernel::dual::Dual;
 use crate::kernel::plane::Angle;
+use crate::kernel::real::Lift;
 use crate::linkage::motion::Motion;
 
 /// Angle and speed of the crank.
@@ -35,9 +37,25 @@ impl Equation<'_> {
         [omega, net / r.J]
     }
 
+    /// ε, and ∂ε/∂ω.
+    pub fn acceleration(&mut self, t: f64, y: &Y) -> (f64, f64) {
+        let Machine { plan, q } = self.machine;
+        self.evaluations += 1;
+        let (phi, omega) = (y[0], Dual::variable(y[1]));
+        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut self.motion);
+        let mut net = plan.drive.torque(&plan.tables, q, omega)
+            - Dual::constant(r.load + r.dry)
+            - omega * r.viscous
+            - omega * omega * (0.5 * r.J_d1);
+        if !plan.laws.is_empty() {
+            net = net - self.laws(Dual::constant(t), phi, omega);
+        }
+        (net.value / r.J, net.d / r.J)
+    }
+
     /// Torque of the laws at an angle for which the mechanism has been placed.
     #[inline(never)]
-    fn laws(&mut self, t: f64, phi: f64, omega: f64) -> f64 {
+    fn laws<N: Lift<f64>>(&mut self, t: N, phi: f64, omega: N) -> N {
         let Machine { plan, q } = self.machine;
         self.given.clear();
         plan.give(q, phi, &self.motion, &mut self.given);

@@ -4,7 +4,8 @@
 //! dφ/dt = ω,   dω/dt = ε = [M_d(ω) − M_r(φ, ω) − ½ J′(φ) ω²] / J(φ)
 //! ```
 //!
-//! by [`crate::kernel::rk`] with these events met exactly by the end of a step: kinks over the angle (dead centres
+//! by [`crate::kernel::rk`], or by [`crate::kernel::radau`] where the drive is so steep that stability would limit the steps of the
+//! former and not their error, with these events met exactly by the end of a step: kinks over the angle (dead centres
 //! under dry friction, knots of tables), speeds at which the drive's characteristic has a kink, standstill. A step whose
 //! speed passes such a speed and comes back inside is cut where the speed turns.
 //! At standstill the dry loads decide: what is left of the drive's torque must exceed them to move on.
@@ -12,21 +13,24 @@
 //! | module | answers |
 //! | --- | --- |
 //! | [`equation`] | the equation of motion, and which way the machine goes from rest |
-//! | [`attempt`] | steps of any length from one instant |
+//! | [`attempt`] | steps of any length from one instant, by the explicit method |
+//! | [`stiff`] | the same by the implicit one |
 //! | [`turns`] | where the speed turns inside a step, past a kink or not |
 
 pub mod attempt;
 pub mod equation;
+pub mod stiff;
 pub mod turns;
 
-use self::attempt::Attempt;
+use self::attempt::{Attempts, ExplicitAttempt, Piece};
 use self::equation::{AT_REST, Equation, Y};
+use self::stiff::StiffAttempt;
 use self::turns::{Bernstein, passed_and_back};
 use crate::drive::cycle::Machine;
 use crate::drive::mesh::crossing;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
-use crate::kernel::rk::{Trial, next_factor};
+use crate::kernel::rk::{Trial, next_factor_of};
 use crate::linkage::motion::Motion;
 use std::f64::consts::TAU;
 
@@ -83,6 +87,8 @@ pub struct Trajectory {
     pub epsilon: Vec<f64>,
     /// Of each step the polynomials of angle and speed ([`crate::kernel::rk::Stages::component`]).
     pub between: Vec<[[f64; 7]; 2]>,
+    /// How many of the steps are by the implicit method.
+    pub steps_implicit: usize,
     pub end: End,
     /// Drive's torque at the crank where the motion ended \[N m\].
     pub drive_torque: f64,
@@ -124,17 +130,19 @@ struct Path {
     speed_scale: f64,
 }
 
-/// A step that was accepted, and whether it ended at standstill.
+/// A step that was accepted, in one piece or two, and whether it ended at standstill.
 struct Accepted {
-    h: f64,
-    y: Y,
-    /// Derivative at its end.
-    rate: Y,
-    between: [[f64; 7]; 2],
+    pieces: Vec<Piece>,
     /// Length to try next.
     next: f64,
     at_rest: bool,
 }
+
+/// What an explicit step may have of h ∂ε/∂ω: DOP853 is stable up to about 6, and its error grows large before.
+const STABLE: f64 = 4.0;
+
+/// Steps after which it is looked again whether these are stiff: a look costs one evaluation, a step 17.
+const LOOK: usize = 8;
 
 impl Path {
     fn new(plan: &Plan, q: &[f64], start: &Start, kinks: Vec<f64>) -> Self {
@@ -144,6 +152,7 @@ impl Path {
             omega: vec![start.omega],
             epsilon: Vec::new(),
             between: Vec::new(),
+            steps_implicit: 0,
             end: End::Time,
             drive_torque: f64::NAN,
             load_torque: f64::NAN,
@@ -180,7 +189,8 @@ impl Path {
         let mut h = 0.01 / self.speed_scale;
         let (_, y) = self.now();
         let mut k0 = follower.derivative(0.0, &y);
-        for _ in 0..STEPS_MAX {
+        let mut is_stiff = false;
+        for count in 0..STEPS_MAX {
             poll();
             self.trajectory.epsilon.push(k0[1]);
             let (t, y) = self.now();
@@ -188,7 +198,10 @@ impl Path {
                 self.trajectory.end = end;
                 return;
             }
-            let step = match self.step(follower, (t, &y, &k0), h) {
+            if is_stiff || count % LOOK == 0 {
+                is_stiff = follower.acceleration(t, &y).1 * h < -STABLE;
+            }
+            let step = match self.step(follower, (t, &y, &k0), h, is_stiff) {
                 Ok(step) => step,
                 Err(end) => {
                     self.trajectory.end = end;
@@ -196,20 +209,34 @@ impl Path {
                 }
             };
             h = step.next;
-            self.trajectory.t.push(t + step.h);
-            self.trajectory.phi.push(step.y[0]);
-            self.trajectory.omega.push(step.y[1]);
-            self.trajectory.between.push(step.between);
-            k0 = step.rate;
+            k0 = self.keep(&step.pieces, is_stiff);
             if step.at_rest {
+                let (t, y) = self.now();
                 self.trajectory.epsilon.push(k0[1]);
-                if self.stays_at_rest(follower, t + step.h, step.y[0]) {
+                if self.stays_at_rest(follower, t, y[0]) {
                     return;
                 }
                 self.trajectory.epsilon.pop();
             }
         }
         self.trajectory.end = End::Inaccurate;
+    }
+
+    /// Adds a step to the motion but for the acceleration at its end; the derivative there.
+    fn keep(&mut self, pieces: &[Piece], is_stiff: bool) -> Y {
+        let (mut t, path) = (self.now().0, &mut self.trajectory);
+        for (k, piece) in pieces.iter().enumerate() {
+            t += piece.h;
+            path.t.push(t);
+            path.phi.push(piece.y[0]);
+            path.omega.push(piece.y[1]);
+            path.between.push(piece.between);
+            path.steps_implicit += usize::from(is_stiff);
+            if k + 1 < pieces.len() {
+                path.epsilon.push(piece.rate[1]);
+            }
+        }
+        pieces[pieces.len() - 1].rate
     }
 
     fn is_over(&self, t: f64, y: &Y, k0: &Y) -> Option<End> {
@@ -233,19 +260,33 @@ impl Path {
         way < 1
     }
 
-    /// The next accepted step from `from`, of length at most `longest`; or why none is: it errs too much, or the machine
-    /// has no acceleration however near.
+    /// The next accepted step from `from`, of length at most `longest`; or why none is.
     fn step(
         &self,
         follower: &mut Equation<'_>,
         from: (f64, &Y, &Y),
+        longest: f64,
+        is_stiff: bool,
+    ) -> Result<Accepted, End> {
+        let (t, y, _) = from;
+        if is_stiff {
+            self.step_by(&mut StiffAttempt::new(follower, (t, y), self.accuracy), from, longest)
+        } else {
+            self.step_by(&mut ExplicitAttempt::new(follower, from, self.accuracy), from, longest)
+        }
+    }
+
+    /// The next step by either method; none where it errs too much, or the machine has no acceleration however near.
+    fn step_by(
+        &self,
+        attempt: &mut impl Attempts,
+        (t, y, k0): (f64, &Y, &Y),
         mut longest: f64,
     ) -> Result<Accepted, End> {
-        let (t, y, k0) = from;
         let target = self.next_angle(y[0]);
         let rest = self.last_time - t;
         let landing = time_to(target - y[0], y[1], k0[1]);
-        let mut attempt = Attempt::new(follower, from, self.accuracy, self.speed_scale);
+        let order = attempt.order();
         let mut growth_max = f64::INFINITY;
         let mut reason = End::Inaccurate;
         // Forty reductions by a tenth to nine tenths reach any length that still changes t.
@@ -253,7 +294,7 @@ impl Path {
             let mut h = longest.min(rest).min(landing);
             let mut trial = attempt.to(h);
             if trial.error.is_nan() || trial.error > 1.0 {
-                (longest, growth_max) = (h * next_factor(trial.error).min(0.9), 1.0);
+                (longest, growth_max) = (h * next_factor_of(trial.error, order).min(0.9), 1.0);
                 reason = End::of_error(trial.error);
                 continue;
             }
@@ -261,35 +302,28 @@ impl Path {
             if trial.y[0] > target || h == landing {
                 let is_last = target == self.last_angle;
                 let near = if is_last { LANDING } else { NEAR * self.accuracy.sqrt() };
-                (trial, h) = land(&mut attempt, trial, h, (target, near));
+                (trial, h) = land(attempt, trial, h, (target, near));
             }
-            let event = self.first_speed_event(&mut attempt, y[1], &trial, h);
+            let event = self.first_speed_event(attempt, y[1]);
             let mut end = trial.y;
             if let Some((at, speed)) = event {
                 (h, end) = (at, [attempt.to(at).y[0], speed]);
             }
             let on_the_way = attempt.fill(h, &end);
             if on_the_way.is_nan() || on_the_way > 1.0 {
-                (longest, growth_max) = (h * next_factor(on_the_way).min(0.9), 1.0);
+                (longest, growth_max) = (h * next_factor_of(on_the_way, order).min(0.9), 1.0);
                 reason = End::of_error(on_the_way);
                 continue;
             }
-            let (rate, between) = attempt.ended();
-            if let Some(share) = self.passed_inside(y[1], &between[1]) {
+            let pieces = attempt.pieces();
+            if let Some(share) = self.passed_inside(y[1], &pieces) {
                 longest = h * share;
                 continue;
             }
             // A step cut short by an event says nothing about the length that the next may have.
-            let grown = tried * next_factor(trial.error.max(on_the_way)).min(growth_max);
+            let grown = tried * next_factor_of(trial.error.max(on_the_way), order).min(growth_max);
             let next = if tried < longest { grown.max(longest) } else { grown };
-            return Ok(Accepted {
-                h,
-                y: end,
-                rate,
-                between,
-                next,
-                at_rest: event.is_some() && end[1] == 0.0,
-            });
+            return Ok(Accepted { pieces, next, at_rest: event.is_some() && end[1] == 0.0 });
         }
         Err(reason)
     }
@@ -303,34 +337,42 @@ impl Path {
         kink.min(self.last_angle)
     }
 
-    /// The earliest time in the step at which the speed passes a kink of the drive or zero, and that speed.
-    fn first_speed_event(
-        &self,
-        attempt: &mut Attempt<'_, '_>,
-        omega: f64,
-        trial: &Trial<2>,
-        h: f64,
-    ) -> Option<(f64, f64)> {
-        let mut first: Option<(f64, f64)> = None;
-        let is_past = |speed: f64| {
-            // A step that starts on the speed itself, to rounding, is not passing it.
-            let apart = (omega - speed).abs() > AT_REST * self.speed_scale;
-            apart && (omega - speed) * (trial.y[1] - speed) < 0.0
-        };
-        for speed in self.speeds.iter().copied().chain([0.0]).filter(|&speed| is_past(speed)) {
-            let excess = |x: f64| attempt.to(x).y[1] - speed;
-            let at = crossing(excess, h, omega - speed, trial.y[1] - speed);
-            if first.is_none_or(|(earliest, _)| at < earliest) {
-                first = Some((at, speed));
+    /// The earliest time in the step tried last at which the speed passes a kink of the drive or zero, and that speed.
+    fn first_speed_event(&self, attempt: &mut impl Attempts, omega: f64) -> Option<(f64, f64)> {
+        let (mut from, mut left) = (0.0, omega);
+        for (to, right) in attempt.speeds() {
+            let is_past = |speed: f64| {
+                // A step that starts on the speed itself, to rounding, is not passing it.
+                let apart = (left - speed).abs() > AT_REST * self.speed_scale;
+                apart && (left - speed) * (right - speed) < 0.0
+            };
+            let passed = self.speeds.iter().copied().chain([0.0]).filter(|&speed| is_past(speed));
+            let time = |speed: f64| {
+                let excess = |x: f64| attempt.to(from + x).y[1] - speed;
+                (from + crossing(excess, to - from, left - speed, right - speed), speed)
+            };
+            let first = passed.map(time).min_by(|a, b| a.0.total_cmp(&b.0));
+            if first.is_some() {
+                return first;
             }
+            (from, left) = (to, right);
         }
-        first
+        None
     }
 
     /// The share of the step at which to cut it, where its speed passes a kink of the drive or zero and comes back.
-    fn passed_inside(&self, omega: f64, between: &[f64; 7]) -> Option<f64> {
-        let kinks = self.speeds.iter().copied().chain([0.0]);
-        passed_and_back(&Bernstein::new(omega, between), kinks, AT_REST * self.speed_scale)
+    fn passed_inside(&self, omega: f64, pieces: &[Piece]) -> Option<f64> {
+        let whole: f64 = pieces.iter().map(|piece| piece.h).sum();
+        let (mut from, mut start) = (0.0, omega);
+        for piece in pieces {
+            let kinks = self.speeds.iter().copied().chain([0.0]);
+            let speed = Bernstein::new(start, &piece.between[1]);
+            if let Some(share) = passed_and_back(&speed, kinks, AT_REST * self.speed_scale) {
+                return Some((from + share * piece.h) / whole);
+            }
+            (from, start) = (from + piece.h, piece.y[1]);
+        }
+        None
     }
 
     fn finish(mut self, follower: &mut Equation<'_>) -> Trajectory {
@@ -357,7 +399,7 @@ fn time_to(angle: f64, omega: f64, epsilon: f64) -> f64 {
 
 /// Newton on the length of the step until it ends on the target angle.
 fn land(
-    attempt: &mut Attempt<'_, '_>,
+    attempt: &mut impl Attempts,
     mut trial: Trial<2>,
     mut h: f64,
     (target, near): (f64, f64),

@@ -1,0 +1,93 @@
+"""Motion in time where the drive holds its speed fast, against SciPy's Radau on its own equations."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import linkwright as lw
+
+MACHINES = Path(__file__).parents[2] / "machines"
+
+# A DC motor on a crank with a Scotch yoke of sliding mass: inertia and load are sines, all is known.
+R, MASS, INERTIA, NO_LOAD, SPRING, DRAG = 0.2, 30.0, 0.7, 12.0, 4e3, 60.0
+
+
+def yoke(stall: float) -> lw.Machine:
+    return lw.loads(f"""
+    format = 1
+    name = "yoke on a steep motor"
+    [drive.motor]
+    kind = "dc"
+    speed_no_load = {NO_LOAD}
+    torque_stall = {stall}
+    [drive.flywheel]
+    inertia = {INERTIA}
+    [mechanism.cranks.A]
+    radius = {R}
+    [mechanism.sliders.S]
+    crank = "A"
+    rod = 1.0
+    [bodies]
+    A = {{ mass = {MASS} }}
+    [loads]
+    gravity = {{ kind = "gravity" }}
+    oil = {{ kind = "formula", on = "A", torque = "-{DRAG} * (1 + sin(phi)^2) * omega^2 / 10" }}
+    """)
+
+
+def own_motion(stall: float, times: np.ndarray) -> np.ndarray:
+    """Angle and speed: a mass point on the crank under gravity, a load by ω², a straight characteristic."""
+    J = INERTIA + MASS * R**2
+
+    def rate(_t: float, y: np.ndarray) -> list[float]:
+        phi, omega = y
+        torque = stall * (1 - omega / NO_LOAD) - MASS * 9.80665 * R * np.cos(phi)
+        return [omega, (torque - DRAG * (1 + np.sin(phi) ** 2) * omega**2 / 10) / J]
+
+    def jacobian(_t: float, y: np.ndarray) -> list[list[float]]:
+        phi, omega = y
+        by_angle = MASS * 9.80665 * R * np.sin(phi) - DRAG * np.sin(2 * phi) * omega**2 / 10
+        by_speed = -stall / NO_LOAD - DRAG * (1 + np.sin(phi) ** 2) * omega / 5
+        return [[0.0, 1.0], [by_angle / J, by_speed / J]]
+
+    found = solve_ivp(
+        rate, (0, times[-1]), [0.0, 0.0], "Radau", times, jac=jacobian, rtol=1e-11, atol=1e-12, max_step=0.02
+    )
+    return np.asarray(found.y)
+
+
+@pytest.mark.parametrize("stall", [1e4, 1e6, 1e8])
+def test_a_steep_motor_against_radau(stall: float) -> None:
+    path = lw.transient(yoke(stall), duration=2.0, accuracy=1e-9)
+    times = np.linspace(0.0, 2.0, 101)
+    angle, speed = own_motion(stall, times)
+    found = path.at(times)
+    # SciPy's Radau is of order 5 and keeps 1e-11 a step, over hundreds of steps.
+    np.testing.assert_allclose(found[1], speed, rtol=0, atol=3e-8 * NO_LOAD)
+    np.testing.assert_allclose(found[0], angle, rtol=0, atol=3e-8 * angle[-1])
+    # Four revolutions; by an explicit method at 1e8 a million steps.
+    assert len(path.time) < 1500
+
+
+@pytest.mark.parametrize(
+    ("entry", "value"),
+    [
+        ("drive.motor.torque_breakdown", 2.154e6),
+        ("drive.gearbox.efficiency", 9000.0),
+        ("drive.gearbox.ratio", 98000),
+    ],
+)
+def test_a_run_up_at_the_end_of_a_range_takes_few_steps(entry: str, value: float) -> None:
+    """381 554, 381 545 and 316 983 steps by an explicit method."""
+    machine = lw.read(MACHINES / "roller_one_cart.toml")
+    result = lw.run_up(lw.replace(machine, {entry: value}))
+    assert len(result.crank_time) < 3000
+    # It settles at the steady motion, which another solver finds.
+    steady = lw.steady_state(lw.replace(machine, {entry: value}))
+    last = float(result.motion.speed[-1])
+    there = np.interp(result.motion.crank_angle[-1] % (2 * np.pi), steady.crank_angle, steady.speed)
+    assert last == pytest.approx(there, rel=1e-6)
