@@ -148,7 +148,7 @@ fn flywheel_under_constant_torque_has_its_closed_form() {
 }
 
 /// A flywheel of 1 kg m² on a motor with the torque k (1 − ω/10): ω = 10 (1 − exp(−k t/10)), however steep, at the ends of the
-/// steps and between them; thousands of revolutions at a speed that does not change take few steps.
+/// steps and between them; each of the 159 revolutions takes a step in two halves, hardly more.
 #[test]
 fn a_steep_motor_follows_its_closed_form() {
     for k in [1e2, 1e5, 1e8, 1e11] {
@@ -187,7 +187,7 @@ fn a_steep_motor_follows_its_closed_form() {
                 assert!(off.iter().all(|off| off.abs() < 1e-7), "{k:e}: off by {off:?} inside step {i}");
             }
         }
-        assert!(path.t.len() < 200, "{k:e}: {} steps", path.t.len());
+        assert!(path.t.len() < 500, "{k:e}: {} steps", path.t.len());
         assert!(path.steps_implicit > 0, "{k:e}: {} implicit steps", path.steps_implicit);
     }
 }
