@@ -42,4 +42,5 @@ def rows(quick: bool) -> list[Row]:
     times = seconds([product, theirs], repeats=3 if quick else 5)
     rates = [n / times[0] / 1e6, k / times[1] / 1e6]
     words = f"{n} cams of {len(LAWS)} laws at {N_ANGLES} angles: pressure angle, curvature, undercut"
-    return [Row("search over cams", "M cams/s", rates[0], "NumPy", rates[1], rates[0] / rates[1], note=words)]
+    ratio = rates[0] / rates[1]
+    return [Row("search over cams", "M cams/s", rates[0], "NumPy", rates[1], ratio, 6.0, "at least", words)]

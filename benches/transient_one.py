@@ -53,7 +53,7 @@ def compared(case: str, machine: lw.Machine, times: Any, repeats: int) -> list[R
     found = []
     for time, name, setting in chosen:
         note = f"loosest settings that keep {WANTED:g}: product {accuracy:g}, peer {setting:g}"
-        target = 50 if name != "exudyn" else None
+        target = 80 if name != "exudyn" else None
         found.append(faster(case, spent[0], name, time, target=target, note=note))
     if len(chosen) == 1:
         found.append(Row(case, "ms", 1e3 * spent[0], "exudyn is not installed or misses the accuracy"))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -34,6 +35,10 @@ Floats = NDArray[np.float64]
 # Speeds of a revolution at which the motor's torque is looked at for its extremes, and how often between the
 # neighbours of the best: an interval is a 32nd of that before.
 _SPEEDS_IN_TURN, _ZOOMS = 65, 7
+
+# Share of an interval beside its ends: what rises from both has its maximum between them. One that is nearer
+# to an end is met there to the square of this.
+_BESIDE = 1e-6
 
 # Speeds at which it is looked whether the drive can balance the mean load at all.
 _SPEEDS = 400
@@ -295,35 +300,56 @@ def _motor_extremes(
     assert machine.drive is not None
     assert machine.drive.motor is not None
     ratio = compiled.gear_factors[0]
-    marks = np.array(machine.drive.motor.speed_marks) / ratio
-    # A set, since `np.unique` imports masked arrays, which takes as long as a small study.
-    ends = np.array(sorted({low, high, *marks[(low < marks) & (marks < high)].tolist()}))
+    marks = [low, *sorted(mark / ratio for mark in machine.drive.motor.speed_marks), high]
+    ends = [each for each in marks if low <= each <= high]
 
     def torque(omega: Floats) -> Floats:
         return compiled.motor_torques(omega)[0]
 
+    def downwards(omega: Floats) -> Floats:
+        return -torque(omega)
+
     def power(omega: Floats) -> Floats:
         return torque(omega) * omega * ratio
 
-    return -_peak(lambda omega: -torque(omega), ends), _peak(torque, ends), _peak(power, ends)
+    speeds = np.array([x for a, b in pairwise(ends) for x in _ends_and_beside(a, b)])
+    torques = torque(speeds)
+    curves = ((downwards, -torques), (torque, torques), (power, torques * speeds * ratio))
+    down, up, most = (_highest(of, speeds.tolist(), values.tolist()) for of, values in curves)
+    return -down, up, most
 
 
-def _peak(of: Callable[[Floats], Floats], ends: Floats) -> float:
-    """Maximum of a function that has one at most on each of some intervals, those from end to end.
+def _ends_and_beside(low: float, high: float) -> tuple[float, float, float, float]:
+    """Both ends of an interval, and places beside them."""
+    near = (high - low) * _BESIDE
+    return low, low + near, high - near, high
 
-    The best sample of each interval, and again between its neighbours, 1e-9 of it in the end: a smooth peak
+
+def _highest(of: Callable[[Floats], Floats], x: list[float], y: list[float]) -> float:
+    """Maximum of a function that has one at most on each of some intervals.
+
+    `x` and `y` hold places and values of each interval: at its start, beside it, beside its end, at its end.
+    """
+    best = max(y)
+    for k in range(0, len(x), 4):
+        if y[k + 1] > y[k] and y[k + 2] > y[k + 3]:
+            best = max(best, _peak(of, x[k], x[k + 3]))
+    return best
+
+
+def _peak(of: Callable[[Floats], Floats], low: float, high: float) -> float:
+    """Maximum of a function that has one between two ends.
+
+    The best sample of the interval, and again between its neighbours, 1e-9 of it in the end: a smooth peak
     is met to the square of that.
     """
-    best = float(of(ends).max())
-    low, high = ends[:-1, None], ends[1:, None]
-    for _ in range(_ZOOMS if len(ends) > 1 else 0):
-        x = low + (high - low) * np.linspace(0.0, 1.0, _SPEEDS_IN_TURN)
-        y = of(x.ravel()).reshape(x.shape)
-        best = max(best, float(y.max()))
-        top = y.argmax(axis=1)[:, None]
-        low, high = (
-            np.take_along_axis(x, np.clip(top + side, 0, _SPEEDS_IN_TURN - 1), axis=1) for side in (-1, 1)
-        )
+    best = -np.inf
+    for _ in range(_ZOOMS):
+        x = np.linspace(low, high, _SPEEDS_IN_TURN)
+        y = of(x)
+        top = int(y.argmax())
+        best = max(best, float(y[top]))
+        low, high = x[max(top - 1, 0)], x[min(top + 1, _SPEEDS_IN_TURN - 1)]
     return best
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Annotated, Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.kernel.errors import MachineError, Problem, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, shown
+from linkwright.kernel.public.immutable import Looked
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Record
 from linkwright.linkages.closure import has_levers, require_closed
@@ -62,9 +64,9 @@ class Kinematics(Record):
     """Motion of a mechanism over given crank angles."""
 
     angles: Annotated[Floats, Shown("crank angles", "φ", "rad")]
-    points: Annotated[dict[str, PointMotion], About("Motion of each point.")]
-    links: Annotated[dict[str, LinkMotion], About("Motion of each link.")]
-    slides: Annotated[dict[str, SlideMotion], About("Motion of each slide.")]
+    points: Annotated[Mapping[str, PointMotion], About("Motion of each point.")]
+    links: Annotated[Mapping[str, LinkMotion], About("Motion of each link.")]
+    slides: Annotated[Mapping[str, SlideMotion], About("Motion of each slide.")]
 
 
 @public
@@ -143,7 +145,11 @@ def with_third(compiled: Compiled, found: Kinematics, what: list[tuple[str, str]
 
 def checked_angles(angles: ArrayLike) -> Floats:
     """Crank angles as a contiguous list. Raises ShapeError: they are no list of finite numbers."""
-    phi = array("crank angles", angles)
+    # Those that a public function has checked are an array of their own.
+    is_own = isinstance(angles, np.ndarray) and angles.dtype == np.float64 and not angles.flags.writeable
+    phi: Floats = np.asarray(angles) if is_own else array("crank angles", angles)
+    if is_own and not (phi.flags.c_contiguous and np.isfinite(phi).all()):
+        phi = array("crank angles", phi)
     if phi.ndim != 1:
         raise ShapeError(f"crank angles: found an array of shape {phi.shape}, expected a list")
     return phi
@@ -151,21 +157,30 @@ def checked_angles(angles: ArrayLike) -> Floats:
 
 def _collect(phi: Floats, table: Floats, what: list[tuple[str, str]]) -> Kinematics:
     """Rows of the core's table by name."""
-    found = Kinematics(phi, {}, {}, {})
+    makers: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
+    table.flags.writeable = False
     at = 0
     for part, name in what:
-        rows = table[..., at : at + _WIDTHS[part], :]
+        makers[part][name] = partial(_MOTIONS[part], table, at)
         at += _WIDTHS[part]
-        if part == "points":
-            # Views, not copies: x and y of a point lie one after the other.
-            pairs = [rows[..., i : i + 2, :].swapaxes(-1, -2) for i in (0, 2, 4)]
-            found.points[name] = PointMotion(*pairs)
-        elif part == "links":
-            angle = _continuous(np.arctan2(rows[..., 1, :], rows[..., 0, :]))
-            found.links[name] = LinkMotion(angle, rows[..., 2, :], rows[..., 3, :])
-        else:
-            found.slides[name] = SlideMotion(rows[..., 0, :], rows[..., 1, :], rows[..., 2, :])
-    return found
+    return Kinematics(phi, **{part: Looked(each) for part, each in makers.items()})
+
+
+def _point(table: Floats, at: int) -> PointMotion:
+    # Views, not copies: x and y of a point lie one after the other.
+    return PointMotion(*(table[..., i : i + 2, :].swapaxes(-1, -2) for i in (at, at + 2, at + 4)))
+
+
+def _link(table: Floats, at: int) -> LinkMotion:
+    angle = _continuous(np.arctan2(table[..., at + 1, :], table[..., at, :]))
+    return LinkMotion(angle, table[..., at + 2, :], table[..., at + 3, :])
+
+
+def _slide(table: Floats, at: int) -> SlideMotion:
+    return SlideMotion(*(table[..., i, :] for i in (at, at + 1, at + 2)))
+
+
+_MOTIONS = {"points": _point, "links": _link, "slides": _slide}
 
 
 def _continuous(angles: Floats) -> Floats:

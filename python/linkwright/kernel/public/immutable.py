@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
+from functools import cache
 from typing import Any, NoReturn, TypeVar
 
 import numpy as np
@@ -22,6 +24,42 @@ class Table(dict[K, V]):
 
     __setitem__ = __delitem__ = __ior__ = _refuse
     clear = pop = popitem = setdefault = update = _refuse
+
+    def __reduce__(self) -> tuple[type[Table[K, V]], tuple[dict[K, V]]]:
+        """Pickled and copied as a whole."""
+        return Table, (dict(self),)
+
+
+class Looked(Mapping[K, V]):
+    """A table whose entries are made when they are looked at, and kept.
+
+    Parameters
+    ----------
+    makers : dict of str to callable
+        What makes each entry.
+    """
+
+    __slots__ = ("_made", "_makers")
+
+    def __init__(self, makers: dict[K, Callable[[], V]]) -> None:
+        self._makers = makers
+        self._made: dict[K, V] = {}
+
+    def __getitem__(self, key: K) -> V:
+        if key not in self._made:
+            made = self._makers[key]()
+            freeze(made)
+            self._made[key] = made
+        return self._made[key]
+
+    def __iter__(self) -> Iterator[K]:
+        return iter(self._makers)
+
+    def __len__(self) -> int:
+        return len(self._makers)
+
+    def __repr__(self) -> str:
+        return repr(dict(self))
 
     def __reduce__(self) -> tuple[type[Table[K, V]], tuple[dict[K, V]]]:
         """Pickled and copied as a whole."""
@@ -69,9 +107,12 @@ def freeze(result: Any) -> None:
 
 def _inside(value: Any) -> Any:
     """The value with what it holds read-only."""
+    kind = type(value)
+    if kind in _PLAIN:
+        return value
     if isinstance(value, np.ndarray):
         value.flags.writeable = False
-    elif type(value) is dict:
+    elif kind is dict:
         return Table({key: _inside(each) for key, each in value.items()})
     else:
         freeze(value)
@@ -80,8 +121,18 @@ def _inside(value: Any) -> Any:
 
 def _fields(result: Any) -> None:
     """The fields of a frozen dataclass, once."""
-    for field in fields(result):
-        value = getattr(result, field.name, None)
+    for name in _names(type(result)):
+        value = getattr(result, name, None)
         frozen = _inside(value)
         if frozen is not value:
-            object.__setattr__(result, field.name, frozen)
+            object.__setattr__(result, name, frozen)
+
+
+# Kinds of values that hold nothing.
+_PLAIN = frozenset((float, int, str, bool, type(None)))
+
+
+@cache
+def _names(kind: Any) -> tuple[str, ...]:
+    """Names of the fields of a dataclass."""
+    return tuple(field.name for field in fields(kind))

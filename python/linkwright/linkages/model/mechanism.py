@@ -30,7 +30,7 @@ from linkwright.linkages.model.element import (
     SlottedLever,
     Yoke,
 )
-from linkwright.linkages.model.outline import ORIGIN, Outline
+from linkwright.linkages.model.outline import ORIGIN, TABLES, Outline
 
 if TYPE_CHECKING:
     from linkwright.cam.model.cam import Cam
@@ -108,8 +108,8 @@ class Mechanism(Description):
 
     def fixed_points(self) -> dict[str, FixedPoint]:
         """The points at rest by name, with the origin."""
-        own = dict(self.points)
-        return {name: own.get(name) or FixedPoint(x=0.0, y=0.0) for name in Outline.of(self).fixed_points}
+        bears = any(ORIGIN in getattr(self, table) for table in TABLES)
+        return ({} if bears else {ORIGIN: FixedPoint(x=0.0, y=0.0)}) | self.points
 
     def moving_points(self) -> tuple[str, ...]:
         """Names of the points that move."""

@@ -7,10 +7,9 @@ from row to row: one description serves a single machine and a batch.
 
 from __future__ import annotations
 
-import operator
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +20,6 @@ from linkwright.kernel.description.text import join
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.kinetostatics.model.loads.formula import FormulaLoad
 from linkwright.kinetostatics.model.loads.table import TorqueSpeed
-from linkwright.linkages.model.outline import TABLES
 from linkwright.machine.address import addresses
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.core import Element
@@ -201,11 +199,10 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
     """
     _require_mechanism(machine)
     try:
-        parts = _parts(machine)
         key = (id(machine), motor, brake)
         known = _known.get(key)
-        if known and len(known[0]) == len(parts) and all(map(operator.is_, known[0], parts)):
-            return known[1]
+        if known is not None and known.is_of(machine):
+            return known.compiled
         compiled = _translate(machine, motor=motor, brake=brake)
     except (ArithmeticError, ValueError, TypeError) as error:
         raise _not_usable(machine, str(error)) from None
@@ -216,7 +213,7 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
         return compiled
     if len(_known) >= _KNOWN_MAX:
         _known.pop(next(iter(_known)), None)
-    _known[key] = (parts, compiled)
+    _known[key] = _Known(machine, tuple((each, dict(each)) for each in _constants(machine)), compiled)
     return compiled
 
 
@@ -289,25 +286,27 @@ _RUNNING = (Element.Turn, Element.Runner, Element.Group, Element.Law)
 # Entries beyond this size, or below its reciprocal, are named when a machine cannot be computed.
 _SIZE_MAX = 1e100
 
-# Machines translated last, with the parts they were made of: frozen objects, so a machine of the same parts
-# is the same machine. A few suffice for analyses that follow one another on one machine.
-_known: dict[tuple[int, bool, bool], tuple[list[object], Compiled]] = {}
+
+class _Known(NamedTuple):
+    """A machine translated before: it is frozen, and the constants of its formulas are as they were then."""
+
+    machine: Machine
+    constants: tuple[tuple[Mapping[str, float], dict[str, float]], ...]
+    compiled: Compiled
+
+    def is_of(self, machine: Machine) -> bool:
+        """Whether a machine is the same, and its constants too."""
+        return self.machine is machine and all(now == then for now, then in self.constants)
+
+
+# Machines translated last. A few suffice for analyses that follow one another on one machine.
+_known: dict[tuple[int, bool, bool], _Known] = {}
 _KNOWN_MAX = 8
 
 
-def _parts(machine: Machine) -> list[object]:
-    """The frozen parts that a machine consists of, with their names."""
+def _constants(machine: Machine) -> list[Mapping[str, float]]:
+    """Constants of formulas: the one part of a description that can be changed in place."""
     mechanism = machine.linkage
-    parts: list[object] = [machine, machine.drive, mechanism.assembled_at]
-    tables = [getattr(mechanism, table) for table in TABLES]
-    for table in (*tables, machine.bodies, machine.loads):
-        parts.append(len(table))
-        if table:
-            parts += table
-            parts += table.values()
-    # Constants of formulas are the one part that can be changed in place.
     written: list[Any] = [*mechanism.cranks.values(), *mechanism.linear_drivers.values()]
     written += [load for load in machine.loads.values() if isinstance(load, FormulaLoad)]
-    for each in written:
-        parts += each.constants.values()
-    return parts
+    return [each.constants for each in written]
