@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
-from functools import cache
 from typing import Any, NoReturn, TypeVar
 
 import numpy as np
@@ -132,7 +131,11 @@ def _fields(result: Any) -> None:
 _PLAIN = frozenset((float, int, str, bool, type(None)))
 
 
-@cache
-def _names(kind: Any) -> tuple[str, ...]:
-    """Names of the fields of a dataclass."""
-    return tuple(field.name for field in fields(kind))
+def _names(kind: type) -> tuple[str, ...]:
+    """Names of the fields of a dataclass; looking them up once takes as long as a small call."""
+    if kind not in _known_names:
+        _known_names[kind] = tuple(field.name for field in fields(kind))
+    return _known_names[kind]
+
+
+_known_names: dict[type, tuple[str, ...]] = {}
