@@ -102,6 +102,9 @@ _HOME = {
     "quantities": "app.quantities",
     "study": "app.study",
     "steady_states": "drive.batch",
+    "read_study": "studies.read",
+    "sweep": "studies.sweep",
+    "evaluate": "studies.engine",
     "required_power": "sizing.power",
     "choose_motor": "sizing.motor",
     "choose_flywheel": "sizing.flywheel",
@@ -202,6 +205,9 @@ if TYPE_CHECKING:
     from linkwright.sizing.flywheel import choose_flywheel as choose_flywheel
     from linkwright.sizing.motor import choose_motor as choose_motor
     from linkwright.sizing.power import required_power as required_power
+    from linkwright.studies.engine import evaluate as evaluate
+    from linkwright.studies.read import read_study as read_study
+    from linkwright.studies.sweep import sweep as sweep
     from linkwright.synthesis.dead_centre import crank_rocker as crank_rocker
     from linkwright.synthesis.function_generator import function_generator as function_generator
     from linkwright.synthesis.path import path_generator as path_generator

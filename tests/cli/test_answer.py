@@ -15,10 +15,12 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
+import linkwright as lw
 from linkwright.app.application import COMMANDS, GROUPS, application
 from linkwright.kernel.command.answer import Answer, hand_over, json_text
 from linkwright.kernel.command.group import Commands
 from linkwright.kernel.errors import InputError
+from linkwright.studies.sweep import begun
 
 ROOT = Path(__file__).parents[2]
 FILES = {path.stem: str(path) for path in (ROOT / "machines").glob("*.toml")} | {
@@ -79,6 +81,18 @@ range = [1, 2]
 crank_range = "60 deg"
 rocker_range = "90 deg"
 points = 5
+""",
+    "phases.toml": """
+machine = "roller_two_carts"
+[variables.phase]
+address = "mechanism.cranks.A2.phase"
+range = ["80 deg", "100 deg"]
+steps = 3
+[variables.rod]
+address = "mechanism.sliders.cart1.rod"
+values = ["0.8 m"]
+[responses]
+delta = "steady_state.unevenness"
 """,
     "path.toml": """
 x = "60, 40, 0, -30, 0, 40 mm"
@@ -162,6 +176,12 @@ CASES = {
         "--set train.engine.gas.walls.factor=1e6 --set train.engine.gas.walls.wall_temperature=400",
         "{engine} {even.csv} --on nobody",
     ),
+    "sweep": Case(
+        "{phases.toml} --out {rows}",
+        "{phases.toml} --out {rows_of_none} --set study.variables.rod.values=[0.15]",
+        "{phases.toml} --out {rows} --set study.responses.delta=steady_state.nothing",
+    ),
+    "sweep show": Case("{swept}", "{unswept}", "{phases.toml}"),
     "topper": Case("{topper}", "{topper} --set topper.edge_angle=89.9deg", "{topper} --set topper.nothing=1"),
     "topper field": Case(
         "{field.toml} --set topper.limits.complete_min=0.5",
@@ -210,6 +230,10 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, str], Result
     rows = [f"{n}, {1500 * (1 + 0.01 * np.cos(n * np.pi / 90)):.6f}" for n in range(721)]
     (folder / "even.csv").write_text("\n".join(["angle [deg], speed [rpm]", *rows]) + "\n")
     known = FILES | {path.name: str(path) for path in folder.iterdir()}
+    known |= {name: str(folder / name) for name in ("rows", "rows_of_none", "swept", "unswept")}
+    study = lw.read_study(folder / "phases.toml")
+    lw.sweep(study, folder / "swept")
+    begun(study, folder / "unswept")
 
     def asked(command: str, words: str) -> Result:
         filled = [known.get(word[1:-1], word) if word[0] == "{" else word for word in words.split()]

@@ -28,6 +28,7 @@ PUBLIC_PACKAGES = (
     "topping",
     "synthesis",
     "sizing",
+    "studies",
     "kernel",
     "app",
 )

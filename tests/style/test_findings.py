@@ -31,6 +31,8 @@ SILENT = {
     ("cam/scene.py", "_contacts"): "a cam without room for its second follower is reported by the study",
     ("torsion/figures/captions.py", "_manoeuvre"): "a record too short for orders has no waterfall",
     ("sizing/flywheel.py", "_unevenness"): "no steady motion is an answer there: δ counts as infinite",
+    ("studies/engine.py", "_solve"): "rows that a batch cannot hold are solved one by one, and say why",
+    ("studies/sweep.py", "_try"): "what a machine cannot do as it is, its variants may, and each row says so",
     (
         "kernel/units/spellings.py",
         "_from_pint",

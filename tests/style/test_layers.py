@@ -28,6 +28,12 @@ HOUSE = {
     "app.study": STUDY,
     "app.soundness": STUDY,
     "app.report": STUDY,
+    # Studies stand above all subjects; what they draw and print stands above what they compute.
+    "studies": STUDY,
+    "studies.model": MODEL,
+    "studies.figures": COMMANDS,
+    "studies.tables": COMMANDS,
+    "studies.commands": COMMANDS,
     "papers": PAPERS,
     "app": APP,
     "__main__": APP,
@@ -186,7 +192,7 @@ def test_imports_point_down_and_keep_to_their_room() -> None:
 
 def test_every_room_is_listed() -> None:
     rooms = {path.name for path in ROOT.iterdir() if (path / "__init__.py").exists()}
-    assert rooms == {*SUBJECTS, "kernel", "machine", "papers", "app"}
+    assert rooms == {*SUBJECTS, "kernel", "machine", "studies", "papers", "app"}
 
 
 def test_every_room_has_its_map() -> None:

@@ -107,6 +107,11 @@ GROUPS = {
         },
         "torsion.commands.torsion:torsion",
     ),
+    "sweep": Group(
+        "studies.commands.sweep:sweep_group",
+        ("studies.commands.sweep:SWEEP",),
+        "studies.commands.sweep:sweep",
+    ),
     "topper": Group(
         "Topper knives over fields of roots, and the best knife.",
         """Topper knives over fields of roots, and the best knife; FILE alone gives the knife itself, as

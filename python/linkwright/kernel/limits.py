@@ -80,6 +80,12 @@ CAM_VARIANTS = Limit(50_000_000, "variants of a cam in a search", "a table of th
 SHOWN = Limit(1_000, "best variants that are shown", "each is looked at exactly")
 PATH_POINTS = Limit(4_000_000, "points and population multiplied in a search", "they take a gigabyte")
 TRIALS = Limit(100_000_000, "population and generations multiplied in a search", "a day on one core")
+SWEEP_ROWS = Limit(1_000_000_000, "rows in a sweep", "a hundred gigabytes of results")
+LATIN_ROWS = Limit(
+    1_000_000,
+    "rows in a Latin hypercube",
+    "each variable keeps the order of all rows in memory; sobol has none",
+)
 SAMPLES = Limit(200_000, "samples of a manoeuvre of a train", "8 MB for each disc and five shafts")
 
 ALL = tuple(each for each in list(globals().values()) if isinstance(each, Limit))

@@ -24,6 +24,7 @@ from linkwright.machine.whole_mechanism import merged, outline_of, with_follower
 if TYPE_CHECKING:
     from linkwright.pumping.model.rod_rotator import RodRotator
     from linkwright.pumping.model.unit import PumpingUnit
+    from linkwright.studies.model.study import StudyFile
     from linkwright.topping.model.topper import Topper
     from linkwright.torsion.model.train import Train
     from linkwright.turning.model import TurningMoment
@@ -33,6 +34,7 @@ else:
     Topper = deferred_model("topping.model.topper", "Topper")
     Train = deferred_model("torsion.model.train", "Train")
     TurningMoment = deferred_model("turning.model", "TurningMoment")
+    StudyFile = deferred_model("studies.model.study", "StudyFile")
 
 # The format that this version reads and writes.
 FORMAT = 1
@@ -83,6 +85,7 @@ class Machine(Description):
     bodies: dict[str, Body] = Field(default_factory=dict, description="Masses by name.")
     loads: dict[Name, AnyLoad] = Field(default_factory=dict, description="Forces and torques by name.")
     run_up: RunUp = Field(default_factory=RunUp, description="How the run-up starts and ends.")
+    study: StudyFile | None = Field(None, description="Study of variants: what varies, what is asked.")
 
     @property
     def linkage(self) -> Mechanism:

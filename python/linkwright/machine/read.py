@@ -157,7 +157,7 @@ def loads_as(
     of the folder of the machine file. Raises MachineFileError: the text describes no such thing; all problems
     are listed; InputError: an override is malformed.
     """
-    tables = _tables(text, path)
+    tables = tables_of(text, path)
     _check_format(tables, path, text)
     places = [(apply(tables, change), change) for change in parse_all(overrides)]
     if too_large := size_problems(tables):
@@ -202,8 +202,26 @@ def _similar(path: Path) -> str:
     return close_match(path.name, [*names, *(library() if _is_bare_name(path) else ())])
 
 
-def _tables(text: str, path: str) -> dict[str, Any]:
-    """The tables of a TOML text, or the problem with its syntax."""
+def tables_of(text: str, path: str) -> dict[str, Any]:
+    """The tables of a TOML text.
+
+    Parameters
+    ----------
+    text : str
+        The text.
+    path : str
+        Name of the text in messages.
+
+    Returns
+    -------
+    dict
+        As they stand there.
+
+    Raises
+    ------
+    MachineFileError
+        It is no TOML.
+    """
     if (line := deep_line(text)) is not None:
         found, remedy = "keys or brackets inside one another", "remove what is inside"
         raise MachineFileError([Problem("", found, DEPTH.words, remedy, path, line)])

@@ -1,0 +1,18 @@
+"""Studies of many machines: which entries vary, what is asked of them, and what follows.
+
+| module | |
+| --- | --- |
+| `model/` | The study file |
+| `read` | A study and its machine from files |
+| `plan` | A study checked against its machine, ready to run |
+| `axes` | Variables: the value of each share between 0 and 1 |
+| `sampling` | Rows as shares: grid, Sobol, Latin hypercube, random |
+| `responses` | What is asked: analyses, and one number of each result |
+| `engine` | Responses of many machines, in batches or one by one |
+| `parquet` | Rows as Parquet files |
+| `folder` | The folder of a sweep |
+| `sweep` | A sweep, and its continuation |
+| `show` | Rows of a folder, as they are drawn |
+| `tables`, `figures` | What is shown |
+| `commands/` | ``linkwright sweep`` |
+"""

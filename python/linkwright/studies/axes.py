@@ -1,0 +1,250 @@
+"""Variables as they are computed with: the value of each share between 0 and 1, in SI."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import MachineError, Problem, UnitError, show
+from linkwright.kernel.units import COUNT, Kind, parse
+from linkwright.machine.address import addresses, get, kind, known_place
+from linkwright.machine.machine import Machine
+from linkwright.studies.model.study import Distribution, Variable
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A variable.
+
+    Attributes
+    ----------
+    name : str
+        Its name.
+    addresses : tuple of str
+        Entries of the machine that take its value.
+    unit : str
+        SI unit of its values; empty for a number without one.
+    low, high : float
+        Ends of a range [SI]; of a list the first and last place, of a distribution its ends, which may be
+        infinite.
+    steps : int
+        How many levels a grid takes.
+    choices : tuple
+        The values of a list: numbers in SI, or whatever stands at the address.
+    is_log, is_whole : bool
+        Whether a range is divided evenly in the logarithm, whether it holds whole numbers alone.
+    distribution : tuple of str and float, or None
+        Kind, mean and deviation of a scatter.
+    """
+
+    name: str
+    addresses: tuple[str, ...]
+    unit: str
+    low: float = 0.0
+    high: float = 1.0
+    steps: int = 0
+    choices: tuple[Any, ...] = ()
+    is_log: bool = False
+    is_whole: bool = False
+    distribution: tuple[str, float, float] | None = None
+
+    @property
+    def is_number(self) -> bool:
+        """Whether all its values are numbers, which vary in a batch."""
+        return not self.choices or all(isinstance(each, int | float) for each in self.choices)
+
+    @property
+    def levels(self) -> Floats:
+        """Shares that a grid takes, each with a value of its own."""
+        if self.choices:
+            return _middles(len(self.choices))
+        if self.is_whole:
+            return _middles(round(self.high - self.low) + 1)
+        if self.distribution is not None:
+            return _middles(self.steps)
+        return np.linspace(0.0, 1.0, self.steps)
+
+    def values(self, shares: Floats) -> Floats:
+        """Values in SI; of what are no numbers, their places in the list."""
+        if self.choices:
+            places = np.minimum((shares * len(self.choices)).astype(int), len(self.choices) - 1)
+            listed = self.choices if self.is_number else range(len(self.choices))
+            picked: Floats = np.array(listed, dtype=float)[places]
+            return picked
+        if self.distribution is not None:
+            return _scattered(*self.distribution, self.low, self.high, shares)
+        if self.is_whole:
+            whole: Floats = np.minimum(self.low + np.floor(shares * (self.high - self.low + 1)), self.high)
+            return whole
+        if self.is_log:
+            # Both ends are met exactly.
+            powers = np.log(self.low) * (1 - shares) + np.log(self.high) * shares
+            found: Floats = np.clip(np.exp(powers), self.low, self.high)
+            return found
+        return self.low * (1 - shares) + self.high * shares
+
+
+def axis(machine: Machine, name: str, variable: Variable) -> Axis:
+    """A variable of a study, checked against the machine.
+
+    Raises
+    ------
+    MachineError
+        An address does not exist, or a value is not possible there; keys begin with those of the variable.
+    """
+    units = [_kind(machine, name, each) for each in variable.address]
+    found = units[0]
+    if any(each is not None and found is not None and each.unit != found.unit for each in units):
+        words = " and ".join(each.word for each in units if each is not None)
+        raise _problem(name, "address", words, "entries of one quantity")
+    known: dict[str, Any] = {"name": name, "addresses": variable.address, "unit": found.unit if found else ""}
+    if variable.values is not None:
+        return Axis(**known, choices=_choices(machine, name, variable, found))
+    if found is None:
+        place = show(variable.address[0])
+        raise _problem(
+            name, "address", f"{place}, which is no number", "values, for an entry without numbers"
+        )
+    if variable.distribution is not None:
+        scatter, low, high = _scatter(name, variable.distribution, found)
+        return Axis(**known, low=low, high=high, steps=variable.steps or 0, distribution=scatter)
+    low, high = (_parsed(name, f"range.{i}", value, found) for i, value in enumerate(variable.range or ()))
+    _check_range(name, variable, low, high)
+    return Axis(
+        **known,
+        low=low,
+        high=high,
+        steps=variable.steps or 0,
+        is_log=variable.scale == "log",
+        is_whole=variable.whole,
+    )
+
+
+def _kind(machine: Machine, name: str, address: str) -> Kind | None:
+    """The quantity at an address; None for what is no number."""
+    try:
+        known_place(machine, address)
+    except MachineError as error:
+        problem = error.problems[0]
+        # An entry that has its usual value, or that follows from others, has an address too.
+        remedy = problem.remedy or suggestion(address, addresses(machine))
+        raise _problem(name, "address", show(address), "the address of an entry", remedy) from None
+    mark = kind(machine, address)
+    if mark is not None:
+        return mark
+    value = get(machine, address)
+    return COUNT if isinstance(value, int | float) and not isinstance(value, bool) else None
+
+
+def _choices(machine: Machine, name: str, variable: Variable, found: Kind | None) -> tuple[Any, ...]:
+    """The values of a list, numbers in SI."""
+    given = variable.values or ()
+    if found is None:
+        return given
+    return tuple(_parsed(name, f"values.{i}", value, found) for i, value in enumerate(given))
+
+
+def _parsed(name: str, key: str, value: object, found: Kind) -> float:
+    """A value as the quantity of its entry."""
+    try:
+        return parse(value, found)
+    except UnitError as error:
+        problem = error.problem
+        raise _problem(name, key, problem.found, problem.expected, problem.remedy) from None
+
+
+def _check_range(name: str, variable: Variable, low: float, high: float) -> None:
+    if not low < high:
+        raise _problem(name, "range", f"{low:.6g} to {high:.6g}", "a minimum below the maximum")
+    if variable.scale == "log" and low <= 0:
+        raise _problem(name, "range", f"from {low:.6g}", "numbers above 0 for a logarithmic scale")
+    if variable.whole and not (low.is_integer() and high.is_integer()):
+        raise _problem(name, "range", f"{low:.6g} to {high:.6g}", "whole numbers")
+    if variable.whole and variable.steps is not None:
+        raise _problem(name, "steps", str(variable.steps), "nothing: a range of whole numbers has its own")
+
+
+def _scatter(name: str, given: Distribution, found: Kind) -> tuple[tuple[str, float, float], float, float]:
+    """Kind, mean, deviation; and the ends of a distribution."""
+    read = {
+        key: _parsed(name, f"distribution.{key}", value, found)
+        for key in ("mean", "deviation", "least", "greatest")
+        if (value := getattr(given, key)) is not None
+    }
+    lowest = 0.0 if given.kind == "lognormal" else -math.inf
+    low, high = read.get("least", lowest), read.get("greatest", math.inf)
+    mean, deviation = read.get("mean", math.nan), read.get("deviation", math.nan)
+    if not low < high:
+        raise _problem(name, "distribution.greatest", f"{high:.6g}", f"more than `least`, {low:.6g}")
+    if given.kind in ("normal", "lognormal") and not deviation > 0:
+        raise _problem(name, "distribution.deviation", f"{deviation:.6g}", "more than 0")
+    if given.kind == "lognormal" and not mean > 0:
+        raise _problem(name, "distribution.mean", f"{mean:.6g}", "more than 0")
+    if given.kind == "triangular" and not low <= mean <= high:
+        raise _problem(name, "distribution.mean", f"{mean:.6g}", f"{low:.6g} to {high:.6g}")
+    start, end = _normal_shares(given.kind, mean, deviation, low, high)
+    if given.kind in ("normal", "lognormal") and end - start < 1e-9:
+        raise _problem(name, "distribution", "ends that leave nothing of it", "ends within 6 deviations")
+    return (given.kind, mean, deviation), low, high
+
+
+def _middles(n: int) -> Floats:
+    """Middles of n equal parts from 0 to 1."""
+    return np.linspace(0.5 / n, 1 - 0.5 / n, n)
+
+
+def _scattered(kind: str, mean: float, deviation: float, low: float, high: float, shares: Floats) -> Floats:
+    """Values below which shares of a distribution that is cut off at its ends lie."""
+    if kind == "uniform":
+        return low * (1 - shares) + high * shares
+    if kind == "triangular":
+        # Kotz, van Dorp, Beyond Beta, 2004, section 1.1.
+        peak, span = (mean - low) / (high - low), high - low
+        rising = low + span * np.sqrt(shares * peak)
+        return np.where(shares < peak, rising, high - span * np.sqrt((1 - shares) * (1 - peak)))
+    from scipy.special import ndtri
+
+    start, end = _normal_shares(kind, mean, deviation, low, high)
+    within = np.clip(start + (end - start) * shares, 2.0**-53, 1 - 2.0**-53)
+    return np.clip(_unscored(kind, mean, deviation, ndtri(within)), low, high)
+
+
+def _normal_shares(kind: str, mean: float, deviation: float, low: float, high: float) -> tuple[float, float]:
+    """Shares of the whole distribution below its ends."""
+    if kind not in ("normal", "lognormal"):
+        return 0.0, 1.0
+    from scipy.special import ndtr
+
+    middle, width = _bell(kind, mean, deviation)
+    if kind == "normal":
+        return float(ndtr((low - middle) / width)), float(ndtr((high - middle) / width))
+    start = float(ndtr((math.log(low) - middle) / width)) if low > 0 else 0.0
+    return start, float(ndtr((math.log(high) - middle) / width)) if high < math.inf else 1.0
+
+
+def _bell(kind: str, mean: float, deviation: float) -> tuple[float, float]:
+    """Mean and deviation of what is normal: the value, or its logarithm.
+
+    Johnson, Kotz, Balakrishnan, *Continuous Univariate Distributions*, vol. 1, 2nd ed. 1994, chapter 14.
+    """
+    if kind == "normal":
+        return mean, deviation
+    variance = math.log1p((deviation / mean) ** 2)
+    return math.log(mean) - 0.5 * variance, math.sqrt(variance)
+
+
+def _unscored(kind: str, mean: float, deviation: float, scores: Floats) -> Floats:
+    middle, width = _bell(kind, mean, deviation)
+    found = middle + width * scores
+    return np.exp(found) if kind == "lognormal" else found
+
+
+def _problem(name: str, key: str, found: str, expected: str, remedy: str = "") -> MachineError:
+    return MachineError([Problem(f"variables.{name}.{key}", found, expected, remedy)])

@@ -1,0 +1,155 @@
+"""``linkwright sweep``: many machines into a folder of Parquet files; ``linkwright sweep show``: pictures."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.common import Json, Outside, Sets
+from linkwright.kernel.command.out import Force, out_option, output_folder
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from linkwright.studies.figures import Shown
+    from linkwright.studies.folder import SweepFolder
+    from linkwright.studies.sweep import Sweep
+
+StudyArgument = Annotated[
+    Path,
+    typer.Argument(
+        metavar="FILE", help="A study file, or a machine file with a table `study`.", show_default=False
+    ),
+]
+Folder = Annotated[Path, typer.Argument(metavar="DIR", help="The folder of a sweep.", show_default=False)]
+Into = Annotated[Path, out_option("Folder of the results; one that was begun is completed.")]
+Drawn = Annotated[Path | None, out_option("Write pictures and results.json there.")]
+Chunks = Annotated[
+    str,
+    typer.Option(
+        "--chunks",
+        metavar="A:B",
+        help="Compute the files A to B - 1 alone: a share, as one of many jobs.",
+        show_default=False,
+    ),
+]
+
+
+def sweep_group() -> None:
+    """Compute many variants of a machine, and look at them."""
+
+
+def sweep(
+    file: StudyArgument,
+    out: Into,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    chunks: Chunks = "",
+    json: Json = False,
+) -> None:
+    """Compute the rows of a study into a folder; one that was stopped goes on.
+
+    Rows that fail keep their reason. Exit code 1 if none has an answer.
+    """
+    from linkwright.studies.commands.progress import rows_bar
+    from linkwright.studies.read import read_study
+    from linkwright.studies.sweep import sweep as compute
+
+    plan = read_study(file, set or [], allow_outside=allow_outside)
+    with rows_bar() as watch:
+        found = compute(plan, out, chunks=_share(chunks), watch=watch)
+    hand_over(_answer(plan.machine.name, found, plan.units), json=json)
+
+
+def show(folder: Folder, out: Drawn = None, force: Force = False, json: Json = False) -> None:
+    """Show a sweep: its extremes, why rows failed, and pictures that suit it.
+
+    One variable gives curves, a grid of two gives maps with contours, and more give a scatter matrix and
+    parallel coordinates. Exit code 1 if no row has an answer.
+    """
+    from linkwright.studies.folder import opened, plan_of
+    from linkwright.studies.sweep import summary
+
+    into = output_folder(out, force=force)
+    known = opened(folder)
+    plan = plan_of(known.manifest)
+    found = summary(known, plan.responses)
+    answer = _answer(plan.machine.name, found, known.units)
+    drawn = Answer(
+        machine=answer.machine,
+        results=answer.results,
+        findings=answer.findings,
+        warnings=answer.warnings,
+        head=answer.head,
+        tables=answer.tables,
+        figures=partial(_figures, known),
+    )
+    hand_over(drawn, json=json, folder=into)
+
+
+SWEEP = (show,)
+
+
+def _share(text: str) -> tuple[int, int] | None:
+    """Numbers of files out of ``A:B``."""
+    from linkwright.kernel.errors import InputError
+
+    if not text:
+        return None
+    first, _, last = text.partition(":")
+    if not (first.isdecimal() and last.isdecimal() and len(text) < 20):
+        raise InputError(f'--chunks: found "{text}", expected A:B, such as 0:100 for files 0 to 99')
+    return int(first), int(last)
+
+
+def _answer(machine: str, found: Sweep, units: dict[str, str]) -> Answer:
+    """Counts, extremes, and what failed."""
+    from linkwright.studies.tables import sweep_tables
+
+    solved = found.n_done - found.n_failed
+    missing = found.n_rows - found.n_done
+    warnings = [f"{name} was cut off and is computed anew." for name in found.repaired]
+    if missing:
+        warnings.append(f"{missing} rows of {found.n_rows} are not computed yet.")
+    return Answer(
+        machine=machine,
+        results=lambda _: {"sweep": found.to_dict()},
+        findings=[] if solved else ["No row has an answer."],
+        warnings=warnings,
+        head=lambda: f"{machine}\n{found.n_done} of {found.n_rows} rows in {found.path}, {solved} solved",
+        tables=partial(sweep_tables, found, units),
+    )
+
+
+def _figures(folder: SweepFolder) -> dict[str, Figure]:
+    """Pictures of the rows."""
+    from linkwright.studies.figures import figures
+
+    return figures(shown_of(folder))
+
+
+def shown_of(folder: SweepFolder) -> Shown:
+    """Rows of a folder with their labels, angles in degrees."""
+    import numpy as np
+
+    from linkwright.studies.figures import Shown
+    from linkwright.studies.folder import plan_of
+    from linkwright.studies.show import rows_of
+
+    plan, rows = plan_of(folder.manifest), rows_of(folder)
+    names = [*(each.name for each in plan.axes), *plan.responses]
+    units = {name: "°" if unit == "rad" else unit for name, unit in folder.units.items()}
+    columns: dict[str, Any] = {
+        name: np.degrees(rows[name]) if folder.units[name] == "rad" else rows[name] for name in names
+    }
+    return Shown(
+        columns,
+        {name: f"{name} [{units[name] or '–'}]" for name in names},
+        tuple(each.name for each in plan.axes),
+        plan.responses,
+        plan.sweep.method == "grid",
+    )

@@ -1,0 +1,285 @@
+"""Responses of many machines: those that the core computes in lanes and threads at once, others one by one.
+
+A row that fails keeps its reason and is NaN: 1 where the machine cannot do it, 2 where there is no such
+machine. Branches and starts of a batch are those of its first machine (`linkwright.drive.batch`): the machine
+of the study stands in front of every batch, so that they are the same however rows are divided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.drive.batch import STATUS, steady_states
+from linkwright.kernel.description.formula import NUMBERS
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.numerics.formula_value import value
+from linkwright.kernel.public import public
+from linkwright.linkages.kinematics import motions
+from linkwright.machine.address import get, replace
+from linkwright.machine.machine import Machine
+from linkwright.machine.overrides import Override, apply
+from linkwright.studies.plan import Formula, StudyPlan
+from linkwright.studies.responses import MOTION, SAMPLES, Asked, analysis, taken
+
+Floats = NDArray[np.float64]
+
+# Status of a row.
+SOLVED, FAILED, IMPOSSIBLE = 0, 1, 2
+
+# What a row without a finite number says.
+_NO_NUMBER = "{} is no finite number"
+
+
+@dataclass
+class Rows:
+    """Rows of a study; arrays (n,).
+
+    Attributes
+    ----------
+    columns : dict of str to ndarray
+        Variables, derived numbers and responses in SI; responses of a row that fails are NaN.
+    status : ndarray of uint8
+        0 solved, 1 the machine cannot do it, 2 no such machine.
+    reason : ndarray of int32
+        Place of its sentence in ``reasons``; 0 where solved.
+    reasons : list of str
+        Sentences; the first is empty.
+    """
+
+    columns: dict[str, Floats]
+    status: NDArray[np.uint8]
+    reason: NDArray[np.int32]
+    reasons: list[str]
+
+    def __len__(self) -> int:
+        return len(self.status)
+
+    def fail(self, rows: Any, status: int, text: str) -> None:
+        """Let rows fail that have not failed yet."""
+        if text not in self.reasons:
+            self.reasons.append(text)
+        which = np.zeros(len(self.status), dtype=bool)
+        which[rows] = True
+        which &= self.status == SOLVED
+        self.status[which] = status
+        self.reason[which] = self.reasons.index(text)
+
+
+@public
+def evaluate(plan: StudyPlan, variables: Mapping[str, Floats]) -> Rows:
+    """Responses of machines.
+
+    Parameters
+    ----------
+    plan : StudyPlan
+        The study.
+    variables : mapping of str to ndarray, shape (n,)
+        Values of all variables in SI; places in the list of those that are no numbers.
+
+    Returns
+    -------
+    Rows
+        One a machine, in their order.
+    """
+    n = len(next(iter(variables.values())))
+    columns = {name: np.asarray(column, dtype=float) for name, column in variables.items()}
+    rows = Rows(columns, np.zeros(n, np.uint8), np.zeros(n, np.int32), [""])
+    _add_formulas(rows, plan.derived, IMPOSSIBLE)
+    for each in plan.asked:
+        columns[each.name] = np.full(n, np.nan)
+    entries = _entries(plan, columns)
+    for machine, members in _machines(plan, rows):
+        _solve(plan, machine, entries, rows, members)
+    _require_finite(rows, plan)
+    _add_formulas(rows, plan.formulas, FAILED)
+    failed = rows.status != SOLVED
+    for name in plan.responses:
+        columns[name][failed] = np.nan
+    rows.columns = {name: columns[name] for name in plan.columns}
+    return rows
+
+
+def _entries(plan: StudyPlan, columns: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Address → its values, of all that are numbers."""
+    numbers = [(each.name, each.addresses) for each in plan.axes if each.is_number]
+    numbers += [(each.name, each.addresses) for each in plan.derived]
+    return {place: columns[name] for name, addresses in numbers for place in addresses}
+
+
+def _machines(plan: StudyPlan, rows: Rows) -> Any:
+    """Machines that differ in what is no number, each with the rows that it counts for."""
+    choices = [each for each in plan.axes if not each.is_number]
+    sound = np.flatnonzero(rows.status == SOLVED)
+    if not choices:
+        yield plan.machine, sound
+        return
+    places = np.stack([rows.columns[each.name] for each in choices], axis=1).astype(int)[sound]
+    kinds, members = np.unique(places, axis=0, return_inverse=True)
+    for nth, kind in enumerate(kinds):
+        changes = [
+            (address, each.choices[place])
+            for each, place in zip(choices, kind, strict=True)
+            for address in each.addresses
+        ]
+        own = sound[members.ravel() == nth]
+        try:
+            yield variant(plan.machine, changes), own
+        except InputError as error:
+            rows.fail(own, IMPOSSIBLE, _sentence(error))
+
+
+def variant(machine: Machine, changes: list[tuple[str, Any]]) -> Machine:
+    """The machine with entries exchanged as by ``--set``, and checked as a whole."""
+    tables: dict[str, Any] = machine.model_dump(by_alias=True, exclude_unset=True)
+    tables = _open(tables)
+    for address, each in changes:
+        apply(tables, Override(address, each, ""))
+    return Machine.model_validate(tables)
+
+
+def _open(node: Any) -> Any:
+    """Tables and lists that may be written to."""
+    if isinstance(node, Mapping):
+        return {key: _open(each) for key, each in node.items()}
+    return [_open(each) for each in node] if isinstance(node, list | tuple) else node
+
+
+def _solve(
+    plan: StudyPlan, machine: Machine, entries: dict[str, Floats], rows: Rows, members: NDArray[np.intp]
+) -> None:
+    """All responses of the rows of one machine."""
+    if not len(members):
+        return
+    batch = [each for each in plan.asked if each.is_batch and entries]
+    single = [each for each in plan.asked if each not in batch]
+    own = {address: column[members] for address, column in entries.items()}
+    for name, solve in (("steady_state", _steady), (MOTION, _motion)):
+        wanted = [each for each in batch if each.analysis == name]
+        if wanted:
+            try:
+                solve(machine, own, wanted, rows, members)
+            except (InputError, FindingError):
+                # Some row, or the machine of the study, is none that a batch can hold; each says why.
+                single += wanted
+    if single:
+        _one_by_one(machine, own, single, rows, members)
+
+
+def _with_first(machine: Machine, entries: Mapping[str, Floats]) -> dict[str, Floats]:
+    """The entries with those of the machine itself in front."""
+    found = {}
+    for address, column in entries.items():
+        first = get(machine, address)
+        number = first if isinstance(first, int | float) else column[0]
+        found[address] = np.concatenate([[number], column])
+    return found
+
+
+def _steady(
+    machine: Machine, entries: dict[str, Floats], wanted: list[Asked], rows: Rows, members: NDArray[np.intp]
+) -> None:
+    """Steady motion of all rows at once."""
+    found = steady_states(machine, _with_first(machine, entries))
+    status = found.status[1:]
+    for each in wanted:
+        rows.columns[each.name][members] = getattr(found, each.quantity)[1:]
+    for code in np.unique(status[status != 0]):
+        rows.fail(members[status == code], FAILED, STATUS[int(code)])
+
+
+def _motion(
+    machine: Machine, entries: dict[str, Floats], wanted: list[Asked], rows: Rows, members: NDArray[np.intp]
+) -> None:
+    """Points of all rows at once."""
+    machines = replace(machine, _with_first(machine, entries))
+    turn = np.linspace(0.0, 2 * np.pi, SAMPLES, endpoint=False)
+    for each in wanted:
+        angles = turn if each.at is None else np.array([each.at])
+        table = motions(machines, angles, points=each.of)[1:, "xy".index(each.quantity), :]
+        found = taken(table, each.extreme) if each.extreme else table[:, 0]
+        rows.columns[each.name][members] = found
+        open_rows = members[~np.isfinite(found)]
+        rows.fail(open_rows, FAILED, "The links do not close at every crank angle that is asked for.")
+
+
+def _one_by_one(
+    machine: Machine, entries: dict[str, Floats], wanted: list[Asked], rows: Rows, members: NDArray[np.intp]
+) -> None:
+    """Analyses of each row by itself."""
+    for nth, row in enumerate(members):
+        if rows.status[row] != SOLVED:
+            continue
+        try:
+            own = sound_variant(machine, {address: float(c[nth]) for address, c in entries.items()})
+            for each, number in zip(wanted, numbers(own, wanted), strict=True):
+                rows.columns[each.name][row] = number
+        except FindingError as error:
+            rows.fail(row, FAILED, _sentence(error))
+        except InputError as error:
+            rows.fail(row, IMPOSSIBLE, _sentence(error))
+
+
+def sound_variant(machine: Machine, entries: Mapping[str, float]) -> Machine:
+    """The machine with numbers exchanged, checked as a whole."""
+    changed = replace(machine, entries) if entries else machine
+    return Machine.model_validate(changed.model_dump(by_alias=True, exclude_unset=True))
+
+
+def numbers(machine: Machine, wanted: list[Asked]) -> list[float]:
+    """Responses of one machine; an analysis is made once for all that share it.
+
+    Raises
+    ------
+    FindingError
+        The machine cannot do it.
+    InputError
+        An analysis needs what the machine does not have.
+    """
+    results: dict[Any, Any] = {}
+    found = []
+    for each in wanted:
+        if each.analysis == MOTION:
+            found.append(_place(machine, each))
+            continue
+        if each.key not in results:
+            results[each.key] = analysis(each.analysis)(machine, *each.of)
+        found.append(each.number(results[each.key]))
+    return found
+
+
+def _place(machine: Machine, each: Asked) -> float:
+    """A number of the motion of a point of one machine."""
+    turn = np.linspace(0.0, 2 * np.pi, SAMPLES, endpoint=False)
+    angles = turn if each.at is None else np.array([each.at])
+    curve = motions(machine, angles, points=each.of)[0, "xy".index(each.quantity), :]
+    found = float(taken(curve, each.extreme) if each.extreme else curve[0])
+    if not np.isfinite(found):
+        raise FindingError("the links do not close at every crank angle that is asked for")
+    return found
+
+
+def _add_formulas(rows: Rows, formulas: tuple[Formula, ...], status: int) -> None:
+    """Numbers that follow from others, one after the other."""
+    n = len(rows)
+    for each in formulas:
+        with np.errstate(all="ignore"):
+            found = value(each.tree, {**NUMBERS, **rows.columns})
+        column = np.array(np.broadcast_to(np.asarray(found, dtype=float), (n,)))
+        rows.columns[each.name] = column
+        rows.fail(~np.isfinite(column), status, _NO_NUMBER.format(each.name))
+
+
+def _require_finite(rows: Rows, plan: StudyPlan) -> None:
+    """Let rows fail whose response is no number: NaN is never an answer."""
+    for each in plan.asked:
+        rows.fail(~np.isfinite(rows.columns[each.name]), FAILED, _NO_NUMBER.format(each.name))
+
+
+def _sentence(error: Exception) -> str:
+    """A message on one line."""
+    return " ".join(str(error).split())

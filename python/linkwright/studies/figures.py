@@ -1,0 +1,168 @@
+"""Pictures of the rows of a sweep: curves, maps with contours, a scatter matrix, parallel coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.figure.style import BLUE, LINES, RED, SOFT, WIDTH, named, panels, roomy, styled
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Floats = NDArray[np.float64]
+
+# Rows in a scatter matrix and lines in parallel coordinates: more make one dark patch.
+_POINTS, _LINES = 4_000, 600
+
+# Columns of a matrix that can still be read on a page.
+_PANELS = 7
+
+
+@dataclass(frozen=True)
+class Shown:
+    """Rows to be drawn.
+
+    Attributes
+    ----------
+    columns : dict of str to ndarray, shape (n,)
+        Variables and responses; angles in degrees.
+    labels : dict of str to str
+        Name with unit.
+    variables, responses : tuple of str
+        Which are which.
+    is_grid : bool
+        Whether the rows are all combinations of the values of two variables or one.
+    """
+
+    columns: dict[str, Floats]
+    labels: dict[str, str]
+    variables: tuple[str, ...]
+    responses: tuple[str, ...]
+    is_grid: bool
+
+
+@styled
+def curve_figure(shown: Shown) -> Figure:
+    """Draw every response over the one variable."""
+    figure, axes = panels(len(shown.responses), height=1.0 + 1.9 * len(shown.responses))
+    name = shown.variables[0]
+    order = np.argsort(shown.columns[name], kind="stable")
+    for panel, response in zip(axes, shown.responses, strict=True):
+        values = shown.columns[response][order]
+        panel.plot(shown.columns[name][order], values, color=BLUE, marker="." if len(order) < 40 else None)
+        panel.set_ylabel(named(shown.labels[response]))
+        if np.isfinite(values).any():
+            roomy(panel, values[np.isfinite(values)])
+    axes[-1].set_xlabel(named(shown.labels[name]))
+    return figure
+
+
+@styled
+def map_figure(shown: Shown, response: str) -> Figure:
+    """Draw a response over two variables as colours and contours, with its minimum and maximum."""
+    figure, (panel,) = panels(1, height=4.6)
+    first, second = shown.variables
+    x, y = (np.unique(shown.columns[each]) for each in (first, second))
+    table = np.full((len(y), len(x)), np.nan)
+    at = np.searchsorted(y, shown.columns[second]), np.searchsorted(x, shown.columns[first])
+    table[at] = shown.columns[response]
+    drawn = panel.pcolormesh(x, y, table, cmap="viridis", shading="nearest", rasterized=True)
+    figure.colorbar(drawn, ax=panel, label=named(shown.labels[response]))
+    if min(table.shape) > 1 and np.isfinite(table).any() and np.nanmin(table) < np.nanmax(table):
+        lines = panel.contour(x, y, table, colors="white", linewidths=0.8, levels=9)
+        panel.clabel(lines, fontsize=7, fmt="%.4g")
+    for pick, mark, word in ((np.nanargmin, "v", "minimum"), (np.nanargmax, "^", "maximum")):
+        if np.isfinite(table).any():
+            row, column = np.unravel_index(pick(table), table.shape)
+            word = f"{word} {table[row, column]:.5g}"
+            panel.plot(x[column], y[row], mark, color=RED, markeredgecolor="white", markersize=9, label=word)
+    panel.set(xlabel=named(shown.labels[first]), ylabel=named(shown.labels[second]))
+    panel.grid(visible=False)
+    panel.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=2, borderaxespad=0.2)
+    return figure
+
+
+@styled
+def scatter_figure(shown: Shown) -> Figure:
+    """Draw each column over each other one, and the distribution of each on the diagonal."""
+    names = _chosen(shown)
+    size = max(WIDTH, 1.25 * len(names))
+    figure, axes = panels(len(names), height=size, columns=len(names), shared=False)
+    figure.set_size_inches(size, size)
+    rows = _spread(len(shown.columns[names[0]]), _POINTS)
+    for place, panel in enumerate(axes):
+        i, j = divmod(place, len(names))
+        x, y = (shown.columns[names[k]][rows] for k in (j, i))
+        if i == j:
+            panel.hist(x[np.isfinite(x)], bins=30, color=SOFT)
+            panel.set_yticks([])
+        else:
+            panel.plot(x, y, ".", color=BLUE, markersize=1.5, alpha=0.5, rasterized=True)
+        panel.tick_params(labelsize=6)
+        panel.grid(visible=False)
+        if i == len(names) - 1:
+            panel.set_xlabel(named(shown.labels[names[j]]), fontsize=7)
+        if j == 0:
+            panel.set_ylabel(named(shown.labels[names[i]]), fontsize=7)
+    return figure
+
+
+@styled
+def parallel_figure(shown: Shown) -> Figure:
+    """Draw each row as a line across all columns, coloured by its rank in the last response."""
+    from matplotlib import colormaps
+    from matplotlib.collections import LineCollection
+
+    names = _chosen(shown)
+    figure, (panel,) = panels(1, height=4.2)
+    solved = np.isfinite(np.stack([shown.columns[each] for each in names])).all(axis=0)
+    rows = np.flatnonzero(solved)
+    rows = rows[_spread(len(rows), _LINES)]
+    scaled = np.stack([_scaled(shown.columns[each][rows]) for each in names], axis=1)
+    order = np.argsort(scaled[:, -1])
+    places = np.arange(len(names))
+    lines = [np.column_stack([places, row]) for row in scaled[order]]
+    colours = colormaps["viridis"](np.linspace(0, 1, max(len(lines), 1)))
+    panel.add_collection(LineCollection(lines, colors=colours, linewidths=0.6, alpha=0.7))
+    panel.set(xlim=(0, max(len(names) - 1, 1)), ylim=(-0.08, 1.08), yticks=[])
+    panel.set_xticks(places, [named(shown.labels[each]) for each in names], rotation=20, ha="right")
+    for place, name in enumerate(names):
+        values = shown.columns[name][rows]
+        for text, height in ((f"{values.min():.4g}", -0.06), (f"{values.max():.4g}", 1.03)):
+            panel.text(place, height, text, ha="center", fontsize=7)
+    panel.grid(visible=False)
+    panel.grid(visible=True, axis="x", color=LINES[0], linewidth=0.8)
+    return figure
+
+
+def figures(shown: Shown) -> dict[str, Figure]:
+    """The pictures that suit the rows: a curve of one variable, maps of a grid of two, else two overviews."""
+    if len(shown.variables) == 1:
+        return {"curve": curve_figure(shown)}
+    found: dict[str, Figure] = {}
+    if shown.is_grid and len(shown.variables) == 2:
+        found |= {f"map_{response}": map_figure(shown, response) for response in shown.responses}
+        return found
+    return {"scatter": scatter_figure(shown), "parallel": parallel_figure(shown)}
+
+
+def _chosen(shown: Shown) -> Sequence[str]:
+    """Columns for a matrix: responses in any case, and as many variables as fit."""
+    responses = shown.responses[: _PANELS - 1]
+    return (*shown.variables[: _PANELS - len(responses)], *responses)
+
+
+def _spread(n: int, most: int) -> NDArray[np.intp]:
+    """Numbers of rows, spread evenly over all."""
+    return np.unique(np.linspace(0, n - 1, min(n, most)).astype(np.intp)) if n else np.empty(0, np.intp)
+
+
+def _scaled(values: Floats) -> Floats:
+    """Values from 0 to 1."""
+    span = np.ptp(values)
+    return (values - values.min()) / span if span > 0 else np.full(len(values), 0.5)

@@ -1,0 +1,204 @@
+"""The folder of a sweep: a description, and its rows in files of equal length; what is missing is computed.
+
+    _study.json             machine, study, version, hash, rows a file, units
+    part-000000.parquet     rows 0 to n - 1
+    part-000001.parquet     rows n to 2 n - 1
+
+A file is a function of the hash and of its number alone, whoever computes it and whenever. It is written
+under another name, brought to the disk and renamed, so that one that has its name is whole; no list of files
+is kept, and processes need not know of each other. Readers of Parquet pass over names that begin with ``_``.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from linkwright import __version__
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.output import unwritable, write_file
+from linkwright.machine.read import loads
+from linkwright.machine.write import dumps
+from linkwright.studies.engine import Rows
+from linkwright.studies.model.study import StudyFile
+from linkwright.studies.parquet import encoded, is_whole, require_pyarrow
+from linkwright.studies.plan import StudyPlan, plan
+
+MANIFEST = "_study.json"
+
+# Rows in a file: some 2 MB, and one or two seconds of the core; where analyses are made one by one, as long.
+_ROWS, _ROWS_SINGLE = 20_000, 500
+
+
+@dataclass(frozen=True)
+class SweepFolder:
+    """A folder of results.
+
+    Attributes
+    ----------
+    path : Path
+        The folder.
+    manifest : dict
+        What stands in its description.
+    """
+
+    path: Path
+    manifest: dict[str, Any] = field(repr=False)
+
+    @property
+    def n_rows(self) -> int:
+        """Rows of the whole sweep."""
+        return int(self.manifest["rows"])
+
+    @property
+    def chunk(self) -> int:
+        """Rows in a file."""
+        return int(self.manifest["chunk"])
+
+    @property
+    def n_parts(self) -> int:
+        """Files of the whole sweep."""
+        return -(-self.n_rows // self.chunk)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of each column."""
+        return dict(self.manifest["units"])
+
+    @cached_property
+    def about(self) -> bytes:
+        """What stands in the metadata of each file."""
+        return _text(self.manifest).encode()
+
+    def part(self, number: int) -> Path:
+        """The file of a number."""
+        return self.path / f"part-{number:06d}.parquet"
+
+    def rows_of(self, number: int) -> tuple[int, int]:
+        """First row of a file, and the one after its last."""
+        return number * self.chunk, min((number + 1) * self.chunk, self.n_rows)
+
+    def is_done(self, number: int) -> bool:
+        """Whether a file is there and whole."""
+        start, stop = self.rows_of(number)
+        return self.part(number).exists() and is_whole(self.part(number), stop - start, self.about)
+
+    def parts(self) -> Iterator[Path]:
+        """The files that are there and whole, in their order."""
+        return (self.part(number) for number in range(self.n_parts) if self.is_done(number))
+
+    def begin(self) -> None:
+        """Make the folder, or see that it is that of the same study.
+
+        Raises
+        ------
+        InputError
+            It is a file, holds files of others or another study, or cannot be written to.
+        """
+        require_pyarrow()
+        try:
+            if (self.path / MANIFEST).exists():
+                _require_same(opened(self.path), self)
+                return
+            if self.path.exists() and not self.path.is_dir():
+                raise InputError(f"{self.path}: found a file, expected a folder")
+            if self.path.exists() and any(not _is_ours(each) for each in self.path.iterdir()):
+                raise InputError(
+                    f"{self.path}: found a folder with other files, expected a new or empty one, or that of "
+                    "an earlier run of the same study"
+                )
+            self.path.mkdir(parents=True, exist_ok=True)
+            write_file(self.path / MANIFEST, _text(self.manifest))
+        except OSError as error:
+            raise unwritable(self.path, error) from None
+
+    def write(self, number: int, rows: Rows) -> None:
+        """Write the file of a number.
+
+        Raises
+        ------
+        InputError
+            The disk is full, or cannot be written to.
+        """
+        data = encoded(rows, self.rows_of(number)[0], self.units, self.about)
+        try:
+            write_file(self.part(number), data)
+        except InputError as error:
+            raise InputError(f"{error}; rows that are written stay, and the same command goes on") from None
+
+
+def new_folder(path: Path, ready: StudyPlan) -> SweepFolder:
+    """The folder of a sweep, not made yet."""
+    is_batch = all(each.is_batch for each in ready.asked)
+    study = ready.study.model_dump(mode="json", by_alias=True, exclude_unset=True)
+    known = {
+        "machine": dumps(ready.machine),
+        "study": study,
+        "listed": _digest(ready),
+        "version": __version__,
+        "rows": ready.n_rows,
+        "chunk": ready.sweep.chunk or (_ROWS if is_batch else _ROWS_SINGLE),
+        "units": ready.units,
+    }
+    return SweepFolder(path, {**known, "hash": sha256(_text(known).encode()).hexdigest()})
+
+
+def opened(path: Path) -> SweepFolder:
+    """The folder of a sweep that was begun.
+
+    Raises
+    ------
+    InputError
+        There is no such folder.
+    """
+    require_pyarrow()
+    place = path / MANIFEST
+    try:
+        manifest = json.loads(place.read_text(encoding="utf-8"))
+        return SweepFolder(path, {**manifest, "rows": int(manifest["rows"]), "hash": manifest["hash"]})
+    except FileNotFoundError:
+        raise InputError(f"{path}: found no {MANIFEST}, expected the folder of a sweep") from None
+    except (ValueError, KeyError, TypeError):
+        raise InputError(
+            f"{place}: found no description of a sweep; remove the folder or name another"
+        ) from None
+    except OSError as error:
+        raise InputError(f"{place}: cannot be read ({error.strerror or error})") from None
+
+
+def plan_of(manifest: dict[str, Any]) -> StudyPlan:
+    """The study of a description: what a process elsewhere computes with."""
+    study = StudyFile.model_validate(manifest["study"])
+    return plan(loads(manifest["machine"]), study)
+
+
+def _require_same(found: SweepFolder, wanted: SweepFolder) -> None:
+    """Refuse a folder of another study."""
+    if found.manifest["hash"] == wanted.manifest["hash"]:
+        return
+    words = {"machine": "the machine", "study": "the study", "version": "the version of Linkwright"}
+    other = [word for key, word in words.items() if found.manifest.get(key) != wanted.manifest[key]]
+    raise InputError(
+        f"{found.path}: found the results of another sweep ({' and '.join(other) or 'the list'} differs); "
+        "nothing was changed; name another folder"
+    )
+
+
+def _is_ours(path: Path) -> bool:
+    """What a run that was killed at its very beginning leaves behind."""
+    return path.name.startswith(".linkwright-part-")
+
+
+def _text(manifest: dict[str, Any]) -> str:
+    """A description as text, the same for the same study."""
+    return json.dumps(manifest, ensure_ascii=False, indent=1, sort_keys=True) + "\n"
+
+
+def _digest(ready: StudyPlan) -> str:
+    """A sign for the rows of a list; empty without one."""
+    return "" if ready.listed is None else sha256(ready.listed.tobytes()).hexdigest()

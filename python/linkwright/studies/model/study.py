@@ -1,0 +1,195 @@
+"""A study as it stands in a file: which entries vary, what is asked, within which limits.
+
+Values of variables keep the form of the file here; `linkwright.studies.plan` reads them as quantities of the
+entries that they stand for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic_core import InitErrorDetails
+
+from linkwright.kernel.description.base import CheckedDescription, Description, Name, fault
+from linkwright.kernel.description.problems import problems
+from linkwright.kernel.errors import MachineError
+from linkwright.kernel.limits import SWEEP_ROWS
+from linkwright.kernel.units import Angle
+
+# A number, or a text with a unit, read when it is known what it stands for.
+Value = float | str
+
+# The ways in which a variable is given, of which it has one.
+WAYS = ("range", "values", "distribution")
+
+
+def _as_list(value: object) -> object:
+    """One address as a list of one."""
+    return [value] if isinstance(value, str) else value
+
+
+class Distribution(CheckedDescription):
+    """How a variable scatters, cut off at its ends."""
+
+    kind: Literal["normal", "lognormal", "uniform", "triangular"]
+    mean: Value | None = Field(None, description="Mean; of a triangular one, the most frequent value.")
+    deviation: Value | None = Field(None, description="Standard deviation of the whole distribution.")
+    least: Value | None = Field(None, description="What is below is cut off.")
+    greatest: Value | None = Field(None, description="What is above is cut off.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        bell = ("mean", "deviation")
+        wanted = {"uniform": ("least", "greatest"), "triangular": ("mean", "least", "greatest")}
+        for key in wanted.get(self.kind, bell):
+            if getattr(self, key) is None:
+                yield fault(key, expected=f"a value: a {self.kind} distribution needs it")
+        extra = {"uniform": bell, "triangular": ("deviation",)}
+        for key in extra.get(self.kind, ()):
+            if getattr(self, key) is not None:
+                remedy = "its ends say all of it"
+                yield fault(key, found=getattr(self, key), expected="nothing", remedy=remedy)
+
+
+class Variable(CheckedDescription):
+    """An entry of the machine, or several at once, and the values that it takes."""
+
+    address: Annotated[tuple[str, ...], BeforeValidator(_as_list)] = Field(
+        min_length=1, description="Address of the entry, or a list of them: all take the same value."
+    )
+    range: tuple[Value, Value] | None = Field(None, description="Minimum and maximum value.")
+    steps: int | None = Field(None, ge=2, description="How many values a grid takes from the range.")
+    scale: Literal["linear", "log"] = Field("linear", description="How a range is divided.")
+    whole: bool = Field(False, description="Whether a range holds whole numbers alone.")
+    values: tuple[Any, ...] | None = Field(
+        None, min_length=1, description="The values: numbers, or whatever else may stand at the address."
+    )
+    distribution: Distribution | None = Field(None, description="How it scatters.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        given = [way for way in WAYS if getattr(self, way) is not None]
+        if len(given) > 1:
+            yield fault(given[1], found=" and ".join(given), expected="one of range, values, distribution")
+        if self.steps is not None and self.values is not None:
+            yield fault("steps", found=self.steps, expected="nothing beside values")
+        if self.whole and given and self.range is None:
+            yield fault("whole", found=True, expected=f"nothing beside {given[0]}")
+
+
+class Response(CheckedDescription):
+    """A number that is asked for: a scalar of an analysis, a number of a curve, or a formula of others."""
+
+    quantity: str | None = Field(None, description='Scalar of an analysis, "steady_state.unevenness".')
+    curve: str | None = Field(None, description='Curve of an analysis, "steady_state.speed".')
+    extreme: Literal["max", "min", "range", "mean", "rms"] | None = Field(
+        None, description="What is taken of the curve, at the places where it is sampled."
+    )
+    index: int | None = Field(None, ge=0, description="Place in a list, from 0.")
+    at: Angle | None = Field(None, description="Crank angle at which a motion is taken.")
+    formula: str | None = Field(None, description="Formula of variables and other responses, in SI.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        ways = ("quantity", "curve", "formula")
+        given = [way for way in ways if getattr(self, way) is not None]
+        if len(given) != 1:
+            yield fault(found=" and ".join(given) or None, expected="one of quantity, curve, formula")
+        picks = [each for each in ("extreme", "index", "at") if getattr(self, each) is not None]
+        if self.curve is not None and len(picks) != 1:
+            remedy = "a response is one number"
+            found = " and ".join(picks) or None
+            yield fault("extreme", found=found, expected="one of extreme, index, at", remedy=remedy)
+        if self.at is not None and not (self.curve or "").startswith("motion."):
+            yield fault("at", found=self.at, expected='nothing but beside curve = "motion.POINT.x"')
+        elif self.curve is None and picks:
+            yield fault(picks[0], found=getattr(self, picks[0]), expected="nothing without curve")
+
+
+def _as_response(value: object) -> object:
+    """The table that a bare name stands for."""
+    return {"quantity": value} if isinstance(value, str) else value
+
+
+class Derived(Description):
+    """A number that follows from variables."""
+
+    formula: str = Field(description="Formula of variables and of derived numbers before it, in SI.")
+    address: Annotated[tuple[str, ...], BeforeValidator(_as_list)] = Field(
+        (), description="Entries of the machine that it is; none if it serves others alone."
+    )
+
+
+def _as_derived(value: object) -> object:
+    """The table that a bare formula stands for."""
+    return {"formula": value} if isinstance(value, str) else value
+
+
+class Constraint(CheckedDescription):
+    """Limits of a response, in its unit or with one."""
+
+    min: Value | None = Field(None, description="Minimum that is allowed.")
+    max: Value | None = Field(None, description="Maximum that is allowed.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.min is None and self.max is None:
+            yield fault(expected="min, max, or both")
+
+
+class Sweep(CheckedDescription):
+    """How the rows of a sweep are drawn."""
+
+    method: Literal["grid", "sobol", "latin_hypercube", "random", "list"] = Field(
+        "grid", description="All combinations, sequences that fill space, independent rows, or a file."
+    )
+    rows: int | None = Field(
+        None, ge=1, le=SWEEP_ROWS.most, description="How many rows; of a grid and a list they follow."
+    )
+    seed: int = Field(0, ge=0, description="Seed of the random generator.")
+    file: str | None = Field(
+        None, description="Of a list: CSV with a head, or Parquet in SI; columns are named as the variables."
+    )
+    chunk: int | None = Field(
+        None, ge=1, le=1_000_000, description="Rows in a file of results; without it, as fits the analyses."
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        follows = self.method in ("grid", "list")
+        if follows and self.rows is not None:
+            yield fault(
+                "rows", found=self.rows, expected=f"nothing: the rows of a {self.method} follow from it"
+            )
+        if not follows and self.rows is None:
+            yield fault("rows", expected="the number of rows")
+        if (self.method == "list") != (self.file is not None):
+            expected = "the file with the rows" if self.file is None else 'nothing without method = "list"'
+            yield fault("file", found=self.file, expected=expected)
+
+
+class StudyFile(Description):
+    """A study: beside its machine in a file of its own, or the table ``study`` of a machine file."""
+
+    machine: str | None = Field(None, description="The machine file, from the folder of this one.")
+    name: str = Field("", description="What the study asks.")
+    variables: dict[Name, Variable] = Field(default_factory=dict, description="What varies, by name.")
+    derived: dict[Name, Annotated[Derived, BeforeValidator(_as_derived)]] = Field(
+        default_factory=dict, description="What follows from it, by name."
+    )
+    responses: dict[Name, Annotated[Response, BeforeValidator(_as_response)]] = Field(
+        default_factory=dict, description="What is asked, by name."
+    )
+    constraints: dict[str, Constraint] = Field(
+        default_factory=dict, description="Limits by the name of the response."
+    )
+    goals: dict[str, Literal["minimise", "maximise"]] = Field(
+        default_factory=dict, description="What is wanted, by the name of the response."
+    )
+    sweep: Sweep = Field(default_factory=Sweep, description="How the rows of a sweep are drawn.")
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Report problems in the words of the file."""
+        try:
+            return handler(data)
+        except ValidationError as error:
+            raise MachineError(problems(error, cls, data)) from None

@@ -1,0 +1,135 @@
+"""Tables of rows as Parquet, with units in their metadata; needs pyarrow, the extra ``studies``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.studies.engine import Rows
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+Floats = NDArray[np.float64]
+
+# Under which the description of a study stands in the metadata of a file.
+KEY = b"linkwright"
+
+
+def require_pyarrow() -> None:
+    """Refuse to begin what ends in a Parquet file.
+
+    Raises
+    ------
+    InputError
+        pyarrow is not installed.
+    """
+    try:
+        import pyarrow.parquet  # noqa: F401
+    except ImportError:
+        raise InputError(
+            "Parquet files need pyarrow, which is not installed: pip install 'linkwright[studies]'"
+        ) from None
+
+
+def encoded(rows: Rows, start: int, units: Mapping[str, str], about: bytes) -> bytes:
+    """A Parquet file of rows.
+
+    Parameters
+    ----------
+    rows : Rows
+        The rows.
+    start : int
+        Number of the first.
+    units : mapping of str to str
+        Unit of each column; it stands in the metadata of the column.
+    about : bytes
+        Description of the study, for the metadata of the file.
+
+    Returns
+    -------
+    bytes
+        The same for the same rows.
+    """
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    reasons = pa.array(rows.reason, mask=rows.status == 0)
+    columns: dict[str, Any] = {
+        "row": pa.array(np.arange(start, start + len(rows), dtype=np.int64)),
+        **{name: pa.array(column) for name, column in rows.columns.items()},
+        "status": pa.array(rows.status),
+        "reason": pa.DictionaryArray.from_arrays(reasons, pa.array(rows.reasons, pa.string())),
+    }
+    fields = [
+        pa.field(name, column.type, metadata={"unit": units[name]} if units.get(name) else None)
+        for name, column in columns.items()
+    ]
+    table = pa.Table.from_arrays(list(columns.values()), schema=pa.schema(fields, metadata={KEY: about}))
+    out = pa.BufferOutputStream()
+    # Numbers of a sweep differ in all digits: neither dictionaries nor compression make them smaller.
+    pq.write_table(table, out, compression="none", use_dictionary=["reason"], write_statistics=True)
+    return out.getvalue().to_pybytes()  # type: ignore[no-any-return]
+
+
+def is_whole(path: Path, n_rows: int, about: bytes) -> bool:
+    """Whether a file holds a number of rows of a study: not if it is cut off, or another's."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        with pq.ParquetFile(path) as file:
+            metadata = file.schema_arrow.metadata or {}
+            return file.metadata.num_rows == n_rows and metadata.get(KEY) == about
+    except (pa.ArrowException, OSError):
+        return False
+
+
+def columns_of(path: Path, names: Sequence[str] | None = None) -> dict[str, Any]:
+    """Columns of a file: arrays of numbers, and texts of reasons, None where there is none."""
+    import pyarrow.parquet as pq
+
+    table = pq.read_table(path, columns=None if names is None else list(names))
+    return {name: _plain(table.column(name)) for name in table.column_names}
+
+
+def _plain(column: pa.ChunkedArray) -> Any:
+    import pyarrow as pa
+
+    if pa.types.is_dictionary(column.type):
+        return np.array(column.to_pylist(), dtype=object)
+    return column.to_numpy()
+
+
+def parquet_columns(path: Path, names: Sequence[str]) -> dict[str, Floats]:
+    """Columns of numbers of somebody's Parquet file, in SI.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or lacks a column of numbers.
+    """
+    require_pyarrow()
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        table = pq.read_table(path)
+    except (pa.ArrowException, OSError) as error:
+        raise InputError(f"{path}: cannot be read as Parquet ({' '.join(str(error).split())})") from None
+    missing = [name for name in names if name not in table.column_names]
+    if missing:
+        listed = ", ".join(table.column_names)
+        raise InputError(
+            f"{path}: found no column {missing[0]} among {listed}; name columns as the variables"
+        )
+    found = {name: table.column(name) for name in names}
+    for name, column in found.items():
+        if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
+            raise InputError(f"{path}: column {name}: found {column.type}, expected numbers in SI")
+    return {name: column.to_numpy().astype(float) for name, column in found.items()}

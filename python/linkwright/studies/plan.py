@@ -1,0 +1,291 @@
+"""A study that is ready to run: variables, responses and limits of a machine, all of them checked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.description.formula import NUMBERS, FormulaError, Node, names, parse
+from linkwright.kernel.errors import MachineError, Problem, UnitError, require_within, show
+from linkwright.kernel.limits import LATIN_ROWS, SWEEP_ROWS
+from linkwright.kernel.units import KINDS, Kind, parse_any
+from linkwright.kernel.units import parse as parse_quantity
+from linkwright.machine.address import get, known_place
+from linkwright.machine.machine import Machine
+from linkwright.studies import sampling
+from linkwright.studies.axes import Axis, axis
+from linkwright.studies.model.study import StudyFile, Sweep
+from linkwright.studies.responses import Asked, asked
+
+Floats = NDArray[np.float64]
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A number that follows from others.
+
+    Attributes
+    ----------
+    name : str
+        Its name.
+    tree : Node
+        The formula.
+    addresses : tuple of str
+        Entries of the machine that take its value; none of a response.
+    """
+
+    name: str
+    tree: Node
+    addresses: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class StudyPlan:
+    """A study that is ready to run.
+
+    Attributes
+    ----------
+    machine : Machine
+        The machine, as it is without the study.
+    study : StudyFile
+        The study as it stands in its file.
+    axes : tuple of Axis
+        The variables.
+    derived : tuple of Formula
+        What follows from them.
+    asked : tuple of Asked
+        Responses that analyses give.
+    formulas : tuple of Formula
+        Responses that follow from others.
+    limits : dict of str to (float, float)
+        Response → minimum and maximum that are allowed [SI], infinite without.
+    listed : ndarray, shape (n, variables), or None
+        Rows of a list, in SI.
+    """
+
+    machine: Machine
+    study: StudyFile
+    axes: tuple[Axis, ...]
+    derived: tuple[Formula, ...]
+    asked: tuple[Asked, ...]
+    formulas: tuple[Formula, ...]
+    limits: dict[str, tuple[float, float]] = field(default_factory=dict)
+    listed: Floats | None = None
+
+    @property
+    def sweep(self) -> Sweep:
+        """How rows are drawn."""
+        return self.study.sweep
+
+    @property
+    def n_rows(self) -> int:
+        """How many rows a sweep has."""
+        if self.listed is not None:
+            return len(self.listed)
+        if self.sweep.method == "grid":
+            return int(np.prod([len(each.levels) for each in self.axes], dtype=float))
+        return self.sweep.rows or 0
+
+    @property
+    def responses(self) -> tuple[str, ...]:
+        """Names of the responses, in the order of the file."""
+        return tuple(self.study.responses)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """SI unit of each variable and response; empty for a number without one, and for a formula."""
+        known = {each.name: each.unit for each in self.axes} | {each.name: each.unit for each in self.asked}
+        return {name: known.get(name, "") for name in self.columns}
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of variables, derived numbers and responses."""
+        return (*(each.name for each in self.axes), *(each.name for each in self.derived), *self.responses)
+
+    def shares(self, start: int, stop: int) -> Floats:
+        """Rows of the sweep as shares between 0 and 1, (stop - start, variables)."""
+        n, seed = len(self.axes), self.sweep.seed
+        match self.sweep.method:
+            case "grid":
+                return sampling.grid([each.levels for each in self.axes], start, stop)
+            case "sobol":
+                return sampling.sobol(n, seed, start, stop)
+            case "latin_hypercube":
+                return sampling.latin_hypercube(n, self.n_rows, seed, start, stop)
+        return sampling.random(n, seed, start, stop)
+
+    def rows(self, start: int, stop: int) -> dict[str, Floats]:
+        """Values of the variables in some rows of the sweep, (stop - start,) each, in SI."""
+        if self.listed is not None:
+            return {each.name: self.listed[start:stop, i] for i, each in enumerate(self.axes)}
+        return self.values(self.shares(start, stop))
+
+    def values(self, shares: Floats) -> dict[str, Floats]:
+        """Values of the variables at shares, shape (n, variables) → (n,) each, in SI."""
+        columns = enumerate(self.axes)
+        return {each.name: np.ascontiguousarray(each.values(shares[:, i])) for i, each in columns}
+
+
+def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> StudyPlan:
+    """Check a study against its machine.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    study : StudyFile
+        The study.
+    listed : ndarray, shape (n, variables), optional
+        Rows of a list, in SI.
+
+    Returns
+    -------
+    StudyPlan
+        Ready to run.
+
+    Raises
+    ------
+    MachineError
+        Something in it is wrong; all problems are listed, with keys from the top of the study.
+    """
+    found: list[Problem] = []
+
+    def gather(items: Iterable[tuple[str, Any]], read: Any) -> tuple[Any, ...]:
+        """All that can be read; problems are kept for the end."""
+        results = []
+        for name, each in items:
+            try:
+                results.append(read(name, each))
+            except MachineError as error:
+                found.extend(error.problems)
+        return tuple(results)
+
+    axes = gather(study.variables.items(), lambda name, each: axis(machine, name, each))
+    known = [*study.variables]
+    derived = gather(study.derived.items(), lambda name, each: _derived(machine, known, name, each))
+    plain = [(name, each) for name, each in study.responses.items() if each.formula is None]
+    made = [(name, each) for name, each in study.responses.items() if each.formula is not None]
+    responses = gather(plain, lambda name, each: asked(machine, name, each))
+    known += [*study.derived, *(name for name, _ in plain)]
+    formulas = gather(made, lambda name, each: _formula(known, f"responses.{name}", name, each.formula or ""))
+    units = {each.name: each.unit for each in responses}
+    limits = gather(study.constraints.items(), lambda name, each: (name, _limits(study, units, name, each)))
+    found += _further_problems(study, listed)
+    if found:
+        raise MachineError(found)
+    ready = StudyPlan(machine, study, axes, derived, responses, formulas, dict(limits), listed)
+    _check_rows(ready)
+    return ready
+
+
+def _further_problems(study: StudyFile, listed: Floats | None) -> Iterable[Problem]:
+    """What is missing, what has the name of something else, goals without a response."""
+    if not study.variables:
+        yield Problem("variables", "nothing", "a table for each entry that varies")
+    if not study.responses:
+        yield Problem("responses", "nothing", 'what is asked, such as delta = "steady_state.unevenness"')
+    seen: dict[str, str] = {"row": "the number of a row", "status": "a column", "reason": "a column"}
+    for table in ("variables", "derived", "responses"):
+        for name in getattr(study, table):
+            if name in seen:
+                yield Problem(f"{table}.{name}", show(name), f"a name that is not {seen[name]} already")
+            seen[name] = f"one of the {table}"
+    for name in study.goals:
+        if name not in study.responses:
+            yield Problem(f"goals.{name}", show(name), "a response", suggestion(name, study.responses))
+    for name, each in study.variables.items():
+        is_given = any((each.range, each.values, each.distribution))
+        if not is_given and listed is None:
+            yield Problem(f"variables.{name}", "nothing", "one of range, values, distribution")
+        needs_steps = each.values is None and not each.whole and each.steps is None
+        if study.sweep.method == "grid" and is_given and needs_steps:
+            yield Problem(f"variables.{name}.steps", "nothing", "how many values a grid takes")
+    yield from _taken_twice(study)
+
+
+def _taken_twice(study: StudyFile) -> Iterable[Problem]:
+    """Entries that two variables set."""
+    setters: dict[str, str] = {}
+    for table in ("variables", "derived"):
+        for name, each in getattr(study, table).items():
+            for address in each.address:
+                if address in setters:
+                    expected = f"an entry that {setters[address]} does not set"
+                    yield Problem(f"{table}.{name}.address", show(address), expected)
+                setters[address] = name
+
+
+def _check_rows(ready: StudyPlan) -> None:
+    """Refuse more rows than there may be."""
+    limit = LATIN_ROWS if ready.sweep.method == "latin_hypercube" else SWEEP_ROWS
+    require_within(limit, ready.n_rows, "rows of the sweep", "vary less, or more coarsely")
+
+
+def _derived(machine: Machine, known: list[str], name: str, each: Any) -> Formula:
+    """A derived number; from then on it is known."""
+    found = _formula(known, f"derived.{name}", name, each.formula)
+    for address in each.address:
+        try:
+            known_place(machine, address)
+        except MachineError as error:
+            problem = error.problems[0]
+            key = f"derived.{name}.address"
+            raise MachineError([Problem(key, show(address), problem.expected, problem.remedy)]) from None
+        if not isinstance(get(machine, address), int | float | None):
+            raise MachineError(
+                [Problem(f"derived.{name}.address", show(address), "an entry that is a number")]
+            )
+    known.append(name)
+    return Formula(name, found.tree, each.address)
+
+
+def _formula(known: list[str], key: str, name: str, text: str) -> Formula:
+    """A formula whose names are all known."""
+    try:
+        tree = parse(text)
+    except FormulaError as error:
+        raise MachineError([Problem(f"{key}.formula", show(text), error.expected, error.remedy)]) from None
+    strange = [each for each in names(tree) if each not in (*known, *NUMBERS)]
+    if strange:
+        expected = "names of variables, of derived numbers before it, and in a response of other responses"
+        raise MachineError(
+            [Problem(f"{key}.formula", show(strange[0]), expected, suggestion(strange[0], known))]
+        )
+    return Formula(name, tree)
+
+
+def _limits(study: StudyFile, units: Mapping[str, str], name: str, each: Any) -> tuple[float, float]:
+    """Minimum and maximum of a response in SI."""
+    if name not in study.responses:
+        remedy = suggestion(name, study.responses)
+        raise MachineError([Problem(f"constraints.{name}", show(name), "a response", remedy)])
+    kind = _kind_of(units.get(name, ""))
+    low, high = (
+        default if value is None else _quantity(f"constraints.{name}.{key}", value, kind)
+        for key, value, default in (("min", each.min, -np.inf), ("max", each.max, np.inf))
+    )
+    if low > high:
+        found = f"{low:.6g} to {high:.6g}"
+        raise MachineError([Problem(f"constraints.{name}", found, "min of at most max: nothing keeps both")])
+    return low, high
+
+
+def _kind_of(unit: str) -> Kind | None:
+    """The quantity that a unit as it is printed belongs to; None for none of those of a machine file."""
+    plain = unit.replace("²", "^2").replace("³", "^3").replace("·", " ")
+    return next((each for each in KINDS if each.unit == plain), None)
+
+
+def _quantity(key: str, value: object, kind: Kind | None) -> float:
+    """A limit in SI."""
+    try:
+        return parse_any(value) if kind is None else parse_quantity(value, kind)
+    except UnitError as error:
+        problem = error.problem
+        raise MachineError([Problem(key, problem.found, problem.expected, problem.remedy)]) from None

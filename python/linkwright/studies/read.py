@@ -1,0 +1,147 @@
+"""Read a study: a file beside its machine, or the table ``study`` of a machine file."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.description.text import split
+from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem
+from linkwright.kernel.files.columns import read_columns
+from linkwright.kernel.files.lines import key_lines, line_of
+from linkwright.kernel.files.text_file import TextError, text_of
+from linkwright.kernel.limits import FILE_BYTES
+from linkwright.kernel.public import public
+from linkwright.kernel.units import COUNT
+from linkwright.machine.address import kind
+from linkwright.machine.machine import Machine
+from linkwright.machine.overrides import Override, apply, parse_all
+from linkwright.machine.read import Overrides, read, tables_of
+from linkwright.studies.model.study import StudyFile
+from linkwright.studies.parquet import parquet_columns
+from linkwright.studies.plan import StudyPlan, plan
+
+Floats = NDArray[np.float64]
+
+# The table of a machine file that is a study.
+TABLE = "study"
+
+
+@public
+def read_study(
+    path: str | os.PathLike[str],
+    overrides: Overrides = (),
+    *,
+    allow_outside: bool = False,
+) -> StudyPlan:
+    """Read a study and its machine, and check one against the other.
+
+    Parameters
+    ----------
+    path : path
+        A study file, whose entry ``machine`` names the machine file; or a machine file with a table
+        ``study``.
+    overrides : sequence of str or Mapping
+        Entries that replace or add to those of the machine, texts ``PATH=VALUE`` or path → value; those that
+        begin with ``study.`` are of the study.
+    allow_outside : bool
+        Whether an entry `file` may lead out of the folder of the machine file.
+
+    Returns
+    -------
+    StudyPlan
+        Ready to run.
+
+    Raises
+    ------
+    MachineFileError
+        Something is wrong in one of the files; all problems of the first are listed with line and key.
+    InputError
+        An override is malformed.
+    """
+    place = Path(path)
+    text = _text(place)
+    tables = tables_of(text, str(place))
+    is_machine = isinstance(tables.get(TABLE), Mapping)
+    of_study, of_machine = _divided(parse_all(overrides))
+    given = tables[TABLE] if is_machine else tables
+    for change in of_study:
+        apply(given, change)
+    at = (TABLE,) if is_machine else ()
+    try:
+        study = StudyFile.model_validate(given)
+        source = place if is_machine else _machine_of(place, study)
+        options = {each.address: each.value for each in of_machine}
+        whole = read(source, options, allow_outside=allow_outside)
+        # Results are those of the machine and of this study, whatever other study stands in its file.
+        machine = whole if whole.study is None else whole.with_entries({"study": None})
+        return plan(machine, study, _listed(place, machine, study))
+    except MachineFileError:
+        raise
+    except MachineError as error:
+        raise MachineFileError(_located(error.problems, text, str(place), at)) from None
+
+
+def _text(path: Path) -> str:
+    """The text of the file."""
+    try:
+        return text_of(path, FILE_BYTES)
+    except TextError as error:
+        expected = error.expected or "a study file"
+        problem = Problem(found=error.found, expected=expected, remedy=error.remedy, path=str(path))
+        raise MachineFileError([problem]) from None
+
+
+def _divided(changes: Sequence[Override]) -> tuple[list[Override], list[Override]]:
+    """Overrides of the study, without the name of its table, and those of the machine."""
+    mark = f"{TABLE}."
+    own = [
+        replace(each, address=each.address[len(mark) :]) for each in changes if each.address.startswith(mark)
+    ]
+    return own, [each for each in changes if not each.address.startswith(mark)]
+
+
+def _machine_of(path: Path, study: StudyFile) -> Path:
+    """The machine file that a study names."""
+    if study.machine is None:
+        remedy = 'machine = "FILE", or a table [study] in the machine file'
+        raise MachineError([Problem("machine", "nothing", "the machine file", remedy)])
+    beside = path.parent / study.machine
+    # A name alone may be one of the library.
+    return beside if beside.exists() or Path(study.machine).suffix else Path(study.machine)
+
+
+def _listed(path: Path, machine: Machine, study: StudyFile) -> Floats | None:
+    """Rows of a list in SI, (n, variables)."""
+    if study.sweep.file is None:
+        return None
+    place = path.parent / study.sweep.file
+    names = list(study.variables)
+    if place.suffix == ".parquet":
+        found = parquet_columns(place, names)
+    else:
+        kinds = {name: kind(machine, each.address[0]) or COUNT for name, each in study.variables.items()}
+        found = read_columns(place, kinds)
+    rows = np.stack([found[name] for name in names], axis=1)
+    if not len(rows):
+        raise InputError(f"{place}: found no rows, expected at least one")
+    if not np.isfinite(rows).all():
+        row = int(np.flatnonzero(~np.isfinite(rows).all(axis=1))[0])
+        raise InputError(f"{place}: row {row}: found a number that is not finite")
+    return rows
+
+
+def _located(problems: Sequence[Problem], text: str, path: str, at: tuple[str, ...]) -> list[Problem]:
+    """Problems of the study with file and line."""
+    lines = key_lines(text)
+    found = []
+    for each in problems:
+        place = (*at, *(split(each.key) if each.key else ()))
+        key = ".".join((*at, each.key)) if each.key else ".".join(at)
+        found.append(replace(each, key=key, path=path, line=line_of(lines, place)))
+    return sorted(found, key=lambda each: each.line or 0)

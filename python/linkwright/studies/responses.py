@@ -1,0 +1,198 @@
+"""What a study asks: the analyses that give it, and one number out of each result.
+
+A response is named by its analysis and its quantity, ``steady_state.unevenness``; where a machine has several
+of a kind the name stands between, ``cam.valve.pressure_angle_max``. ``motion.C.x`` is the place of a point
+over the crank angle, ``motion.C.y`` likewise.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any, get_type_hints
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.drive.batch import SteadyStates
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import FindingError, MachineError, Problem, show
+from linkwright.kernel.quantities import Shown, declared, is_array
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+from linkwright.studies.model.study import Response
+
+Floats = NDArray[np.float64]
+
+# Analysis → the function that makes it of a machine, and a name where there are several.
+ANALYSES = {
+    "reduction": "drive.reduction:reduction",
+    "constant_energy": "drive.constant_energy:constant_energy",
+    "steady_state": "drive.steady_state:steady_state",
+    "run_up": "drive.run_up:run_up",
+    "run_down": "drive.run_down:run_down",
+    "linkage": "linkages.cycle:linkage",
+    "forces": "kinetostatics.forces:forces",
+    "cam": "cam.profile.profile:cam_profile",
+    "cam_force": "cam.dynamics.loaded:loaded_cam",
+    "pumping_unit": "pumping.unit:pumping_unit",
+    "rod_rotator": "pumping.rod_rotator:rod_rotator",
+    "turning_moment": "turning.diagram:turning_moment",
+    "topper": "topping.topper:topper",
+    "topper_field": "topping.field:topper_field",
+    "free_vibration": "torsion.modes.free:free_vibration",
+    "forced_vibration": "torsion.response.forced:forced_vibration",
+}
+
+# The analysis of points alone, which needs no drive.
+MOTION = "motion"
+
+# What the core gives of the steady motion of many machines.
+_OF_BATCH = {*SteadyStates.__dataclass_fields__, *vars(SteadyStates)}
+
+# Crank angles per revolution at which a motion is sampled for its extremes: an extreme between them is missed
+# by at most (half a step)²/2 of the second derivative, 4e-5 of a harmonic motion's amplitude.
+SAMPLES = 360
+
+
+@dataclass(frozen=True)
+class Asked:
+    """One response of a study.
+
+    Attributes
+    ----------
+    name : str
+        Its name in the study.
+    analysis : str
+        Analysis that it comes from.
+    of : tuple of str
+        Name of the cam, or of the point, where there are several.
+    quantity : str
+        Attribute of the result; of a point ``"x"`` or ``"y"``.
+    word, unit : str
+        What it is called, SI unit.
+    extreme : str or None
+        What is taken of a curve.
+    index : int or None
+        Place in a list.
+    at : float or None
+        Crank angle at which a motion is taken [rad].
+    """
+
+    name: str
+    analysis: str
+    of: tuple[str, ...]
+    quantity: str
+    word: str
+    unit: str
+    extreme: str | None = None
+    index: int | None = None
+    at: float | None = None
+
+    @property
+    def key(self) -> tuple[str, tuple[str, ...]]:
+        """Analysis and name: what is computed once for all responses that share it."""
+        return self.analysis, self.of
+
+    @property
+    def is_batch(self) -> bool:
+        """Whether the core computes it for many machines at once."""
+        is_scalar = self.extreme is None and self.index is None
+        return self.analysis == MOTION or (
+            self.analysis == "steady_state" and is_scalar and self.quantity in _OF_BATCH
+        )
+
+    def number(self, result: Any) -> float:
+        """The number that is asked for, out of a result.
+
+        Raises
+        ------
+        FindingError
+            The machine has no such number.
+        """
+        value = getattr(result, self.quantity)
+        if value is not None and self.extreme is not None:
+            value = taken(np.asarray(value, dtype=float), self.extreme)
+        elif value is not None and self.index is not None:
+            if self.index >= len(value):
+                raise FindingError(
+                    f"{self.analysis}.{self.quantity} has {len(value)} values, none of number {self.index}"
+                )
+            value = value[self.index]
+        if value is None or not math.isfinite(float(value)):
+            raise FindingError(f"{self.word} has no value for this machine")
+        return float(value)
+
+
+def taken(curve: Floats, extreme: str) -> Any:
+    """One number of each curve, over its last axis."""
+    match extreme:
+        case "max":
+            return curve.max(axis=-1)
+        case "min":
+            return curve.min(axis=-1)
+        case "range":
+            return np.ptp(curve, axis=-1)
+        case "mean":
+            return curve.mean(axis=-1)
+    return np.sqrt((curve**2).mean(axis=-1))
+
+
+def analysis(name: str) -> Callable[..., Result]:
+    """The function of an analysis, imported now."""
+    module, _, function = ANALYSES[name].partition(":")
+    found: Callable[..., Result] = getattr(import_module(f"linkwright.{module}"), function)
+    return found
+
+
+def asked(machine: Machine, name: str, response: Response) -> Asked:
+    """A response of a study, checked against what there is.
+
+    Raises
+    ------
+    MachineError
+        No such analysis or quantity, a curve where a number belongs, or a number where a curve does.
+    """
+    text = response.quantity or response.curve or ""
+    first, *rest = text.split(".")
+    key = "quantity" if response.quantity is not None else "curve"
+    if first == MOTION:
+        return _of_motion(machine, name, key, text, response)
+    if first not in ANALYSES or not rest:
+        raise _wrong(name, key, text, "analysis.quantity", suggestion(first, (*ANALYSES, MOTION)))
+    owner = get_type_hints(analysis(first))["return"]
+    known = {each: mark for each, (_, mark) in declared(owner).items() if isinstance(mark, Shown)}
+    *of, quantity = rest
+    if quantity not in known:
+        raise _wrong(name, key, text, f"a quantity of {first}", suggestion(quantity, known))
+    wants_curve = response.curve is not None
+    if is_array(owner, quantity) and not wants_curve:
+        remedy = f'{{ curve = "{text}", extreme = "max" }}'
+        raise _wrong(name, key, f"{text}, which is a curve", "one number", remedy)
+    if wants_curve and not is_array(owner, quantity):
+        raise _wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')
+    mark = known[quantity]
+    return Asked(name, first, tuple(of), quantity, mark.word, mark.unit, response.extreme, response.index)
+
+
+def _of_motion(machine: Machine, name: str, key: str, text: str, response: Response) -> Asked:
+    """A coordinate of a point."""
+    _, *place, coordinate = text.split(".")
+    points = compile_machine(machine).points
+    point = ".".join(place)
+    if coordinate not in ("x", "y") or point not in points:
+        raise _wrong(name, key, text, "motion.POINT.x or motion.POINT.y", suggestion(point, points))
+    if response.curve is None:
+        remedy = f'{{ curve = "{text}", extreme = "max" }} or {{ curve = "{text}", at = "30 deg" }}'
+        raise _wrong(name, key, f"{text}, which is a curve", "one number", remedy)
+    if response.index is not None:
+        raise _wrong(name, "index", str(response.index), "extreme or at, of a motion")
+    word = f"{coordinate} of {point}"
+    return Asked(name, MOTION, (point,), coordinate, word, "m", response.extreme, at=response.at)
+
+
+def _wrong(name: str, key: str, found: str, expected: str, remedy: str = "") -> MachineError:
+    return MachineError([Problem(f"responses.{name}.{key}", show(found), expected, remedy)])

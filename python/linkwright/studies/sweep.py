@@ -1,0 +1,191 @@
+"""A sweep: the rows of a study, computed file by file into a folder; one that was stopped goes on.
+
+Files are computed in the order of their numbers; while one is computed, the one before is written.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from time import monotonic
+from typing import Annotated, Any
+
+import numpy as np
+
+from linkwright.kernel.errors import FindingError, InputError, InternalError
+from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Result
+from linkwright.studies.engine import SOLVED, evaluate, numbers
+from linkwright.studies.folder import SweepFolder, new_folder
+from linkwright.studies.parquet import columns_of
+from linkwright.studies.plan import StudyPlan
+
+
+@dataclass(frozen=True)
+class Sweep(Result):
+    """What a sweep has found so far."""
+
+    path: Annotated[str, About("The folder of the results.")]
+    n_rows: Annotated[int, Shown("rows of the sweep", "", "")]
+    n_done: Annotated[int, Shown("rows computed so far", "", "")]
+    n_failed: Annotated[int, Shown("rows without an answer", "", "", "Each keeps its reason.")]
+    reasons: Annotated[dict[str, int], About("Reason of failed rows → how many rows.")]
+    extremes: Annotated[
+        dict[str, dict[str, float]],
+        About("Response → its minimum and maximum [SI], and the rows that have them."),
+    ]
+    repaired: Annotated[tuple[str, ...], About("Files that were cut off, and were computed anew.")] = ()
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether all rows are there."""
+        return self.n_done == self.n_rows
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Counts, reasons and extremes by name.
+
+        Parameters
+        ----------
+        curves : bool
+            Without effect: rows are in the folder.
+
+        Returns
+        -------
+        dict
+            Plain numbers, texts and tables, ready for JSON.
+        """
+        return {**super().to_dict(), "reasons": self.reasons, "extremes": self.extremes}
+
+
+@public
+def sweep(
+    plan: StudyPlan,
+    folder: str | os.PathLike[str],
+    *,
+    chunks: tuple[int, int] | None = None,
+    watch: Callable[..., None] | None = None,
+) -> Sweep:
+    """Compute the rows of a study that a folder does not have yet.
+
+    Parameters
+    ----------
+    plan : StudyPlan
+        The study, from `read_study`.
+    folder : path
+        Folder of the results; made if there is none. One of an interrupted run of the same study is
+        completed.
+    chunks : tuple of int, optional
+        First number of the files to compute, and the one after the last: a share of the work, as for one job
+        of many.
+    watch : callable, optional
+        Told rows done, rows in all, and rows a second.
+
+    Returns
+    -------
+    Sweep
+        What is in the folder in the end.
+
+    Raises
+    ------
+    InputError
+        The folder is that of another study, or cannot be written to; an analysis needs what the machine does
+        not have.
+    """
+    found = begun(plan, folder)
+    missing, repaired = _missing(found, chunks)
+    _compute(plan, found, missing, watch)
+    return summary(found, plan.responses, repaired)
+
+
+def begun(plan: StudyPlan, folder: str | os.PathLike[str]) -> SweepFolder:
+    """The folder of a sweep, made if need be; the study is tried on its machine first."""
+    found = new_folder(Path(folder), plan)
+    _try(plan)
+    found.begin()
+    return found
+
+
+def _try(plan: StudyPlan) -> None:
+    """Refuse a study whose analyses make no sense for its machine, before anything is written."""
+    try:
+        numbers(plan.machine, list(plan.asked))
+    except FindingError:
+        # What the machine cannot do as it is, variants of it may.
+        return
+
+
+def _missing(folder: SweepFolder, chunks: tuple[int, int] | None) -> tuple[list[int], tuple[str, ...]]:
+    """Numbers of the files to compute, and names of those that are there but cut off."""
+    first, last = chunks or (0, folder.n_parts)
+    if not 0 <= first < last or first >= folder.n_parts:
+        raise InputError(
+            f"chunks {first}:{last}: expected numbers from 0 to {folder.n_parts}, the first smaller"
+        )
+    numbers = [number for number in range(first, min(last, folder.n_parts)) if not folder.is_done(number)]
+    return numbers, tuple(folder.part(each).name for each in numbers if folder.part(each).exists())
+
+
+def compute_part(plan: StudyPlan, folder: SweepFolder, number: int) -> None:
+    """Compute the rows of a file, and write it."""
+    folder.write(number, evaluate(plan, plan.rows(*folder.rows_of(number))))
+
+
+def _compute(
+    plan: StudyPlan, folder: SweepFolder, missing: Iterable[int], watch: Callable[..., None] | None
+) -> None:
+    """Compute and write files; one is written while the next is computed."""
+    listed = list(missing)
+    total = sum(stop - start for start, stop in map(folder.rows_of, listed))
+    done, began = 0, monotonic()
+    with ThreadPoolExecutor(1) as writer:
+        writing: Future[None] | None = None
+        for number in listed:
+            start, stop = folder.rows_of(number)
+            rows = evaluate(plan, plan.rows(start, stop))
+            if writing is not None:
+                writing.result()
+            writing = writer.submit(folder.write, number, rows)
+            done += stop - start
+            if watch is not None:
+                watch(done, total, done / max(monotonic() - began, 1e-9))
+        if writing is not None:
+            writing.result()
+
+
+def summary(folder: SweepFolder, responses: Iterable[str], repaired: tuple[str, ...] = ()) -> Sweep:
+    """What is in a folder: counts, reasons, extremes."""
+    names = list(responses)
+    n_done, reasons = 0, Counter[str]()
+    lows: dict[str, tuple[float, int]] = {}
+    highs: dict[str, tuple[float, int]] = {}
+    for path in folder.parts():
+        columns = columns_of(path, ["row", *names, "status", "reason"])
+        solved = columns["status"] == SOLVED
+        n_done += len(solved)
+        reasons.update(columns["reason"][~solved])
+        if solved.any():
+            for name in names:
+                values, rows = columns[name][solved], columns["row"][solved]
+                low, high = int(values.argmin()), int(values.argmax())
+                lows[name] = min(lows.get(name, (np.inf, 0)), (float(values[low]), int(rows[low])))
+                highs[name] = max(highs.get(name, (-np.inf, 0)), (float(values[high]), int(rows[high])))
+    extremes = {
+        name: {"min": low, "min_row": at, "max": highs[name][0], "max_row": highs[name][1]}
+        for name, (low, at) in lows.items()
+    }
+    if n_done > folder.n_rows:
+        raise InternalError("sweep", f"{n_done} rows in place of {folder.n_rows}")
+    return Sweep(
+        path=str(folder.path),
+        n_rows=folder.n_rows,
+        n_done=n_done,
+        n_failed=sum(reasons.values()),
+        reasons=dict(reasons.most_common()),
+        extremes=extremes,
+        repaired=repaired,
+    )

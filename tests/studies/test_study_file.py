@@ -1,0 +1,109 @@
+"""A study is refused before it runs: with file, line, key, what was found and what to change."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.kernel.errors import InputError, MachineFileError
+
+Files = Callable[..., Path]
+
+WRONG = {
+    "no such entry": (('"mechanism.cranks.A2.phase"', '"mechanism.cranks.A2.fase"'), "phase.address", 5),
+    "wrong unit": (('"45 deg"', '"45 kg"'), "variables.phase.range", 6),
+    "turned range": (('["45 deg", "135 deg"]', '["135 deg", "45 deg"]'), "variables.phase.range", 6),
+    "no steps of a grid": (("steps = 5\n", ""), "variables.phase.steps", 4),
+    "two ways": (("steps = 5", "values = [1]"), "values", 7),
+    "no such quantity": (("steady_state.dynamism", "steady_state.dynamics"), "responses.H", 19),
+    "no such analysis": (("steady_state.dynamism", "steady.dynamism"), "responses.H", 19),
+    "a curve": (('"steady_state.dynamism"', '"steady_state.speed"'), "responses.H", 19),
+    "unknown name": (("delta^2 + H", "delta^2 + h_max"), "responses.k_p.formula", 20),
+    "no formula": (("delta^2 + H", "delta^2 + + * H"), "responses.k_p.formula", 20),
+    "limit of nothing": (("delta = { max", "gamma = { max"), "constraints.gamma", 23),
+    "contradiction": (("{ max = 0.3 }", "{ min = 0.4, max = 0.3 }"), "constraints.delta", 23),
+    "rows of a grid": (("chunk = 4", "rows = 4"), "sweep.rows", 26),
+    "one entry twice": (('"bodies.cart2.mass"]', '"mechanism.cranks.A2.phase"]'), "mass.address", 10),
+    "name twice": (("half = ", "phase = "), "derived.phase", 15),
+    "goal of nothing": (("[sweep]", '[goals]\nnothing = "minimise"\n[sweep]'), "goals.nothing", 26),
+    "unknown key": (("chunk = 4", "chunks = 4"), "sweep.chunks", 26),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_a_wrong_study_is_refused(name: str, study_file: Files) -> None:
+    change, key, line = WRONG[name]
+    with pytest.raises(MachineFileError) as caught:
+        lw.read_study(study_file(change))
+    problem = caught.value.problems[0]
+    assert key in problem.key, str(caught.value)
+    assert problem.line == line, str(caught.value)
+    assert problem.path.endswith("study.toml")
+    assert problem.found
+    assert problem.expected
+
+
+def test_all_problems_are_told_at_once(study_file: Files) -> None:
+    with pytest.raises(MachineFileError) as caught:
+        lw.read_study(study_file(('"45 deg"', '"45 kg"'), ("steady_state.dynamism", "steady_state.no")))
+    assert len(caught.value.problems) >= 2
+
+
+def test_too_many_rows_are_refused(study_file: Files) -> None:
+    with pytest.raises(InputError, match="1 000 000 000 rows"):
+        lw.read_study(study_file(("steps = 5", "steps = 500000"), ("steps = 3", "steps = 10000")))
+
+
+def test_values_of_a_grid(study_file: Files) -> None:
+    plan = lw.read_study(study_file())
+    assert plan.n_rows == 15
+    rows = plan.rows(0, 15)
+    np.testing.assert_allclose(np.degrees(rows["phase"][::3]), [45, 67.5, 90, 112.5, 135])
+    np.testing.assert_allclose(rows["mass"][:3], [900, 1000, 1100])
+    # Ends of a range are met exactly.
+    assert rows["phase"][0] == np.radians(45.0)
+    assert plan.units["mass"] == "kg"
+
+
+def test_overrides_of_machine_and_study(study_file: Files) -> None:
+    changes = ["study.variables.phase.steps=7", "drive.gearbox.ratio=12"]
+    plan = lw.read_study(study_file(), changes)
+    assert plan.n_rows == 21
+    assert lw.get(plan.machine, "drive.gearbox.ratio") == 12
+
+
+@pytest.mark.parametrize(
+    ("text", "mean", "deviation"),
+    [
+        ('{ kind = "normal", mean = "1 t", deviation = "20 kg" }', 1000, 20),
+        ('{ kind = "lognormal", mean = 1000, deviation = 50 }', 1000, 50),
+        ('{ kind = "uniform", least = 900, greatest = 1100 }', 1000, 200 / np.sqrt(12)),
+        # Variance of a triangle: (a² + b² + c² - ab - ac - bc)/18.
+        ('{ kind = "triangular", mean = 1000, least = 900, greatest = 1100 }', 1000, 100 / np.sqrt(6)),
+    ],
+)
+def test_distributions(text: str, mean: float, deviation: float, study_file: Files) -> None:
+    change = ('range = ["900 kg", "1100 kg"]\nsteps = 3', f"distribution = {text}\nsteps = 2000")
+    masses = lw.read_study(study_file(change, ("steps = 5", "steps = 2"))).rows(0, 2000)["mass"]
+    # Middles of 2000 strata miss the tails: 1 % of the deviation.
+    assert masses.mean() == pytest.approx(mean, rel=1e-3)
+    assert masses.std() == pytest.approx(deviation, rel=0.01)
+
+
+def test_a_list_from_csv_and_parquet(study_file: Files, tmp_path: Path) -> None:
+    (tmp_path / "rows.csv").write_text("phase [deg], mass [kg]\n80, 950\n90, 1000\n")
+    change = ("chunk = 4", 'method = "list"\nfile = "rows.csv"')
+    plan = lw.read_study(study_file(change))
+    np.testing.assert_allclose(plan.rows(0, 2)["phase"], np.radians([80, 90]))
+    import pandas as pd
+
+    pd.DataFrame(plan.rows(0, 2)).to_parquet(tmp_path / "rows.parquet")
+    again = lw.read_study(study_file(("chunk = 4", 'method = "list"\nfile = "rows.parquet"')))
+    np.testing.assert_array_equal(again.listed, plan.listed)
+    (tmp_path / "rows.csv").write_text("phase [deg]\n80\n")
+    with pytest.raises(InputError, match="no column"):
+        lw.read_study(study_file(change))

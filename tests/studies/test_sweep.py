@@ -1,0 +1,190 @@
+"""A sweep is complete and the same, whatever stops it on the way."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import linkwright as lw
+from linkwright.kernel.errors import InputError
+from linkwright.studies.engine import numbers, sound_variant
+
+Files = Callable[..., Path]
+
+# In make test a few kills; tests/fuzz/deep.py does more.
+KILLS = int(os.environ.get("LINKWRIGHT_KILLS", "3"))
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in sorted(folder.glob("*.parquet"))}
+
+
+def test_rows_are_those_of_single_machines(study_file: Files, tmp_path: Path) -> None:
+    plan = lw.read_study(study_file())
+    found = lw.sweep(plan, tmp_path / "rows")
+    assert found.is_complete
+    table = pd.read_parquet(tmp_path / "rows")
+    assert list(table["row"]) == list(range(15))
+    assert (table["half"] == table["mass"] / 2).all()
+    for row in (0, 7, 14):
+        entries = {
+            "mechanism.cranks.A2.phase": table["phase"][row],
+            "bodies.cart1.mass": table["mass"][row],
+            "bodies.cart2.mass": table["mass"][row],
+        }
+        delta, dynamism = numbers(sound_variant(plan.machine, entries), list(plan.asked))
+        # What lanes promise of speeds and of peaks of acceleration.
+        assert table["delta"][row] == pytest.approx(delta, rel=1e-6)
+        assert table["H"][row] == pytest.approx(dynamism, rel=1e-5)
+        assert table["k_p"][row] == pytest.approx(delta**2 + dynamism, rel=1e-5)
+    low = found.extremes["delta"]
+    assert table["delta"][low["min_row"]] == low["min"] == table["delta"].min()
+
+
+def test_a_row_does_not_depend_on_how_rows_are_divided(study_file: Files, tmp_path: Path) -> None:
+    whole = lw.evaluate(lw.read_study(study_file()), (plan := lw.read_study(study_file())).rows(0, 15))
+    parts = [lw.evaluate(plan, plan.rows(a, b)) for a, b in ((0, 1), (1, 9), (9, 15))]
+    for name in plan.responses:
+        together = np.concatenate([each.columns[name] for each in parts])
+        # Lanes are filled differently; the promise of each is kept.
+        np.testing.assert_allclose(together, whole.columns[name], rtol=1e-6)
+
+
+def test_rows_that_fail_keep_their_reason(study_file: Files, tmp_path: Path) -> None:
+    change = (
+        'range = ["900 kg", "1100 kg"]\nsteps = 3',
+        'values = ["0.15 m", "0.8 m", "-1 m"]',
+    )
+    other = ('["bodies.cart1.mass", "bodies.cart2.mass"]', '"mechanism.sliders.cart1.rod"')
+    plan = lw.read_study(study_file(change, other))
+    found = lw.sweep(plan, tmp_path / "rows")
+    table = pd.read_parquet(tmp_path / "rows")
+    assert found.n_failed == 10
+    assert list(table["status"]) == [1, 0, 2] * 5
+    assert table["delta"].isna().tolist() == [True, False, True] * 5
+    assert table["reason"].isna().tolist() == [False, True, False] * 5
+    assert "rod" in table["reason"][2]
+    assert sum(found.reasons.values()) == 10
+
+
+def test_a_choice_without_numbers(study_file: Files, tmp_path: Path) -> None:
+    change = (
+        'address = "mechanism.cranks.A2.phase"\nrange = ["45 deg", "135 deg"]\nsteps = 5',
+        'address = "drive.gearbox.reverse"\nvalues = ["same", "inverse"]',
+    )
+    plan = lw.read_study(study_file(change))
+    lw.sweep(plan, tmp_path / "rows")
+    table = pd.read_parquet(tmp_path / "rows")
+    assert len(table) == 6
+    same, inverse = (table["delta"][table["phase"] == place].to_numpy() for place in (0, 1))
+    assert (same != inverse).all()
+
+
+def test_units_and_machine_are_in_the_metadata(study_file: Files, tmp_path: Path) -> None:
+    import json
+
+    import pyarrow.parquet as pq
+
+    lw.sweep(lw.read_study(study_file()), tmp_path / "rows")
+    schema = pq.read_schema(tmp_path / "rows" / "part-000000.parquet")
+    assert schema.field("mass").metadata == {b"unit": b"kg"}
+    about = json.loads(schema.metadata[b"linkwright"])
+    assert lw.loads(about["machine"]).name.startswith("Roller")
+
+
+def test_a_share_and_the_rest(study_file: Files, tmp_path: Path) -> None:
+    plan = lw.read_study(study_file())
+    lw.sweep(plan, tmp_path / "whole")
+    assert lw.sweep(plan, tmp_path / "rows", chunks=(1, 3)).n_done == 8
+    # A folder may be completed by others meanwhile; what is there is not computed again.
+    kept = (tmp_path / "rows" / "part-000001.parquet").stat().st_mtime_ns
+    assert lw.sweep(plan, tmp_path / "rows").is_complete
+    assert (tmp_path / "rows" / "part-000001.parquet").stat().st_mtime_ns == kept
+    assert contents(tmp_path / "rows") == contents(tmp_path / "whole")
+    with pytest.raises(InputError, match="chunks 9:12"):
+        lw.sweep(plan, tmp_path / "rows", chunks=(9, 12))
+
+
+def test_a_file_that_is_cut_off_is_computed_anew(study_file: Files, tmp_path: Path) -> None:
+    plan = lw.read_study(study_file())
+    lw.sweep(plan, tmp_path / "rows")
+    wanted = contents(tmp_path / "rows")
+    part = tmp_path / "rows" / "part-000002.parquet"
+    part.write_bytes(part.read_bytes()[:-100])
+    found = lw.sweep(plan, tmp_path / "rows")
+    assert found.repaired == ("part-000002.parquet",)
+    assert contents(tmp_path / "rows") == wanted
+
+
+def test_the_folder_of_another_study_is_left_alone(study_file: Files, tmp_path: Path) -> None:
+    lw.sweep(lw.read_study(study_file()), tmp_path / "rows")
+    before = contents(tmp_path / "rows")
+    for change, word in (
+        ("study.variables.phase.steps=6", "the study"),
+        ("drive.gearbox.ratio=9", "the mach"),
+    ):
+        with pytest.raises(InputError, match=word):
+            lw.sweep(lw.read_study(study_file(), [change]), tmp_path / "rows")
+    assert contents(tmp_path / "rows") == before
+    (tmp_path / "letters").mkdir()
+    (tmp_path / "letters" / "to_mother.txt").write_text("Dear")
+    with pytest.raises(InputError, match="other files"):
+        lw.sweep(lw.read_study(study_file()), tmp_path / "letters")
+
+
+def test_a_study_without_sense_writes_nothing(study_file: Files, tmp_path: Path) -> None:
+    change = ('"steady_state.dynamism"', '"pumping_unit.stroke"')
+    plan = lw.read_study(study_file(change))
+    with pytest.raises(InputError, match="pumping_unit"):
+        lw.sweep(plan, tmp_path / "rows")
+    assert not (tmp_path / "rows").exists()
+
+
+def run(study: Path, out: Path, **options: object) -> subprocess.Popen[str]:
+    command = [sys.executable, "-m", "linkwright", "sweep", str(study), "--out", str(out)]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    return subprocess.Popen(command, text=True, **pipes, **options)  # type: ignore[call-overload, no-any-return]
+
+
+def test_killed_at_any_moment(study_file: Files, tmp_path: Path) -> None:
+    """kill -9, then again: complete, no row twice, the same bytes as uninterrupted."""
+    study = study_file(("steps = 5", "steps = 120"), ("chunk = 4", "chunk = 3"))
+    lw.sweep(lw.read_study(study), tmp_path / "whole")
+    chance = np.random.default_rng(5)
+    for _ in range(KILLS):
+        process = run(study, tmp_path / "rows")
+        # Begun, and then for as long as a few files take.
+        while not list((tmp_path / "rows").glob("part-*")) and process.poll() is None:
+            time.sleep(0.002)
+        time.sleep(chance.uniform(0, 0.2))
+        process.send_signal(signal.SIGKILL)
+        process.communicate()
+    assert lw.sweep(lw.read_study(study), tmp_path / "rows").is_complete
+    assert contents(tmp_path / "rows") == contents(tmp_path / "whole")
+    assert list(pd.read_parquet(tmp_path / "rows")["row"]) == list(range(360))
+    assert {path.suffix for path in (tmp_path / "rows").iterdir()} == {".parquet", ".json"}
+
+
+def test_a_full_disk(study_file: Files, tmp_path: Path) -> None:
+    """The limit on a file's size stands for a disk without room: a write fails in its middle."""
+    import resource
+
+    study = study_file()
+    # The description fits, a file of rows does not.
+    limits = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000))}
+    process = run(study, tmp_path / "rows", **limits)
+    _, told = process.communicate()
+    assert process.returncode == 2
+    assert "the disk is full" in told
+    assert "goes on" in told
+    assert not list((tmp_path / "rows").glob("*part*"))
+    assert lw.sweep(lw.read_study(study), tmp_path / "rows").is_complete
