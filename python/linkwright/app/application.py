@@ -108,8 +108,13 @@ GROUPS = {
         "torsion.commands.torsion:torsion",
     ),
     "sweep": Group(
-        "studies.commands.sweep:sweep_group",
-        ("studies.commands.sweep:SWEEP",),
+        "Many variants of a machine, into a folder of Parquet files.",
+        """Compute the rows of a study into a folder, with FILE; or one of the commands below.
+
+        A run that was stopped goes on with the same command. Rows that fail keep their reason. Exit code 1 if
+        none has an answer.
+        """,
+        {"show": Place("Extremes, failed rows and pictures of a sweep.", "studies.commands.sweep:show")},
         "studies.commands.sweep:sweep",
     ),
     "topper": Group(

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import monotonic
 
-import typer
+import click
 
 from linkwright.kernel.command.console import progress_bar
 
@@ -35,7 +35,7 @@ def rows_bar() -> Iterator[Callable[[int, int, float], None]]:
             if now - told > _LINES:
                 told = now
                 left = (total - done) / rate
-                typer.echo(f"{done} of {total} rows, {rate:.4g} rows/s, {left:.0f} s left", err=True)
+                click.echo(f"{done} of {total} rows, {rate:.4g} rows/s, {left:.0f} s left", err=True)
             return
         if shown is None and now - start > _PATIENCE:
             shown = progress_bar("rows", total)

@@ -6,11 +6,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets
 from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.parameter import Argument, Option
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -21,26 +20,20 @@ if TYPE_CHECKING:
 
 StudyArgument = Annotated[
     Path,
-    typer.Argument(
-        metavar="FILE", help="A study file, or a machine file with a table `study`.", show_default=False
-    ),
+    Argument(metavar="FILE", help="A study file, or a machine file with a table `study`."),
 ]
-Folder = Annotated[Path, typer.Argument(metavar="DIR", help="The folder of a sweep.", show_default=False)]
+Folder = Annotated[Path, Argument(metavar="DIR", help="The folder of a sweep.")]
 Into = Annotated[Path, out_option("Folder of the results; one that was begun is completed.")]
 Drawn = Annotated[Path | None, out_option("Write pictures and results.json there.")]
 Chunks = Annotated[
     str,
-    typer.Option(
+    Option(
         "--chunks",
         metavar="A:B",
         help="Compute the files A to B - 1 alone: a share, as one of many jobs.",
         show_default=False,
     ),
 ]
-
-
-def sweep_group() -> None:
-    """Compute many variants of a machine, and look at them."""
 
 
 def sweep(
@@ -89,9 +82,6 @@ def show(folder: Folder, out: Drawn = None, force: Force = False, json: Json = F
         figures=partial(_figures, known),
     )
     hand_over(drawn, json=json, folder=into)
-
-
-SWEEP = (show,)
 
 
 def _share(text: str) -> tuple[int, int] | None:
