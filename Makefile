@@ -3,6 +3,7 @@
 #   make demo    virtual environment, build, run the main example, say where the report lies
 #   make test    lint and all tests
 #   make test-deep   random cases for MINUTES (60): machine files, formulas, tables, plans, machines and their laws
+#   make wheel-test  the wheel, installed outside the clone: commands of README and documentation as printed
 #   make lint    formatting, clippy, ruff, types
 #   make bench   the product against what a user would use instead
 #   make docs    the documentation as pages in site/
@@ -19,7 +20,9 @@ RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.l
 export VIRTUAL_ENV := $(CURDIR)/$(VENV)
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: demo build test test-deep lint rust-test python-test bench docs clean
+PRINTED := tests/cli/test_printed_commands.py
+
+.PHONY: demo build test test-deep lint rust-test python-test wheel-test bench docs clean
 
 demo: build
 	$(BIN)/linkwright run machines/roller_two_carts.toml --out out/roller_two_carts
@@ -48,7 +51,7 @@ $(TOOLS): $(BUILT)
 
 # Two at a time: one waits for a compiler or for the network while the other computes.
 test:
-	$(MAKE) --no-print-directory -j2 --output-sync=target lint rust-test python-test
+	$(MAKE) --no-print-directory -j2 --output-sync=target lint rust-test python-test wheel-test
 
 lint: $(TOOLS)
 	cargo fmt --all --check
@@ -59,10 +62,21 @@ lint: $(TOOLS)
 	$(BIN)/python -m mypy.stubtest linkwright._core --ignore-disjoint-bases
 
 rust-test:
-	cargo test --workspace --locked
+	cargo test -p linkwright-core --locked
 
 python-test: $(TOOLS)
-	$(BIN)/python -m pytest -n $(shell nproc)
+	$(BIN)/python -m pytest -n $(shell nproc) --ignore=$(PRINTED)
+
+# The module is built already, so that the wheel is only packed. Its environment borrows the dependencies alone.
+WHEEL := $(CURDIR)/$(VENV)/wheel
+wheel-test: $(TOOLS)
+	rm -rf $(WHEEL)
+	PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/maturin build --release --locked -q -o $(WHEEL)/dist
+	$(PYTHON) -m venv --without-pip $(WHEEL)/env
+	$(BIN)/python -m pip --python $(WHEEL)/env/bin/python install -q --disable-pip-version-check --no-deps $(WHEEL)/dist/*.whl
+	$(BIN)/python -c 'import site; print(site.getsitepackages()[0])' > \
+	  $$($(WHEEL)/env/bin/python -c 'import site; print(site.getsitepackages()[0])')/borrowed.pth
+	cd $(WHEEL) && LINKWRIGHT_WHEEL=1 env/bin/python -m pytest -n 2 -p no:cacheprovider $(CURDIR)/$(PRINTED)
 
 MINUTES ?= 60
 

@@ -1,7 +1,7 @@
 """Linkwright: how machines move, from the motor through gearbox and shaft to the mechanism and its work.
 
 >>> import linkwright as lw
->>> machine = lw.read("machines/roller_two_carts.toml")
+>>> machine = lw.read("roller_two_carts")
 >>> motion = lw.steady_state(machine)
 >>> round(motion.unevenness, 4)
 0.085

@@ -1,4 +1,4 @@
-"""Machines of the library are found by name, from any folder; a file of that name comes first."""
+"""Machines of library and examples are found by name, from any folder; a file of that name comes first."""
 
 from __future__ import annotations
 
@@ -12,11 +12,20 @@ from linkwright.app.application import application
 from linkwright.kernel.errors import MachineFileError
 from linkwright.kernel.files.library import library, library_path
 
+ROOT = Path(__file__).parents[2]
+
 
 @pytest.mark.parametrize("name", library())
 def test_a_machine_is_found_by_its_name(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     assert lw.read(name) == lw.read(library_path(name))
+
+
+def test_machines_and_examples_have_names_of_their_own() -> None:
+    machines = {path.stem for path in (ROOT / "machines").glob("*.toml")}
+    examples = {path.parent.name for path in (ROOT / "examples").glob("*/machine.toml")}
+    assert not machines & examples
+    assert set(library()) == machines | examples
 
 
 def test_a_command_takes_a_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -23,7 +23,7 @@ ALONE = 'format = 1\nname = "A crank & nothing else <b>"\n[mechanism.cranks.A]\n
 
 # Name of the case → machine text and overrides.
 CASES: dict[str, tuple[str, tuple[str, ...]]] = {
-    **{name: (template(name), ()) for name in templates()},
+    **{name: (template(name), ()) for name in templates() if loads(template(name)).train is None},
     "alone": (ALONE, ()),
     "no motor": (TWO_CARTS.read_text(encoding="utf-8"), ("drive={}",)),
     "does not start": (TWO_CARTS.read_text(encoding="utf-8"), ("drive.motor.torque_start=40 N m",)),

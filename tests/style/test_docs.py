@@ -44,8 +44,9 @@ def tables() -> ModuleType:
 @pytest.mark.parametrize(
     "page", [page for page in PAGES if blocks(page, "python")], ids=lambda page: page.name
 )
-def test_examples_run(page: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(ROOT)
+def test_examples_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In an empty folder: machines are found by name."""
+    monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {}
     for text in blocks(page, "python"):
         if ">>>" not in text:
@@ -59,8 +60,8 @@ def test_examples_run(page: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         assert not runner.failures, "".join(report)
 
 
-def test_docstring_of_the_package_runs(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(ROOT)
+def test_docstring_of_the_package_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
     assert doctest.testmod(lw).failed == 0
 
 

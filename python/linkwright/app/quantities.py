@@ -40,7 +40,7 @@ def quantities(of: Any) -> tuple[DeclaredQuantity, ...]:
     Examples
     --------
     >>> import linkwright as lw
-    >>> steady = lw.steady_state(lw.read("machines/roller_two_carts.toml"))
+    >>> steady = lw.steady_state(lw.read("roller_two_carts"))
     >>> {each.name: each.unit for each in lw.quantities(steady)}["torque_motor_rms"]
     'N m'
     """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kernel.page.table import Row, Table, with_unit
@@ -34,14 +34,24 @@ def envelope_table(forces: Forces) -> Table:
     Table
         A row for each quantity.
     """
-    rows = [_row(each, forces) for each in envelope(forces)]
+    found = envelope(forces)
+    scales = _scales(found)
+    rows = [_row(each, forces, scales[each.unit]) for each in found]
     return Table("forces", "Forces", ("quantity", "", "peak", "at φ", "rms", "mean"), rows)
 
 
-def _row(each: Extent, forces: Forces) -> Row:
+def _row(each: Extent, forces: Forces, scale: float) -> Row:
     word, symbol = _words(each.name, forces)
-    values = (with_unit(value, each.unit) for value in (each.rms, each.mean))
-    return word, symbol, with_unit(each.peak, each.unit), degrees(each.peak_angle), *values
+    peak, rms, mean = (with_unit(value, each.unit, scale) for value in (each.peak, each.rms, each.mean))
+    return word, symbol, peak, degrees(each.peak_angle), rms, mean
+
+
+def _scales(found: Iterable[Extent]) -> dict[str, float]:
+    """Unit → peak absolute value of all forces, or moments, of a machine."""
+    scales: dict[str, float] = {}
+    for each in found:
+        scales[each.unit] = max(scales.get(each.unit, 0.0), abs(each.peak))
+    return scales
 
 
 def _words(name: str, forces: Forces) -> tuple[str, str]:
@@ -71,10 +81,11 @@ def cases_table(cases: Mapping[str, Forces]) -> Table:
     columns = {case: {each.name: each for each in envelope(forces)} for case, forces in cases.items()}
     first = next(iter(cases.values()))
     names = list(dict.fromkeys(name for column in columns.values() for name in column))
+    scales = _scales(each for column in columns.values() for each in column.values())
     rows: list[Row] = []
     for name in names:
         found = [column.get(name) for column in columns.values()]
-        peaks = ("–" if each is None else with_unit(each.peak, each.unit) for each in found)
+        peaks = (with_unit(each.peak, each.unit, scales[each.unit]) if each else "–" for each in found)
         rows.append((*_words(name, first), *peaks))
     return Table("load_cases", "Peaks by load case", ("quantity", "", *cases), rows)
 
@@ -99,10 +110,15 @@ def contribution_table(forces: Forces) -> Table:
     ]
     total = forces.shaking_force[at[1]]
     size = float((total**2).sum() ** 0.5) or 1.0
-    rows: list[Row] = []
-    for name, share in forces.contributions.items():
-        along = float(share.shaking_force[at[1]] @ total) / size
-        rows.append((name, "", with_unit(float(share.torque_drive[at[0]]), "N m"), with_unit(along, "N")))
+    torques = {name: float(each.torque_drive[at[0]]) for name, each in forces.contributions.items()}
+    along = {
+        name: float(each.shaking_force[at[1]] @ total) / size for name, each in forces.contributions.items()
+    }
+    largest = [max(map(abs, shares.values()), default=0.0) for shares in (torques, along)]
+    rows: list[Row] = [
+        (name, "", with_unit(torques[name], "N m", largest[0]), with_unit(along[name], "N", largest[1]))
+        for name in forces.contributions
+    ]
     heads = ("source", "", "of the peak of M_d", "of the peak shaking force")
     return Table("contributions", "What the forces come from", heads, rows)
 
@@ -136,15 +152,8 @@ def balance_tables(balance: Balance) -> list[Table]:
     for name, (before, after) in balance.measures().items():
         mark = shown(Forces, name)
         change = "–" if before == 0 else f"{number(100 * (after / before - 1), 4)} %"
-        rows.append(
-            (
-                f"{mark.word}, rms",
-                mark.symbol,
-                with_unit(before, mark.unit),
-                with_unit(after, mark.unit),
-                change,
-            )
-        )
+        values = (with_unit(value, mark.unit, max(before, after)) for value in (before, after))
+        rows.append((f"{mark.word}, rms", mark.symbol, *values, change))
     return [
         Table("counterweights", "Counterweights", heads, weights),
         Table("balance", "What they do", ("quantity", "", "before", "after", "change"), rows),

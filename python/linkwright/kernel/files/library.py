@@ -1,7 +1,8 @@
-"""The library: machine files that come with the package, each with its source."""
+"""The library: machine files that come with the package, each with its source; and those of the examples."""
 
 from __future__ import annotations
 
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 
@@ -10,8 +11,8 @@ from linkwright.kernel.errors import InputError
 
 
 def library() -> tuple[str, ...]:
-    """Names of the machines of the library, in order."""
-    return tuple(sorted(path.stem for path in _folder().glob("*.toml")))
+    """Names of the machines of the library, and of the examples, in order."""
+    return tuple(sorted(_files()))
 
 
 def library_path(name: str) -> Path:
@@ -32,13 +33,17 @@ def library_path(name: str) -> Path:
     InputError
         There is no such machine; names close ones.
     """
-    path = _folder() / f"{name}.toml"
-    if name not in library():
-        remedy = suggestion(name, library())
+    known = _files()
+    if name not in known:
+        remedy = suggestion(name, tuple(known))
         raise InputError(f"no machine {name!r} in the library" + (f"; {remedy}" if remedy else ""))
-    return path
+    return known[name]
 
 
-def _folder() -> Path:
-    """Where the library lies: beside the modules; in a checkout a link to ``machines/``."""
-    return Path(str(files("linkwright"))) / "library"
+@cache
+def _files() -> dict[str, Path]:
+    """Files by name. They lie beside the modules, in a checkout by links to the folders of the clone."""
+    package = Path(str(files("linkwright")))
+    machines = {path.stem: path for path in (package / "library").glob("*.toml")}
+    examples = {path.parent.name: path for path in (package / "examples").glob("*/machine.toml")}
+    return machines | examples

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import math
+import sys
+
+# Share of what it belongs to below which a number is rounding: sums of some ten thousand doubles.
+_NOISE = 1e-12
 
 
-def number(value: float | None, digits: int = 5) -> str:
+def number(value: float | None, digits: int = 5, scale: float = 0.0) -> str:
     """A number as text.
 
     Parameters
@@ -14,6 +18,9 @@ def number(value: float | None, digits: int = 5) -> str:
         The number; None is a dash.
     digits : int
         Significant digits.
+    scale : float
+        Peak absolute value of what the number belongs to: of a row, a curve, quantities of one unit. What is
+        rounding beside it is zero.
 
     Returns
     -------
@@ -26,9 +33,14 @@ def number(value: float | None, digits: int = 5) -> str:
     '0.084959'
     >>> number(-1.4051e-08, 3)
     '−1.41·10⁻⁸'
+    >>> number(3.9e-13, scale=512.0)
+    '0'
     """
     if value is None or not math.isfinite(value):
         return "–"
+    # Below the smallest normal number, a double has lost its digits.
+    if abs(value) <= max(_NOISE * scale, sys.float_info.min):
+        return "0"
     text = f"{value:.{digits}g}"
     if "e" in text and 1 <= abs(value) < _LARGE:
         text = f"{float(text):.0f}"

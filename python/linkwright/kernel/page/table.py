@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 from linkwright.kernel.page.numbers import degrees, number
-from linkwright.kernel.quantities import in_table, shown
+from linkwright.kernel.quantities import Shown, in_table, shown
 from linkwright.kernel.result import Result
 
 Row = tuple[str, ...]
@@ -28,12 +29,20 @@ def row(result: Result, name: str, at: str = "") -> Row:
     """Word, symbol, value with its unit (of an angle, degrees), and where it is."""
     mark, value = shown(type(result), name), getattr(result, name)
     is_angle = mark.unit == "rad" and value is not None
-    return mark.word, mark.symbol, degrees(value) if is_angle else with_unit(value, mark.unit), at
+    text = degrees(value) if is_angle else with_unit(value, mark.unit, _scale(result, mark))
+    return mark.word, mark.symbol, text, at
 
 
-def with_unit(value: float | None, unit: str) -> str:
-    """A value with its unit; a dash for none."""
-    return "–" if value is None else f"{number(value)} {unit}".rstrip()
+def with_unit(value: float | None, unit: str, scale: float = 0.0) -> str:
+    """A value with its unit; a dash for none, and zero for what is rounding beside a scale."""
+    return "–" if value is None else f"{number(value, scale=scale)} {unit}".rstrip()
+
+
+def _scale(result: Result, mark: Shown) -> float:
+    """Peak absolute value of the quantities of one unit in a table; those without a unit have none."""
+    beside = in_table(type(result), mark.table) if mark.table and mark.unit else ()
+    same = (getattr(result, name) for name in beside if shown(type(result), name).unit == mark.unit)
+    return max((abs(value) for value in same if value is not None and math.isfinite(value)), default=0.0)
 
 
 def rows_of(result: Result, *names: str) -> list[Row]:

@@ -1,0 +1,96 @@
+"""The commands that README and documentation print work as printed, in an empty folder.
+
+`make test` runs them with the wheel, installed in an environment of its own (`make wheel-test`); the package
+is then not that of the clone.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import linkwright as lw
+from linkwright.app.application import COMMANDS, GROUPS, application
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+
+_FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+# Of a clone, or of what a reader has at hand.
+_ELSEWHERE = ("train.toml",)
+# Commands whose machine cannot do it, as the page says.
+_FINDINGS = ("check press.toml --set mechanism.cranks.A.radius=",)
+
+
+def commands(page: Path) -> list[str]:
+    """Commands of a page, in order."""
+    blocks = _FENCED.findall(page.read_text(encoding="utf-8"))
+    lines = [line.removeprefix("$ ") for _, text in blocks for line in text.splitlines()]
+    printed = [line for line in lines if line.startswith("linkwright ")]
+    return [each for each in printed if not any(word in each for word in _ELSEWHERE)]
+
+
+def prepared(page: Path, folder: Path) -> None:
+    """Put into the folder what the page tells its reader to write."""
+    text = page.read_text(encoding="utf-8")
+    if "one_cart.toml" in text:
+        machine = next(block for kind, block in _FENCED.findall(text) if kind == "toml")
+        (folder / "one_cart.toml").write_text(machine, encoding="utf-8")
+    if "flywheel.csv" in text:
+        # Eight cylinders that fire at one strength, over two revolutions.
+        rows = [f"{n}, {1500 * (1 + 0.01 * np.cos(n * np.pi / 90)):.6f}" for n in range(721)]
+        (folder / "flywheel.csv").write_text("\n".join(["angle [deg], speed [rpm]", *rows]) + "\n")
+
+
+def code_and_output(words: list[str]) -> tuple[int, str]:
+    """Exit code and text of a command."""
+    done = CliRunner().invoke(application(), words)
+    return done.exit_code, done.output
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if commands(page)], ids=lambda page: page.stem)
+def test_commands_work_as_printed(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    prepared(page, tmp_path)
+    for line in commands(page):
+        words = shlex.split(line, comments=True)[1:]
+        code, output = code_and_output(words)
+        wrong = 2 if any(each in " ".join(words) for each in _FINDINGS) else 0
+        assert code == wrong, f"{line}\n{output}"
+
+
+@pytest.mark.parametrize("words", ["-h", "--version", "--show-completion bash", "new engine", "papers 1 -h"])
+def test_what_every_user_tries(words: str) -> None:
+    code, output = code_and_output(words.split())
+    assert code == 0, output
+    assert output.strip()
+
+
+@pytest.mark.parametrize("name", [*COMMANDS, *GROUPS])
+def test_every_command_has_help(name: str) -> None:
+    code, output = code_and_output([name, "-h"])
+    assert code == 0, output
+    assert "Options:" in output
+
+
+@pytest.mark.parametrize(
+    "program", [[sys.executable, "-m", "linkwright"], [str(Path(sys.executable).with_name("linkwright"))]]
+)
+def test_the_program_itself(program: list[str], tmp_path: Path) -> None:
+    words = [*program, "run", "flywheel_four_stroke", "--json"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert json.loads(done.stdout)["machine"]
+
+
+@pytest.mark.skipif("LINKWRIGHT_WHEEL" not in os.environ, reason="of `make wheel-test`")
+def test_the_package_is_that_of_the_wheel() -> None:
+    assert not Path(lw.__file__).is_relative_to(ROOT / "python")
