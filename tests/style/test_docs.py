@@ -45,7 +45,7 @@ def tables() -> ModuleType:
     "page", [page for page in PAGES if blocks(page, "python")], ids=lambda page: page.name
 )
 def test_examples_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """In an empty folder, since machines are found by name; in the clone where a page names one of its files."""
+    """In an empty folder: machines are found by name; in the clone where a page names one of its files."""
     monkeypatch.chdir(ROOT if '"examples/' in page.read_text(encoding="utf-8") else tmp_path)
     names: dict[str, object] = {}
     for text in blocks(page, "python"):
